@@ -33,7 +33,7 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 }  // namespace
 
 void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body,
-                                 std::string_view function) {
+                                 std::string_view function, std::string_view self) {
   const TypeTable& types = module.types;
   const ir::Local* result = nullptr;
   for (const ir::Local& local : body.locals) {
@@ -59,7 +59,11 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   out += '(';
   if (body.native) {
     out += "rung_context* ctx";
-    if (body.self) out += ", void* self";
+    if (body.self) {
+      out += ", ";
+      out += self.empty() ? "void" : self;
+      out += "* self";
+    }
   } else if (isMethod(body)) {
     out += "void* object, rung_context* ctx";
   } else if (body.self) {
@@ -69,8 +73,7 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
     out += "rung_context* ctx";
   }
   std::string name;
-  for (const ir::Local& local : body.locals) {
-    if (!isParameter(local)) continue;
+  for (const ir::Local& local : ir::parameters(body)) {
     out += ", ";
     name.clear();
     appendMangled(name, module.names.string(local.name));
@@ -241,6 +244,7 @@ void BodyWriter::write(ir::BodyId id) {
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
+  areas_declared_ = 0;
   has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = has_leaving_calls_ = has_slices_ =
       uses_fault_ = uses_leave_ = false;
   names_created_ = 0;

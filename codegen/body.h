@@ -44,8 +44,9 @@ class BodyWriter {
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
     appendSignature(out, module, body, {});
   }
-  // Under another name.
-  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name);
+  // Under another name; a native body with another type of its instance than void.
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name,
+                              std::string_view self = {});
 
  private:
   using Body = ir::Body;
@@ -96,15 +97,15 @@ class BodyWriter {
   Slot slotOf(ExprId place) const;
   Variable* variableOf(Slot slot);
   bool isPrivateLoop(StmtId loop) const { return !private_loop_.empty() && private_loop_[loop.index] != 0; }
-  bool boundsFit(const Stmt& loop) const;
+  bool boundsFit(const ir::ForStmt& loop) const;
 
   // ---- lengths.cpp: lengths of strings in C++ locals
   bool isSized(const Body& callee) const;
-  bool isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const;
+  bool isSizedCall(const Body& callee, Slice<ExprId> operands, ExprId result) const;
   Variable* stringVariable(ExprId place);
   const Variable* measuredString(ExprId place) const;
-  void noteSizedCall(const Body& callee, uint32_t first, uint32_t count, uint32_t weight);
-  void noteStringAssign(const Stmt& stmt, uint32_t weight);
+  void noteSizedCall(const Body& callee, Slice<ExprId> operands, uint32_t weight);
+  void noteStringAssign(const ir::AssignStmt& stmt, uint32_t weight);
   void chooseMeasured();
   void declareLengths();
   bool needsMeasuring(ExprId id) const;
@@ -118,12 +119,12 @@ class BodyWriter {
   void lengthName(ExprId place);
   void stringLength(ExprId string);
   // `form`: `sized` or `slice`.
-  void sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form = "sized");
+  void sizedCall(const Body& callee, Slice<ExprId> operands, const char* form = "sized");
 
   // ---- slices.cpp: strings that are parts of others
   const Variable* slicedString(ExprId place) const;
   bool isSliceSource(ExprId id);
-  void noteSlice(const Stmt& stmt, uint32_t weight);
+  void noteSlice(ExprId result, uint32_t weight);
   void chooseSlices();
   void refuseSlice(ExprId place);
   void judgeBlock(StmtId first);
@@ -139,48 +140,48 @@ class BodyWriter {
   void open();          // ` {` and one more level of indentation
   void close();         // `}`, written where the next statement begins
   void flushCloses(uint32_t lines);
-  void ifStatement(const Stmt& stmt);
-  void deepIf(const Stmt& stmt);
-  void switchStatement(const Stmt& stmt);
-  void callStatement(const Stmt& stmt);
-  void tryStatement(const Stmt& stmt);
+  void bindStatement(const ir::BindStmt& stmt);
+  void ifStatement(const ir::IfStmt& stmt);
+  void deepIf(const ir::IfStmt& stmt);
+  void switchStatement(const ir::SwitchStmt& stmt);
+  void callStatement(const ir::CallStmt& stmt, Loc loc);
+  void tryStatement(const ir::TryStmt& stmt);
   void assertStatement(const Stmt& stmt);
   void guarded(const std::string& frame, const std::string& fault, StmtId first);
-  std::string indexOfMethod(const Stmt& stmt);
-  void classCheck(const Stmt& stmt);
-  void faultStatement(const Stmt& stmt);
+  std::string indexOfMethod(const ir::CallStmt& stmt);
+  void classCheck(const ir::CallStmt& stmt, Loc loc);
+  void faultStatement(const ir::FaultStmt& stmt, Loc loc);
   void leave();
   bool endsInJump(StmtId first) const;
 
   // ---- loops.cpp
-  void loopStatement(StmtId id, const Stmt& stmt);
-  void forStatement(StmtId id, const Stmt& stmt);
-  void privateFor(StmtId id, const Stmt& stmt);
+  void loopStatement(const ir::LoopStmt& stmt);
+  void forStatement(StmtId id, const ir::ForStmt& stmt);
+  void privateFor(const ir::ForStmt& stmt);
   void breakLoop();
   void continueLoop();
-  bool isExitTest(StmtId id) const;
+  ExprId exitTest(StmtId id) const;
 
   // ---- expressions.cpp
   void value(ExprId id, Prec context);
   void condition(ExprId id, Prec context);
   void constant(const Expr& expr, Prec context);
-  void unary(const Expr& expr, Prec context);
-  void binary(const Expr& expr, Prec context);
-  void logical(const char* op, Prec prec, const Expr& expr, Prec context);
-  void comparison(const Expr& expr, Prec context);
+  void unary(ExprId id, Prec context);
+  void binary(ExprId id, Prec context);
+  void logical(const ir::BinaryExpr& node, Prec context);
+  void comparison(const ir::BinaryExpr& node, Prec context);
   void leftOfEquality(ExprId id);
   void arithmetic(ExprId id, Prec context);  // + - * and negation of integers
   void modular(ExprId id, bool wide, Prec context);
   void plain(ExprId id, Prec context);  // in int, which holds every intermediate value
   uint32_t plainBits(ExprId id) const;
   bool isChain(const Expr& expr) const;  // an operand of such an operator that may join its expression
-  void divide(const Expr& expr, Prec context);
+  void divide(const ir::BinaryExpr& node, Prec context);
   void shift(const Expr& expr, Prec context);
   void power(const Expr& expr);
-  void convert(const Expr& expr, Prec context);
+  void convert(ExprId id, Prec context);
   void convertTime(ExprId from, TypeKind source, TypeKind target);
   void callExpr(const Expr& expr);
-  void operands(const Body& callee, uint32_t first, uint32_t count, bool comma);
   void scalarBits(ExprId id);         // as uint64_t, for the runtime's generic functions
   void materializeString(ExprId id);  // into a variable of its own
 
@@ -191,7 +192,7 @@ class BodyWriter {
   bool needsPreparation(ExprId id) const;
   void checks(ExprId id, const Expr& expr);
   void indexChecks(const Expr& expr);
-  void overflowCheck(const Expr& expr);
+  void overflowCheck(ExprId id);
   uint32_t site(Loc loc, types::Fault fault, int64_t low = 0, int64_t high = 0);
   // `RUNG_CHECK(`, the condition, then `, site, `, the value and `); `.
   void beginCheck() { out_ += "RUNG_CHECK("; }
@@ -203,6 +204,7 @@ class BodyWriter {
   void indexValue(ExprId id, const types::Dimension& dimension);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
   bool isImagePlace(ExprId id) const;
+  void area(uint32_t index);
   void imageAddress(ExprId id);  // a uint8_t* without const
   void imageLoad(ExprId id, const Expr& expr);
   bool isLvalue(ExprId id) const;
@@ -213,13 +215,13 @@ class BodyWriter {
   bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
 
   // ---- strings.cpp
-  void assign(const Stmt& stmt);
+  void assign(const ir::AssignStmt& stmt);
   void prepareString(ExprId from);  // except for the parts that copyString handles itself
   // `length`: the name of the C++ local that takes the new length, or empty.
   void copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
   void stringValue(ExprId id);  // a const char* or const char16_t*
-  void compareStrings(const Expr& expr, Prec context);
-  bool isSizedComparison(const Expr& expr) const;
+  void compareStrings(const ir::BinaryExpr& node, Prec context);
+  bool isSizedComparison(const ir::BinaryExpr& node) const;
   ExprId uncut(ExprId id) const;                       // a string without the conversions that cut it
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a string in memory whose capacity is that of its type
   uint32_t literalLength(const Expr& string) const;
@@ -227,6 +229,9 @@ class BodyWriter {
 
   // ---- small helpers
   const Expr& expr(ExprId id) const { return body_->expr(id); }
+  const types::Field& fieldOf(const ir::FieldExpr& place) const {
+    return types_.info(types_.resolve(expr(place.base).type)).fields[place.field];
+  }
   TypeKind kindOf(ExprId id) const { return types_.plainKind(expr(id).type); }
   uint32_t widthOf(TypeKind kind) const { return types::TypeTable::bitWidth(kind); }
   bool isString(TypeId type) const { return types::TypeTable::isString(types_.kind(type)); }
@@ -271,6 +276,7 @@ class BodyWriter {
   std::vector<ExprId> unknown_;    // collectUnknown: one lvalue for each string whose length a loop needs
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
+  uint32_t areas_declared_ = 0;                                 // a bit for each
   std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its string
   bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
        has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;

@@ -42,12 +42,12 @@ bool BodyWriter::needsPreparation(ExprId id) const {
   if (e.checks != 0) return true;
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) return true;
   bool needs = e.kind == ExprKind::Zero && isAggregate(e.type);
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { needs = needs || needsPreparation(ExprId{slot}); });
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { needs = needs || needsPreparation(operand); });
   return needs;
 }
 
 void BodyWriter::prepareChildren(const Expr& e) {
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { prepare(ExprId{slot}); });
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { prepare(operand); });
 }
 
 void BodyWriter::prepare(ExprId id) {
@@ -72,11 +72,12 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
     case ExprKind::Deref: {
       if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) == 0) return;
       beginCheck();
-      if (e.kind == ExprKind::Deref) {
-        value(ExprId{e.a}, Prec::Sum);
+      if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
+        value(deref->pointer, Prec::Sum);
       } else {
-        member(ExprId{e.a});
-        appendMangled(out_, string(types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].name));
+        const ir::FieldExpr& field = e.as<ir::FieldExpr>();
+        member(field.base);
+        appendMangled(out_, string(fieldOf(field).name));
       }
       out_ += " == nullptr";
       endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
@@ -84,28 +85,29 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
     }
     case ExprKind::Binary: {
       if ((e.checks & ir::kCheckDiv) != 0) {
-        const bool is_power = e.op == Op::Power;
-        const bool never = is_power && !types_.isSigned(kindOf(ExprId{e.b}));
+        const auto [left, right, op] = e.as<ir::BinaryExpr>();
+        const bool is_power = op == Op::Power;
+        const bool never = is_power && !types_.isSigned(kindOf(right));
         if (!never) {
           beginCheck();
-          value(is_power ? ExprId{e.a} : ExprId{e.b}, Prec::Sum);
+          value(is_power ? left : right, Prec::Sum);
           out_ += " == 0";
           if (is_power) {
             out_ += " && ";
-            value(ExprId{e.b}, Prec::Sum);
+            value(right, Prec::Sum);
             out_ += " < 0";
           }
           endCheck(e.loc, Fault::Div, "0");
         }
       }
-      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(e);
+      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
     }
     case ExprKind::Unary:
-      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(e);
+      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
     case ExprKind::Convert: {
-      const ExprId a{e.a};
+      const ExprId a = e.as<ir::ConvertExpr>().operand;
       const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
       const uint32_t width = widthOf(target);
       const TypeInfo& info = types_.info(types_.resolve(e.type));
@@ -184,16 +186,16 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
     case ExprKind::Call:
     case ExprKind::Address: break;
   }
-  static_cast<void>(id);
 }
 
 void BodyWriter::indexChecks(const Expr& e) {
-  const TypeInfo& array = types_.info(types_.resolve(expr(ExprId{e.a}).type));
-  for (uint32_t i = 0; i < e.c && i < array.dimensions.size(); ++i) {
-    const ExprId id = body_->operands[e.b + i];
+  const ir::IndexExpr& node = e.as<ir::IndexExpr>();
+  const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
+  for (uint32_t i = 0; i < node.indices.count && i < array.dimensions.size(); ++i) {
+    const ExprId id = body_->list(node.indices)[i];
     const types::Dimension& dimension = array.dimensions[i];
     if (expr(id).kind == ExprKind::Const) {
-      const auto index = static_cast<int64_t>(expr(id).bits());
+      const auto index = static_cast<int64_t>(ir::bitsOf(expr(id)));
       if (index >= dimension.low && index <= dimension.high) continue;
     }
     const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
@@ -207,23 +209,26 @@ void BodyWriter::indexChecks(const Expr& e) {
   }
 }
 
-void BodyWriter::overflowCheck(const Expr& e) {
-  const ExprId a{e.a};
+void BodyWriter::overflowCheck(ExprId id) {
+  const Expr& e = expr(id);
+  const bool is_unary = e.kind == ExprKind::Unary;
+  const Op op = e.op();
+  const ExprId a = is_unary ? e.as<ir::UnaryExpr>().operand : e.as<ir::BinaryExpr>().left;
+  const ExprId b = is_unary ? ExprId{} : e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
-  const ExprId self{static_cast<uint32_t>(&e - body_->exprs.data())};
   if (TypeTable::isReal(kind)) {
-    if (types::isComparison(e.op)) return;
+    if (types::isComparison(op)) return;
     beginCheck();
     out_ += "__builtin_isinf(";
-    value(self, Prec::Ternary);
+    value(id, Prec::Ternary);
     out_ += ") && __builtin_isfinite(";
     value(a, Prec::Ternary);
     out_ += ')';
-    if (e.kind == ExprKind::Binary && TypeTable::isReal(kindOf(ExprId{e.b}))) {
+    if (b && TypeTable::isReal(kindOf(b))) {
       out_ += " && __builtin_isfinite(";
-      value(ExprId{e.b}, Prec::Ternary);
+      value(b, Prec::Ternary);
       out_ += ')';
     }
     endCheck(e.loc, Fault::Overflow, "0");
@@ -231,31 +236,31 @@ void BodyWriter::overflowCheck(const Expr& e) {
   }
   if (width <= 1) return;
   const std::string type = scalarType(types_, e.type);
-  if (e.op == Op::Add || e.op == Op::Sub || e.op == Op::Mul || e.op == Op::Neg) {
+  if (op == Op::Add || op == Op::Sub || op == Op::Mul || op == Op::Neg) {
     const std::string result = newName("o");
     declarations_ += " " + type + " " + result + ";";
     beginCheck();
-    out_ += e.op == Op::Add   ? "__builtin_add_overflow("
-            : e.op == Op::Mul ? "__builtin_mul_overflow("
-                              : "__builtin_sub_overflow(";
+    out_ += op == Op::Add   ? "__builtin_add_overflow("
+            : op == Op::Mul ? "__builtin_mul_overflow("
+                            : "__builtin_sub_overflow(";
     out_ += '(' + type + ')';
-    if (e.op == Op::Neg) {
+    if (op == Op::Neg) {
       out_ += '0';
     } else {
       value(a, Prec::Unary);
     }
     out_ += ", (" + type + ')';
-    value(e.op == Op::Neg ? a : ExprId{e.b}, Prec::Unary);
+    value(op == Op::Neg ? a : b, Prec::Unary);
     out_ += ", &" + result + ')';
     endCheck(e.loc, Fault::Overflow, result);
-  } else if ((e.op == Op::Div || e.op == Op::Abs) && is_signed) {
+  } else if ((op == Op::Div || op == Op::Abs) && is_signed) {
     beginCheck();
     value(a, Prec::Sum);
     out_ += " == ";
     appendConstant(out_, types_, e.type, ~uint64_t{0} << (width - 1));
-    if (e.op == Op::Div) {
+    if (op == Op::Div) {
       out_ += " && ";
-      value(ExprId{e.b}, Prec::Sum);
+      value(b, Prec::Sum);
       out_ += " == -1";
     }
     endCheck(e.loc, Fault::Overflow, "(" + captured([&] { value(a, Prec::Comma); }) + ")");

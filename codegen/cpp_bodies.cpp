@@ -370,8 +370,7 @@ class Writer {
     std::string arguments;
     bool ok = true;
     uint32_t count = 0;
-    for (const Local& local : function.locals) {
-      if (!isParameter(local)) continue;
+    for (const Local& local : ir::parameters(function)) {
       const std::string seen = view(local.type);
       ok = ok && !seen.empty() && !holdsBlock(local.type);
       need(local.type);

@@ -26,11 +26,12 @@ struct Work {
 };
 
 uint64_t iterations(const ir::Body& body, const Stmt& loop) {
-  if (loop.kind == StmtKind::Loop) return kSearch;
-  const ir::Expr &from = body.expr(ExprId{loop.b}), &to = body.expr(ExprId{loop.c}), &step = body.expr(ExprId{loop.d});
-  if (from.kind != ExprKind::Const || to.kind != ExprKind::Const) return kCounted;
-  const auto by = static_cast<int64_t>(step.bits());
-  const uint64_t way = by < 0 ? from.bits() - to.bits() : to.bits() - from.bits();
+  const auto* counted = loop.tryAs<ir::ForStmt>();
+  if (counted == nullptr) return kSearch;
+  if (!ir::isConst(body.expr(counted->from)) || !ir::isConst(body.expr(counted->to))) return kCounted;
+  const uint64_t from = ir::bitsOf(body.expr(counted->from)), to = ir::bitsOf(body.expr(counted->to));
+  const auto by = static_cast<int64_t>(ir::bitsOf(body.expr(counted->step)));
+  const uint64_t way = by < 0 ? from - to : to - from;
   return way / (by < 0 ? 0 - static_cast<uint64_t>(by) : static_cast<uint64_t>(by)) + 1;
 }
 
@@ -42,7 +43,7 @@ void add(const ir::Body& body, StmtId first, uint64_t times, Work& work) {
     const bool loops = stmt.kind == StmtKind::Loop || stmt.kind == StmtKind::For;
     work.loops |= loops;
     const uint64_t inner = loops ? std::min(times * std::min(iterations(body, stmt), kMaxWork), kMaxWork) : times;
-    ir::forEachBlock(body, stmt, [&](const uint32_t& block) { add(body, StmtId{block}, inner, work); });
+    ir::forEachBlock(body, stmt, [&](StmtId block) { add(body, block, inner, work); });
   }
 }
 

@@ -69,27 +69,31 @@ void BodyWriter::value(ExprId id, Prec context) {
       place(id);
       return;
     }
-    case ExprKind::Unary: unary(e, context); return;
-    case ExprKind::Binary: binary(e, context); return;
-    case ExprKind::Convert: convert(e, context); return;
-    case ExprKind::Select:
+    case ExprKind::Unary: unary(id, context); return;
+    case ExprKind::Binary: binary(id, context); return;
+    case ExprKind::Convert: convert(id, context); return;
+    case ExprKind::Select: {
       if (isString(e.type)) {
         stringValue(id);
         return;
       }
+      const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       parenthesis(Prec::Ternary, context);
-      condition(ExprId{e.a}, Prec::Or);
+      condition(decides, Prec::Or);
       out_ += " ? ";
-      value(ExprId{e.b}, Prec::Or);
+      value(yes, Prec::Or);
       out_ += " : ";
-      value(ExprId{e.c}, Prec::Or);
+      value(no, Prec::Or);
       closeParenthesis(Prec::Ternary, context);
       return;
+    }
     case ExprKind::Call: callExpr(e); return;
-    case ExprKind::Address:
-      out_ += isString(expr(ExprId{e.a}).type) ? "(void*)" : "(void*)&";
-      place(ExprId{e.a});
+    case ExprKind::Address: {
+      const ExprId target = e.as<ir::AddressExpr>().place;
+      out_ += isString(expr(target).type) ? "(void*)" : "(void*)&";
+      place(target);
       return;
+    }
   }
 }
 
@@ -104,27 +108,27 @@ void BodyWriter::condition(ExprId id, Prec context) {
 }
 
 void BodyWriter::constant(const Expr& e, Prec context) {
-  if (e.c != 0) {
-    const TypeId record{e.c};
+  const uint64_t bits = ir::bitsOf(e);
+  if (const TypeId record = e.as<ir::ConstExpr>().number_of) {
     if (std::find(group_.classes.begin(), group_.classes.end(), record) == group_.classes.end())
       group_.classes.push_back(record);
     out_ += className(types_, record);
     return;
   }
   const TypeKind kind = types_.plainKind(e.type);
-  const bool negative = TypeTable::isReal(kind) ? (e.bits() >> 63) != 0
-                        : types_.isSigned(kind) ? static_cast<int64_t>(e.bits()) < 0
+  const bool negative = TypeTable::isReal(kind) ? (bits >> 63) != 0
+                        : types_.isSigned(kind) ? static_cast<int64_t>(bits) < 0
                                                 : false;
   if (negative) parenthesis(Prec::Unary, context);
-  appendConstant(out_, types_, e.type, e.bits());
+  appendConstant(out_, types_, e.type, bits);
   if (negative) closeParenthesis(Prec::Unary, context);
 }
 
 void BodyWriter::callExpr(const Expr& e) {
-  const ir::BodyId id{e.a};
+  const auto [id, operands] = e.as<ir::CallExpr>();
   const Body& callee = module_.body(id);
-  if (!isString(e.type) && isSizedCall(callee, e.b, e.c, {})) {
-    sizedCall(callee, e.b, e.c);
+  if (!isString(e.type) && isSizedCall(callee, operands, {})) {
+    sizedCall(callee, operands);
     out_ += ')';
     return;
   }
@@ -136,10 +140,9 @@ void BodyWriter::callExpr(const Expr& e) {
   }
   out_ += "(ctx";
   uint32_t i = 0;
-  for (const ir::Local& parameter : callee.locals) {
-    if (!isParameter(parameter)) continue;
-    if (i >= e.c) break;
-    const ExprId operand = body_->operands[e.b + i++];
+  for (const ir::Local& parameter : ir::parameters(callee)) {
+    if (i >= operands.count) break;
+    const ExprId operand = body_->list(operands)[i++];
     out_ += ", ";
     if (parameter.by_reference) {
       reference(parameter, callee.native, operand);
@@ -164,12 +167,12 @@ void BodyWriter::scalarBits(ExprId id) {
 
 // ---- operators
 
-void BodyWriter::unary(const Expr& e, Prec context) {
-  const ExprId a{e.a};
+void BodyWriter::unary(ExprId id, Prec context) {
+  const auto [a, op] = expr(id).as<ir::UnaryExpr>();
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
-  if (e.op == Op::Not) {
+  if (op == Op::Not) {
     parenthesis(Prec::Unary, context);
     if (kind == TypeKind::Bool) {
       out_ += '!';
@@ -183,7 +186,7 @@ void BodyWriter::unary(const Expr& e, Prec context) {
     return;
   }
   if (TypeTable::isReal(kind)) {
-    if (e.op == Op::Abs) {
+    if (op == Op::Abs) {
       out_ += kind == TypeKind::Real ? "__builtin_fabsf(" : "__builtin_fabs(";
       value(a, Prec::Ternary);
       out_ += ')';
@@ -195,7 +198,7 @@ void BodyWriter::unary(const Expr& e, Prec context) {
     }
     return;
   }
-  if (e.op == Op::Abs) {
+  if (op == Op::Abs) {
     if (!is_signed) {
       value(a, context);
       return;
@@ -210,58 +213,59 @@ void BodyWriter::unary(const Expr& e, Prec context) {
     if (width < 32) closeParenthesis(Prec::Unary, context);
     return;
   }
-  arithmetic(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())}, context);  // Neg
+  arithmetic(id, context);  // Neg
 }
 
-void BodyWriter::binary(const Expr& e, Prec context) {
-  const ExprId a{e.a}, b{e.b};
+void BodyWriter::binary(ExprId id, Prec context) {
+  const ir::BinaryExpr& node = expr(id).as<ir::BinaryExpr>();
+  const ExprId a = node.left, b = node.right;
   const TypeKind kind = kindOf(a);
-  if (types::isComparison(e.op)) {
+  if (types::isComparison(node.op)) {
     if (TypeTable::isString(kind)) {
-      compareStrings(e, context);
+      compareStrings(node, context);
     } else {
-      comparison(e, context);
+      comparison(node, context);
     }
     return;
   }
-  if (kind == TypeKind::Bool && isBitwise(e.op)) {
-    if (e.op == Op::Xor) {
+  if (kind == TypeKind::Bool && isBitwise(node.op)) {
+    if (node.op == Op::Xor) {
       parenthesis(Prec::Equality, context);
       leftOfEquality(a);
       out_ += " != ";
       value(b, Prec::Sum);
       closeParenthesis(Prec::Equality, context);
     } else {
-      logical(e.op == Op::And ? " && " : " || ", e.op == Op::And ? Prec::And : Prec::Or, e, context);
+      logical(node, context);
     }
     return;
   }
   const bool is_real = TypeTable::isReal(kind), is_single = kind == TypeKind::Real;
-  switch (e.op) {
+  switch (node.op) {
     case Op::Add:
     case Op::Sub:
     case Op::Mul:
       if (!is_real) {
-        arithmetic(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())}, context);
+        arithmetic(id, context);
         return;
       }
       [[fallthrough]];
     case Op::Div:
       if (!is_real) {
-        divide(e, context);
+        divide(node, context);
       } else {
-        const bool is_sum = e.op == Op::Add || e.op == Op::Sub;
+        const bool is_sum = node.op == Op::Add || node.op == Op::Sub;
         const Prec own = is_sum ? Prec::Sum : Prec::Product;
         parenthesis(own, context);
         value(a, own);
-        out_ += e.op == Op::Add ? " + " : e.op == Op::Sub ? " - " : e.op == Op::Mul ? " * " : " / ";
+        out_ += node.op == Op::Add ? " + " : node.op == Op::Sub ? " - " : node.op == Op::Mul ? " * " : " / ";
         value(b, is_sum ? Prec::Product : Prec::Unary);
         closeParenthesis(own, context);
       }
       return;
     case Op::Mod:
       if (!is_real) {
-        divide(e, context);
+        divide(node, context);
         return;
       }
       out_ += is_single ? "__builtin_fmodf(" : "__builtin_fmod(";
@@ -270,16 +274,15 @@ void BodyWriter::binary(const Expr& e, Prec context) {
       value(b, Prec::Ternary);
       out_ += ')';
       return;
-    case Op::Power: power(e); return;
+    case Op::Power: power(expr(id)); return;
     case Op::And:
     case Op::Or:
     case Op::Xor: {
-      const char* op = e.op == Op::And ? " & " : e.op == Op::Or ? " | " : " ^ ";
+      const char* op = node.op == Op::And ? " & " : node.op == Op::Or ? " | " : " ^ ";
       parenthesis(Prec::Bit, context);
-      auto operand = [&](ExprId id) {
-        const Expr& child = expr(id);
-        const bool same = child.kind == ExprKind::Binary && child.op == e.op;
-        value(id, same ? Prec::Bit : Prec::Unary);
+      auto operand = [&](ExprId operand_id) {
+        const auto* child = expr(operand_id).tryAs<ir::BinaryExpr>();
+        value(operand_id, child != nullptr && child->op == node.op ? Prec::Bit : Prec::Unary);
       };
       operand(a);
       out_ += op;
@@ -291,15 +294,15 @@ void BodyWriter::binary(const Expr& e, Prec context) {
     case Op::Shl:
     case Op::Shr:
     case Op::Rol:
-    case Op::Ror: shift(e, context); return;
+    case Op::Ror: shift(expr(id), context); return;
     case Op::Min:
     case Op::Max: {
       if (TypeTable::isString(kind)) {
-        stringValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+        stringValue(id);
         return;
       }
       const uint32_t width = widthOf(kind);
-      out_ += e.op == Op::Min ? "rung_min_" : "rung_max_";
+      out_ += node.op == Op::Min ? "rung_min_" : "rung_max_";
       if (is_real) {
         out_ += is_single ? "f32(" : "f64(";
       } else if (width == 64) {
@@ -325,45 +328,44 @@ void BodyWriter::binary(const Expr& e, Prec context) {
   }
 }
 
-void BodyWriter::logical(const char* op, Prec own, const Expr& e, Prec context) {
+void BodyWriter::logical(const ir::BinaryExpr& node, Prec context) {
+  const Prec own = node.op == Op::And ? Prec::And : Prec::Or;
   parenthesis(own, context);
   auto operand = [&](ExprId id) {
-    const Expr& child = expr(id);
-    const bool same = child.kind == ExprKind::Binary && child.op == e.op;
-    condition(id, same ? own : Prec::Equality);
+    const auto* child = expr(id).tryAs<ir::BinaryExpr>();
+    condition(id, child != nullptr && child->op == node.op ? own : Prec::Equality);
   };
-  operand(ExprId{e.a});
-  out_ += op;
-  operand(ExprId{e.b});
+  operand(node.left);
+  out_ += node.op == Op::And ? " && " : " || ";
+  operand(node.right);
   closeParenthesis(own, context);
 }
 
 // (!a) != b: without the parentheses g++ warns.
-void BodyWriter::leftOfEquality(ExprId id) {
-  const Expr& e = expr(id);
-  value(id, e.kind == ExprKind::Unary && e.op == Op::Not ? Prec::Postfix : Prec::Sum);
-}
+void BodyWriter::leftOfEquality(ExprId id) { value(id, ir::isNot(expr(id)) ? Prec::Postfix : Prec::Sum); }
 
-void BodyWriter::comparison(const Expr& e, Prec context) {
-  const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
+void BodyWriter::comparison(const ir::BinaryExpr& node, Prec context) {
+  const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
   const Prec own = is_equality ? Prec::Equality : Prec::Relation;
   parenthesis(own, context);
-  leftOfEquality(ExprId{e.a});
-  out_ += e.op == Op::Eq   ? " == "
-          : e.op == Op::Ne ? " != "
-          : e.op == Op::Lt ? " < "
-          : e.op == Op::Le ? " <= "
-          : e.op == Op::Gt ? " > "
-                           : " >= ";
-  value(ExprId{e.b}, Prec::Sum);
+  leftOfEquality(node.left);
+  out_ += node.op == Op::Eq   ? " == "
+          : node.op == Op::Ne ? " != "
+          : node.op == Op::Lt ? " < "
+          : node.op == Op::Le ? " <= "
+          : node.op == Op::Gt ? " > "
+                              : " >= ";
+  value(node.right, Prec::Sum);
   closeParenthesis(own, context);
 }
 
 // ---- integer + - * and negation
 
 bool BodyWriter::isChain(const Expr& e) const {
+  const auto* negation = e.tryAs<ir::UnaryExpr>();
+  const auto* binary = e.tryAs<ir::BinaryExpr>();
   const bool is_arithmetic =
-      (e.kind == ExprKind::Binary && isSumOrProduct(e.op)) || (e.kind == ExprKind::Unary && e.op == Op::Neg);
+      (binary != nullptr && isSumOrProduct(binary->op)) || (negation != nullptr && negation->op == Op::Neg);
   const TypeKind kind = types_.plainKind(e.type);
   return is_arithmetic && widthOf(kind) > 1 && !TypeTable::isReal(kind);
 }
@@ -372,14 +374,14 @@ bool BodyWriter::isChain(const Expr& e) const {
 uint32_t BodyWriter::plainBits(ExprId id) const {
   const Expr& e = expr(id);
   if (isChain(e)) {
-    const uint32_t a = plainBits(ExprId{e.a});
-    if (e.kind == ExprKind::Unary) return a + 1;
-    const uint32_t b = plainBits(ExprId{e.b});
-    return e.op == Op::Mul ? a + b : std::max(a, b) + 1;
+    if (const auto* negation = e.tryAs<ir::UnaryExpr>()) return plainBits(negation->operand) + 1;
+    const auto [left, right, op] = e.as<ir::BinaryExpr>();
+    const uint32_t a = plainBits(left), b = plainBits(right);
+    return op == Op::Mul ? a + b : std::max(a, b) + 1;
   }
   const TypeKind kind = types_.plainKind(e.type);
   if (e.kind == ExprKind::Const) {
-    const auto number = static_cast<int64_t>(e.bits());
+    const auto number = static_cast<int64_t>(ir::bitsOf(e));
     uint32_t bits = 1;
     while (bits < 32 && (number < -(int64_t{1} << (bits - 1)) || number >= int64_t{1} << (bits - 1))) ++bits;
     return bits;
@@ -393,18 +395,19 @@ void BodyWriter::plain(ExprId id, Prec context) {
     value(id, context);
     return;
   }
-  if (e.kind == ExprKind::Unary) {
+  if (const auto* negation = e.tryAs<ir::UnaryExpr>()) {
     parenthesis(Prec::Unary, context);
     out_ += '-';
-    plain(ExprId{e.a}, Prec::Postfix);
+    plain(negation->operand, Prec::Postfix);
     closeParenthesis(Prec::Unary, context);
     return;
   }
-  const Prec own = e.op == Op::Mul ? Prec::Product : Prec::Sum;
+  const auto [left, right, op] = e.as<ir::BinaryExpr>();
+  const Prec own = op == Op::Mul ? Prec::Product : Prec::Sum;
   parenthesis(own, context);
-  plain(ExprId{e.a}, own);
-  out_ += e.op == Op::Add ? " + " : e.op == Op::Sub ? " - " : " * ";
-  plain(ExprId{e.b}, own == Prec::Sum ? Prec::Product : Prec::Unary);
+  plain(left, own);
+  out_ += op == Op::Add ? " + " : op == Op::Sub ? " - " : " * ";
+  plain(right, own == Prec::Sum ? Prec::Product : Prec::Unary);
   closeParenthesis(own, context);
 }
 
@@ -413,31 +416,32 @@ void BodyWriter::modular(ExprId id, bool wide, Prec context) {
   const Expr& e = expr(id);
   const TypeKind kind = types_.plainKind(e.type);
   if (isChain(e)) {
-    if (e.kind == ExprKind::Unary) {
+    if (const auto* negation = e.tryAs<ir::UnaryExpr>()) {
       parenthesis(Prec::Sum, context);
       out_ += wide ? "0ULL - " : "0u - ";
-      modular(ExprId{e.a}, wide, Prec::Product);
+      modular(negation->operand, wide, Prec::Product);
       closeParenthesis(Prec::Sum, context);
       return;
     }
-    const Prec own = e.op == Op::Mul ? Prec::Product : Prec::Sum;
+    const auto [left, right, op] = e.as<ir::BinaryExpr>();
+    const Prec own = op == Op::Mul ? Prec::Product : Prec::Sum;
     parenthesis(own, context);
-    modular(ExprId{e.a}, wide, own);
-    const Expr& right = expr(ExprId{e.b});
-    const bool flips = own == Prec::Sum && right.kind == ExprKind::Const && types_.isSigned(kind) &&
-                       static_cast<int64_t>(right.bits()) < 0;
-    out_ += e.op == Op::Mul ? " * " : (e.op == Op::Add) != flips ? " + " : " - ";
+    modular(left, wide, own);
+    const auto* constant = expr(right).tryAs<ir::ConstExpr>();
+    const bool flips = own == Prec::Sum && constant != nullptr && types_.isSigned(kind) &&
+                       static_cast<int64_t>(uint64_t{constant->bits}) < 0;
+    out_ += op == Op::Mul ? " * " : (op == Op::Add) != flips ? " + " : " - ";
     if (flips) {
-      appendUnsigned(out_, 0 - right.bits());
+      appendUnsigned(out_, 0 - uint64_t{constant->bits});
       out_ += wide ? "ULL" : "u";
     } else {
-      modular(ExprId{e.b}, wide, own == Prec::Sum ? Prec::Product : Prec::Unary);
+      modular(right, wide, own == Prec::Sum ? Prec::Product : Prec::Unary);
     }
     closeParenthesis(own, context);
     return;
   }
-  if (e.kind == ExprKind::Const) {
-    appendUnsigned(out_, wide ? e.bits() : static_cast<uint32_t>(e.bits()));
+  if (ir::isConst(e)) {
+    appendUnsigned(out_, wide ? ir::bitsOf(e) : static_cast<uint32_t>(ir::bitsOf(e)));
     out_ += wide ? "ULL" : "u";
     return;
   }
@@ -453,15 +457,16 @@ void BodyWriter::modular(ExprId id, bool wide, Prec context) {
 
 void BodyWriter::arithmetic(ExprId id, Prec context) {
   const Expr& e = expr(id);
-  const TypeKind kind = kindOf(ExprId{e.a});
+  const auto* binary = e.tryAs<ir::BinaryExpr>();
+  const TypeKind kind = kindOf(binary != nullptr ? binary->left : e.as<ir::UnaryExpr>().operand);
   const uint32_t width = widthOf(kind);
-  if (isPointer(kind) || width == 0) {
+  if (binary != nullptr && (isPointer(kind) || width == 0)) {
     parenthesis(Prec::Unary, context);
     out_ += "(void*)((uintptr_t)";
-    value(ExprId{e.a}, Prec::Unary);
-    out_ += e.op == Op::Sub ? " - " : " + ";
+    value(binary->left, Prec::Unary);
+    out_ += binary->op == Op::Sub ? " - " : " + ";
     out_ += "(uintptr_t)";
-    value(ExprId{e.b}, Prec::Unary);
+    value(binary->right, Prec::Unary);
     out_ += ')';
     closeParenthesis(Prec::Unary, context);
     return;
@@ -483,27 +488,26 @@ void BodyWriter::arithmetic(ExprId id, Prec context) {
   closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::divide(const Expr& e, Prec context) {
-  const ExprId a{e.a}, b{e.b};
+void BodyWriter::divide(const ir::BinaryExpr& node, Prec context) {
+  const auto [a, b, op] = node;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
-  const Expr& divisor = expr(b);
-  if (divisor.kind == ExprKind::Const && divisor.bits() != 0 &&
-      !(is_signed && static_cast<int64_t>(divisor.bits()) == -1)) {
+  const uint64_t divisor = ir::isConst(expr(b)) ? ir::bitsOf(expr(b)) : 0;
+  if (divisor != 0 && !(is_signed && static_cast<int64_t>(divisor) == -1)) {
     parenthesis(Prec::Product, context);
     value(a, Prec::Product);
-    out_ += e.op == Op::Div ? " / " : " % ";
+    out_ += op == Op::Div ? " / " : " % ";
     value(b, Prec::Unary);
     closeParenthesis(Prec::Product, context);
     return;
   }
-  const bool cuts = is_signed && width < 32 && e.op == Op::Div;
+  const bool cuts = is_signed && width < 32 && op == Op::Div;
   if (cuts) {
     parenthesis(Prec::Unary, context);
     out_ += width == 8 ? "(int8_t)" : "(int16_t)";
   }
-  out_ += e.op == Op::Div ? "rung_div_" : "rung_mod_";
+  out_ += op == Op::Div ? "rung_div_" : "rung_mod_";
   out_ += width == 64 ? (is_signed ? "i64(" : "u64(") : (is_signed || width < 32 ? "i32(" : "u32(");
   value(a, Prec::Ternary);
   out_ += ", ";
@@ -514,7 +518,8 @@ void BodyWriter::divide(const Expr& e, Prec context) {
 
 // A count of the width or more gives 0; a rotation is modulo the width.
 void BodyWriter::shift(const Expr& e, Prec context) {
-  const ExprId a{e.a}, b{e.b};
+  const Op op = e.op();
+  const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
@@ -528,10 +533,10 @@ void BodyWriter::shift(const Expr& e, Prec context) {
     value(a, Prec::Unary);
     closeParenthesis(Prec::Unary, at);
   };
-  const bool rotates = e.op == Op::Rol || e.op == Op::Ror;
-  const bool cuts = is_signed || (width < 32 && e.op == Op::Shl);
+  const bool rotates = op == Op::Rol || op == Op::Ror;
+  const bool cuts = is_signed || (width < 32 && op == Op::Shl);
   if (!rotates && expr(b).kind == ExprKind::Const) {
-    const uint64_t count = expr(b).bits();
+    const uint64_t count = ir::bitsOf(expr(b));
     if (count >= width) {
       appendConstant(out_, types_, e.type, 0);
       return;
@@ -543,7 +548,7 @@ void BodyWriter::shift(const Expr& e, Prec context) {
       out_ += ")(";
     }
     writeBits(Prec::Unary);
-    out_ += e.op == Op::Shl ? " << " : " >> ";
+    out_ += op == Op::Shl ? " << " : " >> ";
     appendUnsigned(out_, count);
     if (cuts) out_ += ')';
     closeParenthesis(cuts ? Prec::Unary : Prec::Shift, context);
@@ -559,19 +564,19 @@ void BodyWriter::shift(const Expr& e, Prec context) {
     out_ += "rung_rol";
     appendUnsigned(out_, width);
   } else {
-    out_ += e.op == Op::Shl ? "rung_shl" : "rung_shr";
+    out_ += op == Op::Shl ? "rung_shl" : "rung_shr";
     if (width == 64) out_ += "64";
   }
   out_ += '(';
   writeBits(Prec::Ternary);
-  out_ += e.op == Op::Ror ? ", 0 - (uint64_t)" : ", (uint64_t)";
+  out_ += op == Op::Ror ? ", 0 - (uint64_t)" : ", (uint64_t)";
   value(b, Prec::Unary);
   out_ += ')';
   if (cuts) closeParenthesis(Prec::Unary, context);
 }
 
 void BodyWriter::power(const Expr& e) {
-  const ExprId a{e.a}, b{e.b};
+  const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   if (TypeTable::isReal(kind)) {
     if (kind == TypeKind::Real) out_ += "(float)";
@@ -642,11 +647,12 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   }
 }
 
-void BodyWriter::convert(const Expr& e, Prec context) {
-  const ExprId a{e.a};
+void BodyWriter::convert(ExprId id, Prec context) {
+  const Expr& e = expr(id);
+  const ExprId a = e.as<ir::ConvertExpr>().operand;
   const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
   if (TypeTable::isString(target)) {
-    stringValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+    stringValue(id);
     return;
   }
   const TypeInfo& info = types_.info(types_.resolve(e.type));

@@ -34,7 +34,7 @@ bool isForeign(const Body& body, ExprId place) {
   const Expr& root = body.expr(ir::rootOf(body, place));
   switch (root.kind) {
     case ExprKind::Self: return false;
-    case ExprKind::Local: return body.locals[root.a].by_reference;
+    case ExprKind::Local: return body.locals[root.as<ir::LocalExpr>().local].by_reference;
     case ExprKind::Global:
     case ExprKind::Program:
     case ExprKind::Deref: return true;
@@ -76,31 +76,31 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
     is_inlined[i] = body.kind == ir::BodyKind::Function && body.library && body.pure && !body.native && isSmall(body);
     for (uint32_t e = 1; e < body.exprs.size(); ++e) {
       const Expr& expr = body.exprs[e];
-      if (expr.kind == ExprKind::Address) {
-        expose(module, body, ExprId{expr.a});
-      } else if (expr.kind == ExprKind::Field) {
-        const TypeId record = module.types.resolve(body.expr(ExprId{expr.a}).type);
+      if (const auto* address = expr.tryAs<ir::AddressExpr>()) {
+        expose(module, body, address->place);
+      } else if (const auto* field = expr.tryAs<ir::FieldExpr>()) {
+        const TypeId record = module.types.resolve(body.expr(field->base).type);
         if (module.types.info(record).record_kind >= types::RecordKind::FunctionBlock && is_seen[record.index] == 0 &&
-            isForeign(body, ExprId{expr.a})) {
+            isForeign(body, field->base)) {
           is_seen[record.index] = 1;
         }
       }
     }
     for (const Stmt& stmt : body.stmts) {
-      if (stmt.kind == StmtKind::Bind) {
-        if (stmt.b != 0) expose(module, body, ExprId{stmt.b});
-      } else if (stmt.kind == StmtKind::Call) {
-        const Body& callee = module.body(ir::BodyId{stmt.a});  // a method changes its object
-        if (stmt.b != 0 && callee.kind == ir::BodyKind::Function && isForeign(body, ExprId{stmt.b}))
+      if (const auto* bind = stmt.tryAs<ir::BindStmt>()) {
+        if (bind->place) expose(module, body, bind->place);
+      } else if (const auto* call = stmt.tryAs<ir::CallStmt>()) {
+        const Body& callee = module.body(call->callee);  // a method changes its object
+        if (call->self && callee.kind == ir::BodyKind::Function && isForeign(body, call->self))
           is_seen[module.types.resolve(callee.self).index] |= 1;
-        ir::forEachRoot(module, body, stmt, [&](const uint32_t& slot, ir::Use use) {
-          if (use == ir::Use::Reference && slot != stmt.b) expose(module, body, ExprId{slot});
+        ir::forEachRoot(module, body, stmt, [&](ExprId root, ir::Use use) {
+          if (use == ir::Use::Reference && root != call->self) expose(module, body, root);
         });
-      } else if (stmt.kind == StmtKind::Assign) {
-        const Expr& value = body.expr(ExprId{stmt.b});
-        const TypeKind kind = module.types.kind(value.type);
+      } else if (const auto* assign = stmt.tryAs<ir::AssignStmt>()) {
+        const TypeId type = body.expr(assign->value).type;
+        const TypeKind kind = module.types.kind(type);
         if (kind == TypeKind::Record || kind == TypeKind::Array) {
-          if (isForeign(body, ExprId{stmt.b}) || isForeign(body, ExprId{stmt.a})) seeAll(module, value.type);
+          if (isForeign(body, assign->value) || isForeign(body, assign->place)) seeAll(module, type);
         }
       }
     }
@@ -115,10 +115,12 @@ bool Facts::onlyClears(const ir::Module& module, ir::BodyId id) {
   bool clears = false;
   for (ir::StmtId at = body.first; at; at = body.stmt(at).next) {
     const Stmt& stmt = body.stmt(at);
-    if (stmt.kind == StmtKind::Assign && body.expr(ExprId{stmt.a}).kind == ExprKind::Self &&
-        body.expr(ExprId{stmt.b}).kind == ExprKind::Zero) {
+    const auto* assign = stmt.tryAs<ir::AssignStmt>();
+    const auto* call = stmt.tryAs<ir::CallStmt>();
+    if (assign != nullptr && body.expr(assign->place).kind == ExprKind::Self &&
+        body.expr(assign->value).kind == ExprKind::Zero) {
       clears = true;
-    } else if (!(stmt.kind == StmtKind::Call && onlyClears(module, ir::BodyId{stmt.a}))) {
+    } else if (call == nullptr || !onlyClears(module, call->callee)) {
       return false;
     }
   }
@@ -129,15 +131,12 @@ bool Facts::onlyClears(const ir::Module& module, ir::BodyId id) {
 void Facts::expose(const ir::Module& module, const Body& body, ExprId place) {
   const TypeKind kind = module.types.kind(body.expr(place).type);
   if (kind == TypeKind::Record || kind == TypeKind::Array) seeAll(module, body.expr(place).type);
-  for (;;) {
-    const Expr& expr = body.expr(place);
-    if (expr.kind == ExprKind::Field) {
-      const TypeId record = module.types.resolve(body.expr(ExprId{expr.a}).type);
-      exposed_fields_.insert(uint64_t{record.index} << 32 | expr.b);
-      return;
-    }
-    if (expr.kind != ExprKind::Index && expr.kind != ExprKind::Bits) return;
-    place = ExprId{expr.a};
+  for (; place; place = ir::baseOf(body.expr(place))) {
+    const auto* field = body.expr(place).tryAs<ir::FieldExpr>();
+    if (field == nullptr) continue;
+    const TypeId record = module.types.resolve(body.expr(field->base).type);
+    exposed_fields_.insert(uint64_t{record.index} << 32 | field->field);
+    return;
   }
 }
 

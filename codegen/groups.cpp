@@ -73,12 +73,11 @@ void markCalls(const ir::Module& module, const ir::Body& body, ir::StmtId first,
                uint32_t group_number) {
   for (ir::StmtId id = first; id; id = body.stmt(id).next) {
     const ir::Stmt& stmt = body.stmt(id);
-    if (in_loop && stmt.kind == ir::StmtKind::Call && isSmallLeaf(module.body(ir::BodyId{stmt.a})))
-      marks.hot[stmt.a] = group_number;
+    const auto* call = stmt.tryAs<ir::CallStmt>();
+    if (in_loop && call != nullptr && isSmallLeaf(module.body(call->callee)))
+      marks.hot[call->callee.index] = group_number;
     const bool loops = in_loop || stmt.kind == ir::StmtKind::Loop || stmt.kind == ir::StmtKind::For;
-    ir::forEachBlock(body, stmt, [&](const uint32_t& block) {
-      markCalls(module, body, ir::StmtId{block}, loops, marks, group_number);
-    });
+    ir::forEachBlock(body, stmt, [&](ir::StmtId block) { markCalls(module, body, block, loops, marks, group_number); });
   }
 }
 

@@ -31,15 +31,14 @@ bool BodyWriter::isSized(const Body& callee) const {
 }
 
 // `out` of a sized function must be one of its strings or overlap none: true when either side is measured.
-bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const {
+bool BodyWriter::isSizedCall(const Body& callee, Slice<ExprId> operands, ExprId result) const {
   if (!isSized(callee)) return false;
   if (result && isString(expr(result).type)) {
     if (isWide(expr(result).type)) return false;
     if (measuredString(result) != nullptr) return true;
   }
   bool has_measured = false, all_apart = true;
-  for (uint32_t i = 0; i < count; ++i) {
-    const ExprId operand = body_->operands[first + i];
+  for (const ExprId operand : body_->list(operands)) {
     const Expr& e = expr(operand);
     if (!isString(e.type)) continue;
     const bool is_measured = measuredString(operand) != nullptr;
@@ -54,11 +53,11 @@ bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count,
 BodyWriter::Variable* BodyWriter::stringVariable(ExprId place) {
   const Expr& e = expr(place);
   if (types_.kind(e.type) != TypeKind::String) return nullptr;
-  if (e.kind == ExprKind::Local) {
-    const ir::Local& local = body_->locals[e.a];
+  if (const uint32_t* index = ir::localOf(e)) {
+    const ir::Local& local = body_->locals[*index];
     // A by-reference result is a variable of the caller that only this call knows.
     const bool is_own = !local.by_reference || local.kind == LocalKind::Input || local.kind == LocalKind::Result;
-    return is_own ? &locals_[e.a] : nullptr;
+    return is_own ? &locals_[*index] : nullptr;
   }
   return variableOf(slotOf(place));
 }
@@ -68,18 +67,17 @@ const BodyWriter::Variable* BodyWriter::measuredString(ExprId place) const {
   return of != nullptr && of->measured ? of : nullptr;
 }
 
-void BodyWriter::noteSizedCall(const Body& callee, uint32_t first, uint32_t count, uint32_t weight) {
+void BodyWriter::noteSizedCall(const Body& callee, Slice<ExprId> operands, uint32_t weight) {
   if (!isSized(callee)) return;
-  for (uint32_t i = 0; i < count; ++i) {
-    const ExprId operand = body_->operands[first + i];
+  for (const ExprId operand : body_->list(operands)) {
     if (Variable* of = operand ? stringVariable(operand) : nullptr) of->sized_weight += weight;
   }
 }
 
 // An assignment passes the length on.
-void BodyWriter::noteStringAssign(const Stmt& stmt, uint32_t weight) {
-  Variable* to = stringVariable(ExprId{stmt.a});
-  Variable* from = stringVariable(ExprId{stmt.b});
+void BodyWriter::noteStringAssign(const ir::AssignStmt& stmt, uint32_t weight) {
+  Variable* to = stringVariable(stmt.place);
+  Variable* from = stringVariable(stmt.value);
   if (to == nullptr || from == nullptr) return;
   to->sized_weight += weight;
   from->sized_weight += weight;
@@ -137,13 +135,14 @@ void BodyWriter::declareLengths() {
 bool BodyWriter::needsMeasuring(ExprId id) const {
   const Expr& e = expr(id);
   bool needs = false;
-  if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
-    for (uint32_t i = 0; i < e.c; ++i) {
-      const Variable* of = measuredString(body_->operands[e.b + i]);
+  const auto* call = e.tryAs<ir::CallExpr>();
+  if (call != nullptr && isSizedCall(module_.body(call->callee), call->operands, {})) {
+    for (const ExprId operand : body_->list(call->operands)) {
+      const Variable* of = measuredString(operand);
       needs = needs || (of != nullptr && !of->known);
     }
   }
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { needs = needs || needsMeasuring(ExprId{slot}); });
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { needs = needs || needsMeasuring(operand); });
   return needs;
 }
 
@@ -167,19 +166,21 @@ void BodyWriter::measureString(ExprId place) {
 
 void BodyWriter::measureExpr(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
-    for (uint32_t i = 0; i < e.c; ++i) measureString(body_->operands[e.b + i]);
+  const auto* call = e.tryAs<ir::CallExpr>();
+  if (call != nullptr && isSizedCall(module_.body(call->callee), call->operands, {})) {
+    for (const ExprId operand : body_->list(call->operands)) measureString(operand);
   }
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { measureExpr(ExprId{slot}); });
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { measureExpr(operand); });
 }
 
 // The lengths that the expressions of one statement need.
 void BodyWriter::collectUnknown(const Stmt& stmt) {
-  ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { measureExpr(ExprId{slot}); });
-  if (stmt.kind == StmtKind::Assign && measuredString(ExprId{stmt.a}) != nullptr) measureString(ExprId{stmt.b});
-  if (stmt.kind != StmtKind::Call) return;
-  if (!isSizedCall(module_.body(ir::BodyId{stmt.a}), stmt.c, stmt.d, ExprId{stmt.e})) return;
-  for (uint32_t i = 0; i < stmt.d; ++i) measureString(body_->operands[stmt.c + i]);
+  ir::forEachRoot(module_, *body_, stmt, [&](ExprId root, ir::Use) { measureExpr(root); });
+  const auto* assign = stmt.tryAs<ir::AssignStmt>();
+  if (assign != nullptr && measuredString(assign->place) != nullptr) measureString(assign->value);
+  const auto* call = stmt.tryAs<ir::CallStmt>();
+  if (call == nullptr || !isSizedCall(module_.body(call->callee), call->operands, call->result)) return;
+  for (const ExprId operand : body_->list(call->operands)) measureString(operand);
 }
 
 // The lengths that a block needs before it starts, and those that it makes known itself.
@@ -188,9 +189,9 @@ void BodyWriter::collectUnknown(StmtId first) {
   for (StmtId id = first; id; id = body_->stmt(id).next) {
     const Stmt& stmt = body_->stmt(id);
     collectUnknown(stmt);
-    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { collectUnknown(StmtId{block}); });
-    if (stmt.kind == StmtKind::Assign) setKnown(ExprId{stmt.a});
-    if (stmt.kind == StmtKind::Call && stmt.e != 0) setKnown(ExprId{stmt.e});
+    ir::forEachBlock(*body_, stmt, [&](StmtId block) { collectUnknown(block); });
+    if (const auto* assign = stmt.tryAs<ir::AssignStmt>()) setKnown(assign->place);
+    if (const auto* call = stmt.tryAs<ir::CallStmt>(); call != nullptr && call->result) setKnown(call->result);
   }
   forgetLengths(mark);
 }
@@ -202,7 +203,7 @@ void BodyWriter::measure(const Stmt& stmt) {
   collectUnknown(stmt);
   if (stmt.kind == StmtKind::Loop || stmt.kind == StmtKind::For) {
     const size_t mark = known_.size();
-    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { collectUnknown(StmtId{block}); });
+    ir::forEachBlock(*body_, stmt, [&](StmtId block) { collectUnknown(block); });
     forgetLengths(mark);
   }
   for (const ExprId id : unknown_) {
@@ -218,10 +219,10 @@ void BodyWriter::measure(const Stmt& stmt) {
 
 void BodyWriter::lengthName(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Local) {
-    variable(out_, body_->locals[e.a]);
+  if (const uint32_t* index = ir::localOf(e)) {
+    variable(out_, body_->locals[*index]);
   } else {
-    appendMangled(out_, string(types_.info(types_.resolve(body_->self)).fields[e.b].name));
+    appendMangled(out_, string(fieldOf(e.as<ir::FieldExpr>()).name));
   }
   out_ += 'n';
 }
@@ -242,16 +243,17 @@ void BodyWriter::stringLength(ExprId id) {
 }
 
 // Name and inputs of a sized form, without the closing parenthesis.
-void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form) {
+void BodyWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const char* form) {
   if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
     group_.libraries.push_back(callee.library_name);
   out_ += ir::nativeName(module_, callee);
   out_ += '_';
   out_ += form;
   out_ += '(';
-  for (uint32_t i = 0; i < count; ++i) {
-    const ExprId operand = body_->operands[first + i];
-    if (i > 0) out_ += ", ";
+  const char* separator = "";
+  for (const ExprId operand : body_->list(operands)) {
+    out_ += separator;
+    separator = ", ";
     if (isString(expr(operand).type)) {
       stringValue(operand);
       out_ += ", ";

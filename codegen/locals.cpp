@@ -15,11 +15,12 @@ constexpr uint32_t kLoopWeight = 4, kMaxWeight = 64, kWorthIt = 3;
 }  // namespace
 
 BodyWriter::Slot BodyWriter::slotOf(ExprId id) const {
-  const Expr* e = &expr(id);
-  while (e->kind == ExprKind::Bits) e = &expr(ExprId{e->a});
-  if (e->kind == ExprKind::Local && !body_->locals[e->a].by_reference) return {Slot::Local, e->a};
-  if (e->kind == ExprKind::Field && expr(ExprId{e->a}).kind == ExprKind::Self && e->b < fields_.size())
-    return {Slot::Field, e->b};
+  while (const auto* bits = expr(id).tryAs<ir::BitsExpr>()) id = bits->base;
+  const uint32_t* local = ir::localOf(expr(id));
+  if (local != nullptr && !body_->locals[*local].by_reference) return {Slot::Local, *local};
+  const auto* field = expr(id).tryAs<ir::FieldExpr>();
+  if (field != nullptr && expr(field->base).kind == ExprKind::Self && field->field < fields_.size())
+    return {Slot::Field, field->field};
   return {};
 }
 
@@ -35,25 +36,30 @@ BodyWriter::Variable* BodyWriter::variableOf(Slot slot) {
 void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
   const Expr& e = expr(id);
   switch (e.kind) {
-    case ExprKind::Local: locals_[e.a].weight += weight; return;
+    case ExprKind::Local: locals_[e.as<ir::LocalExpr>().local].weight += weight; return;
     case ExprKind::Self: self_escapes_ = true; return;
-    case ExprKind::Field:
-      if (expr(ExprId{e.a}).kind == ExprKind::Self) {
-        if (e.b < fields_.size()) {
-          fields_[e.b].weight += weight;
-          if (weight > 1) fields_[e.b].loop_weight += weight;
-        }
-        return;
+    case ExprKind::Field: {
+      const auto [base, field] = e.as<ir::FieldExpr>();
+      if (expr(base).kind != ExprKind::Self) break;
+      if (field < fields_.size()) {
+        fields_[field].weight += weight;
+        if (weight > 1) fields_[field].loop_weight += weight;
       }
-      break;
+      return;
+    }
     case ExprKind::Address: {
-      Slot slot = slotOf(ir::rootOf(*body_, ExprId{e.a}));
-      if (!slot.kind) slot = slotOf(ExprId{e.a});
+      const ExprId place = e.as<ir::AddressExpr>().place;
+      Slot slot = slotOf(ir::rootOf(*body_, place));
+      if (!slot.kind) slot = slotOf(place);
       if (Variable* of = variableOf(slot)) of->exposed = true;
-      if (Variable* of = stringVariable(ExprId{e.a})) of->exposed = true;
+      if (Variable* of = stringVariable(place)) of->exposed = true;
       break;
     }
-    case ExprKind::Call: noteSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, weight); break;
+    case ExprKind::Call: {
+      const auto [callee, operands] = e.as<ir::CallExpr>();
+      noteSizedCall(module_.body(callee), operands, weight);
+      break;
+    }
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::String:
@@ -70,7 +76,7 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
     case ExprKind::Convert:
     case ExprKind::Select: break;
   }
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { scanExpr(ExprId{slot}, weight); });
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { scanExpr(operand, weight); });
 }
 
 void BodyWriter::noteWrite(ExprId place, bool by_reference) {
@@ -78,8 +84,7 @@ void BodyWriter::noteWrite(ExprId place, bool by_reference) {
   if (Variable* of = by_reference ? stringVariable(place) : nullptr) of->exposed = true;
   Variable* of = variableOf(slot);
   if (of == nullptr) {  // part of an aggregate: the local is in use
-    const Expr& root = expr(ir::rootOf(*body_, place));
-    if (root.kind == ExprKind::Local) locals_[root.a].written = true;
+    if (const uint32_t* local = ir::localOf(expr(ir::rootOf(*body_, place)))) locals_[*local].written = true;
     return;
   }
   of->written = true;
@@ -92,59 +97,56 @@ void BodyWriter::noteWrite(ExprId place, bool by_reference) {
 void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
   for (StmtId id = first; id; id = body_->stmt(id).next) {
     const Stmt& stmt = body_->stmt(id);
-    const bool is_block_call = stmt.kind == StmtKind::Call && stmt.b != 0;
-    ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use use) {
-      const ExprId root{slot};
+    const auto* call = stmt.tryAs<ir::CallStmt>();
+    ir::forEachRoot(module_, *body_, stmt, [&](ExprId root, ir::Use use) {
       // A call on SELF exposes the whole instance; an element of it is a separate instance.
       scanExpr(root, weight);
       if (use == ir::Use::Write) noteWrite(root, false);
-      if (use == ir::Use::Reference && !(is_block_call && slot == stmt.b)) noteWrite(root, true);
+      if (use == ir::Use::Reference && !(call != nullptr && root == call->self)) noteWrite(root, true);
     });
     if (stmt.kind == StmtKind::Try) has_try_ = true;
-    if (stmt.kind == StmtKind::Assign) noteStringAssign(stmt, weight);
-    if (stmt.kind == StmtKind::Call) {
+    if (const auto* assign = stmt.tryAs<ir::AssignStmt>()) noteStringAssign(*assign, weight);
+    if (call != nullptr) {
       has_calls_ = true;
-      const Body& callee = module_.body(ir::BodyId{stmt.a});
+      const Body& callee = module_.body(call->callee);
       if (!callee.pure && !callee.library) has_foreign_calls_ = true;
-      if (callee.may_fault || (stmt.op & ir::kVirtual) != 0 || (callee.native && !callee.pure))
-        has_leaving_calls_ = true;
-      if (callee.slice) noteSlice(stmt, weight);
-      noteSizedCall(callee, stmt.c, stmt.d, weight);
-      if (Variable* of = stmt.e != 0 && isSized(callee) ? stringVariable(ExprId{stmt.e}) : nullptr)
+      if (callee.may_fault || call->is_virtual || (callee.native && !callee.pure)) has_leaving_calls_ = true;
+      if (callee.slice) noteSlice(call->result, weight);
+      noteSizedCall(callee, call->operands, weight);
+      if (Variable* of = call->result && isSized(callee) ? stringVariable(call->result) : nullptr)
         of->sized_weight += weight;
     }
     const bool loops = stmt.kind == StmtKind::For || stmt.kind == StmtKind::Loop;
     const uint32_t inner = loops && weight < kMaxWeight ? weight * kLoopWeight : weight;
-    if (stmt.kind == StmtKind::For) {
+    if (const auto* loop = stmt.tryAs<ir::ForStmt>()) {
       if (private_loop_.empty()) private_loop_.resize(body_->stmts.size());
-      const Slot slot = slotOf(ExprId{stmt.a});
+      const Slot slot = slotOf(loop->control);
       if (Variable* of = variableOf(slot)) {
         of->weight += inner;
         of->loop_weight += inner;
       }
       controls_.push_back({slot, id});
-      scanBlock(StmtId{stmt.e}, inner);
+      scanBlock(loop->body_block, inner);
       private_loop_[id.index] =
-          slot.kind != Slot::None && !controls_.back().disturbed && expr(ExprId{stmt.a}).kind != ExprKind::Bits;
+          slot.kind != Slot::None && !controls_.back().disturbed && expr(loop->control).kind != ExprKind::Bits;
       controls_.pop_back();
       continue;
     }
-    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { scanBlock(StmtId{block}, inner); });
+    ir::forEachBlock(*body_, stmt, [&](StmtId block) { scanBlock(block, inner); });
   }
 }
 
 // True when the control never takes a value outside of its type.
-bool BodyWriter::boundsFit(const Stmt& loop) const {
-  const Expr& to = expr(ExprId{loop.c});
-  if (to.kind != ExprKind::Const) return false;
-  const TypeKind kind = kindOf(ExprId{loop.a});
-  const auto step = static_cast<__int128>(static_cast<int64_t>(expr(ExprId{loop.d}).bits()));
+bool BodyWriter::boundsFit(const ir::ForStmt& loop) const {
+  if (!ir::isConst(expr(loop.to))) return false;
+  const uint64_t to = ir::bitsOf(expr(loop.to));
+  const TypeKind kind = kindOf(loop.control);
+  const auto step = static_cast<__int128>(static_cast<int64_t>(ir::bitsOf(expr(loop.step))));
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
   const __int128 low = is_signed ? -(static_cast<__int128>(1) << (width - 1)) : 0;
   const __int128 high = (static_cast<__int128>(1) << (is_signed ? width - 1 : width)) - 1;
-  const __int128 bound =
-      is_signed ? static_cast<__int128>(static_cast<int64_t>(to.bits())) : static_cast<__int128>(to.bits());
+  const __int128 bound = is_signed ? static_cast<__int128>(static_cast<int64_t>(to)) : static_cast<__int128>(to);
   return bound + step >= low && bound + step <= high;
 }
 
@@ -176,10 +178,10 @@ void BodyWriter::analyze() {
   // Controls.
   for (uint32_t i = 0; i < private_loop_.size(); ++i) {
     if (private_loop_[i] == 0) continue;
-    const Stmt& loop = body_->stmts[i];
-    const Slot slot = slotOf(ExprId{loop.a});
+    const ir::ForStmt& loop = body_->stmts[i].as<ir::ForStmt>();
+    const Slot slot = slotOf(loop.control);
     Variable* of = variableOf(slot);
-    const uint32_t width = widthOf(kindOf(ExprId{loop.a}));
+    const uint32_t width = widthOf(kindOf(loop.control));
     const bool is_parameter = slot.kind == Slot::Local && body_->locals[slot.index].kind == ir::LocalKind::Input;
     if (of == nullptr || of->exposed || has_try_ || is_parameter || (slot.kind == Slot::Field && !of->cached) ||
         width >= 64 || width == 0) {

@@ -5,39 +5,38 @@
 
 namespace rung::codegen {
 
-// `if condition { break }`, with nothing to be done before it.
-bool BodyWriter::isExitTest(StmtId id) const {
-  if (!id) return false;
-  const Stmt& stmt = body_->stmt(id);
-  if (stmt.kind != StmtKind::If || stmt.c != 0 || stmt.b == 0) return false;
-  const Stmt& inner = body_->stmt(StmtId{stmt.b});
-  return inner.kind == StmtKind::Break && !inner.next && !needsPreparation(ExprId{stmt.a});
+// The condition of `if condition { break }`, with nothing to be done before it; none of other statements.
+ir::ExprId BodyWriter::exitTest(StmtId id) const {
+  const auto* test = id ? body_->stmt(id).tryAs<ir::IfStmt>() : nullptr;
+  if (test == nullptr || test->else_block || !test->then_block) return {};
+  const Stmt& inner = body_->stmt(test->then_block);
+  const bool leaves = inner.kind == StmtKind::Break && !inner.next && !needsPreparation(test->condition);
+  return leaves ? test->condition : ExprId{};
 }
 
-void BodyWriter::loopStatement(StmtId, const Stmt& stmt) {
-  const StmtId first{stmt.a}, next{stmt.b};
+void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {
+  const StmtId first = stmt.body_block, next = stmt.next_block;
   Loop loop;
   loop.number = ++names_created_;
-  loop.has_next = stmt.b != 0;
-  auto writeNegated = [&](StmtId test) {
-    const ExprId id{body_->stmt(test).a};
-    if (expr(id).kind == ExprKind::Unary && expr(id).op == Op::Not) {
-      condition(ExprId{expr(id).a}, Prec::Comma);
+  loop.has_next = static_cast<bool>(next);
+  auto writeNegated = [&](ExprId id) {
+    if (ir::isNot(expr(id))) {
+      condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
     } else {
       out_ += '!';
       condition(id, Prec::Unary);
     }
   };
-  if (!next && isExitTest(first)) {  // WHILE
+  if (!next && exitTest(first)) {  // WHILE
     out_ += "while (";
-    writeNegated(first);
+    writeNegated(exitTest(first));
     out_ += ')';
     open();
     loops_.push_back(loop);
     block(body_->stmt(first).next);
     close();
-  } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
-    loop.has_next = false;                                           // `continue` goes to the test
+  } else if (exitTest(next) && !body_->stmt(next).next) {  // REPEAT
+    loop.has_next = false;                                 // `continue` goes to the test
     out_ += "do";
     open();
     loops_.push_back(loop);
@@ -45,7 +44,7 @@ void BodyWriter::loopStatement(StmtId, const Stmt& stmt) {
     close();
     flushCloses(0);
     out_ += " while (";
-    writeNegated(next);
+    writeNegated(exitTest(next));
     out_ += ");";
   } else {
     out_ += "for (;;)";
@@ -140,17 +139,17 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 }  // namespace
 
-void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
-  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+void BodyWriter::privateFor(const ir::ForStmt& stmt) {
+  const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   const TypeKind kind = kindOf(control);
-  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
   const Variable& of = *variableOf(slotOf(control));
   std::string name;
   const Expr& place = expr(control);
-  if (place.kind == ExprKind::Local) {
-    variable(name, body_->locals[place.a]);
+  if (const uint32_t* local = ir::localOf(place)) {
+    variable(name, body_->locals[*local]);
   } else {
-    appendMangled(name, string(types_.info(types_.resolve(body_->self)).fields[place.b].name));
+    appendMangled(name, string(fieldOf(place.as<ir::FieldExpr>()).name));
   }
   // The limit is read once, before the control changes.
   std::string limit;
@@ -177,7 +176,7 @@ void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
   Loop loop;
   loop.number = ++names_created_;
   loops_.push_back(loop);
-  block(StmtId{stmt.e});
+  block(stmt.body_block);
   close();
   const Loop done = loops_.back();
   loops_.pop_back();
@@ -209,19 +208,19 @@ void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
   }
 }
 
-void BodyWriter::forStatement(StmtId id, const Stmt& stmt) {
-  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
+  const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   prepare(control);
   prepare(from);
   prepare(to);
   if (isPrivateLoop(id)) {
-    privateFor(id, stmt);
+    privateFor(stmt);
     return;
   }
   const TypeKind kind = kindOf(control);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
-  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
   const std::string type = scalarType(types_, expr(control).type);
   const std::string next = newName("n"), limit = newName("e"), more = newName("m");
   declarations_ += " " + type + " " + next + " = 0, " + limit + " = 0; bool " + more + " = false;";
@@ -259,7 +258,7 @@ void BodyWriter::forStatement(StmtId id, const Stmt& stmt) {
   Loop loop;
   loop.number = ++names_created_;
   loops_.push_back(loop);
-  block(StmtId{stmt.e});
+  block(stmt.body_block);
   close();
   const Loop done = loops_.back();
   loops_.pop_back();

@@ -22,7 +22,8 @@ constexpr const char* kTypeKinds[] = {
     "RUNG_DT",      "RUNG_LDT",  "RUNG_CHAR",  "RUNG_WCHAR",  "RUNG_UCHAR",  "RUNG_STRING", "RUNG_WSTRING",
     "RUNG_USTRING", "RUNG_ENUM", "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
 static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
-constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
+constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_AREA"};
+constexpr const char* kOwners[] = {"RUNG_AREA_INPUT", "RUNG_AREA_OUTPUT", "RUNG_AREA_MEMORY"};
 constexpr const char* kTaskKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
 
 class Describer {
@@ -176,7 +177,8 @@ class Describer {
   }
 
   std::string moduleSource() {
-    std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, symbol_rows, retain_rows, persistent_rows;
+    std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, area_rows, symbol_rows, retain_rows,
+        persistent_rows;
     for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
     for (const rung_type& is : is_.types) {
       row(type_rows, {kTypeKinds[is.kind], is.is_signed != 0 ? "1" : "0", number(is.name), number(is.size),
@@ -187,9 +189,11 @@ class Describer {
     }
     for (const rung_enum_item& is : is_.enum_items) row(item_rows, {number(is.name), signedNumber(is.value)});
     for (const rung_dimension& is : is_.dimensions) row(dimension_rows, {signedNumber(is.low), signedNumber(is.high)});
+    for (const rung_area& is : is_.areas)
+      row(area_rows, {number(is.name), number(is.prefix), number(is.size), kOwners[is.owner]});
     for (const rung_symbol& is : is_.symbols) {
       row(symbol_rows, {number(is.name), number(is.type), kStorages[is.storage], number(is.bit), number(is.is_program),
-                        number(is.block), number(is.offset), number(is.flags), number(is.path)});
+                        number(is.index), number(is.offset), number(is.flags), number(is.path)});
     }
     for (const rung_range& is : is_.retain) row(retain_rows, {number(is.block), number(is.offset), number(is.size)});
     for (const rung_range& is : is_.persistent) {
@@ -232,6 +236,7 @@ class Describer {
     }
     out += "  ;\n";
     table(out, "rung_block", "blocks", block_rows);
+    table(out, "rung_area", "areas", area_rows);
     table(out, "rung_type", "types", type_rows);
     table(out, "rung_field", "fields", field_rows);
     table(out, "rung_enum_item", "enum_items", item_rows);
@@ -246,8 +251,8 @@ class Describer {
     out += "\nstatic const rung_module description = {\n  RUNG_MODULE_ABI, " + number(types_.pointerSize()) + ", ";
     appendQuoted(out, options_.module_name);
     out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n  ";
-    out += cells("blocks", block_rows, is_.blocks.size()) + ",\n  {" + number(module_.image_bytes[0]) + ", " +
-           number(module_.image_bytes[1]) + ", " + number(module_.image_bytes[2]) + "},\n  ";
+    out += cells("blocks", block_rows, is_.blocks.size()) + ", ";
+    out += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
     out += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
     out += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
     out += cells("types", type_rows, is_.types.size()) + ", ";

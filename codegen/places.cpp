@@ -15,7 +15,7 @@ bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::B
 // Only generated code writes locals, and it writes 0 or 1.
 bool BodyWriter::isVariableTruth(ExprId id) const {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Local) return !body_->locals[e.a].by_reference && !locals_[e.a].exposed;
+  if (const uint32_t* local = ir::localOf(e)) return !body_->locals[*local].by_reference && !locals_[*local].exposed;
   const Slot slot = slotOf(id);
   return slot.kind == Slot::Field && fields_[slot.index].cached;
 }
@@ -24,7 +24,7 @@ void BodyWriter::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
     case ExprKind::Local: {
-      const ir::Local& local = body_->locals[e.a];
+      const ir::Local& local = body_->locals[e.as<ir::LocalExpr>().local];
       const bool after = local.by_reference && !isString(local.type);
       if (after) out_ += "(*";
       variable(out_, local);
@@ -35,7 +35,8 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Global:
     case ExprKind::Program: {
       const bool is_list = e.kind == ExprKind::Global;
-      const uint32_t number = is_list ? facts_.list_block[e.a] : facts_.program_block[e.a];
+      const uint32_t number = is_list ? facts_.list_block[e.as<ir::GlobalExpr>().list]
+                                      : facts_.program_block[e.as<ir::ProgramExpr>().program];
       const std::string type = recordName(types_, e.type);
       includeRecord(e.type);
       bool declared = false;
@@ -53,9 +54,9 @@ void BodyWriter::place(ExprId id) {
       return;
     }
     case ExprKind::Field: {
-      const ExprId base{e.a};
-      const Field& field = types_.info(types_.resolve(expr(base).type)).fields[e.b];
-      if (expr(base).kind == ExprKind::Self && e.b < fields_.size() && fields_[e.b].cached) {
+      const auto [base, number] = e.as<ir::FieldExpr>();
+      const Field& field = fieldOf(e.as<ir::FieldExpr>());
+      if (expr(base).kind == ExprKind::Self && number < fields_.size() && fields_[number].cached) {
         appendMangled(out_, string(field.name));
         return;
       }
@@ -68,20 +69,23 @@ void BodyWriter::place(ExprId id) {
       return;
     }
     case ExprKind::Index: {
-      const TypeInfo& array = types_.info(types_.resolve(expr(ExprId{e.a}).type));
-      place(ExprId{e.a});
-      for (uint32_t i = 0; i < e.c; ++i) {
+      const ir::IndexExpr& node = e.as<ir::IndexExpr>();
+      const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
+      place(node.base);
+      for (uint32_t i = 0; i < node.indices.count; ++i) {
+        const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
         out_ += '[';
-        indexValue(body_->operands[e.b + i], i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{});
+        indexValue(body_->list(node.indices)[i], dimension);
         out_ += ']';
       }
       return;
     }
     case ExprKind::Deref: {
+      const ExprId pointer = e.as<ir::DerefExpr>().pointer;
       const TypeKind kind = types_.kind(e.type);
       if (isString(e.type)) {
         out_ += isWide(e.type) ? "((char16_t*)" : "((char*)";
-        value(ExprId{e.a}, Prec::Unary);
+        value(pointer, Prec::Unary);
         out_ += ')';
         return;
       }
@@ -102,7 +106,7 @@ void BodyWriter::place(ExprId id) {
         out_ += '*';
       }
       out_ += ')';
-      value(ExprId{e.a}, Prec::Unary);
+      value(pointer, Prec::Unary);
       out_ += ')';
       return;
     }
@@ -110,7 +114,7 @@ void BodyWriter::place(ExprId id) {
       out_ += "(*(";
       appendPointer(out_, types_, e.type, "", true);
       out_ += ')';
-      dataReference(e.a);
+      dataReference(e.as<ir::DataExpr>().index);
       out_ += ')';
       return;
     case ExprKind::Zero:
@@ -120,15 +124,17 @@ void BodyWriter::place(ExprId id) {
         if (created == id.index) out_ += name;
       }
       return;
-    case ExprKind::Select:
+    case ExprKind::Select: {
+      const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += "(*(";
-      condition(ExprId{e.a}, Prec::Or);
+      condition(decides, Prec::Or);
       out_ += " ? &";
-      place(ExprId{e.b});
+      place(yes);
       out_ += " : &";
-      place(ExprId{e.c});
+      place(no);
       out_ += "))";
       return;
+    }
     case ExprKind::Image:  // as an aggregate: in place
       out_ += "(*(";
       appendPointer(out_, types_, e.type, "");
@@ -149,16 +155,16 @@ void BodyWriter::place(ExprId id) {
 // Writes the prefix of a field's name.
 void BodyWriter::member(ExprId base) {
   const Expr& e = expr(base);
-  if (e.kind == ExprKind::Local && body_->locals[e.a].by_reference) {
-    variable(out_, body_->locals[e.a]);
+  if (const uint32_t* local = ir::localOf(e); local != nullptr && body_->locals[*local].by_reference) {
+    variable(out_, body_->locals[*local]);
     out_ += "->";
     return;
   }
-  if (e.kind == ExprKind::Field) {
-    const Field& field = types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b];
+  if (const auto* part = e.tryAs<ir::FieldExpr>()) {
+    const Field& field = fieldOf(*part);
     if (field.by_reference) {
       includeRecord(field.type);
-      member(ExprId{e.a});
+      member(part->base);
       appendMangled(out_, string(field.name));
       out_ += "->";
       return;
@@ -174,15 +180,16 @@ void BodyWriter::member(ExprId base) {
 ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
   addend = 0;
   const Expr& e = expr(id);
-  if (e.kind != ExprKind::Binary || (e.op != Op::Add && e.op != Op::Sub) || e.checks != 0) return id;
+  if (e.kind != ExprKind::Binary || e.checks != 0) return id;
+  auto [variable, constant, op] = e.as<ir::BinaryExpr>();
+  if (op != Op::Add && op != Op::Sub) return id;
   const TypeKind kind = types_.plainKind(e.type);
   const uint32_t width = widthOf(kind);
   if (width < 8 || width > 32 || TypeTable::isReal(kind)) return id;
-  ExprId variable{e.a}, constant{e.b};
-  if (e.op == Op::Add && expr(variable).kind == ExprKind::Const) std::swap(variable, constant);
+  if (op == Op::Add && expr(variable).kind == ExprKind::Const) std::swap(variable, constant);
   if (expr(constant).kind != ExprKind::Const) return id;
-  int64_t c = static_cast<int64_t>(expr(constant).bits());
-  if (e.op == Op::Sub) c = -c;
+  int64_t c = static_cast<int64_t>(ir::bitsOf(expr(constant)));
+  if (op == Op::Sub) c = -c;
   constexpr int64_t kMax = int64_t{1} << 31;
   if (c <= -kMax || c >= kMax) return id;
   const bool is_signed = types_.isSigned(kind);
@@ -199,7 +206,7 @@ ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, i
 void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const Expr& whole = expr(id);
   if (whole.kind == ExprKind::Const) {
-    appendSigned(out_, static_cast<int64_t>(whole.bits()) - dimension.low);
+    appendSigned(out_, static_cast<int64_t>(ir::bitsOf(whole)) - dimension.low);
     return;
   }
   int64_t addend;
@@ -238,30 +245,41 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
 
 // ---- the process image
 
+// An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
+void BodyWriter::area(uint32_t index) {
+  std::string name = "area";
+  name += module_.areas[index].letter;
+  if ((areas_declared_ >> index & 1) == 0) {
+    areas_declared_ |= 1u << index;
+    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
+    appendUnsigned(declarations_, index);
+    declarations_ += "];";
+  }
+  out_ += name;
+}
+
 void BodyWriter::imageAddress(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Image) {
-    out_ += "ctx->image[";
-    appendUnsigned(out_, e.a);
-    out_ += ']';
-    if (e.b != 0) {
+  if (const auto* image = e.tryAs<ir::ImageExpr>()) {
+    area(image->area);
+    if (image->byte != 0) {
       out_ += " + ";
-      appendUnsigned(out_, e.b);
+      appendUnsigned(out_, image->byte);
     }
     return;
   }
-  const ExprId base{e.a};
-  imageAddress(base);
-  const TypeInfo& info = types_.info(types_.resolve(expr(base).type));
-  if (e.kind == ExprKind::Field) {
+  imageAddress(ir::baseOf(e));
+  if (const auto* field = e.tryAs<ir::FieldExpr>()) {
     out_ += " + ";
-    appendUnsigned(out_, info.fields[e.b].offset);
+    appendUnsigned(out_, fieldOf(*field).offset);
     return;
   }
+  const ir::IndexExpr& node = e.as<ir::IndexExpr>();
+  const TypeInfo& info = types_.info(types_.resolve(expr(node.base).type));
   uint64_t size = types_.info(types_.resolve(e.type)).size;
-  for (uint32_t i = e.c; i-- > 0;) {  // row-major: the last index is the fastest
+  for (uint32_t i = node.indices.count; i-- > 0;) {  // row-major: the last index is the fastest
     out_ += " + (";
-    indexValue(body_->operands[e.b + i], info.dimensions[i]);
+    indexValue(body_->list(node.indices)[i], info.dimensions[i]);
     out_ += ") * ";
     appendUnsigned(out_, size);
     size *= info.dimensions[i].count();
@@ -270,16 +288,16 @@ void BodyWriter::imageAddress(ExprId id) {
 
 void BodyWriter::imageLoad(ExprId id, const Expr& e) {
   const TypeKind kind = types_.plainKind(e.type);
-  if (e.kind == ExprKind::Bits) {
-    const TypeKind whole = kindOf(ExprId{e.a});
-    const uint32_t width = widthOf(kind), shift = e.b * width;
+  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
+    const TypeKind whole = kindOf(bits->base);
+    const uint32_t width = widthOf(kind), shift = bits->position * width;
     const bool is_signed = types_.isSigned(whole);
     out_ += kind == TypeKind::Bool ? "(" : width == 8 ? "(uint8_t)(" : width == 16 ? "(uint16_t)(" : "(uint32_t)(";
     if (is_signed) {
       const uint32_t from = widthOf(whole);
       out_ += from == 8 ? "(uint8_t)" : from == 16 ? "(uint16_t)" : from == 32 ? "(uint32_t)" : "(uint64_t)";
     }
-    value(ExprId{e.a}, Prec::Unary);
+    value(bits->base, Prec::Unary);
     if (shift != 0) {
       out_ += " >> ";
       appendUnsigned(out_, shift);
@@ -291,13 +309,14 @@ void BodyWriter::imageLoad(ExprId id, const Expr& e) {
     place(id);
     return;
   }
-  if (e.kind == ExprKind::Image && e.c != ir::kNoBit) {
-    out_ += "(ctx->image[";
-    appendUnsigned(out_, e.a);
-    out_ += "][";
-    appendUnsigned(out_, e.b);
+  if (ir::isImageBit(e)) {
+    const ir::ImageExpr& image = e.as<ir::ImageExpr>();
+    out_ += '(';
+    area(image.area);
+    out_ += '[';
+    appendUnsigned(out_, image.byte);
     out_ += "] >> ";
-    appendUnsigned(out_, e.c);
+    appendUnsigned(out_, image.bit);
     out_ += " & 1)";
     return;
   }
@@ -336,9 +355,8 @@ void BodyWriter::store(ExprId to, std::string_view value_code) {
   }
   const TypeKind kind = types_.plainKind(e.type);
   if (e.kind == ExprKind::Bits) {
-    const ExprId base{e.a};
-    const TypeKind whole = kindOf(base);
-    const uint32_t from = widthOf(whole), width = widthOf(kind), shift = e.b * width;
+    const ExprId base = e.as<ir::BitsExpr>().base;
+    const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = e.as<ir::BitsExpr>().position * width;
     const std::string type = from == 64 ? "uint64_t" : "uint32_t";
     const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
     const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
@@ -358,11 +376,11 @@ void BodyWriter::store(ExprId to, std::string_view value_code) {
     store(base, changed);
     return;
   }
-  if (e.kind == ExprKind::Image && e.c != ir::kNoBit) {
+  if (ir::isImageBit(e)) {
     out_ += "rung_put_bit(";
     imageAddress(to);
     out_ += ", ";
-    appendUnsigned(out_, e.c);
+    appendUnsigned(out_, e.as<ir::ImageExpr>().bit);
     out_ += ", ";
     out_ += value_code;
     out_ += ')';
@@ -400,7 +418,6 @@ void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId opera
     out_ += name;
     return;
   }
-  const Expr& e = expr(operand);
   if (isString(parameter.type)) {
     if (parameter.kind == ir::LocalKind::Input) {
       stringValue(operand);
@@ -409,8 +426,8 @@ void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId opera
     }
     return;
   }
-  if (e.kind == ExprKind::Local && body_->locals[e.a].by_reference) {
-    variable(out_, body_->locals[e.a]);
+  if (const uint32_t* local = ir::localOf(expr(operand)); local != nullptr && body_->locals[*local].by_reference) {
+    variable(out_, body_->locals[*local]);
     return;
   }
   out_ += '&';

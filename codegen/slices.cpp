@@ -32,18 +32,18 @@ bool BodyWriter::isSliceSource(ExprId id) {
   const Variable* of = stringVariable(id);
   if (of == nullptr || of->slice) return of != nullptr;
   if (of->written || of->exposed) return false;
-  if (e.kind == ExprKind::Local) return body_->locals[e.a].kind == LocalKind::Input;
-  const TypeId record = types_.resolve(body_->self);
-  return !facts_.isExposed(record, e.b) && !types_.info(record).fields[e.b].by_reference;
+  if (const uint32_t* local = ir::localOf(e)) return body_->locals[*local].kind == LocalKind::Input;
+  const ir::FieldExpr& field = e.as<ir::FieldExpr>();
+  return !facts_.isExposed(types_.resolve(body_->self), field.field) && !fieldOf(field).by_reference;
 }
 
 // ---- choosing the strings
 
-void BodyWriter::noteSlice(const Stmt& stmt, uint32_t weight) {
-  Variable* of = stmt.e != 0 ? stringVariable(ExprId{stmt.e}) : nullptr;
+void BodyWriter::noteSlice(ExprId result, uint32_t weight) {
+  Variable* of = result ? stringVariable(result) : nullptr;
   if (of == nullptr) return;
   // A string of the instance is written back at the exits: that pays in loops only.
-  if (weight > 1 || expr(ExprId{stmt.e}).kind == ExprKind::Local) of->sliced = has_slices_ = true;
+  if (weight > 1 || expr(result).kind == ExprKind::Local) of->sliced = has_slices_ = true;
 }
 
 // Starts with all candidates and drops those that break a condition.
@@ -79,7 +79,7 @@ void BodyWriter::judgeWrite(ExprId place, bool makes_slice) {
     if (!makes_slice && slicedString(place) != nullptr) refuseSlice(place);
     setKnown(place);
   } else {
-    ir::forEachSlot(*body_, expr(place), [&](const uint32_t& slot) { judgeRead(ExprId{slot}, false); });
+    ir::forEachOperand(*body_, expr(place), [&](ExprId operand) { judgeRead(operand, false); });
   }
 }
 
@@ -90,37 +90,38 @@ void BodyWriter::judgeRead(ExprId id, bool is_sized) {
     if (!is_sized || !of->known) refuseSlice(id);
     return;
   }
-  bool reads_sized =
-      e.kind == ExprKind::Call && !isString(e.type) && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {});
-  if (e.kind == ExprKind::Binary) reads_sized = isSizedComparison(e);
-  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { judgeRead(ExprId{slot}, reads_sized); });
+  bool reads_sized = false;
+  if (const auto* call = e.tryAs<ir::CallExpr>())
+    reads_sized = !isString(e.type) && isSizedCall(module_.body(call->callee), call->operands, {});
+  if (const auto* comparison = e.tryAs<ir::BinaryExpr>()) reads_sized = isSizedComparison(*comparison);
+  ir::forEachOperand(*body_, e, [&](ExprId operand) { judgeRead(operand, reads_sized); });
 }
 
 void BodyWriter::judgeBlock(StmtId first) {
   const size_t mark = known_.size();
   for (StmtId id = first; id; id = body_->stmt(id).next) {
     const Stmt& stmt = body_->stmt(id);
-    if (stmt.kind == StmtKind::Assign) {
-      const ExprId to{stmt.a}, from = uncut(ExprId{stmt.b});
+    if (const auto* assign = stmt.tryAs<ir::AssignStmt>()) {
+      const ExprId to = assign->place, from = uncut(assign->value);
       judgeRead(from, isString(expr(to).type) && !isWide(expr(to).type));
       judgeWrite(to, isSliceSource(from));
-    } else if (stmt.kind == StmtKind::Call) {
-      const Body& callee = module_.body(ir::BodyId{stmt.a});
-      const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
-      if (stmt.b != 0) judgeRead(ExprId{stmt.b}, false);
-      for (uint32_t i = 0; i < stmt.d; ++i) {
-        if (const ExprId operand = body_->operands[stmt.c + i]) judgeRead(operand, is_sized);
+    } else if (const auto* call = stmt.tryAs<ir::CallStmt>()) {
+      const Body& callee = module_.body(call->callee);
+      const std::span<const ExprId> operands = body_->list(call->operands);
+      const bool is_sized = !call->self && isSizedCall(callee, call->operands, call->result);
+      if (call->self) judgeRead(call->self, false);
+      for (const ExprId operand : operands) {
+        if (operand) judgeRead(operand, is_sized);
       }
-      if (stmt.e != 0) {
-        const bool makes_slice = is_sized && callee.slice && isSliceSource(body_->operands[stmt.c]);
-        judgeWrite(ExprId{stmt.e}, makes_slice);
-        if (makes_slice && slicedString(body_->operands[stmt.c]) != nullptr)
-          stringVariable(ExprId{stmt.e})->taken_apart = true;
+      if (call->result) {
+        const bool makes_slice = is_sized && callee.slice && isSliceSource(operands[0]);
+        judgeWrite(call->result, makes_slice);
+        if (makes_slice && slicedString(operands[0]) != nullptr) stringVariable(call->result)->taken_apart = true;
       }
     } else {
-      ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { judgeRead(ExprId{slot}, false); });
+      ir::forEachRoot(module_, *body_, stmt, [&](ExprId root, ir::Use) { judgeRead(root, false); });
     }
-    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { judgeBlock(StmtId{block}); });
+    ir::forEachBlock(*body_, stmt, [&](StmtId block) { judgeBlock(block); });
   }
   forgetLengths(mark);
 }
@@ -134,7 +135,7 @@ void BodyWriter::sliceName(ExprId id) {
 
 void BodyWriter::assignSlice(ExprId to, ExprId from) {
   uint32_t capacity = capacityOf(expr(to).type);
-  for (ExprId cut = from; cut != uncut(from); cut = ExprId{expr(cut).a})
+  for (ExprId cut = from; cut != uncut(from); cut = expr(cut).as<ir::ConvertExpr>().operand)
     capacity = std::min(capacity, capacityOf(expr(cut).type));
   from = uncut(from);
   sliceName(to);

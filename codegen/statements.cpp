@@ -103,12 +103,12 @@ void BodyWriter::block(StmtId first) {
 }
 
 void BodyWriter::statement(StmtId id, const Stmt& stmt) {
-  if (stmt.kind == StmtKind::Call && facts_.is_zeroing[stmt.a] != 0) {
+  if (const auto* call = stmt.tryAs<ir::CallStmt>(); call != nullptr && facts_.is_zeroing[call->callee.index] != 0) {
     // An initialiser begins by clearing the whole record.
-    if (body_->kind == ir::BodyKind::Init && expr(ir::rootOf(*body_, ExprId{stmt.b})).kind == ExprKind::Self) return;
+    if (body_->kind == ir::BodyKind::Init && expr(ir::rootOf(*body_, call->self)).kind == ExprKind::Self) return;
     begin(stmt.loc);
-    prepare(ExprId{stmt.b});
-    const std::string name = captured([&] { place(ExprId{stmt.b}); });
+    prepare(call->self);
+    const std::string name = captured([&] { place(call->self); });
     out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
     return;
   }
@@ -116,51 +116,52 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
   measure(stmt);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
-    case StmtKind::Assign: assign(stmt); return;
-    case StmtKind::Bind: {
-      prepareChildren(expr(ExprId{stmt.a}));  // the field itself holds no variable yet
-      if (stmt.b != 0) prepare(ExprId{stmt.b});
-      const Expr& field = expr(ExprId{stmt.a});
-      member(ExprId{field.a});
-      const types::Field& info = types_.info(types_.resolve(expr(ExprId{field.a}).type)).fields[field.b];
-      appendMangled(out_, string(info.name));
-      out_ += " = ";
-      if (stmt.b == 0) {
-        out_ += "nullptr";
-      } else if (isString(info.type)) {
-        place(ExprId{stmt.b});
-      } else {
-        // The variable may have another type with the same memory.
-        out_ += '(';
-        appendPointer(out_, types_, info.type, "");
-        out_ += ")&";
-        place(ExprId{stmt.b});
-      }
-      out_ += ';';
-      return;
-    }
-    case StmtKind::Call: callStatement(stmt); return;
-    case StmtKind::If: ifStatement(stmt); return;
-    case StmtKind::Switch: switchStatement(stmt); return;
-    case StmtKind::Loop: loopStatement(id, stmt); return;
-    case StmtKind::For: forStatement(id, stmt); return;
+    case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return;
+    case StmtKind::Bind: bindStatement(stmt.as<ir::BindStmt>()); return;
+    case StmtKind::Call: callStatement(stmt.as<ir::CallStmt>(), stmt.loc); return;
+    case StmtKind::If: ifStatement(stmt.as<ir::IfStmt>()); return;
+    case StmtKind::Switch: switchStatement(stmt.as<ir::SwitchStmt>()); return;
+    case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>()); return;
+    case StmtKind::For: forStatement(id, stmt.as<ir::ForStmt>()); return;
     case StmtKind::Break: breakLoop(); return;
     case StmtKind::Continue: continueLoop(); return;
     case StmtKind::Return: leave(); return;
     case StmtKind::Jump:
       out_ += "goto ";
-      appendMangled(out_, string(body_->labels[stmt.a]));
+      appendMangled(out_, string(body_->labels[stmt.as<ir::JumpStmt>().label]));
       out_ += ';';
       return;
     case StmtKind::Label:
-      appendMangled(out_, string(body_->labels[stmt.a]));
+      appendMangled(out_, string(body_->labels[stmt.as<ir::LabelStmt>().label]));
       out_ += ":;";
       return;
-    case StmtKind::Try: tryStatement(stmt); return;
-    case StmtKind::Fault: faultStatement(stmt); return;
+    case StmtKind::Try: tryStatement(stmt.as<ir::TryStmt>()); return;
+    case StmtKind::Fault: faultStatement(stmt.as<ir::FaultStmt>(), stmt.loc); return;
     case StmtKind::Assert: assertStatement(stmt); return;
-    case StmtKind::Evaluate: prepare(ExprId{stmt.a}); return;
+    case StmtKind::Evaluate: prepare(stmt.as<ir::EvaluateStmt>().value); return;
   }
+}
+
+void BodyWriter::bindStatement(const ir::BindStmt& stmt) {
+  prepareChildren(expr(stmt.field));  // the field itself holds no variable yet
+  if (stmt.place) prepare(stmt.place);
+  const ir::FieldExpr& field = expr(stmt.field).as<ir::FieldExpr>();
+  member(field.base);
+  const types::Field& info = fieldOf(field);
+  appendMangled(out_, string(info.name));
+  out_ += " = ";
+  if (!stmt.place) {
+    out_ += "nullptr";
+  } else if (isString(info.type)) {
+    place(stmt.place);
+  } else {
+    // The variable may have another type with the same memory.
+    out_ += '(';
+    appendPointer(out_, types_, info.type, "");
+    out_ += ")&";
+    place(stmt.place);
+  }
+  out_ += ';';
 }
 
 // `return`, after the locals are written back; in the frame of a try the frame's caller does that.
@@ -192,38 +193,38 @@ bool BodyWriter::endsInJump(StmtId first) const {
 }
 
 // Without braces: every variable is declared at the top, so jumps cross no initialisation.
-void BodyWriter::deepIf(const Stmt& stmt) {
+void BodyWriter::deepIf(const ir::IfStmt& stmt) {
   const std::string otherwise = newName("else"), end = newName("end");
-  prepare(ExprId{stmt.a});
+  prepare(stmt.condition);
   out_ += "if (!";
-  condition(ExprId{stmt.a}, Prec::Unary);
+  condition(stmt.condition, Prec::Unary);
   out_ += ") goto " + otherwise + ";";
-  block(StmtId{stmt.b});
+  block(stmt.then_block);
   flushCloses(0);
-  if (stmt.c != 0) out_ += " goto " + end + ";";
+  if (stmt.else_block) out_ += " goto " + end + ";";
   out_ += " " + otherwise + ":;";
-  if (stmt.c == 0) return;
-  block(StmtId{stmt.c});
+  if (!stmt.else_block) return;
+  block(stmt.else_block);
   flushCloses(0);
   out_ += " " + end + ":;";
 }
 
-void BodyWriter::ifStatement(const Stmt& stmt) {
-  const Stmt* at = &stmt;
+void BodyWriter::ifStatement(const ir::IfStmt& stmt) {
+  const ir::IfStmt* at = &stmt;
   for (;;) {
     if (depth_ > kDeepestBraces) {
       deepIf(*at);
       return;
     }
-    prepare(ExprId{at->a});
+    prepare(at->condition);
     out_ += "if (";
-    condition(ExprId{at->a}, Prec::Comma);
+    condition(at->condition, Prec::Comma);
     out_ += ')';
     open();
-    block(StmtId{at->b});
+    block(at->then_block);
     close();
-    if (at->c == 0) return;
-    const Stmt& other = body_->stmt(StmtId{at->c});
+    if (!at->else_block) return;
+    const Stmt& other = body_->stmt(at->else_block);
     // A brace gets its own line where the source leaves room for it.
     const Position next = options_.line_directives ? positionOf(module_, *body_, other.loc) : Position{};
     uint32_t room = kAnyLines;
@@ -233,11 +234,10 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     }
     flushCloses(room);
     out_ += " else";
-    const bool is_chain = other.kind == StmtKind::If && !other.next && !needsPreparation(ExprId{other.a}) &&
-                          !needsMeasuring(ExprId{other.a});
-    if (!is_chain) {
+    const auto* chained = other.next ? nullptr : other.tryAs<ir::IfStmt>();
+    if (chained == nullptr || needsPreparation(chained->condition) || needsMeasuring(chained->condition)) {
       open();
-      block(StmtId{at->c});
+      block(at->else_block);
       close();
       return;
     }
@@ -248,17 +248,17 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     } else {
       out_ += ' ';
     }
-    at = &other;
+    at = chained;
   }
 }
 
-void BodyWriter::switchStatement(const Stmt& stmt) {
-  prepare(ExprId{stmt.a});
-  const TypeKind kind = kindOf(ExprId{stmt.a});
+void BodyWriter::switchStatement(const ir::SwitchStmt& stmt) {
+  prepare(stmt.selector);
+  const TypeKind kind = kindOf(stmt.selector);
   const bool is_unsigned = !types_.isSigned(kind);
   out_ += "switch (";
   if (kind == TypeKind::Bool) out_ += "(int)";
-  value(ExprId{stmt.a}, kind == TypeKind::Bool ? Prec::Unary : Prec::Comma);
+  value(stmt.selector, kind == TypeKind::Bool ? Prec::Unary : Prec::Comma);
   out_ += ')';
   open();
   const bool had_loop = !loops_.empty();
@@ -272,12 +272,10 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
   const uint64_t flip = is_unsigned ? 0 : uint64_t{1} << 63;
   std::vector<Range> taken;
   std::vector<Range> rest;
-  auto label = [&](uint64_t bits) { appendConstant(out_, types_, expr(ExprId{stmt.a}).type, bits); };
-  for (uint32_t i = 0; i < stmt.c; ++i) {
-    const ir::Case& one = body_->cases[stmt.b + i];
+  auto label = [&](uint64_t bits) { appendConstant(out_, types_, expr(stmt.selector).type, bits); };
+  for (const ir::Case& one : body_->list(stmt.cases)) {
     rest.clear();
-    for (uint32_t r = 0; r < one.range_count; ++r) {
-      const ir::CaseRange& range = body_->ranges[one.first_range + r];
+    for (const ir::CaseRange& range : body_->list(one.ranges)) {
       std::vector<Range> parts{{static_cast<uint64_t>(range.low) ^ flip, static_cast<uint64_t>(range.high) ^ flip}};
       // `taken` is sorted and disjoint.
       auto from = std::lower_bound(taken.begin(), taken.end(), parts[0].low,
@@ -324,12 +322,12 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
     }
     close();
   }
-  if (stmt.d != 0) {
-    begin(body_->stmt(StmtId{stmt.d}).loc);
+  if (stmt.else_block) {
+    begin(body_->stmt(stmt.else_block).loc);
     out_ += "default: {";
     ++depth_;
-    block(StmtId{stmt.d});
-    if (!endsInJump(StmtId{stmt.d})) {
+    block(stmt.else_block);
+    if (!endsInJump(stmt.else_block)) {
       flushCloses(0);
       out_ += " break;";
     }
@@ -339,46 +337,45 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
   if (had_loop) loops_.back().in_switch = was_in_switch;
 }
 
-void BodyWriter::callStatement(const Stmt& stmt) {
-  const ir::BodyId callee_id{stmt.a};
+void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
+  const ir::BodyId callee_id = stmt.callee;
+  const ExprId to = stmt.result;
   const Body& callee = module_.body(callee_id);
-  if (stmt.b != 0) prepare(ExprId{stmt.b});
-  for (uint32_t i = 0; i < stmt.d; ++i) {
-    if (const ExprId operand = body_->operands[stmt.c + i]) prepare(operand);
+  const std::span<const ExprId> operands = body_->list(stmt.operands);
+  if (stmt.self) prepare(stmt.self);
+  for (const ExprId operand : operands) {
+    if (operand) prepare(operand);
   }
-  if (stmt.e != 0) prepare(ExprId{stmt.e});
-  const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
-  const bool is_virtual = (stmt.op & ir::kVirtual) != 0;
-  if (is_virtual) {
+  if (to) prepare(to);
+  const bool is_sized = !stmt.self && isSizedCall(callee, stmt.operands, to);
+  if (stmt.is_virtual) {
     if (std::find(group_.virtuals.begin(), group_.virtuals.end(), callee_id) == group_.virtuals.end())
       group_.virtuals.push_back(callee_id);
-    if ((stmt.op & ir::kChecked) != 0) classCheck(stmt);
+    if (stmt.is_checked) classCheck(stmt, loc);
   } else if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) {
     call(callee_id);
   }
 
-  if (is_sized && stmt.e != 0 && slicedString(ExprId{stmt.e}) != nullptr) {
-    sliceName(ExprId{stmt.e});
+  if (is_sized && to && slicedString(to) != nullptr) {
+    sliceName(to);
     out_ += " = ";
-    sizedCall(callee, stmt.c, stmt.d, "slice");
+    sizedCall(callee, stmt.operands, "slice");
     out_ += ", ";
-    appendUnsigned(out_, capacityOf(expr(ExprId{stmt.e}).type));
+    appendUnsigned(out_, capacityOf(expr(to).type));
     out_ += ", &";
-    lengthName(ExprId{stmt.e});
+    lengthName(to);
     out_ += ");";
     return;
   }
 
   // A string whose length lives in a local: the call returns the length, or it is counted.
-  const std::string length =
-      stmt.e != 0 && measuredString(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";
+  const std::string length = to && measuredString(to) != nullptr ? captured([&] { lengthName(to); }) : "";
   std::string before, after;  // parameters that are not variables in memory: bits, views of the image
   const std::string arguments = captured([&] {
     uint32_t i = 0;
-    for (const ir::Local& parameter : callee.locals) {
-      if (!isParameter(parameter)) continue;
-      if (i >= stmt.d) break;
-      const ExprId operand = body_->operands[stmt.c + i++];
+    for (const ir::Local& parameter : ir::parameters(callee)) {
+      if (i >= operands.size()) break;
+      const ExprId operand = operands[i++];
       out_ += ", ";
       if (parameter.by_reference && operand && ir::isPlace(expr(operand).kind) && !isLvalue(operand)) {
         const std::string copy = newVariable(parameter.type, "v");
@@ -405,24 +402,22 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   std::string result, copy;
   const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
   if (by_reference) {
-    const bool has_place = stmt.e != 0;
-    const TypeId place_type = has_place ? expr(ExprId{stmt.e}).type : callee.result;
-    bool direct = has_place && isLvalue(ExprId{stmt.e});
+    const TypeId place_type = to ? expr(to).type : callee.result;
+    bool direct = to && isLvalue(to);
     if (direct && !callee.native) {
-      const Expr& root = expr(ir::rootOf(*body_, ExprId{stmt.e}));
-      direct = root.kind == ExprKind::Local && !body_->locals[root.a].by_reference;
-      for (uint32_t i = 0; direct && i < stmt.d; ++i) {
-        const ExprId operand = body_->operands[stmt.c + i];
-        if (!operand || !ir::isPlace(expr(operand).kind)) continue;
-        const Expr& other = expr(ir::rootOf(*body_, operand));
-        direct = !(other.kind == ExprKind::Local && other.a == root.a);
+      const uint32_t* root = ir::localOf(expr(ir::rootOf(*body_, to)));
+      direct = root != nullptr && !body_->locals[*root].by_reference;
+      for (const ExprId operand : operands) {
+        if (!direct || !operand || !ir::isPlace(expr(operand).kind)) continue;
+        const uint32_t* other = ir::localOf(expr(ir::rootOf(*body_, operand)));
+        direct = other == nullptr || *other != *root;
       }
       if (isString(callee.result) && capacityOf(place_type) < capacityOf(callee.result)) direct = false;
     }
     if (isString(callee.result) && isWide(place_type) != isWide(callee.result)) direct = false;
     uint32_t capacity = 0;
     if (direct) {
-      result = captured([&] { place(ExprId{stmt.e}); });
+      result = captured([&] { place(to); });
       if (isString(callee.result)) capacity = capacityOf(place_type);
     } else {
       result = copy = newVariable(callee.result, "v");
@@ -437,7 +432,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
   const std::string function = captured([&] {
     if (is_sized) {
-      sizedCall(callee, stmt.c, stmt.d);
+      sizedCall(callee, stmt.operands);
       if (by_reference) {
         out_ += ", ";
         out_ += result;
@@ -448,20 +443,20 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     if (callee.native) {
       out_ += ir::nativeName(module_, callee);
       out_ += "(ctx";
-      if (stmt.b != 0) {
+      if (stmt.self) {
         out_ += ", &";
-        place(ExprId{stmt.b});
+        place(stmt.self);
       }
     } else {
-      if (is_virtual) {
+      if (stmt.is_virtual) {
         out_ += methodName(module_, callee_id, "table") + '[' + indexOfMethod(stmt) + ']';
       } else {
         appendFunctionName(out_, module_, callee);
       }
       out_ += '(';
-      if (stmt.b != 0) {
+      if (stmt.self) {
         if (isMethod(callee)) out_ += '&';
-        place(ExprId{stmt.b});
+        place(stmt.self);
         out_ += ", ";
       }
       out_ += "ctx";
@@ -473,41 +468,41 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     }
     out_ += ')';
   });
-  if (callee.result && !by_reference && stmt.e != 0) {
-    store(ExprId{stmt.e}, function);
+  if (callee.result && !by_reference && to) {
+    store(to, function);
     out_ += ';';
   } else {
     if (callee.native && copy.empty() && !length.empty()) out_ += length + " = ";
     out_ += function;
     out_ += ';';
   }
-  if (!copy.empty() && stmt.e != 0) {
+  if (!copy.empty() && to) {
     out_ += ' ';
-    const TypeId to = expr(ExprId{stmt.e}).type;
-    if (isString(to)) {
-      const bool wide = isWide(to), from_wide = isWide(callee.result);
+    const TypeId type = expr(to).type;
+    if (isString(type)) {
+      const bool wide = isWide(type), from_wide = isWide(callee.result);
       if (!length.empty()) out_ += length + " = ";
-      out_ += wide == from_wide ? (wide         ? "rung_wstring_assign("
-                                   : isUtf8(to) ? "rung_ustring_assign("
-                                                : "rung_string_assign(")
+      out_ += wide == from_wide ? (wide           ? "rung_wstring_assign("
+                                   : isUtf8(type) ? "rung_ustring_assign("
+                                                  : "rung_string_assign(")
                                 : (wide ? "rung_wstring_of_string(" : "rung_string_of_wstring(");
-      place(ExprId{stmt.e});
+      place(to);
       out_ += ", ";
-      appendUnsigned(out_, capacityOf(to));
+      appendUnsigned(out_, capacityOf(type));
       out_ += ", " + copy + ");";
     } else {
       out_ += "memcpy(&";
-      place(ExprId{stmt.e});
+      place(to);
       out_ += ", &" + copy + ", sizeof " + copy + ");";
     }
   }
   if (!length.empty()) {
     if (!callee.native && copy.empty()) {
       out_ += ' ' + length + " = rung_string_length(";
-      place(ExprId{stmt.e});
+      place(to);
       out_ += ");";
     }
-    setKnown(ExprId{stmt.e});
+    setKnown(to);
   }
   out_ += after;
 }
@@ -515,31 +510,29 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 // ---- faults and tests
 
 // The row of a dispatch table for the object's class.
-std::string BodyWriter::indexOfMethod(const Stmt& stmt) {
-  return "rung_class_of(&" + captured([&] { place(ExprId{stmt.b}); }) + ") - " +
-         methodName(module_, ir::BodyId{stmt.a}, "first");
+std::string BodyWriter::indexOfMethod(const ir::CallStmt& stmt) {
+  return "rung_class_of(&" + captured([&] { place(stmt.self); }) + ") - " + methodName(module_, stmt.callee, "first");
 }
 
 // In front of a virtual call: a pointer bound by mistake has the number of no class, or of an unrelated one.
-void BodyWriter::classCheck(const Stmt& stmt) {
-  const ir::BodyId method{stmt.a};
+void BodyWriter::classCheck(const ir::CallStmt& stmt, Loc loc) {
+  const ir::BodyId method = stmt.callee;
   const std::string index = indexOfMethod(stmt);
   beginCheck();
   out_ += index + " >= " + methodName(module_, method, "count") + " || " + methodName(module_, method, "table") + '[' +
           index + "] == nullptr";
-  endCheck(stmt.loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
+  endCheck(loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
 }
 
-void BodyWriter::faultStatement(const Stmt& stmt) {
-  if (stmt.a != 0) prepare(ExprId{stmt.a});
-  const auto fault = static_cast<Fault>(stmt.op);
+void BodyWriter::faultStatement(const ir::FaultStmt& stmt, Loc loc) {
+  if (stmt.value) prepare(stmt.value);
   out_ += "at = ";
   // The bounds of an ARRAY[*] are not known here: low above high marks that.
-  appendUnsigned(out_, fault == Fault::Index ? site(stmt.loc, fault, 1, 0) : site(stmt.loc, fault));
+  appendUnsigned(out_, stmt.fault == Fault::Index ? site(loc, stmt.fault, 1, 0) : site(loc, stmt.fault));
   out_ += "; value = ";
-  if (stmt.a != 0) {
+  if (stmt.value) {
     out_ += "(int64_t)";
-    value(ExprId{stmt.a}, Prec::Unary);
+    value(stmt.value, Prec::Unary);
   } else {
     out_ += '0';
   }
@@ -568,29 +561,29 @@ void BodyWriter::guarded(const std::string& frame, const std::string& fault, Stm
   loops_ = std::move(outer_loops);
 }
 
-void BodyWriter::tryStatement(const Stmt& stmt) {
+void BodyWriter::tryStatement(const ir::TryStmt& stmt) {
   const std::string exit = newName("x"), fault = newName("k");
   declarations_ += " uint32_t " + exit + " = 0; uint8_t " + fault + " = 0;";
   frames_.push_back({});
   frames_.back().exit = exit;
   out_ += exit + " = 0; ";
-  guarded(newName("f"), fault, StmtId{stmt.a});
-  if (stmt.op != 0) {
+  guarded(newName("f"), fault, stmt.body_block);
+  if (stmt.catches) {
     TryFrame frame = frames_.back();
-    const bool has_finally = stmt.c != 0;
+    const bool has_finally = static_cast<bool>(stmt.finally_block);
     if (!has_finally) frames_.pop_back();
     out_ += " if (" + fault + " != 0)";
     open();
-    if (stmt.d != 0) {
+    if (stmt.number) {
       out_ += ' ';
-      store(ExprId{stmt.d}, fault);
+      store(stmt.number, fault);
       out_ += ';';
     }
     if (has_finally) {
       out_ += ' ';
-      guarded(newName("f"), fault, StmtId{stmt.b});
+      guarded(newName("f"), fault, stmt.catch_block);
     } else {
-      block(StmtId{stmt.b});
+      block(stmt.catch_block);
     }
     close();
     flushCloses(0);
@@ -598,14 +591,14 @@ void BodyWriter::tryStatement(const Stmt& stmt) {
   }
   const TryFrame frame = frames_.back();
   frames_.pop_back();
-  if (stmt.c != 0) {
+  if (stmt.finally_block) {
     out_ += " {";
     ++depth_;
-    block(StmtId{stmt.c});
+    block(stmt.finally_block);
     close();
     flushCloses(0);
   }
-  if (stmt.op == 0 || stmt.c != 0) {
+  if (!stmt.catches || stmt.finally_block) {
     out_ += " if (" + fault + " != 0) rung_raise(ctx, ctx->fault.kind, ctx->fault.site, ctx->fault.value);";
   }
   if (frame.returns) {
@@ -626,8 +619,10 @@ void BodyWriter::tryStatement(const Stmt& stmt) {
 }
 
 void BodyWriter::assertStatement(const Stmt& stmt) {
-  for (uint32_t slot : {stmt.a, stmt.b, stmt.c}) {
-    if (slot != 0) prepare(ExprId{slot});
+  const ir::AssertStmt& node = stmt.as<ir::AssertStmt>();
+  const ExprId first = node.first, second = node.second, third = node.third;
+  for (const ExprId operand : {first, second, third}) {
+    if (operand) prepare(operand);
   }
   const ir::AssertionReport report = ir::assertionReport(module_, *body_, stmt);
   const auto quotedOrNull = [&](std::string_view string) {
@@ -662,8 +657,7 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
     out_ += "(uint64_t)(uintptr_t)";
     stringValue(id);
   };
-  const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
-  switch (static_cast<ir::Assertion>(stmt.op)) {
+  switch (node.assertion) {
     case ir::Assertion::Assert:
       out_ += second ? "rung_assert_compared(ctx, &assertion, " : "rung_assert(ctx, &assertion, ";
       condition(first, Prec::Ternary);

@@ -37,8 +37,8 @@ std::string_view firstUnits(std::string_view string, uint32_t units) {
 
 }  // namespace
 
-void BodyWriter::assign(const Stmt& stmt) {
-  const ExprId to{stmt.a}, from{stmt.b};
+void BodyWriter::assign(const ir::AssignStmt& stmt) {
+  const ExprId to = stmt.place, from = stmt.value;
   const TypeId type = expr(to).type;
   const Expr& source = expr(from);
   if (isString(type)) {
@@ -70,9 +70,9 @@ void BodyWriter::assign(const Stmt& stmt) {
     out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
     return;
   }
-  if (source.kind == ExprKind::Data) {
+  if (const auto* data = source.tryAs<ir::DataExpr>()) {
     out_ += "memcpy(&" + name + ", ";
-    dataReference(source.a);
+    dataReference(data->index);
     out_ += ", sizeof " + name + ");";
     return;
   }
@@ -89,7 +89,7 @@ void BodyWriter::assign(const Stmt& stmt) {
 // ---- strings
 
 uint32_t BodyWriter::literalLength(const Expr& e) const {
-  const std::string_view literal = string(NameId{e.a});
+  const std::string_view literal = string(e.as<ir::StringExpr>().characters);
   return isWide(e.type) ? wideLength(literal) : static_cast<uint32_t>(upToNul(literal).size());
 }
 
@@ -98,8 +98,8 @@ bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   capacity = capacityOf(e.type);
   if (slicedString(id) != nullptr) return false;
   switch (e.kind) {
-    case ExprKind::Local: return !body_->locals[e.a].by_reference;
-    case ExprKind::Field: return !types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].by_reference;
+    case ExprKind::Local: return !body_->locals[e.as<ir::LocalExpr>().local].by_reference;
+    case ExprKind::Field: return !fieldOf(e.as<ir::FieldExpr>()).by_reference;
     case ExprKind::Index: return true;
     case ExprKind::None:
     case ExprKind::Const:
@@ -125,7 +125,7 @@ bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
 void BodyWriter::prepareString(ExprId from) {
   const Expr& e = expr(from);
   if (e.kind == ExprKind::Convert && isString(e.type)) {
-    prepareString(ExprId{e.a});
+    prepareString(e.as<ir::ConvertExpr>().operand);
     return;
   }
   prepare(from);
@@ -140,7 +140,7 @@ void BodyWriter::materializeString(ExprId id) {
     std::string function = captured([&] { callExpr(e); });
     function.pop_back();
     out_ += function + ", " + name;
-    if (module_.body(ir::BodyId{e.a}).native) {
+    if (module_.body(e.as<ir::CallExpr>().callee).native) {
       out_ += ", ";
       appendUnsigned(out_, capacityOf(e.type));
     }
@@ -181,7 +181,7 @@ void BodyWriter::copyString(std::string_view to, uint32_t capacity, bool wide, E
       return;
     case ExprKind::String: {
       if (isWide(e.type) != wide) break;
-      std::string_view literal = upToNul(string(NameId{e.a}));
+      std::string_view literal = upToNul(string(e.as<ir::StringExpr>().characters));
       literal = wide             ? firstUnits(literal, capacity)
                 : isUtf8(e.type) ? firstWhole(literal, capacity)
                                  : literal.substr(0, capacity);
@@ -202,7 +202,7 @@ void BodyWriter::copyString(std::string_view to, uint32_t capacity, bool wide, E
       return;
     }
     case ExprKind::Convert: {
-      const ExprId inner{e.a};
+      const ExprId inner = e.as<ir::ConvertExpr>().operand;
       const uint32_t limit = std::min(capacity, capacityOf(e.type));
       if (isWide(e.type) != wide) break;
       if (isString(expr(inner).type)) {
@@ -276,15 +276,15 @@ void BodyWriter::stringValue(ExprId id) {
   switch (e.kind) {
     case ExprKind::String:
       if (wide) {
-        appendQuotedWide(out_, string(NameId{e.a}));
+        appendQuotedWide(out_, string(e.as<ir::StringExpr>().characters));
       } else {
-        appendQuoted(out_, upToNul(string(NameId{e.a})));
+        appendQuoted(out_, upToNul(string(e.as<ir::StringExpr>().characters)));
       }
       return;
     case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
     case ExprKind::Data:
       out_ += wide ? "((const char16_t*)" : "((const char*)";
-      dataReference(e.a);
+      dataReference(e.as<ir::DataExpr>().index);
       out_ += ')';
       return;
     case ExprKind::Convert:
@@ -295,22 +295,24 @@ void BodyWriter::stringValue(ExprId id) {
           return;
         }
       }
-      if (e.kind == ExprKind::Convert) stringValue(ExprId{e.a});
+      if (const auto* cut = e.tryAs<ir::ConvertExpr>()) stringValue(cut->operand);
       return;
-    case ExprKind::Select:
+    case ExprKind::Select: {
+      const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += '(';
-      condition(ExprId{e.a}, Prec::Or);
+      condition(decides, Prec::Or);
       out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
-      stringValue(ExprId{e.b});
+      stringValue(yes);
       out_ += " : ";
-      stringValue(ExprId{e.c});
+      stringValue(no);
       out_ += ')';
       return;
+    }
     case ExprKind::Binary: {  // MIN, MAX
-      const std::string a = captured([&] { stringValue(ExprId{e.a}); }),
-                        b = captured([&] { stringValue(ExprId{e.b}); });
+      const ir::BinaryExpr& node = e.as<ir::BinaryExpr>();
+      const std::string a = captured([&] { stringValue(node.left); }), b = captured([&] { stringValue(node.right); });
       out_ += wide ? "(rung_wstring_compare(" : "(strcmp(";
-      out_ += a + ", " + b + (e.op == Op::Min ? ") < 0 ? " : ") >= 0 ? ");
+      out_ += a + ", " + b + (node.op == Op::Min ? ") < 0 ? " : ") >= 0 ? ");
       out_ += wide ? "(const char16_t*)" : "(const char*)";
       out_ += a + " : " + b + ")";
       return;
@@ -343,31 +345,32 @@ void BodyWriter::stringValue(ExprId id) {
 
 ir::ExprId BodyWriter::uncut(ExprId id) const {
   for (const Expr* e = &expr(id); e->kind == ExprKind::Convert && e->checks == 0 && isString(e->type); e = &expr(id)) {
-    const TypeId inner = expr(ExprId{e->a}).type;
+    const ExprId operand = e->as<ir::ConvertExpr>().operand;
+    const TypeId inner = expr(operand).type;
     if (!isString(inner) || isWide(inner) != isWide(e->type)) break;
-    id = ExprId{e->a};
+    id = operand;
   }
   return id;
 }
 
 // True when the lengths of both sides are passed.
-bool BodyWriter::isSizedComparison(const Expr& e) const {
-  if (e.op != Op::Eq && e.op != Op::Ne) return false;
+bool BodyWriter::isSizedComparison(const ir::BinaryExpr& node) const {
+  if (node.op != Op::Eq && node.op != Op::Ne) return false;
   auto is_measured = [&](ExprId side) { return measuredString(side) != nullptr && measuredString(side)->known; };
   auto is_literal = [&](ExprId side) { return expr(side).kind == ExprKind::String; };
-  const ExprId a{e.a}, b{e.b};
+  const ExprId a = node.left, b = node.right;
   return (is_measured(a) && (is_measured(b) || is_literal(b))) || (is_literal(a) && is_measured(b));
 }
 
-void BodyWriter::compareStrings(const Expr& e, Prec context) {
-  const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
-  const char* op = e.op == Op::Eq   ? " == 0"
-                   : e.op == Op::Ne ? " != 0"
-                   : e.op == Op::Lt ? " < 0"
-                   : e.op == Op::Le ? " <= 0"
-                   : e.op == Op::Gt ? " > 0"
-                                    : " >= 0";
-  ExprId a{e.a}, b{e.b};
+void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
+  const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
+  const char* op = node.op == Op::Eq   ? " == 0"
+                   : node.op == Op::Ne ? " != 0"
+                   : node.op == Op::Lt ? " < 0"
+                   : node.op == Op::Le ? " <= 0"
+                   : node.op == Op::Gt ? " > 0"
+                                       : " >= 0";
+  ExprId a = node.left, b = node.right;
   const bool wide = isWide(expr(a).type);
   if (is_equality && expr(a).kind == ExprKind::String) std::swap(a, b);
   if (is_equality && expr(b).kind == ExprKind::String) {
@@ -386,10 +389,10 @@ void BodyWriter::compareStrings(const Expr& e, Prec context) {
         closeParenthesis(Prec::Equality, context);
         return;
       }
-      out_ += e.op == Op::Eq ? "(" : "!(";
+      out_ += node.op == Op::Eq ? "(" : "!(";
       out_ += count + " == ";
       appendUnsigned(out_, length);
-      const std::string_view literal = string(NameId{expr(b).a});
+      const std::string_view literal = string(expr(b).as<ir::StringExpr>().characters);
       if (length > capacityOf(expr(a).type)) {
         // Never equal; nothing is read outside of the string.
       } else if (length <= kComparedByUnit) {
@@ -423,8 +426,8 @@ void BodyWriter::compareStrings(const Expr& e, Prec context) {
       return;
     }
     if (!wide && length <= kComparedByUnit) {
-      const std::string_view literal = string(NameId{expr(b).a});
-      out_ += e.op == Op::Eq ? "(" : "!(";
+      const std::string_view literal = string(expr(b).as<ir::StringExpr>().characters);
+      out_ += node.op == Op::Eq ? "(" : "!(";
       for (uint32_t i = 0; i <= length; ++i) {
         if (i > 0) out_ += " && ";
         out_ += name + "[";
@@ -436,9 +439,9 @@ void BodyWriter::compareStrings(const Expr& e, Prec context) {
       return;
     }
   }
-  if (isSizedComparison(e)) {
+  if (isSizedComparison(node)) {
     const std::string count = captured([&] { lengthName(a); });
-    out_ += e.op == Op::Eq ? "(" : "!(";
+    out_ += node.op == Op::Eq ? "(" : "!(";
     out_ += count + " == ";
     lengthName(b);
     out_ += " && memcmp(";

@@ -16,10 +16,11 @@ AssertionReport assertionReport(const Module& module, const Body& body, const St
     const SourceLocation location = module.sources.location(stmt.loc);
     out.source = module.sources.line(location.file, location.line);
   }
-  if (stmt.d != 0) out.message = module.names.string(NameId{stmt.d});
-  if (stmt.e != 0) out.shown = module.names.string(NameId{stmt.e});
-  if (stmt.b == 0) return out;
-  const types::TypeInfo& type = module.types.info(module.types.resolve(body.expr(ExprId{stmt.b}).type));
+  const AssertStmt& assert_stmt = stmt.as<AssertStmt>();
+  if (assert_stmt.text) out.message = module.names.string(assert_stmt.text);
+  if (assert_stmt.shown) out.shown = module.names.string(assert_stmt.shown);
+  if (!assert_stmt.second) return out;
+  const types::TypeInfo& type = module.types.info(module.types.resolve(body.expr(assert_stmt.second).type));
   if (type.kind != types::TypeKind::Enum) return out;
   for (const auto& [name, value] : type.items) {
     out.items += module.names.string(name);

@@ -2,6 +2,7 @@
 // share. In: ids of operands already made. Out: ids in the body's pools. An expression is a tree: an id is used as
 // operand once; `copy` makes a second one. Statements are appended to the open block:
 //   Block outer = b.open();  b.assign(…);  StmtId then = b.close(outer);  b.ifElse(condition, then, {});
+// `add` and `append` make a node of any kind from its fields; the other functions find its type and its list as well.
 #pragma once
 
 #include <initializer_list>
@@ -21,7 +22,32 @@ class Builder {
   Builder(Module& module, Body& body) : module(module), body(body) {}
   Module& module;
   Body& body;
-  Loc loc;  // of what is made next
+  Loc loc;  // of what is made next, unless `add` or `append` is given another
+
+  // ---- any node
+  template <class T>
+  ExprId add(Loc at, TypeId type, const T& fields, uint8_t checks = 0) {
+    Expr expr;
+    expr.checks = checks;
+    expr.type = type;
+    expr.loc = at;
+    expr.set(fields);
+    return push(expr);
+  }
+  template <class T>
+  StmtId append(Loc at, const T& fields) {
+    Stmt stmt;
+    stmt.loc = at;
+    stmt.set(fields);
+    return push(stmt);
+  }
+  template <class T>
+  StmtId append(const T& fields) {
+    return append(loc, fields);
+  }
+  ExprId push(const Expr& expr);
+  StmtId push(const Stmt& stmt);
+  Slice<ExprId> list(std::span<const ExprId> operands);
 
   // ---- variables of the body
   uint32_t local(NameId name, TypeId type, LocalKind kind);  // by_reference follows from kind and type
@@ -75,27 +101,28 @@ class Builder {
 
   // ---- statements, appended to the open block
   StmtId assign(ExprId place, ExprId value);
-  StmtId bind(ExprId field, ExprId place) { return append(StmtKind::Bind, field.index, place.index); }
+  StmtId bind(ExprId field, ExprId place) { return append(BindStmt{field, place}); }
   StmtId callStmt(BodyId callee, ExprId self, std::span<const ExprId> operands, ExprId result = {});
   StmtId ifElse(ExprId condition, StmtId then_block, StmtId else_block = {});
   StmtId switchStmt(ExprId selector, std::span<const Case> cases, StmtId else_block = {});
   StmtId loop(StmtId body_block, StmtId next_block = {});
   StmtId forLoop(ExprId control, ExprId from, ExprId to, ExprId step, StmtId body_block);
-  StmtId breakLoop() { return append(StmtKind::Break); }
-  StmtId continueLoop() { return append(StmtKind::Continue); }
-  StmtId returnBody() { return append(StmtKind::Return); }
-  StmtId jump(uint32_t label) { return append(StmtKind::Jump, label); }
+  StmtId breakLoop() { return append(BreakStmt{}); }
+  StmtId continueLoop() { return append(ContinueStmt{}); }
+  StmtId returnBody() { return append(ReturnStmt{}); }
+  StmtId jump(uint32_t label) { return append(JumpStmt{label}); }
   StmtId placeLabel(uint32_t label);
-  StmtId tryCatch(StmtId body_block, StmtId catch_block, StmtId finally_block, ExprId number = {});
   StmtId fault(types::Fault fault, ExprId value = {});
   StmtId assertion(Assertion kind, ExprId a, ExprId b, ExprId c, NameId text, NameId shown = {});
-  StmtId evaluate(ExprId expr) { return append(StmtKind::Evaluate, expr.index); }
-  StmtId append(StmtKind kind, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint32_t d = 0, uint32_t e = 0);
+  StmtId evaluate(ExprId expr) { return append(EvaluateStmt{expr}); }
   // A case of a switch: its ranges go to the body's pool. Collect the results and pass all of them to switchStmt.
   Case makeCase(std::span<const CaseRange> ranges, StmtId block);
 
  private:
-  ExprId add(ExprKind kind, TypeId type, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint8_t checks = 0);
+  template <class T>
+  ExprId add(TypeId type, const T& fields, uint8_t checks = 0) {
+    return add(loc, strip(type), fields, checks);
+  }
   TypeId strip(TypeId type) const { return module.types.resolve(type); }
   Block block_;
   uint32_t temps_ = 0;

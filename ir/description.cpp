@@ -21,6 +21,7 @@ class Describer {
   void run(bool with_tests) {
     addBodiesAndFiles();
     for (uint32_t i = 0; i < blocks_.blocks.size(); ++i) addBlock(i);
+    for (const types::MemoryArea& area : module_.areas) addArea(area);
     addSymbols();
     addTasks();
     if (with_tests) addTests();
@@ -180,6 +181,14 @@ class Describer {
     return path;
   }
 
+  void addArea(const types::MemoryArea& area) {
+    const uint8_t owner = area.owner == types::AreaOwner::Input    ? RUNG_AREA_INPUT
+                          : area.owner == types::AreaOwner::Output ? RUNG_AREA_OUTPUT
+                                                                   : RUNG_AREA_MEMORY;
+    const std::string prefix = {'%', area.letter};
+    out_.areas.push_back({string(prefix.substr(1)), string(prefix), area.bytes, owner});
+  }
+
   void addSymbols() {
     std::vector<std::pair<std::string, rung_symbol>> rows;  // name in lower case
     const auto add = [&](std::string_view name, rung_symbol row, std::string_view path) {
@@ -192,7 +201,7 @@ class Describer {
       row.type = type(type_id);
       row.storage = RUNG_IN_BLOCK;
       row.bit = 255;
-      row.block = block;
+      row.index = block;
       row.offset = static_cast<uint32_t>(offset);
       return row;
     };
@@ -221,7 +230,8 @@ class Describer {
       }
       name += module_.names.string(located.name);
       rung_symbol row = inBlock(located.type, 0, located.byte);
-      row.storage = static_cast<uint8_t>(RUNG_IN_INPUTS + located.area);
+      row.storage = RUNG_IN_AREA;
+      row.index = located.area;
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
       add(name, row, path);
     }
@@ -231,11 +241,11 @@ class Describer {
       if (access.prefix) name.append(module_.names.string(access.prefix)).append(".");
       name += module_.names.string(access.name);
       const bool in_image = access.root == AccessPath::Root::Image;
-      const uint32_t block = in_image                                   ? 0
+      const uint32_t block = in_image                                   ? access.index
                              : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
                                                                         : blocks_.list_block[access.index];
       rung_symbol row = inBlock(access.type, block, access.offset);
-      if (in_image) row.storage = static_cast<uint8_t>(RUNG_IN_INPUTS + access.index);
+      if (in_image) row.storage = RUNG_IN_AREA;
       if (access.bit != kNoBit) row.bit = static_cast<uint8_t>(access.bit);
       if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
       add(name, row, path);

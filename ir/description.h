@@ -44,6 +44,7 @@ struct Description {
 
   StringPool strings;  // names of bodies and files first, so that offsets to them stay when later strings change
   std::vector<rung_block> blocks;
+  std::vector<rung_area> areas;
   std::vector<rung_type> types;
   std::vector<rung_field> fields;
   std::vector<rung_enum_item> enum_items;

@@ -28,7 +28,14 @@ bool isPassedByReference(const TypeTable& types, LocalKind kind, TypeId type) {
   return false;
 }
 
-bool isPlace(ExprKind kind) { return kind >= ExprKind::Local && kind <= ExprKind::Bits; }
+bool isPlace(ExprKind kind) {
+  constexpr bool kIsPlace[] = {
+#define RUNG_EXPR(kind, word, fields) false,
+#define RUNG_PLACE(kind, word, fields) true,
+#include "ir/instructions.def"
+  };
+  return kIsPlace[static_cast<size_t>(kind)];
+}
 
 // ---- variables
 
@@ -60,23 +67,19 @@ uint32_t Builder::label(NameId name) {
 
 // ---- expressions
 
-ExprId Builder::add(ExprKind kind, TypeId type, uint32_t a, uint32_t b, uint32_t c, uint8_t checks) {
+ExprId Builder::push(const Expr& expr) {
   if (body.exprs.empty()) body.exprs.emplace_back();
-  Expr expr;
-  expr.kind = kind;
-  expr.type = type;
-  expr.loc = loc;
-  expr.checks = checks;
-  expr.a = a;
-  expr.b = b;
-  expr.c = c;
   body.exprs.push_back(expr);
   return ExprId{static_cast<uint32_t>(body.exprs.size()) - 1};
 }
 
-ExprId Builder::constant(TypeId type, uint64_t bits) {
-  return add(ExprKind::Const, strip(type), static_cast<uint32_t>(bits), static_cast<uint32_t>(bits >> 32));
+Slice<ExprId> Builder::list(std::span<const ExprId> operands) {
+  const auto first = static_cast<uint32_t>(body.operands.size());
+  body.operands.insert(body.operands.end(), operands.begin(), operands.end());
+  return {first, static_cast<uint32_t>(operands.size())};
 }
+
+ExprId Builder::constant(TypeId type, uint64_t bits) { return add(type, ConstExpr{.bits = bits}); }
 
 ExprId Builder::constant(const types::Value& value) {
   if (TypeTable::isString(module.types.kind(value.type)))
@@ -84,114 +87,92 @@ ExprId Builder::constant(const types::Value& value) {
   return constant(value.type, value.bits);
 }
 
-ExprId Builder::string(TypeId type, NameId characters) { return add(ExprKind::String, strip(type), characters.index); }
+ExprId Builder::string(TypeId type, NameId characters) { return add(type, StringExpr{characters}); }
 
-ExprId Builder::data(uint32_t index) { return add(ExprKind::Data, strip(module.data[index].type), index); }
+ExprId Builder::data(uint32_t index) { return add(module.data[index].type, DataExpr{index}); }
 
-ExprId Builder::zero(TypeId type) { return add(ExprKind::Zero, strip(type)); }
+ExprId Builder::zero(TypeId type) { return add(type, ZeroExpr{}); }
 
-ExprId Builder::localPlace(uint32_t index) { return add(ExprKind::Local, strip(body.locals[index].type), index); }
+ExprId Builder::localPlace(uint32_t index) { return add(body.locals[index].type, LocalExpr{index}); }
 
-ExprId Builder::self() { return add(ExprKind::Self, strip(body.self)); }
+ExprId Builder::self() { return add(body.self, SelfExpr{}); }
 
-ExprId Builder::global(uint32_t list) { return add(ExprKind::Global, strip(module.lists[list].record), list); }
+ExprId Builder::global(uint32_t list) { return add(module.lists[list].record, GlobalExpr{list}); }
 
-ExprId Builder::program(uint32_t instance) {
-  return add(ExprKind::Program, strip(module.programs[instance].record), instance);
-}
+ExprId Builder::program(uint32_t instance) { return add(module.programs[instance].record, ProgramExpr{instance}); }
 
 ExprId Builder::image(TypeId type, uint32_t area, uint32_t byte, uint32_t bit) {
-  return add(ExprKind::Image, strip(type), area, byte, bit);
+  return add(type, ImageExpr{area, byte, bit});
 }
 
 ExprId Builder::field(ExprId base, uint32_t index, uint8_t checks) {
   const TypeInfo& record = module.types.info(strip(body.expr(base).type));
   RUNG_INVARIANT(index < record.fields.size(), "a field place names a field of its record");
-  return add(ExprKind::Field, strip(record.fields[index].type), base.index, index, 0, checks);
+  return add(record.fields[index].type, FieldExpr{base, index}, checks);
 }
 
 ExprId Builder::index(ExprId base, std::span<const ExprId> indices, uint8_t checks) {
-  TypeId element = strip(module.types.info(strip(body.expr(base).type)).base);
-  uint32_t first = static_cast<uint32_t>(body.operands.size());
-  body.operands.insert(body.operands.end(), indices.begin(), indices.end());
-  return add(ExprKind::Index, element, base.index, first, static_cast<uint32_t>(indices.size()), checks);
+  const TypeId element = module.types.info(strip(body.expr(base).type)).base;
+  return add(element, IndexExpr{base, list(indices)}, checks);
 }
 
 ExprId Builder::deref(ExprId pointer, uint8_t checks) {
-  TypeId target = strip(module.types.info(strip(body.expr(pointer).type)).base);
-  return add(ExprKind::Deref, target, pointer.index, 0, 0, checks);
+  return add(module.types.info(strip(body.expr(pointer).type)).base, DerefExpr{pointer}, checks);
 }
 
-ExprId Builder::bits(ExprId base, TypeId part, uint32_t position) {
-  return add(ExprKind::Bits, strip(part), base.index, position);
-}
+ExprId Builder::bits(ExprId base, TypeId part, uint32_t position) { return add(part, BitsExpr{base, position}); }
 
 ExprId Builder::unary(Op op, ExprId a, uint8_t checks) {
-  ExprId id = add(ExprKind::Unary, module.types.plain(body.expr(a).type), a.index, 0, 0, checks);
-  body.expr(id).op = op;
-  return id;
+  return add(loc, module.types.plain(body.expr(a).type), UnaryExpr{a, op}, checks);
 }
 
 ExprId Builder::binary(Op op, ExprId a, ExprId b, uint8_t checks) {
-  TypeId type = types::isComparison(op) ? types::kBool : module.types.plain(body.expr(a).type);
-  ExprId id = add(ExprKind::Binary, type, a.index, b.index, 0, checks);
-  body.expr(id).op = op;
-  return id;
+  const TypeId type = types::isComparison(op) ? types::kBool : module.types.plain(body.expr(a).type);
+  return add(loc, type, BinaryExpr{a, b, op}, checks);
 }
 
-ExprId Builder::convert(TypeId to, ExprId a, uint8_t checks) {
-  return add(ExprKind::Convert, strip(to), a.index, 0, 0, checks);
-}
+ExprId Builder::convert(TypeId to, ExprId a, uint8_t checks) { return add(to, ConvertExpr{a}, checks); }
 
 ExprId Builder::select(ExprId condition, ExprId yes, ExprId no) {
-  return add(ExprKind::Select, body.expr(yes).type, condition.index, yes.index, no.index);
+  return add(loc, body.expr(yes).type, SelectExpr{condition, yes, no});
 }
 
 ExprId Builder::call(BodyId function, std::span<const ExprId> operands) {
-  uint32_t first = static_cast<uint32_t>(body.operands.size());
-  body.operands.insert(body.operands.end(), operands.begin(), operands.end());
-  return add(ExprKind::Call, strip(module.body(function).result), function.index, first,
-             static_cast<uint32_t>(operands.size()));
+  return add(module.body(function).result, CallExpr{function, list(operands)});
 }
 
-ExprId Builder::address(TypeId pointer, ExprId place) { return add(ExprKind::Address, strip(pointer), place.index); }
+ExprId Builder::address(TypeId pointer, ExprId place) { return add(pointer, AddressExpr{place}); }
 
 ExprId Builder::negation(ExprId condition) {
-  const Expr& expr = body.expr(condition);
-  if (expr.kind == ExprKind::Unary && expr.op == Op::Not) return ExprId{expr.a};
+  const auto* inverse = body.expr(condition).tryAs<UnaryExpr>();
+  if (inverse != nullptr && inverse->op == Op::Not) return inverse->operand;
   return unary(Op::Not, condition);
 }
 
 ExprId Builder::copy(ExprId original) {
   Expr expr = body.expr(original);
-  if (expr.kind == ExprKind::Index || expr.kind == ExprKind::Call) {  // operands in a separate slice
-    uint32_t first = static_cast<uint32_t>(body.operands.size());
-    body.operands.resize(first + expr.c);
-    for (uint32_t i = 0; i < expr.c; ++i) {
-      ExprId operand = copy(body.operands[expr.b + i]);  // may move the pool
-      body.operands[first + i] = operand;
-    }
-    expr.b = first;
-    if (expr.kind == ExprKind::Index) expr.a = copy(ExprId{expr.a}).index;
+  auto copyList = [&](Slice<ExprId>& operands) {
+    std::vector<ExprId> copies;
+    copies.reserve(operands.count);
+    for (uint32_t i = 0; i < operands.count; ++i)
+      copies.push_back(copy(body.list(operands)[i]));  // the pool may move meanwhile
+    operands = list(copies);
+  };
+  if (expr.kind == ExprKind::Index) {
+    copyList(expr.as<IndexExpr>().indices);
+    expr.as<IndexExpr>().base = copy(expr.as<IndexExpr>().base);
+  } else if (expr.kind == ExprKind::Call) {
+    copyList(expr.as<CallExpr>().operands);
   } else {
-    forEachSlot(body, expr, [&](uint32_t& slot) { slot = copy(ExprId{slot}).index; });
+    forEachOperand(body, expr, [&](ExprId& operand) { operand = copy(operand); });
   }
-  body.exprs.push_back(expr);
-  return ExprId{static_cast<uint32_t>(body.exprs.size()) - 1};
+  return push(expr);
 }
 
 // ---- statements
 
-StmtId Builder::append(StmtKind kind, uint32_t a, uint32_t b, uint32_t c, uint32_t d, uint32_t e) {
+StmtId Builder::push(const Stmt& stmt) {
   if (body.stmts.empty()) body.stmts.emplace_back();
-  Stmt stmt;
-  stmt.kind = kind;
-  stmt.loc = loc;
-  stmt.a = a;
-  stmt.b = b;
-  stmt.c = c;
-  stmt.d = d;
-  stmt.e = e;
   body.stmts.push_back(stmt);
   StmtId id{static_cast<uint32_t>(body.stmts.size()) - 1};
   if (block_.last) body.stmt(block_.last).next = id;
@@ -200,58 +181,40 @@ StmtId Builder::append(StmtKind kind, uint32_t a, uint32_t b, uint32_t c, uint32
   return id;
 }
 
-StmtId Builder::assign(ExprId place, ExprId value) { return append(StmtKind::Assign, place.index, value.index); }
+StmtId Builder::assign(ExprId place, ExprId value) { return append(AssignStmt{place, value}); }
 
 StmtId Builder::callStmt(BodyId callee, ExprId self, std::span<const ExprId> operands, ExprId result) {
-  uint32_t first = static_cast<uint32_t>(body.operands.size());
-  body.operands.insert(body.operands.end(), operands.begin(), operands.end());
-  return append(StmtKind::Call, callee.index, self.index, first, static_cast<uint32_t>(operands.size()), result.index);
+  return append(CallStmt{.callee = callee, .self = self, .operands = list(operands), .result = result});
 }
 
 StmtId Builder::ifElse(ExprId condition, StmtId then_block, StmtId else_block) {
-  return append(StmtKind::If, condition.index, then_block.index, else_block.index);
+  return append(IfStmt{condition, then_block, else_block});
 }
 
 StmtId Builder::switchStmt(ExprId selector, std::span<const Case> cases, StmtId else_block) {
-  uint32_t first = static_cast<uint32_t>(body.cases.size());
+  const auto first = static_cast<uint32_t>(body.cases.size());
   body.cases.insert(body.cases.end(), cases.begin(), cases.end());
-  return append(StmtKind::Switch, selector.index, first, static_cast<uint32_t>(cases.size()), else_block.index);
+  return append(SwitchStmt{selector, {first, static_cast<uint32_t>(cases.size())}, else_block});
 }
 
 Case Builder::makeCase(std::span<const CaseRange> ranges, StmtId block) {
-  uint32_t first = static_cast<uint32_t>(body.ranges.size());
+  const auto first = static_cast<uint32_t>(body.ranges.size());
   body.ranges.insert(body.ranges.end(), ranges.begin(), ranges.end());
-  return {first, static_cast<uint32_t>(ranges.size()), block};
+  return {{first, static_cast<uint32_t>(ranges.size())}, block};
 }
 
-StmtId Builder::loop(StmtId body_block, StmtId next_block) {
-  return append(StmtKind::Loop, body_block.index, next_block.index);
-}
+StmtId Builder::loop(StmtId body_block, StmtId next_block) { return append(LoopStmt{body_block, next_block}); }
 
 StmtId Builder::forLoop(ExprId control, ExprId from, ExprId to, ExprId step, StmtId body_block) {
-  return append(StmtKind::For, control.index, from.index, to.index, step.index, body_block.index);
+  return append(ForStmt{control, from, to, step, body_block});
 }
 
 StmtId Builder::placeLabel(uint32_t label) {
   body.has_labels = true;
-  return append(StmtKind::Label, label);
+  return append(LabelStmt{label});
 }
 
-StmtId Builder::tryCatch(StmtId body_block, StmtId catch_block, StmtId finally_block, ExprId number) {
-  return append(StmtKind::Try, body_block.index, catch_block.index, finally_block.index, number.index);
-}
-
-StmtId Builder::fault(types::Fault fault, ExprId value) {
-  StmtId id = append(StmtKind::Fault, value.index);
-  body.stmt(id).op = static_cast<uint8_t>(fault);
-  return id;
-}
-
-StmtId Builder::assertion(Assertion kind, ExprId a, ExprId b, ExprId c, NameId text, NameId shown) {
-  StmtId id = append(StmtKind::Assert, a.index, b.index, c.index, text.index, shown.index);
-  body.stmt(id).op = static_cast<uint8_t>(kind);
-  return id;
-}
+StmtId Builder::fault(types::Fault fault, ExprId value) { return append(FaultStmt{value, fault}); }
 
 std::string nativeName(const Module& module, const Body& body) {
   const std::string_view library = module.names.string(body.library_name);

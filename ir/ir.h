@@ -11,13 +11,19 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <deque>
+#include <new>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "frontend/source/files.h"
+#include "frontend/source/invariant.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/ids.h"
+#include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -41,32 +47,6 @@ struct BodyId {
   friend bool operator==(BodyId, BodyId) = default;
 };
 
-enum class ExprKind : uint8_t {
-  None,
-  Const,   // scalar; bits as types::Value. c: none, or TypeId of the class whose number it is (codegen prints its name)
-  String,  // a: NameId of the string; type STRING[n] or WSTRING[n]
-  Data,    // a: index into Module::data: the constant bytes of an array or record
-  Zero,    // all bytes zero of an array, record or string
-  // places
-  Local,    // a: index into Body::locals (a by-reference local is the variable that it refers to)
-  Self,     // the instance of a block body; type is the record
-  Global,   // a: index into Module::lists; type is the list's record
-  Program,  // a: index into Module::programs; type is the program's record
-  Image,    // a: area (0 I, 1 Q, 2 M), b: byte, c: bit 0..7 for a BOOL, else kNoBit
-  Field,    // a: base place, b: field index. A by-reference field is the variable that it refers to (checks: null)
-  Index,    // a: base place, (b, c): slice of Body::operands, one index per dimension (checks: index)
-  Deref,    // a: pointer value (checks: null)
-  Bits,     // a: base place of an integer or bit string, b: position in units of the type's width. %X %B %W %D
-  // values
-  Unary,    // op a
-  Binary,   // a op b (checks: div)
-  Convert,  // a to `type`: kernel conversion (checks: subrange, convert); string to string: cut to capacity
-  Select,   // a ? b : c, both evaluated
-  Call,     // a: BodyId of a pure, fault-free function; (b, c): operands
-  Address,  // a: place; type is a pointer
-};
-inline constexpr uint32_t kNoBit = ~0u;
-
 // The checks of a node; passes clear those that they prove.
 enum Check : uint8_t {
   kCheckDiv = 1,
@@ -78,63 +58,172 @@ enum Check : uint8_t {
   kCheckOverflow = 64
 };
 
-struct Expr {
-  ExprKind kind = ExprKind::None;
-  Op op = Op::Add;
-  uint8_t checks = 0;
-  uint8_t spare = 0;
-  TypeId type;
-  Loc loc;
-  uint32_t a = 0, b = 0, c = 0;  // Const: bits = a | b << 32
-  uint64_t bits() const { return a | (static_cast<uint64_t>(b) << 32); }
-};
+inline constexpr uint32_t kNoBit = ~0u;
 
-enum class StmtKind : uint8_t {
-  None,
-  Assign,  // a: place, b: value. Arrays, records and strings are copied whole; strings cut to the place's capacity
-  Bind,    // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on; 0: to
-           // none. A VAR_IN_OUT of a block is a pointer in the instance, so that traces can follow it
-  Call,    // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
-           // by-reference parameter (none: a discarded output), e: place for the result or none.
-           // op: kVirtual: the body that Module::dispatches gives for the class of the object at b; kChecked with it
-  If,      // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
-  Switch,  // a: selector, (b, c): slice of Body::cases, d: else block
-  Loop,    // a: body block, b: block run before each further iteration (by `continue` too). Endless but for break
-  For,     // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
-           // from and to are evaluated once, in that order. Leaves the first value past `to`, or the type's limit
-  Break,   // leaves the innermost Loop or For
-  Continue,  // next iteration of the innermost Loop or For
-  Return,
-  Jump,      // a: label number
-  Label,     // a: label number
-  Try,       // a: body block, op: 1 catches (0: raises it again), b: catch block, c: finally, d: place of its number
-  Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: message (NameId).
-             // A condition that compares: b and c are its sides, e their source (NameId, as rung_assertion::shown)
-  Evaluate,  // a: expression, evaluated for its checks only
+// 64 bits that need only the alignment of an id.
+struct Bits64 {
+  uint32_t low = 0, high = 0;
+  constexpr Bits64() = default;
+  constexpr Bits64(uint64_t bits) : low(static_cast<uint32_t>(bits)), high(static_cast<uint32_t>(bits >> 32)) {}
+  constexpr operator uint64_t() const { return low | uint64_t{high} << 32; }
 };
-
-// Of a call. kChecked: fault[cast] before the call when the class of the object does not have the method.
-inline constexpr uint8_t kVirtual = 1, kChecked = 2;
 
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion
-
-struct Stmt {
-  StmtKind kind = StmtKind::None;
-  uint8_t op = 0;
-  uint16_t spare = 0;
-  Loc loc;
-  StmtId next = {};
-  uint32_t a = 0, b = 0, c = 0, d = 0, e = 0;
-};
 
 struct CaseRange {
   int64_t low, high;
 };  // in the selector type's bits, low <= high
 struct Case {
-  uint32_t first_range, range_count;  // slice of Body::ranges
+  Slice<CaseRange> ranges;
   StmtId block;
 };
+
+enum class ExprKind : uint8_t {
+#define RUNG_EXPR(kind, word, fields) kind,
+#include "ir/instructions.def"
+};
+enum class StmtKind : uint8_t {
+#define RUNG_STMT(kind, word, fields) kind,
+#include "ir/instructions.def"
+};
+
+// The fields of each kind, such as
+//   struct FieldExpr { static constexpr ExprKind kKind = ExprKind::Field; ExprId base; uint32_t field; };
+#define RUNG_OPERAND(name) ExprId name = {};
+#define RUNG_OPERANDS(name) Slice<ExprId> name = {};
+#define RUNG_READ(name) ExprId name = {};
+#define RUNG_WRITE(name) ExprId name = {};
+#define RUNG_REFERENCE(name) ExprId name = {};
+#define RUNG_ARGUMENTS(name) Slice<ExprId> name = {};
+#define RUNG_BLOCK(name) StmtId name = {};
+#define RUNG_CASES(name) Slice<Case> name = {};
+#define RUNG_VALUE(type, name) type name = {};
+#define RUNG_EXPR(kind, word, fields)                 \
+  struct kind##Expr {                                 \
+    static constexpr ExprKind kKind = ExprKind::kind; \
+    fields                                            \
+  };
+#define RUNG_STMT(kind, word, fields)                 \
+  struct kind##Stmt {                                 \
+    static constexpr StmtKind kKind = StmtKind::kind; \
+    fields                                            \
+  };
+#include "ir/instructions.def"
+#undef RUNG_OPERAND
+#undef RUNG_OPERANDS
+#undef RUNG_READ
+#undef RUNG_WRITE
+#undef RUNG_REFERENCE
+#undef RUNG_ARGUMENTS
+#undef RUNG_BLOCK
+#undef RUNG_CASES
+#undef RUNG_VALUE
+
+// What all nodes have, and room for the fields of any kind: a body keeps its nodes in one vector, and a pass can give a
+// node another kind in place.
+//   const FieldExpr& field = expr.as<FieldExpr>();                     the kind is known
+//   if (const auto* field = expr.tryAs<FieldExpr>()) …                 null: another kind
+//   expr.set(LocalExpr{.local = temp});                                another kind from now on
+template <class Kind, size_t size>
+struct NodeFields {
+  alignas(uint32_t) unsigned char bytes[size] = {};
+
+  template <class T>
+  T& as(Kind kind) {
+    expect(kind, T::kKind);
+    return *std::launder(reinterpret_cast<T*>(bytes));
+  }
+  template <class T>
+  const T& as(Kind kind) const {
+    expect(kind, T::kKind);
+    return *std::launder(reinterpret_cast<const T*>(bytes));
+  }
+  template <class T>
+  void set(const T& fields) {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= size && alignof(T) <= alignof(uint32_t));
+    std::memcpy(bytes, &fields, sizeof fields);
+  }
+  static void expect([[maybe_unused]] Kind kind, [[maybe_unused]] Kind wanted) {
+#ifndef NDEBUG
+    RUNG_INVARIANT(kind == wanted, "a node is read as what it is");
+#endif
+  }
+};
+
+struct Expr {
+  ExprKind kind = ExprKind::None;
+  uint8_t checks = 0;
+  TypeId type;
+  Loc loc;
+  union {
+    NodeFields<ExprKind, 12> fields = {};
+    struct {
+      uint32_t a, b, c;
+    };
+  };
+
+  template <class T>
+  T& as() {
+    return fields.as<T>(kind);
+  }
+  template <class T>
+  const T& as() const {
+    return fields.as<T>(kind);
+  }
+  template <class T>
+  const T* tryAs() const {
+    return kind == T::kKind ? &fields.as<T>(kind) : nullptr;
+  }
+  template <class T>
+  void set(const T& to) {
+    kind = T::kKind;
+    fields.set(to);
+  }
+  Op op() const { return kind == ExprKind::Unary ? as<UnaryExpr>().op : as<BinaryExpr>().op; }
+};
+static_assert(sizeof(Expr) == 24 && std::is_trivially_copyable_v<Expr>);
+
+inline bool isConst(const Expr& e) { return e.kind == ExprKind::Const; }
+inline uint64_t bitsOf(const Expr& constant) { return constant.as<ConstExpr>().bits; }
+inline bool isNot(const Expr& e) { return e.kind == ExprKind::Unary && e.as<UnaryExpr>().op == Op::Not; }
+// A view of one bit of the image.
+inline bool isImageBit(const Expr& e) { return e.kind == ExprKind::Image && e.as<ImageExpr>().bit != kNoBit; }
+// The local that an expression names, or null.
+inline const uint32_t* localOf(const Expr& e) {
+  const auto* local = e.tryAs<LocalExpr>();
+  return local == nullptr ? nullptr : &local->local;
+}
+
+struct Stmt {
+  StmtKind kind = StmtKind::None;
+  Loc loc;
+  StmtId next;
+  union {
+    NodeFields<StmtKind, 24> fields = {};
+    struct {
+      uint32_t a, b, c, d, e;
+    };
+  };
+
+  template <class T>
+  T& as() {
+    return fields.as<T>(kind);
+  }
+  template <class T>
+  const T& as() const {
+    return fields.as<T>(kind);
+  }
+  template <class T>
+  const T* tryAs() const {
+    return kind == T::kKind ? &fields.as<T>(kind) : nullptr;
+  }
+  template <class T>
+  void set(const T& to) {
+    kind = T::kKind;
+    fields.set(to);
+  }
+};
+static_assert(sizeof(Stmt) == 36 && std::is_trivially_copyable_v<Stmt>);
 
 enum class LocalKind : uint8_t {
   Temp,      // made by the compiler, name `t1`
@@ -151,7 +240,6 @@ struct Local {
   bool by_reference = false;  // Output, InOut; Input of array, record or string type (read only); Result of such a type
   Loc loc;
 };
-// A parameter of a function: an operand of its calls, in the order of the locals.
 constexpr bool isParameter(const Local& local) {
   return local.kind == LocalKind::Input || local.kind == LocalKind::Output || local.kind == LocalKind::InOut;
 }
@@ -205,7 +293,48 @@ struct Body {
   const Expr& expr(ExprId id) const { return exprs[id.index]; }
   Stmt& stmt(StmtId id) { return stmts[id.index]; }
   const Stmt& stmt(StmtId id) const { return stmts[id.index]; }
+  std::span<ExprId> list(Slice<ExprId> slice) { return {operands.data() + slice.first, slice.count}; }
+  std::span<const ExprId> list(Slice<ExprId> slice) const { return {operands.data() + slice.first, slice.count}; }
+  std::span<Case> list(Slice<Case> slice) { return {cases.data() + slice.first, slice.count}; }
+  std::span<const Case> list(Slice<Case> slice) const { return {cases.data() + slice.first, slice.count}; }
+  std::span<const CaseRange> list(Slice<CaseRange> slice) const { return {ranges.data() + slice.first, slice.count}; }
 };
+
+// The parameters of a function, in the order of its locals: its calls have an operand for each.
+//   for (const Local& parameter : parameters(callee)) …
+class Parameters {
+ public:
+  explicit Parameters(const std::vector<Local>& locals) : begin_(locals.data()), end_(begin_ + locals.size()) {}
+  class Iterator {
+   public:
+    Iterator(const Local* at, const Local* end) : at_(at), end_(end) { skip(); }
+    const Local& operator*() const { return *at_; }
+    Iterator& operator++() {
+      ++at_;
+      skip();
+      return *this;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
+
+   private:
+    void skip() {
+      while (at_ != end_ && !isParameter(*at_)) ++at_;
+    }
+    const Local *at_, *end_;
+  };
+  Iterator begin() const { return {begin_, end_}; }
+  Iterator end() const { return {end_, end_}; }
+  bool empty() const { return begin() == end(); }
+  uint32_t count() const {
+    uint32_t found = 0;
+    for (auto at = begin(); !(at == end()); ++at) ++found;
+    return found;
+  }
+
+ private:
+  const Local *begin_, *end_;
+};
+inline Parameters parameters(const Body& body) { return Parameters(body.locals); }
 
 // Constant bytes in the target's layout (little-endian), of arrays and records without pointers.
 struct Data {
@@ -260,7 +389,7 @@ struct Task {
 struct Located {
   NameId name;
   TypeId type;
-  uint8_t area;
+  uint8_t area;  // AreaId
   uint32_t byte;
   uint32_t bit;               /* kNoBit: none */
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
@@ -337,7 +466,7 @@ struct Module {
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
-  uint32_t image_bytes[3] = {0, 0, 0};
+  types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

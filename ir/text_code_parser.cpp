@@ -40,143 +40,161 @@ StmtId Reader::block() {
 
 void Reader::stmt() {
   Builder& b = *builder_;
-  b.loc = token().loc;
-  if (accept("temp") || accept("var")) {
-    const bool is_temp = tokens_[at_ - 1].text == "temp";
-    const Loc loc = token().loc;
-    const NameId id = name();
-    expect(":");
-    const TypeId local_type = type();
-    if (failed_) return;
-    const uint32_t index = b.local(id, local_type, is_temp ? LocalKind::Temp : LocalKind::Variable);
-    if (!(is_temp ? temp_by_name_ : local_by_name_).emplace(id.index, index).second)
-      fail(diag::IrRepeatedName, loc, {module_.names.string(id)});
-  } else if (accept("bind")) {
-    const ExprId field = expr({});
-    expect("=");
-    const ExprId place = accept("null") ? ExprId{} : expr({});
-    if (!failed_) b.bind(field, place);
-  } else if (accept("call")) {
-    callStmt({});
-  } else if (accept("if")) {
-    const Loc loc = b.loc;
-    const ExprId condition = expr(types::kBool);
-    const StmtId then_block = block();
-    const StmtId else_block = accept("else") ? block() : StmtId{};
-    b.loc = loc;
-    if (!failed_) b.ifElse(condition, then_block, else_block);
-  } else if (accept("switch")) {
-    switchStmt();
-  } else if (accept("loop")) {
-    const Loc loc = b.loc;
-    const StmtId body_block = block();
-    const StmtId next_block = accept("next") ? block() : StmtId{};
-    b.loc = loc;
-    if (!failed_) b.loop(body_block, next_block);
-  } else if (accept("for")) {
-    const Loc loc = b.loc;
-    const ExprId control = expr({});
-    if (failed_) return;
-    const TypeId control_type = typeOf(control);
-    expect("=");
-    const ExprId from = expr(control_type);
-    expect("to");
-    const ExprId to = expr(control_type);
-    expect("by");
-    const ExprId step = expr(control_type);
-    const StmtId body_block = block();
-    b.loc = loc;
-    if (!failed_) b.forLoop(control, from, to, step, body_block);
-  } else if (accept("break")) {
-    b.breakLoop();
-  } else if (accept("continue")) {
-    b.continueLoop();
-  } else if (accept("return")) {
-    if (!token().first_in_line && !isPunct("}")) {
-      if (result_ == ~0u) return fail(diag::IrUnknownName, b.loc, {"result", "local"});
-      const ExprId place = b.localPlace(result_);
-      const ExprId value = expr(typeOf(place));
-      if (!failed_) b.assign(place, value);
+  const Loc loc = b.loc = token().loc;
+  if (accept("temp")) return localDeclaration(LocalKind::Temp);
+  if (accept("var")) return localDeclaration(LocalKind::Variable);
+  if (accept("assert_eq")) return assertion(Assertion::AssertEq);
+  if (accept("assert_near")) return assertion(Assertion::AssertNear);
+  const StmtKind kind = isName() ? statementOf(token().text) : StmtKind::None;
+  if (kind != StmtKind::None) ++at_;
+  switch (kind) {
+    case StmtKind::None:
+    case StmtKind::Assign: return assignment();
+    case StmtKind::Bind: {
+      const ExprId field = expr({});
+      expect("=");
+      return append(loc, BindStmt{.field = field, .place = accept("null") ? ExprId{} : expr({})});
     }
-    if (!failed_) b.returnBody();
-  } else if (isWord("jump") || isWord("label")) {
-    const bool is_jump = isWord("jump");
-    ++at_;
-    const NameId id = name();
-    if (failed_) return;
-    auto [found, is_new] = label_by_name_.emplace(id.index, 0);
-    if (is_new) found->second = b.label(id);
-    is_jump ? b.jump(found->second) : b.placeLabel(found->second);
-  } else if (accept("try")) {
-    const Loc loc = b.loc;
-    const StmtId body_block = block();
-    ExprId number;
-    StmtId catch_block;
-    const bool catches = accept("catch");
-    if (catches) {
-      if (!isPunct("{")) number = expr({});
-      catch_block = block();
+    case StmtKind::Call: return callStmt({});
+    case StmtKind::If: {
+      IfStmt node{.condition = expr(types::kBool)};
+      node.then_block = block();
+      node.else_block = optionalBlock("else");
+      return append(loc, node);
     }
-    const StmtId finally_block = accept("finally") ? block() : StmtId{};
-    b.loc = loc;
-    if (!failed_) b.body.stmts[b.tryCatch(body_block, catch_block, finally_block, number).index].op = catches;
-  } else if (accept("fault")) {
-    constexpr types::Fault kFaults[] = {types::Fault::Div,      types::Fault::Index,    types::Fault::Null,
-                                        types::Fault::Cast,     types::Fault::Subrange, types::Fault::Convert,
-                                        types::Fault::Overflow, types::Fault::Lock};
-    auto kind = types::Fault::None;
-    for (types::Fault one : kFaults)
-      if (isWord(types::word(one))) kind = one;
-    if (kind == types::Fault::None) return expected("the fault's kind");
-    ++at_;
-    ExprId value;
-    if (!token().first_in_line && accept("(")) {
-      value = expr({});
-      expect(")");
+    case StmtKind::Switch: return switchStmt();
+    case StmtKind::Loop: {
+      LoopStmt node{.body_block = block()};
+      node.next_block = optionalBlock("next");
+      return append(loc, node);
     }
-    if (!failed_) b.fault(kind, value);
-  } else if (isWord("assert") || isWord("assert_eq") || isWord("assert_near")) {
-    const auto assertion = isWord("assert")      ? Assertion::Assert
-                           : isWord("assert_eq") ? Assertion::AssertEq
-                                                 : Assertion::AssertNear;
-    ++at_;
-    const ExprId first = expr(assertion == Assertion::Assert ? types::kBool : TypeId{});
-    ExprId second, third;
-    NameId shown;
-    if (failed_) return;
-    const TypeId first_type = typeOf(first);
-    if (assertion == Assertion::Assert && accept("shows")) {
-      second = expr({});
-      if (failed_) return;
-      expect(",");
-      third = expr(typeOf(second));
-      expect("as");
-      shown = module_.names.intern(quotedText(TokenKind::Text));
-    }
-    if (assertion != Assertion::Assert) {
-      expect(",");
-      second = expr(first_type);
-    }
-    if (assertion == Assertion::AssertNear) {
-      expect(",");
-      third = expr(first_type);
-    }
-    NameId text;
-    if (accept("text")) text = module_.names.intern(quotedText(TokenKind::Text));
-    if (!failed_) b.assertion(assertion, first, second, third, text, shown);
-  } else if (accept("evaluate")) {
-    const ExprId value = expr({});
-    if (!failed_) b.evaluate(value);
-  } else {
-    const Loc loc = b.loc;
-    const ExprId place = expr({});
-    expect("=");
-    if (failed_) return;
-    if (accept("call")) return callStmt(place);
-    const ExprId value = expr(typeOf(place));
-    b.loc = loc;
-    if (!failed_) b.assign(place, value);
+    case StmtKind::For: return forStmt();
+    case StmtKind::Break: return append(loc, BreakStmt{});
+    case StmtKind::Continue: return append(loc, ContinueStmt{});
+    case StmtKind::Return: return returnStmt();
+    case StmtKind::Jump: return append(loc, JumpStmt{.label = label()});
+    case StmtKind::Label: return append(loc, LabelStmt{.label = label()});
+    case StmtKind::Try: return tryStmt();
+    case StmtKind::Fault: return faultStmt();
+    case StmtKind::Assert: return assertion(Assertion::Assert);
+    case StmtKind::Evaluate: return append(loc, EvaluateStmt{.value = expr({})});
   }
+}
+
+StmtId Reader::optionalBlock(std::string_view word) { return accept(word) ? block() : StmtId{}; }
+
+void Reader::localDeclaration(LocalKind kind) {
+  const Loc loc = token().loc;
+  const NameId id = name();
+  expect(":");
+  const TypeId local_type = type();
+  if (failed_) return;
+  const uint32_t index = builder_->local(id, local_type, kind);
+  Map& by_name = kind == LocalKind::Temp ? temp_by_name_ : local_by_name_;
+  if (!by_name.emplace(id.index, index).second) fail(diag::IrRepeatedName, loc, {module_.names.string(id)});
+}
+
+void Reader::assignment() {
+  const Loc loc = builder_->loc;
+  const ExprId place = expr({});
+  expect("=");
+  if (failed_) return;
+  if (accept("call")) return callStmt(place);
+  append(loc, AssignStmt{.place = place, .value = expr(typeOf(place))});
+}
+
+// for i = 0 to 9 by 1 { … }
+void Reader::forStmt() {
+  const Loc loc = builder_->loc;
+  ForStmt node{.control = expr({})};
+  if (failed_) return;
+  const TypeId type = typeOf(node.control);
+  expect("=");
+  node.from = expr(type);
+  expect("to");
+  node.to = expr(type);
+  expect("by");
+  node.step = expr(type);
+  node.body_block = block();
+  append(loc, node);
+}
+
+// return   return x
+void Reader::returnStmt() {
+  if (!token().first_in_line && !isPunct("}")) {
+    if (result_ == ~0u) return fail(diag::IrUnknownName, builder_->loc, {"result", "local"});
+    const ExprId place = builder_->localPlace(result_);
+    const ExprId value = expr(typeOf(place));
+    append(builder_->loc, AssignStmt{.place = place, .value = value});
+  }
+  append(builder_->loc, ReturnStmt{});
+}
+
+// The number of the label whose name follows.
+uint32_t Reader::label() {
+  const NameId id = name();
+  if (failed_) return 0;
+  auto [found, is_new] = label_by_name_.emplace(id.index, 0);
+  if (is_new) found->second = builder_->label(id);
+  return found->second;
+}
+
+// try { … } catch n { … } finally { … }
+void Reader::tryStmt() {
+  const Loc loc = builder_->loc;
+  TryStmt node{.body_block = block()};
+  node.catches = accept("catch");
+  if (node.catches) {
+    if (!isPunct("{")) node.number = expr({});
+    node.catch_block = block();
+  }
+  node.finally_block = optionalBlock("finally");
+  append(loc, node);
+}
+
+// fault div   fault index(i)
+void Reader::faultStmt() {
+  const Loc loc = builder_->loc;
+  constexpr types::Fault kFaults[] = {types::Fault::Div,      types::Fault::Index,    types::Fault::Null,
+                                      types::Fault::Cast,     types::Fault::Subrange, types::Fault::Convert,
+                                      types::Fault::Overflow, types::Fault::Lock};
+  FaultStmt node;
+  for (types::Fault one : kFaults)
+    if (isWord(types::word(one))) node.fault = one;
+  if (node.fault == types::Fault::None) return expected("the fault's kind");
+  ++at_;
+  if (!token().first_in_line && accept("(")) {
+    node.value = expr({});
+    expect(")");
+  }
+  append(loc, node);
+}
+
+// assert x shows a, b as '…' text '…'   assert_eq a, b   assert_near a, b, c
+void Reader::assertion(Assertion kind) {
+  const Loc loc = builder_->loc;
+  AssertStmt node{.assertion = kind};
+  node.first = expr(kind == Assertion::Assert ? types::kBool : TypeId{});
+  if (failed_) return;
+  const TypeId first_type = typeOf(node.first);
+  if (kind == Assertion::Assert && accept("shows")) {
+    node.second = expr({});
+    if (failed_) return;
+    expect(",");
+    node.third = expr(typeOf(node.second));
+    expect("as");
+    node.shown = module_.names.intern(quotedText(TokenKind::Text));
+  }
+  if (kind != Assertion::Assert) {
+    expect(",");
+    node.second = expr(first_type);
+  }
+  if (kind == Assertion::AssertNear) {
+    expect(",");
+    node.third = expr(first_type);
+  }
+  if (accept("text")) node.text = module_.names.intern(quotedText(TokenKind::Text));
+  append(loc, node);
 }
 
 // call @F(a, _)   call @Ramp on r   call init @Ramp on r
@@ -195,22 +213,25 @@ void Reader::callStmt(ExprId result) {
   std::vector<ExprId> given;
   if (isPunct("(") && !token().first_in_line) given = operands(module_.body(callee));
   const ExprId self = accept("on") ? expr({}) : ExprId{};
-  b.loc = loc;
-  if (failed_) return;
-  const StmtId created = b.callStmt(callee, self, given, result);
-  if (is_virtual) b.body.stmt(created).op = is_checked ? kVirtual | kChecked : kVirtual;
+  append(loc, CallStmt{.callee = callee,
+                       .self = self,
+                       .operands = b.list(given),
+                       .result = result,
+                       .is_virtual = is_virtual,
+                       .is_checked = is_checked});
 }
 
 std::vector<ExprId> Reader::operands(const Body& callee) {
   std::vector<ExprId> given;
   expect("(");
   if (accept(")")) return given;
-  size_t parameter = 0;
+  const Parameters wanted = parameters(callee);
+  auto parameter = wanted.begin();
   do {
-    while (parameter < callee.locals.size() && !isParameter(callee.locals[parameter])) ++parameter;
-    const TypeId wanted = parameter < callee.locals.size() ? callee.locals[parameter].type : TypeId{};
-    ++parameter;
-    given.push_back(accept("_") ? ExprId{} : expr(wanted));
+    const bool is_known = !(parameter == wanted.end());
+    const TypeId type = is_known ? (*parameter).type : TypeId{};
+    if (is_known) ++parameter;
+    given.push_back(accept("_") ? ExprId{} : expr(type));
   } while (accept(","));
   expect(")");
   return given;
@@ -240,11 +261,11 @@ void Reader::switchStmt() {
   if (!failed_) b.switchStmt(selector, cases, else_block);
 }
 
-// `!` or `!(div, overflow)`
-uint8_t Reader::checks(ExprId id) {
+// `!` or `!(div, overflow)`. `natural`: the check that `!` alone means on this node.
+uint8_t Reader::checks(uint8_t natural) {
   if (failed_ || !isPunct("!") || token().first_in_line) return 0;
   ++at_;
-  if (!isPunct("(") || token().first_in_line) return naturalCheck(types_, builder_->body.expr(id));
+  if (!isPunct("(") || token().first_in_line) return natural;
   uint8_t result = 0;
   expect("(");
   do {
@@ -293,49 +314,14 @@ ExprId Reader::primary(TypeId wanted) {
     expect(")");
     return postfix(inner);
   }
-  if (isPunct("@")) {
-    // A type before `#` or `%`, a function before `(`, else a global list.
-    const size_t start = at_;
-    const Loc loc = token().loc;
-    const std::string text = sigilName();
-    if (failed_) return {};
-    if (isPunct("#") || isPunct("%")) {
-      at_ = start;
-      const TypeId of = type();
-      return failed_ ? ExprId{} : afterType(of);
-    }
-    const NameId id = module_.names.intern(text);
-    if (isPunct("(") && !token().first_in_line) {
-      auto found = body_by_name_.find(id.index);
-      if (found == body_by_name_.end()) {
-        fail(diag::IrUnknownName, loc, {text, "function"});
-        return {};
-      }
-      const std::vector<ExprId> given = operands(module_.body(BodyId{found->second}));
-      b.loc = loc;
-      return failed_ ? ExprId{} : postfix(b.call(BodyId{found->second}, given));
-    }
-    auto found = list_by_name_.find(id.index);
-    if (found == list_by_name_.end()) {
-      fail(diag::IrUnknownName, loc, {text, "list"});
-      return {};
-    }
-    return postfix(b.global(found->second));
-  }
+  if (isPunct("@")) return afterSigil();
   if (accept("$")) {
-    const Loc loc = token().loc;
-    const NameId id = name();
-    auto found = program_by_name_.find(id.index);
-    if (!failed_ && found == program_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.string(id), "program"});
-    return failed_ ? ExprId{} : postfix(b.program(found->second));
+    const uint32_t found = numberOf(program_by_name_, "program");
+    return failed_ ? ExprId{} : postfix(b.program(found));
   }
   if (accept("%")) {
-    const Loc loc = token().loc;
-    const NameId id = name();
-    auto found = temp_by_name_.find(id.index);
-    if (!failed_ && found == temp_by_name_.end()) fail(diag::IrUnknownName, loc, {module_.names.string(id), "temp"});
-    return failed_ ? ExprId{} : postfix(b.localPlace(found->second));
+    const uint32_t found = numberOf(temp_by_name_, "temp");
+    return failed_ ? ExprId{} : postfix(b.localPlace(found));
   }
   if (token().kind == TokenKind::Number || token().kind == TokenKind::Text || isPunct("-")) return literal(wanted);
   if (token().kind != TokenKind::Name) {
@@ -349,94 +335,122 @@ ExprId Reader::primary(TypeId wanted) {
   }
   for (const char* word : {"true", "false", "inf", "nan", "null", "zero", "class"})
     if (isWord(word)) return literal(wanted);
-  const Loc loc = b.loc;
   if (accept("data")) {
+    const Loc loc = b.loc;
     const auto number = static_cast<uint64_t>(integer());
     if (!failed_ && number >= module_.data.size()) fail(diag::IrUnknownName, loc, {"data", "data item"});
     return failed_ ? ExprId{} : b.data(static_cast<uint32_t>(number));
   }
   if (accept("self")) {
-    if (!b.body.self) {
-      fail(diag::IrUnknownName, loc, {"self", "instance"});
-      return {};
-    }
-    return postfix(b.self());
+    if (b.body.self) return postfix(b.self());
+    fail(diag::IrUnknownName, b.loc, {"self", "instance"});
+    return {};
   }
   if (accept("result")) {
-    if (result_ == ~0u) {
-      fail(diag::IrUnknownName, loc, {"result", "local"});
-      return {};
-    }
-    return postfix(b.localPlace(result_));
+    if (result_ != ~0u) return postfix(b.localPlace(result_));
+    fail(diag::IrUnknownName, b.loc, {"result", "local"});
+    return {};
   }
-  auto finish = [&](ExprId id, uint8_t set) {
-    if (id) b.body.expr(id).checks = set;
-    return id;
-  };
-  // The checks follow the keyword, before the type is known: read as if the node existed.
-  if (accept("convert")) {
-    const size_t mark = at_;
-    const bool checked = isPunct("!");
-    if (checked) {  // skipped, and read again below
-      ++at_;
-      if (isPunct("("))
-        while (token().kind != TokenKind::End && !accept(")")) ++at_;
-    }
-    const TypeId to = type();
-    const ExprId operand = expr({});
-    if (failed_) return {};
-    b.loc = loc;
-    const ExprId id = b.convert(to, operand);
-    const size_t end = at_;
-    at_ = mark;
-    const uint8_t set = checks(id);
-    at_ = end;
-    return finish(id, set);
-  }
-  if (accept("select")) {
-    const TypeId of = type();
-    const ExprId condition = expr(types::kBool);
-    expect(",");
-    const ExprId yes = expr(of);
-    expect(",");
-    const ExprId no = expr(of);
-    if (failed_) return {};
-    b.loc = loc;
-    const ExprId id = b.select(condition, yes, no);
-    b.body.expr(id).type = types_.resolve(of);
-    return id;
-  }
+  if (accept("convert")) return conversion();
+  if (accept("select")) return selection();
   if (accept("address")) {
+    const Loc loc = b.loc;
     const TypeId of = type();
     const ExprId place = expr({});
     b.loc = loc;
     return failed_ ? ExprId{} : b.address(of, place);
   }
   Op op;
-  if (types::findOp(token().text, op)) {
-    ++at_;
-    const bool is_unary = types::operandCount(op) == 1;
-    Expr probe;
-    probe.kind = is_unary ? ExprKind::Unary : ExprKind::Binary;
-    probe.op = op;
-    b.body.exprs.resize(std::max<size_t>(b.body.exprs.size(), 1));
-    b.body.exprs[0] = probe;
-    const uint8_t set = checks(ExprId{0});
-    b.body.exprs[0] = Expr{};
-    const TypeId of = type();
-    const ExprId first = expr(of);
-    ExprId second;
-    if (!is_unary) {
-      expect(",");
-      second = expr(of);
-    }
-    if (failed_) return {};
-    b.loc = loc;
-    const ExprId id = is_unary ? b.unary(op, first) : b.binary(op, first, second);
-    if (!types::isComparison(op)) b.body.expr(id).type = types_.resolve(of);
-    return finish(id, set);
-  }
+  if (types::findOp(token().text, op)) return operation(op);
   return variable();
+}
+
+// What the name that follows stands for in a table; fails when it is not there.
+uint32_t Reader::numberOf(const Map& by_name, std::string_view what) {
+  const Loc loc = token().loc;
+  const NameId id = name();
+  if (failed_) return 0;
+  const auto found = by_name.find(id.index);
+  if (found != by_name.end()) return found->second;
+  fail(diag::IrUnknownName, loc, {module_.names.string(id), what});
+  return 0;
+}
+
+// After `@`: a type before `#` or `%`, a function before `(`, else a global list.
+ExprId Reader::afterSigil() {
+  Builder& b = *builder_;
+  const size_t start = at_;
+  const Loc loc = token().loc;
+  const std::string text = sigilName();
+  if (failed_) return {};
+  if (isPunct("#") || isPunct("%")) {
+    at_ = start;
+    const TypeId of = type();
+    return failed_ ? ExprId{} : afterType(of);
+  }
+  const NameId id = module_.names.intern(text);
+  const bool is_call = isPunct("(") && !token().first_in_line;
+  const Map& by_name = is_call ? body_by_name_ : list_by_name_;
+  const auto found = by_name.find(id.index);
+  if (found == by_name.end()) {
+    fail(diag::IrUnknownName, loc, {text, is_call ? "function" : "list"});
+    return {};
+  }
+  if (!is_call) return postfix(b.global(found->second));
+  const std::vector<ExprId> given = operands(module_.body(BodyId{found->second}));
+  b.loc = loc;
+  return failed_ ? ExprId{} : postfix(b.call(BodyId{found->second}, given));
+}
+
+// convert! int x. The check that `!` alone means depends on the type after it.
+ExprId Reader::conversion() {
+  Builder& b = *builder_;
+  const Loc loc = b.loc;
+  const size_t mark = at_;
+  if (isPunct("!")) {  // skipped, and read again below
+    ++at_;
+    if (isPunct("("))
+      while (token().kind != TokenKind::End && !accept(")")) ++at_;
+  }
+  const TypeId to = type();
+  const ExprId operand = expr({});
+  if (failed_) return {};
+  b.loc = loc;
+  const ExprId id = b.convert(to, operand);
+  const size_t end = at_;
+  at_ = mark;
+  const uint8_t set = checks(naturalCheck(types_, b.body.expr(id)));
+  at_ = end;
+  b.body.expr(id).checks = set;
+  return id;
+}
+
+// select int condition, yes, no
+ExprId Reader::selection() {
+  const Loc loc = builder_->loc;
+  const TypeId of = type();
+  SelectExpr node{.condition = expr(types::kBool)};
+  expect(",");
+  node.when_true = expr(of);
+  expect(",");
+  node.when_false = expr(of);
+  return failed_ ? ExprId{} : builder_->add(loc, types_.resolve(of), node);
+}
+
+// add! int x, y   not bool x. The type is that of the operands.
+ExprId Reader::operation(Op op) {
+  const Loc loc = builder_->loc;
+  ++at_;
+  const uint8_t set = checks(naturalCheck(op));
+  const TypeId of = type();
+  const bool is_unary = types::operandCount(op) == 1;
+  const ExprId first = expr(of);
+  if (!is_unary) expect(",");
+  const ExprId second = is_unary ? ExprId{} : expr(of);
+  if (failed_) return {};
+  const TypeId result = types::isComparison(op) ? types::kBool : types_.resolve(of);
+  return is_unary ? builder_->add(loc, result, UnaryExpr{first, op}, set)
+                  : builder_->add(loc, result, BinaryExpr{first, second, op}, set);
 }
 
 // A local, or a field of self.
@@ -453,7 +467,7 @@ ExprId Reader::variable() {
     return {};
   }
   const ExprId place = b.field(b.self(), field);
-  b.body.expr(place).checks = checks(place);
+  b.body.expr(place).checks = checks(kCheckNull);
   return postfix(place);
 }
 
@@ -463,20 +477,14 @@ ExprId Reader::afterType(TypeId of) {
   if (accept("#")) return literal(types_.resolve(of));
   expect("%");
   if (failed_) return {};
-  const std::string_view area = token().text;
-  const size_t letter = std::string_view("IQM").find(area.empty() ? '?' : area[0]);
-  if (token().kind != TokenKind::Name || letter == std::string_view::npos || area.size() < 2) {
-    expected("an area and a byte such as I4");
-    return {};
-  }
-  uint32_t byte = 0, bit = kNoBit;
-  std::from_chars(area.data() + 1, area.data() + area.size(), byte);
-  ++at_;
+  const std::optional<AddressInArea> address = addressInArea();
+  if (!address) return {};
+  uint32_t bit = kNoBit;
   if (isPunct(".") && token(1).kind == TokenKind::Number) {
     ++at_;
     bit = static_cast<uint32_t>(integer());
   }
-  return failed_ ? ExprId{} : postfix(b.image(of, static_cast<uint32_t>(letter), byte, bit));
+  return failed_ ? ExprId{} : postfix(b.image(of, address->area.index, address->byte, bit));
 }
 
 ExprId Reader::literal(TypeId of) {
@@ -501,12 +509,10 @@ ExprId Reader::literal(TypeId of) {
   }
   if (accept("class")) {
     const TypeId record = type();
-    const ExprId number = b.constant(types::kUDInt, 0);
-    Expr& created = b.body.expr(number);
-    created.c = record.index;
+    ConstExpr number{.number_of = record};
     for (size_t i = 0; i < module_.classes.size(); ++i)
-      if (module_.classes[i].record == record) created.a = static_cast<uint32_t>(i) + 1;
-    return number;
+      if (module_.classes[i].record == record) number.bits = i + 1;
+    return b.add(loc, types::kUDInt, number);
   }
   if (accept("null")) {
     const TypeKind kind = kindOf(of);
@@ -621,8 +627,7 @@ ExprId Reader::postfix(ExprId base) {
     } else {
       return base;
     }
-    const uint8_t set = checks(created);
-    b.body.expr(created).checks = set;
+    b.body.expr(created).checks = checks(naturalCheck(types_, b.body.expr(created)));
     base = created;
   }
   return base;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ir/text_writer.h"
+#include "ir/walk.h"
 
 namespace rung::ir::text_form {
 
@@ -18,12 +19,10 @@ void Printer::block(StmtId first) {
     const Stmt& s = body_->stmt(id);
     newLine();
     id = s.next;
-    const bool gives_result = s.kind == StmtKind::Assign && id && body_->stmt(id).kind == StmtKind::Return &&
-                              body_->expr(ExprId{s.a}).kind == ExprKind::Local &&
-                              body_->locals[body_->expr(ExprId{s.a}).a].kind == LocalKind::Result;
-    if (gives_result) {
+    if (givesResult(s)) {
+      const AssignStmt& result = s.as<AssignStmt>();
       put("return ");
-      expr(ExprId{s.b}, typeOf(ExprId{s.a}));
+      expr(result.value, typeOf(result.place));
       id = body_->stmt(id).next;
     } else {
       stmt(s);
@@ -34,184 +33,193 @@ void Printer::block(StmtId first) {
   put("}");
 }
 
-void Printer::calleeOperands(const Body& callee, uint32_t first, uint32_t count) {
+// An assignment to the result before a return.
+bool Printer::givesResult(const Stmt& s) const {
+  if (s.kind != StmtKind::Assign || !s.next || body_->stmt(s.next).kind != StmtKind::Return) return false;
+  const auto* place = body_->expr(s.as<AssignStmt>().place).tryAs<LocalExpr>();
+  return place != nullptr && body_->locals[place->local].kind == LocalKind::Result;
+}
+
+void Printer::calleeOperands(const Body& callee, Slice<ExprId> operands) {
   put("(");
   uint32_t i = 0;
-  for (const Local& local : callee.locals) {
-    if (!isParameter(local)) continue;
-    if (i == count) break;
+  for (const Local& parameter : parameters(callee)) {
+    if (i == operands.count) break;
     if (i > 0) put(", ");
-    ExprId id = body_->operands[first + i];
-    if (id)
-      expr(id, types_.resolve(local.type));
+    if (const ExprId id = body_->list(operands)[i++])
+      expr(id, types_.resolve(parameter.type));
     else
       put("_");
-    ++i;
   }
   put(")");
 }
 
-void Printer::stmt(const Stmt& s) {
-  switch (s.kind) {
-    case StmtKind::None: put("none"); return;
-    case StmtKind::Assign:
-    case StmtKind::Bind:
-      if (s.kind == StmtKind::Bind) put("bind ");
-      expr(ExprId{s.a}, {});
-      put(" = ");
-      if (s.kind == StmtKind::Bind && s.b == 0) return put("null");
-      expr(ExprId{s.b}, typeOf(ExprId{s.a}));
-      return;
-    case StmtKind::Call: {
-      const Body& callee = module_.body(BodyId{s.a});
-      if (s.e != 0) {
-        expr(ExprId{s.e}, {});
-        put(" = ");
+void Printer::callStmt(const CallStmt& call) {
+  const Body& callee = module_.body(call.callee);
+  if (call.result) {
+    expr(call.result, {});
+    put(" = ");
+  }
+  put(callee.kind == BodyKind::Init ? "call init @"
+      : !call.is_virtual            ? "call @"
+      : call.is_checked             ? "call virtual checked @"
+                                    : "call virtual @");
+  name(callee.name);
+  if (callee.kind == BodyKind::Function || !call.operands.empty()) calleeOperands(callee, call.operands);
+  if (call.self) {
+    put(" on ");
+    expr(call.self, {});
+  }
+}
+
+// A block, or a word and a block, if there is one.
+void Printer::optionalBlock(const char* words, StmtId first) {
+  if (!first) return;
+  put(words);
+  block(first);
+}
+
+void Printer::switchStmt(const SwitchStmt& node) {
+  put("switch ");
+  expr(node.selector, {});
+  put(" {");
+  const bool is_signed = types_.isSigned(types_.plainKind(typeOf(node.selector)));
+  auto bound = [&](int64_t value) { is_signed ? signedNumber(value) : number(static_cast<uint64_t>(value)); };
+  ++indent_;
+  for (const Case& one : body_->list(node.cases)) {
+    newLine();
+    const char* separator = "case ";
+    for (const CaseRange& range : body_->list(one.ranges)) {
+      put(separator);
+      separator = ", ";
+      bound(range.low);
+      if (range.high != range.low) {
+        put("..");
+        bound(range.high);
       }
-      put(callee.kind == BodyKind::Init ? "call init @"
-          : (s.op & kVirtual) == 0      ? "call @"
-          : (s.op & kChecked) != 0      ? "call virtual checked @"
-                                        : "call virtual @");
-      name(callee.name);
-      if (callee.kind == BodyKind::Function || s.d != 0) calleeOperands(callee, s.c, s.d);
-      if (s.b != 0) {
-        put(" on ");
-        expr(ExprId{s.b}, {});
-      }
-      return;
     }
-    case StmtKind::If:
-      put("if ");
-      expr(ExprId{s.a}, types::kBool);
-      put(" {");
-      block(StmtId{s.b});
-      if (s.c != 0) {
-        put(" else {");
-        block(StmtId{s.c});
-      }
-      return;
-    case StmtKind::Switch: {
-      put("switch ");
-      expr(ExprId{s.a}, {});
-      put(" {");
-      const bool is_signed = types_.isSigned(types_.plainKind(typeOf(ExprId{s.a})));
-      auto bound = [&](int64_t value) { is_signed ? signedNumber(value) : number(static_cast<uint64_t>(value)); };
-      ++indent_;
-      for (uint32_t i = 0; i < s.c; ++i) {
-        const Case& one = body_->cases[s.b + i];
-        newLine();
-        put("case ");
-        for (uint32_t k = 0; k < one.range_count; ++k) {
-          const CaseRange& range = body_->ranges[one.first_range + k];
-          if (k > 0) put(", ");
-          bound(range.low);
-          if (range.high != range.low) {
-            put("..");
-            bound(range.high);
-          }
-        }
-        put(" {");
-        block(one.block);
-      }
-      if (s.d != 0) {
-        newLine();
-        put("else {");
-        block(StmtId{s.d});
-      }
-      --indent_;
-      newLine();
-      put("}");
-      return;
+    put(" {");
+    block(one.block);
+  }
+  if (node.else_block) newLine();
+  optionalBlock("else {", node.else_block);
+  --indent_;
+  newLine();
+  put("}");
+}
+
+void Printer::tryStmt(const TryStmt& node) {
+  put("try {");
+  block(node.body_block);
+  if (node.catches) {
+    put(" catch ");
+    if (node.number) {
+      expr(node.number, {});
+      put(" ");
     }
-    case StmtKind::Loop:
-      put("loop {");
-      block(StmtId{s.a});
-      if (s.b != 0) {
-        put(" next {");
-        block(StmtId{s.b});
-      }
-      return;
-    case StmtKind::For: {
-      TypeId type = typeOf(ExprId{s.a});
-      put("for ");
-      expr(ExprId{s.a}, {});
-      put(" = ");
-      expr(ExprId{s.b}, type);
-      put(" to ");
-      expr(ExprId{s.c}, type);
-      put(" by ");
-      expr(ExprId{s.d}, type);
-      put(" {");
-      block(StmtId{s.e});
-      return;
-    }
-    case StmtKind::Break: put("break"); return;
-    case StmtKind::Continue: put("continue"); return;
-    case StmtKind::Return: put("return"); return;
-    case StmtKind::Jump:
-    case StmtKind::Label:
-      put(s.kind == StmtKind::Jump ? "jump " : "label ");
-      name(body_->labels[s.a]);
-      return;
-    case StmtKind::Try:
-      put("try {");
-      block(StmtId{s.a});
-      if (s.op != 0) {
-        put(" catch ");
-        if (s.d != 0) {
-          expr(ExprId{s.d}, {});
-          put(" ");
-        }
-        put("{");
-        block(StmtId{s.b});
-      }
-      if (s.c != 0) {
-        put(" finally {");
-        block(StmtId{s.c});
-      }
-      return;
-    case StmtKind::Fault:
-      put("fault ");
-      put(types::word(static_cast<types::Fault>(s.op)));
-      if (s.a != 0) {
-        put("(");
-        expr(ExprId{s.a}, {});
-        put(")");
-      }
-      return;
-    case StmtKind::Assert: {
-      const auto assertion = static_cast<Assertion>(s.op);
-      if (assertion == Assertion::Assert) {
-        put("assert ");
-        expr(ExprId{s.a}, types::kBool);
-        if (s.b != 0) {
-          put(" shows ");
-          expr(ExprId{s.b}, {});
-          put(", ");
-          expr(ExprId{s.c}, typeOf(ExprId{s.b}));
-          put(" as ");
-          quoted(module_.names.string(NameId{s.e}), '\'');
-        }
-      } else {
-        put(assertion == Assertion::AssertEq ? "assert_eq " : "assert_near ");
-        expr(ExprId{s.a}, {});
+    put("{");
+    block(node.catch_block);
+  }
+  optionalBlock(" finally {", node.finally_block);
+}
+
+void Printer::assertStmt(const AssertStmt& node) {
+  switch (node.assertion) {
+    case Assertion::Assert:
+      put("assert ");
+      expr(node.first, types::kBool);
+      if (node.second) {
+        put(" shows ");
+        expr(node.second, {});
         put(", ");
-        expr(ExprId{s.b}, typeOf(ExprId{s.a}));
-        if (assertion == Assertion::AssertNear) {
-          put(", ");
-          expr(ExprId{s.c}, typeOf(ExprId{s.a}));
-        }
+        expr(node.third, typeOf(node.second));
+        put(" as ");
+        quoted(module_.names.string(node.shown), '\'');
       }
-      if (s.d != 0) {
-        put(" text ");
-        quoted(module_.names.string(NameId{s.d}), '\'');
+      break;
+    case Assertion::AssertEq:
+    case Assertion::AssertNear:
+      put(node.assertion == Assertion::AssertEq ? "assert_eq " : "assert_near ");
+      expr(node.first, {});
+      put(", ");
+      expr(node.second, typeOf(node.first));
+      if (node.third) {
+        put(", ");
+        expr(node.third, typeOf(node.first));
       }
-      return;
+      break;
+  }
+  if (node.text) {
+    put(" text ");
+    quoted(module_.names.string(node.text), '\'');
+  }
+}
+
+void Printer::stmt(const Stmt& s) {
+  const auto word = [&](const char* after = " ") {
+    put(wordOf(s.kind));
+    put(after);
+  };
+  switch (s.kind) {
+    case StmtKind::None: return put("none");
+    case StmtKind::Assign: {
+      const AssignStmt& node = s.as<AssignStmt>();
+      expr(node.place, {});
+      put(" = ");
+      return expr(node.value, typeOf(node.place));
     }
-    case StmtKind::Evaluate:
-      put("evaluate ");
-      expr(ExprId{s.a}, {});
-      return;
+    case StmtKind::Bind: {
+      const BindStmt& node = s.as<BindStmt>();
+      word();
+      expr(node.field, {});
+      put(" = ");
+      return node.place ? expr(node.place, typeOf(node.field)) : put("null");
+    }
+    case StmtKind::Call: return callStmt(s.as<CallStmt>());
+    case StmtKind::If: {
+      const IfStmt& node = s.as<IfStmt>();
+      word();
+      expr(node.condition, types::kBool);
+      put(" {");
+      block(node.then_block);
+      return optionalBlock(" else {", node.else_block);
+    }
+    case StmtKind::Switch: return switchStmt(s.as<SwitchStmt>());
+    case StmtKind::Loop:
+      word(" {");
+      block(s.as<LoopStmt>().body_block);
+      return optionalBlock(" next {", s.as<LoopStmt>().next_block);
+    case StmtKind::For: {
+      const ForStmt& node = s.as<ForStmt>();
+      const TypeId type = typeOf(node.control);
+      word();
+      expr(node.control, {});
+      put(" = ");
+      expr(node.from, type);
+      put(" to ");
+      expr(node.to, type);
+      put(" by ");
+      expr(node.step, type);
+      put(" {");
+      return block(node.body_block);
+    }
+    case StmtKind::Break:
+    case StmtKind::Continue:
+    case StmtKind::Return: return word("");
+    case StmtKind::Jump: word(); return name(body_->labels[s.as<JumpStmt>().label]);
+    case StmtKind::Label: word(); return name(body_->labels[s.as<LabelStmt>().label]);
+    case StmtKind::Try: return tryStmt(s.as<TryStmt>());
+    case StmtKind::Fault: {
+      const FaultStmt& node = s.as<FaultStmt>();
+      word();
+      put(types::word(node.fault));
+      if (!node.value) return;
+      put("(");
+      expr(node.value, {});
+      return put(")");
+    }
+    case StmtKind::Assert: return assertStmt(s.as<AssertStmt>());
+    case StmtKind::Evaluate: word(); return expr(s.as<EvaluateStmt>().value, {});
   }
 }
 
@@ -232,21 +240,22 @@ void Printer::checks(const Expr& e) {
   put(")");
 }
 
+// A literal with its type before it, unless that is what the reader expects.
 void Printer::constant(const Expr& e, TypeId expected) {
-  if (e.kind == ExprKind::Const && e.c != 0) {
+  const auto* value = e.tryAs<ConstExpr>();
+  if (value != nullptr && value->number_of) {
     put("class ");
-    return type(TypeId{e.c});
+    return type(value->number_of);
   }
   const TypeId id = types_.resolve(e.type);
   const TypeInfo& info = types_.info(id);
-  const TypeKind kind = types_.plainKind(id);
   bool prefix = id != (expected ? types_.resolve(expected) : TypeId{});
-  if (!expected && e.kind == ExprKind::Const && (id == kDefaultInteger || id == types::kBool || (id == types::kReal)))
+  if (!expected && value != nullptr && (id == kDefaultInteger || id == types::kBool || id == types::kReal))
     prefix = false;
   NameId item;
-  if (e.kind == ExprKind::Const && info.kind == TypeKind::Enum) {
-    for (const auto& [item_name, value] : info.items) {
-      if (value != static_cast<int64_t>(e.bits())) continue;
+  if (value != nullptr && info.kind == TypeKind::Enum) {
+    for (const auto& [item_name, number] : info.items) {
+      if (number != static_cast<int64_t>(uint64_t{value->bits})) continue;
       item = item_name;
       break;
     }
@@ -255,40 +264,44 @@ void Printer::constant(const Expr& e, TypeId expected) {
     type(id);
     put("#");
   }
-  if (e.kind == ExprKind::Zero) {
-    put("zero");
-  } else if (e.kind == ExprKind::String) {
-    quoted(module_.names.string(NameId{e.a}), '\'');
-  } else if (item) {
-    name(item);
-  } else if (kind == TypeKind::Bool && e.bits() <= 1) {
-    put(e.bits() != 0 ? "true" : "false");
+  if (e.kind == ExprKind::Zero) return put("zero");
+  if (const auto* string = e.tryAs<StringExpr>()) return quoted(module_.names.string(string->characters), '\'');
+  if (item) return name(item);
+  scalar({id, value->bits});
+}
+
+void Printer::scalar(const types::Value& value) {
+  const TypeKind kind = types_.plainKind(value.type);
+  if (kind == TypeKind::Bool && value.bits <= 1) {
+    put(value.bits != 0 ? "true" : "false");
   } else if (TypeTable::isReal(kind)) {
-    double value = types::Value{id, e.bits()}.asReal();
-    uint64_t quiet = types::Value::ofReal(id, std::nan("")).bits;
-    if (std::isnan(value)) {
-      put("nan");
-      if (e.bits() != quiet) {
-        put("(");
-        number(e.bits());
-        put(")");
-      }
-    } else if (std::isinf(value)) {
-      put(value < 0 ? "-inf" : "inf");
-    } else {
-      char digits[40];
-      char* end = kind == TypeKind::Real ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value)).ptr
-                                         : std::to_chars(digits, digits + sizeof digits, value).ptr;
-      std::string_view text(digits, static_cast<size_t>(end - digits));
-      put(text);
-      if (text.find_first_of(".e") == std::string_view::npos) put(".0");
-    }
-  } else if ((kind == TypeKind::Pointer || kind == TypeKind::Reference) && e.bits() == 0) {
+    real(value, kind);
+  } else if ((kind == TypeKind::Pointer || kind == TypeKind::Reference) && value.bits == 0) {
     put("null");
   } else if (types_.isSigned(kind)) {
-    signedNumber(static_cast<int64_t>(e.bits()));
+    signedNumber(static_cast<int64_t>(value.bits));
   } else {
-    number(e.bits());
+    number(value.bits);
+  }
+}
+
+void Printer::real(const types::Value& value, TypeKind kind) {
+  const double real = value.asReal();
+  if (std::isnan(real)) {
+    put("nan");
+    if (value.bits == types::Value::ofReal(value.type, std::nan("")).bits) return;
+    put("(");
+    number(value.bits);
+    put(")");
+  } else if (std::isinf(real)) {
+    put(real < 0 ? "-inf" : "inf");
+  } else {
+    char digits[40];
+    char* end = kind == TypeKind::Real ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(real)).ptr
+                                       : std::to_chars(digits, digits + sizeof digits, real).ptr;
+    const std::string_view text(digits, static_cast<size_t>(end - digits));
+    put(text);
+    if (text.find_first_of(".e") == std::string_view::npos) put(".0");
   }
 }
 
@@ -322,128 +335,122 @@ void Printer::operand(ExprId id, TypeId expected) {
   }
 }
 
+void Printer::localName(const Local& local) {
+  if (local.kind == LocalKind::Result) return put("result");
+  if (local.kind == LocalKind::Temp) put("%");
+  name(local.name);
+}
+
+void Printer::place(const Expr& e) {
+  switch (e.kind) {
+    case ExprKind::Local: return localName(body_->locals[e.as<LocalExpr>().local]);
+    case ExprKind::Self: return put("self");
+    case ExprKind::Global: put("@"); return name(module_.lists[e.as<GlobalExpr>().list].name);
+    case ExprKind::Program: put("$"); return name(module_.programs[e.as<ProgramExpr>().program].name);
+    case ExprKind::Image: {
+      const ImageExpr& image = e.as<ImageExpr>();
+      type(e.type);
+      put("%");
+      out += module_.areas[image.area].letter;
+      number(image.byte);
+      if (image.bit == kNoBit) return;
+      put(".");
+      return number(image.bit);
+    }
+    case ExprKind::Field: {
+      const FieldExpr& node = e.as<FieldExpr>();
+      const Expr& base = body_->expr(node.base);
+      const Field& field = types_.info(types_.resolve(base.type)).fields[node.field];
+      if (base.kind != ExprKind::Self || local_names_.count(field.name.index) != 0) {
+        operand(node.base, {});
+        put(".");
+      }
+      return name(field.name);
+    }
+    case ExprKind::Index: {
+      operand(e.as<IndexExpr>().base, {});
+      const char* separator = "[";
+      for (const ExprId index : body_->list(e.as<IndexExpr>().indices)) {
+        put(separator);
+        separator = ", ";
+        expr(index, {});
+      }
+      return put("]");
+    }
+    case ExprKind::Deref: operand(e.as<DerefExpr>().pointer, {}); return put("^");
+    case ExprKind::Bits:
+      operand(e.as<BitsExpr>().base, {});
+      put(bitsWord(types_.kind(e.type)));
+      return number(e.as<BitsExpr>().position);
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::String:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return;
+  }
+}
+
+// A word, its checks, a type, and operands: `div! int x, y`.
+void Printer::prefixed(const char* word, const Expr& e, TypeId of) {
+  put(word);
+  checks(e);
+  put(" ");
+  type(of);
+  put(" ");
+}
+
 void Printer::expr(ExprId id, TypeId expected) {
   const Expr& e = body_->expr(id);
   switch (e.kind) {
-    case ExprKind::None: put("none"); return;
+    case ExprKind::None: return put("none");
     case ExprKind::Const:
     case ExprKind::String:
-    case ExprKind::Zero: constant(e, expected); return;
-    case ExprKind::Data:
-      put("data ");
-      number(e.a);
-      return;
-    case ExprKind::Local: {
-      const Local& local = body_->locals[e.a];
-      if (local.kind == LocalKind::Result) {
-        put("result");
-        return;
-      }
-      if (local.kind == LocalKind::Temp) put("%");
-      name(local.name);
-      return;
-    }
-    case ExprKind::Self: put("self"); return;
+    case ExprKind::Zero: return constant(e, expected);
+    case ExprKind::Data: put("data "); return number(e.as<DataExpr>().index);
+    case ExprKind::Local:
+    case ExprKind::Self:
     case ExprKind::Global:
-      put("@");
-      name(module_.lists[e.a].name);
-      return;
     case ExprKind::Program:
-      put("$");
-      name(module_.programs[e.a].name);
-      return;
     case ExprKind::Image:
-      type(e.type);
-      put("%");
-      out += "IQM"[e.a];
-      number(e.b);
-      if (e.c != kNoBit) {
-        put(".");
-        number(e.c);
-      }
-      return;
-    case ExprKind::Field: {
-      const Expr& base = body_->expr(ExprId{e.a});
-      const Field& field = types_.info(types_.resolve(base.type)).fields[e.b];
-      if (base.kind != ExprKind::Self || local_names_.count(field.name.index) != 0) {
-        operand(ExprId{e.a}, {});
-        put(".");
-      }
-      name(field.name);
-      checks(e);
-      return;
-    }
+    case ExprKind::Field:
     case ExprKind::Index:
-      operand(ExprId{e.a}, {});
-      put("[");
-      for (uint32_t i = 0; i < e.c; ++i) {
-        if (i > 0) put(", ");
-        expr(body_->operands[e.b + i], {});
-      }
-      put("]");
-      checks(e);
-      return;
     case ExprKind::Deref:
-      operand(ExprId{e.a}, {});
-      put("^");
-      checks(e);
-      return;
-    case ExprKind::Bits:
-      operand(ExprId{e.a}, {});
-      put(bitsWord(types_.kind(e.type)));
-      number(e.b);
-      return;
-    case ExprKind::Unary:
-      put(types::word(e.op));
-      checks(e);
-      put(" ");
-      type(e.type);
-      put(" ");
-      operand(ExprId{e.a}, e.type);
-      return;
+    case ExprKind::Bits: place(e); return checks(e);
+    case ExprKind::Unary: prefixed(types::word(e.op()), e, e.type); return operand(e.as<UnaryExpr>().operand, e.type);
     case ExprKind::Binary: {
-      TypeId of = types::isComparison(e.op) ? typeOf(ExprId{e.a}) : e.type;
-      put(types::word(e.op));
-      checks(e);
-      put(" ");
-      type(of);
-      put(" ");
-      operand(ExprId{e.a}, of);
+      const BinaryExpr& node = e.as<BinaryExpr>();
+      const TypeId of = types::isComparison(node.op) ? typeOf(node.left) : e.type;
+      prefixed(types::word(node.op), e, of);
+      operand(node.left, of);
       put(", ");
-      operand(ExprId{e.b}, of);
-      return;
+      return operand(node.right, of);
     }
     case ExprKind::Convert:
-      put("convert");
-      checks(e);
-      put(" ");
-      type(e.type);
-      put(" ");
-      operand(ExprId{e.a}, {});
-      return;
-    case ExprKind::Select:
-      put("select ");
-      type(e.type);
-      put(" ");
-      operand(ExprId{e.a}, types::kBool);
+    case ExprKind::Address:
+      prefixed(wordOf(e.kind), e, e.type);
+      return forEachOperand(*body_, e, [&](ExprId below) { operand(below, {}); });
+    case ExprKind::Select: {
+      const SelectExpr& node = e.as<SelectExpr>();
+      prefixed(wordOf(e.kind), e, e.type);
+      operand(node.condition, types::kBool);
       put(", ");
-      operand(ExprId{e.b}, e.type);
+      operand(node.when_true, e.type);
       put(", ");
-      operand(ExprId{e.c}, e.type);
-      return;
+      return operand(node.when_false, e.type);
+    }
     case ExprKind::Call: {
-      const Body& callee = module_.body(BodyId{e.a});
+      const CallExpr& node = e.as<CallExpr>();
+      const Body& callee = module_.body(node.callee);
       put("@");
       name(callee.name);
-      calleeOperands(callee, e.b, e.c);
-      return;
+      return calleeOperands(callee, node.operands);
     }
-    case ExprKind::Address:
-      put("address ");
-      type(e.type);
-      put(" ");
-      operand(ExprId{e.a}, {});
-      return;
   }
 }
 

@@ -18,14 +18,20 @@ constexpr TypeKeyword kTypeKeywords[] = {
     {"dt", TypeKind::DateTime}, {"ldt", TypeKind::LDateTime}, {"char", TypeKind::Char},
     {"wchar", TypeKind::WChar}, {"uchar", TypeKind::UChar},
 };
+// Beside the words of instructions.def.
 constexpr const char* kReserved[] = {
-    "address",  "array",    "assert",  "assert_eq", "assert_near", "bind",     "break",   "call",   "case",
-    "catch",    "continue", "convert", "data",      "else",        "evaluate", "false",   "fault",  "finally",
-    "for",      "if",       "in",      "inf",       "init",        "inout",    "jump",    "label",  "loop",
-    "nan",      "next",     "null",    "of",        "on",          "out",      "pointer", "ref",    "reference",
-    "result",   "return",   "select",  "self",      "string",      "switch",   "temp",    "to",     "true",
-    "try",      "value",    "var",     "wstring",   "ustring",     "zero",     "by",      "retain", "persistent",
-    "constant", "text",     "shows",   "class",     "base"};
+    "array", "assert_eq", "assert_near", "base",    "by",      "case",      "catch",  "class",  "constant", "else",
+    "false", "finally",   "in",          "inf",     "init",    "inout",     "nan",    "next",   "null",     "of",
+    "on",    "out",       "persistent",  "pointer", "ref",     "reference", "result", "retain", "shows",    "string",
+    "temp",  "text",      "to",          "true",    "ustring", "value",     "var",    "wstring"};
+constexpr const char* kExprWords[] = {
+#define RUNG_EXPR(kind, word, fields) word,
+#include "ir/instructions.def"
+};
+constexpr const char* kStmtWords[] = {
+#define RUNG_STMT(kind, word, fields) word,
+#include "ir/instructions.def"
+};
 constexpr CheckKeyword kCheckKeywords[] = {
     {"div", kCheckDiv},           {"index", kCheckIndex},     {"null", kCheckNull},        {"cast", kCheckCast},
     {"subrange", kCheckSubrange}, {"convert", kCheckConvert}, {"overflow", kCheckOverflow}};
@@ -47,20 +53,34 @@ const char* bitsWord(TypeKind part) {
   return ".%X";
 }
 
+const char* wordOf(ExprKind kind) { return kExprWords[static_cast<size_t>(kind)]; }
+const char* wordOf(StmtKind kind) { return kStmtWords[static_cast<size_t>(kind)]; }
+
+StmtKind statementOf(std::string_view word) {
+  for (size_t i = 0; i < std::size(kStmtWords); ++i)
+    if (!word.empty() && word == kStmtWords[i]) return static_cast<StmtKind>(i);
+  return StmtKind::None;
+}
+
 bool isReserved(std::string_view name) {
   if (name.empty() || name[0] < 'a' || name[0] > 'z') return false;
   for (const char* word : kReserved)
     if (name == word) return true;
+  for (const char* word : kExprWords)
+    if (name == word) return true;
+  if (statementOf(name) != StmtKind::None) return true;
   for (const TypeKeyword& row : kTypeKeywords)
     if (name == row.word) return true;
   Op op;
   return types::findOp(name, op);
 }
 
+uint8_t naturalCheck(Op op) { return op == Op::Div || op == Op::Mod ? kCheckDiv : kCheckOverflow; }
+
 uint8_t naturalCheck(const TypeTable& types, const Expr& expr) {
   switch (expr.kind) {
-    case ExprKind::Binary: return expr.op == Op::Div || expr.op == Op::Mod ? kCheckDiv : kCheckOverflow;
-    case ExprKind::Unary: return kCheckOverflow;
+    case ExprKind::Binary:
+    case ExprKind::Unary: return naturalCheck(expr.op());
     case ExprKind::Index: return kCheckIndex;
     case ExprKind::Deref:
     case ExprKind::Field: return kCheckNull;

@@ -78,7 +78,7 @@ int64_t Reader::integer() {
 
 static bool isItemWord(std::string_view word) {
   for (const char* item : {"enum",     "subrange", "struct",    "union",   "block",    "program", "globals",
-                           "image",    "data",     "interface", "classes", "dispatch", "list",    "task",
+                           "area",     "data",     "interface", "classes", "dispatch", "list",    "task",
                            "instance", "located",  "test",      "exit",    "function", "body",    "init"})
     if (word == item) return true;
   return false;
@@ -289,6 +289,39 @@ void Reader::instance() {
   module_.programs.push_back(created);
 }
 
+// area I input 4
+void Reader::area() {
+  ++at_;
+  const std::string_view letter = token().text;
+  if (token().kind != TokenKind::Name || letter.size() != 1) return expected("the letter of an area");
+  ++at_;
+  types::MemoryArea created{.letter = letter[0], .owner = types::AreaOwner::Memory};
+  const auto owner = types::ownerCalled(token().text);
+  if (!owner) return expected("input, output or memory");
+  created.owner = *owner;
+  ++at_;
+  created.bytes = static_cast<uint32_t>(integer());
+  if (failed_) return;
+  if (const auto known = types::findArea(module_.areas, created.letter))
+    module_.areas[known->index] = created;
+  else
+    module_.areas.push_back(created);
+}
+
+// I4, after the `%`.
+std::optional<Reader::AddressInArea> Reader::addressInArea() {
+  const std::string_view text = token().text;
+  const auto area = text.size() < 2 ? std::nullopt : types::findArea(module_.areas, text[0]);
+  if (token().kind != TokenKind::Name || !area) {
+    expected("an area and a byte such as I4");
+    return std::nullopt;
+  }
+  AddressInArea address{*area, 0};
+  std::from_chars(text.data() + 1, text.data() + text.size(), address.byte);
+  ++at_;
+  return address;
+}
+
 // located start: bool%I0.5 of $Main
 void Reader::located() {
   ++at_;
@@ -299,13 +332,10 @@ void Reader::located() {
   created.bit = kNoBit;
   expect("%");
   if (failed_) return;
-  const std::string_view area = token().text;
-  const size_t letter = std::string_view("IQM").find(area.empty() ? '?' : area[0]);
-  if (token().kind != TokenKind::Name || letter == std::string_view::npos || area.size() < 2)
-    return expected("an area and a byte such as I4");
-  std::from_chars(area.data() + 1, area.data() + area.size(), created.byte);
-  created.area = static_cast<uint8_t>(letter);
-  ++at_;
+  const std::optional<AddressInArea> address = addressInArea();
+  if (!address) return;
+  created.area = address->area.index;
+  created.byte = address->byte;
   if (accept(".")) created.bit = static_cast<uint32_t>(integer());
   if (accept("of")) {
     expect("$");
@@ -461,13 +491,8 @@ void Reader::declareItem() {
       const int64_t value = integer();
       types_.edit(enum_type).items.emplace_back(item, value);
     }
-  } else if (isWord("image")) {
-    ++at_;
-    for (int area = 0; area < 3; ++area) {
-      constexpr std::string_view kAreas[] = {"I", "Q", "M"};
-      expect(kAreas[area]);
-      module_.image_bytes[area] = static_cast<uint32_t>(integer());
-    }
+  } else if (isWord("area")) {
+    area();
   } else if (isWord("list")) {
     ++at_;
     expect("@");

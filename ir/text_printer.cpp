@@ -217,13 +217,14 @@ void Printer::origin(const Origin& origin, Loc loc) {
 }
 
 void Printer::items() {
-  if (module_.image_bytes[0] + module_.image_bytes[1] + module_.image_bytes[2] != 0) {
-    put("image I ");
-    number(module_.image_bytes[0]);
-    put(" Q ");
-    number(module_.image_bytes[1]);
-    put(" M ");
-    number(module_.image_bytes[2]);
+  for (const types::MemoryArea& area : module_.areas) {
+    if (area.bytes == 0) continue;
+    put("area ");
+    out += area.letter;
+    put(" ");
+    put(spelling(area.owner));
+    put(" ");
+    number(area.bytes);
     put("\n");
   }
   for (size_t i = 0; i < module_.data.size(); ++i) {
@@ -324,7 +325,7 @@ void Printer::items() {
     put(": ");
     type(located.type);
     put("%");
-    out += "IQM"[located.area];
+    out += module_.areas[located.area].letter;
     number(located.byte);
     if (located.bit != kNoBit) {
       put(".");

@@ -34,6 +34,7 @@ class Reader {
   bool isWord(std::string_view word, size_t ahead = 0) const {
     return token(ahead).kind == TokenKind::Name && !token(ahead).quoted && token(ahead).text == word;
   }
+  bool isName() const { return token().kind == TokenKind::Name && !token().quoted; }
   bool accept(std::string_view text) {
     if (failed_ || !(isPunct(text) || isWord(text))) return false;
     ++at_;
@@ -60,6 +61,12 @@ class Reader {
   void dispatch();
   void task();
   void instance();
+  void area();
+  struct AddressInArea {
+    types::AreaId area;
+    uint32_t byte;
+  };
+  std::optional<AddressInArea> addressInArea();
   void located();
   void function();
   void blockBody(BodyKind kind);
@@ -74,17 +81,35 @@ class Reader {
 
   // ---- code
   StmtId block();
+  template <class T>
+  void append(Loc loc, const T& node) {
+    if (!failed_) builder_->append(loc, node);
+  }
   void stmt();
+  StmtId optionalBlock(std::string_view word);
+  void localDeclaration(LocalKind kind);
+  void assignment();
+  void forStmt();
+  void returnStmt();
+  uint32_t label();
+  void tryStmt();
+  void faultStmt();
+  void assertion(Assertion kind);
   void callStmt(ExprId result);
   void switchStmt();
   ExprId expr(TypeId wanted);
   ExprId primary(TypeId wanted);
+  ExprId afterSigil();
+  ExprId conversion();
+  ExprId selection();
+  ExprId operation(Op op);
+  uint32_t numberOf(const Map& by_name, std::string_view what);
   ExprId postfix(ExprId base);
   ExprId literal(TypeId type);
   ExprId variable();
   ExprId afterType(TypeId type);
   std::vector<ExprId> operands(const Body& callee);
-  uint8_t checks(ExprId id);
+  uint8_t checks(uint8_t natural);
   TypeId typeOf(ExprId id) const { return builder_->body.expr(id).type; }
   uint32_t fieldOf(TypeId record, NameId field);
 

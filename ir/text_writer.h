@@ -56,12 +56,23 @@ class Printer {
 
   // ---- code
   void block(StmtId first);
+  bool givesResult(const Stmt& stmt) const;
+  void optionalBlock(const char* words, StmtId first);
   void stmt(const Stmt& stmt);
+  void callStmt(const CallStmt& call);
+  void switchStmt(const SwitchStmt& node);
+  void tryStmt(const TryStmt& node);
+  void assertStmt(const AssertStmt& node);
   void expr(ExprId id, TypeId expected);
+  void place(const Expr& expr);
+  void localName(const Local& local);
   void operand(ExprId id, TypeId expected);
+  void prefixed(const char* word, const Expr& expr, TypeId of);
   void constant(const Expr& expr, TypeId expected);
+  void scalar(const types::Value& value);
+  void real(const types::Value& value, types::TypeKind kind);
   void checks(const Expr& expr);
-  void calleeOperands(const Body& callee, uint32_t first, uint32_t count);
+  void calleeOperands(const Body& callee, Slice<ExprId> operands);
   TypeId typeOf(ExprId id) const { return body_->expr(id).type; }
 
   const Module& module_;

@@ -98,17 +98,28 @@ class Verifier {
   void locals();
   void block(StmtId first);
   void stmt(StmtId id);
-  void callStmt(const Stmt& s);
-  void switchStmt(const Stmt& s);
-  void callOperands(const Body& callee, uint32_t first, uint32_t count, int rule, bool pure);
-  bool value(uint32_t id);  // checks the tree below; false when there is none
-  bool place(uint32_t id, int rule);
+  void assignStmt(const AssignStmt& s);
+  void bindStmt(const BindStmt& s);
+  void callStmt(const CallStmt& s);
+  void switchStmt(const SwitchStmt& s);
+  void loopBlock(StmtId first, bool is_next);
+  void forStmt(const ForStmt& s);
+  void label(uint32_t label);
+  void assertStmt(const AssertStmt& s);
+  void callOperands(const Body& callee, Slice<ExprId> operands, int rule, bool pure);
+  bool value(ExprId id);  // checks the tree below; false when there is none
+  bool place(ExprId id, int rule);
   void node(const Expr& e);
+  void placeNode(const Expr& e);
   void constant(const Expr& e);
-  void operatorNode(const Expr& e);
+  void image(const Expr& e);
+  void bits(const Expr& e);
+  void conversion(const Expr& e);
+  void pureCall(const Expr& e);
+  void operatorNode(const Expr& e, Op op, ExprId first, ExprId second);  // second: none for one operand
   bool fits(TypeId place_type, TypeId value_type) const;
-  TypeId typeOf(uint32_t id) const { return body_->exprs[id].type; }
-  TypeKind plainOf(uint32_t id) const { return types_.plainKind(typeOf(id)); }
+  TypeId typeOf(ExprId id) const { return body_->expr(id).type; }
+  TypeKind plainOf(ExprId id) const { return types_.plainKind(typeOf(id)); }
   void wantType(const Expr& e, TypeId type, int rule) {
     require(e.type == types_.resolve(type), rule,
             [&] { return "the node is " + toString(e.type) + ", but it refers to " + toString(types_.resolve(type)); });
@@ -173,11 +184,10 @@ void Verifier::checkModule() {
             "the body of a program does not belong to its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
     for (BodyId function : {program.run, program.setup, program.exit, module_.exit}) {
-      require(!function || (function.index < module_.bodies.size() &&
-                            module_.body(function).kind == BodyKind::Function && !module_.body(function).result &&
-                            std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(),
-                                         isParameter)),
-              2, "the run or setup of a program instance is not a function without parameters and result");
+      require(
+          !function || (function.index < module_.bodies.size() && module_.body(function).kind == BodyKind::Function &&
+                        !module_.body(function).result && parameters(module_.body(function)).empty()),
+          2, "the run or setup of a program instance is not a function without parameters and result");
     }
   }
   seen.clear();
@@ -220,10 +230,8 @@ void Verifier::checkDispatches() {
       if (!id) continue;
       const Body& body = module_.body(id);
       std::vector<const Local*> wanted, given;
-      for (const Local& local : method.locals)
-        if (isParameter(local)) wanted.push_back(&local);
-      for (const Local& local : body.locals)
-        if (isParameter(local)) given.push_back(&local);
+      for (const Local& parameter : parameters(method)) wanted.push_back(&parameter);
+      for (const Local& parameter : parameters(body)) given.push_back(&parameter);
       bool same = body.self && wanted.size() == given.size() &&
                   types_.resolve(method.result) == types_.resolve(body.result) && !body.abstract;
       for (size_t i = 0; same && i < wanted.size(); ++i)
@@ -335,137 +343,144 @@ bool Verifier::fits(TypeId place_type, TypeId value_type) const {
   return false;
 }
 
+void Verifier::assignStmt(const AssignStmt& s) {
+  if (!place(s.place, 20) | !value(s.value)) return;
+  require(fits(typeOf(s.place), typeOf(s.value)), 20,
+          [&] { return toString(typeOf(s.value)) + " is assigned to " + toString(typeOf(s.place)); });
+  const auto* root = body_->expr(rootOf(*body_, s.place)).tryAs<LocalExpr>();
+  if (root != nullptr && root->local < body_->locals.size()) {
+    const Local& local = body_->locals[root->local];
+    require(!(local.by_reference && local.kind == LocalKind::Input), 20, "a by-reference input is assigned");
+    // A local pointer inside a record local stays local; Deref is another root.
+  } else {
+    found_effect_ = true;
+  }
+}
+
+void Verifier::bindStmt(const BindStmt& s) {
+  if (!place(s.field, 21) || (s.place && !place(s.place, 21))) return;
+  const auto* field = body_->expr(s.field).tryAs<FieldExpr>();
+  require(field != nullptr && types_.info(typeOf(field->base)).fields[field->field].by_reference, 21,
+          "bind of something other than a by-reference field");
+  require(!s.place || typeOf(s.field) == typeOf(s.place), 21, "bind of a place with another type");
+  found_effect_ = true;
+}
+
+// The blocks of a Loop or For. Its `next` block is not a place to continue from.
+void Verifier::loopBlock(StmtId first, bool is_next) {
+  ++loops_;
+  const bool outer = in_next_;
+  in_next_ = is_next;
+  block(first);
+  in_next_ = outer;
+  --loops_;
+}
+
+void Verifier::forStmt(const ForStmt& s) {
+  if (!place(s.control, 25)) return;
+  const TypeKind control = plainOf(s.control);
+  require(isIntegral(control), 25, [&] { return "a FOR over " + toString(typeOf(s.control)); });
+  forEachExpr(*body_, s.control, [&](ExprId part) {
+    require(body_->expr(part).checks == 0, 25, "a check in the control place of a FOR");
+  });
+  for (const ExprId bound : {s.from, s.to, s.step})
+    if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound does not have the type of its control");
+  if (s.step.index < body_->exprs.size()) {
+    const auto* step = body_->expr(s.step).tryAs<ConstExpr>();
+    require(step != nullptr && step->bits != 0, 25, "a FOR step is not a constant other than 0");
+  }
+  if (body_->expr(rootOf(*body_, s.control)).kind != ExprKind::Local) found_effect_ = true;
+}
+
+void Verifier::label(uint32_t label) {
+  if (!require(label < body_->labels.size(), 27, "a label that does not exist")) return;
+  require(label_block_[label] == 0, 27, "a label is placed twice");
+  label_block_[label] = open_blocks_.back();
+}
+
+void Verifier::assertStmt(const AssertStmt& s) {
+  const int wanted = s.assertion == Assertion::Assert ? (s.shown ? 3 : 1) : s.assertion == Assertion::AssertEq ? 2 : 3;
+  const int given = static_cast<bool>(s.first) + static_cast<bool>(s.second) + static_cast<bool>(s.third);
+  require(s.assertion <= Assertion::AssertNear && given == wanted && s.first, 23,
+          "an assertion with too many or too few operands");
+  if (s.first && value(s.first) && s.assertion == Assertion::Assert)
+    require(types_.kind(typeOf(s.first)) == TypeKind::Bool, 23, "the condition of an assertion is not a BOOL");
+  if (s.second) value(s.second);
+  if (s.third) value(s.third);
+  found_effect_ = true;
+}
+
 void Verifier::stmt(StmtId id) {
   const Stmt& s = body_->stmt(id);
   switch (s.kind) {
     case StmtKind::None: require(false, 5, "a statement without kind"); return;
-    case StmtKind::Assign: {
-      if (!place(s.a, 20) | !value(s.b)) return;
-      const Expr& root = body_->expr(rootOf(*body_, ExprId{s.a}));
-      require(fits(typeOf(s.a), typeOf(s.b)), 20,
-              [&] { return toString(typeOf(s.b)) + " is assigned to " + toString(typeOf(s.a)); });
-      if (root.kind == ExprKind::Local && root.a < body_->locals.size()) {
-        const Local& local = body_->locals[root.a];
-        require(!(local.by_reference && local.kind == LocalKind::Input), 20, "a by-reference input is assigned");
-        // A local pointer inside a record local stays local; Deref is another root.
-      } else {
-        found_effect_ = true;
-      }
-      return;
+    case StmtKind::Assign: return assignStmt(s.as<AssignStmt>());
+    case StmtKind::Bind: return bindStmt(s.as<BindStmt>());
+    case StmtKind::Call: return callStmt(s.as<CallStmt>());
+    case StmtKind::If: {
+      const IfStmt& node = s.as<IfStmt>();
+      if (value(node.condition))
+        require(types_.kind(typeOf(node.condition)) == TypeKind::Bool, 23, "the condition is not a BOOL");
+      block(node.then_block);
+      return block(node.else_block);
     }
-    case StmtKind::Bind: {
-      if (!place(s.a, 21) || (s.b != 0 && !place(s.b, 21))) return;
-      const Expr& field = body_->exprs[s.a];
-      const TypeId record = field.kind == ExprKind::Field ? typeOf(field.a) : TypeId{};
-      require(record && types_.info(record).fields[field.b].by_reference, 21,
-              "bind of something other than a by-reference field");
-      require(s.b == 0 || typeOf(s.a) == typeOf(s.b), 21, "bind of a place with another type");
-      found_effect_ = true;
-      return;
-    }
-    case StmtKind::Call: callStmt(s); return;
-    case StmtKind::If:
-      if (value(s.a)) require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "the condition is not a BOOL");
-      block(StmtId{s.b});
-      block(StmtId{s.c});
-      return;
-    case StmtKind::Switch: switchStmt(s); return;
-    case StmtKind::Loop: {
-      ++loops_;
-      const bool outer = in_next_;
-      in_next_ = false;
-      block(StmtId{s.a});
-      in_next_ = true;
-      block(StmtId{s.b});
-      in_next_ = outer;
-      --loops_;
-      return;
-    }
-    case StmtKind::For: {
-      if (place(s.a, 25)) {
-        const TypeKind control = plainOf(s.a);
-        require(isIntegral(control), 25, [&] { return "a FOR over " + toString(typeOf(s.a)); });
-        forEachExpr(*body_, ExprId{s.a}, [&](ExprId part) {
-          require(body_->expr(part).checks == 0, 25, "a check in the control place of a FOR");
-        });
-        for (uint32_t bound : {s.b, s.c, s.d})
-          if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound does not have the type of its control");
-        if (s.d < body_->exprs.size())
-          require(body_->exprs[s.d].kind == ExprKind::Const && body_->exprs[s.d].bits() != 0, 25,
-                  "a FOR step is not a constant other than 0");
-        if (body_->expr(rootOf(*body_, ExprId{s.a})).kind != ExprKind::Local) found_effect_ = true;
-      }
-      ++loops_;
-      const bool outer = in_next_;
-      in_next_ = false;
-      block(StmtId{s.e});
-      in_next_ = outer;
-      --loops_;
-      return;
-    }
+    case StmtKind::Switch: return switchStmt(s.as<SwitchStmt>());
+    case StmtKind::Loop:
+      loopBlock(s.as<LoopStmt>().body_block, false);
+      return loopBlock(s.as<LoopStmt>().next_block, true);
+    case StmtKind::For: forStmt(s.as<ForStmt>()); return loopBlock(s.as<ForStmt>().body_block, false);
     case StmtKind::Break: require(loops_ > 0, 26, "break outside of a loop"); return;
     case StmtKind::Continue: require(loops_ > 0 && !in_next_, 26, "continue outside of a loop"); return;
     case StmtKind::Return: return;
-    case StmtKind::Jump:
-      if (require(s.a < body_->labels.size(), 27, "a jump to a label that does not exist"))
-        jumps_.push_back({s.a, open_blocks_});
-      return;
-    case StmtKind::Label:
-      if (!require(s.a < body_->labels.size(), 27, "a label that does not exist")) return;
-      require(label_block_[s.a] == 0, 27, "a label is placed twice");
-      label_block_[s.a] = open_blocks_.back();
-      return;
-    case StmtKind::Try:
-      block(StmtId{s.a});
-      if (s.d != 0 && place(s.d, 28))
-        require(isIntegral(plainOf(s.d)), 28, "the number of a fault is assigned to something other than an integer");
-      block(StmtId{s.b});
-      block(StmtId{s.c});
-      return;
-    case StmtKind::Fault:
-      require(s.op > 0 && s.op <= static_cast<uint8_t>(types::Fault::Lock), 28, "a fault that does not exist");
-      if (s.a != 0) value(s.a);
-      found_fault_ = true;
-      return;
-    case StmtKind::Assert: {
-      const uint32_t wanted = s.op == 0 ? (s.e != 0 ? 3 : 1) : s.op == 1 ? 2 : 3;
-      require(s.op <= 2 && (s.a != 0) + (s.b != 0) + (s.c != 0) == static_cast<int>(wanted) && s.a != 0, 23,
-              "an assertion with too many or too few operands");
-      if (s.a != 0 && value(s.a) && s.op == 0)
-        require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "the condition of an assertion is not a BOOL");
-      if (s.b != 0) value(s.b);
-      if (s.c != 0) value(s.c);
-      found_effect_ = true;
+    case StmtKind::Jump: {
+      const uint32_t to = s.as<JumpStmt>().label;
+      if (require(to < body_->labels.size(), 27, "a jump to a label that does not exist"))
+        jumps_.push_back({to, open_blocks_});
       return;
     }
-    case StmtKind::Evaluate: value(s.a); return;
+    case StmtKind::Label: return label(s.as<LabelStmt>().label);
+    case StmtKind::Try: {
+      const TryStmt& node = s.as<TryStmt>();
+      block(node.body_block);
+      if (node.number && place(node.number, 28))
+        require(isIntegral(plainOf(node.number)), 28,
+                "the number of a fault is assigned to something other than an integer");
+      block(node.catch_block);
+      return block(node.finally_block);
+    }
+    case StmtKind::Fault: {
+      const FaultStmt& node = s.as<FaultStmt>();
+      require(node.fault > types::Fault::None && node.fault <= types::Fault::Lock, 28, "a fault that does not exist");
+      if (node.value) value(node.value);
+      found_fault_ = true;
+      return;
+    }
+    case StmtKind::Assert: return assertStmt(s.as<AssertStmt>());
+    case StmtKind::Evaluate: value(s.as<EvaluateStmt>().value); return;
   }
 }
 
-void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, int rule, bool pure) {
-  uint32_t parameters = 0;
-  for (const Local& local : callee.locals) parameters += isParameter(local);
-  if (!require(parameters == count && first + count <= body_->operands.size(), rule, [&] {
-        return "a call to `" + std::string(module_.names.string(callee.name)) + "` with " + std::to_string(count) +
-               " operands for " + std::to_string(parameters) + " parameters";
+void Verifier::callOperands(const Body& callee, Slice<ExprId> operands, int rule, bool pure) {
+  const uint32_t wanted_count = parameters(callee).count();
+  if (!require(wanted_count == operands.count && operands.first + operands.count <= body_->operands.size(), rule, [&] {
+        return "a call to `" + std::string(module_.names.string(callee.name)) + "` with " +
+               std::to_string(operands.count) + " operands for " + std::to_string(wanted_count) + " parameters";
       }))
     return;
-  uint32_t i = first;
-  for (const Local& local : callee.locals) {
-    if (!isParameter(local)) continue;
-    const uint32_t id = body_->operands[i++].index;
-    if (id == 0) {
-      require(local.kind == LocalKind::Output && !pure, rule, "an operand other than an output is missing");
+  uint32_t i = 0;
+  for (const Local& parameter : parameters(callee)) {
+    const ExprId id = body_->list(operands)[i++];
+    if (!id) {
+      require(parameter.kind == LocalKind::Output && !pure, rule, "an operand other than an output is missing");
       continue;
     }
     if (!value(id)) continue;
-    const bool is_value = local.kind == LocalKind::Input;
+    const bool is_value = parameter.kind == LocalKind::Input;
     if (!is_value) {
-      require(isPlace(body_->exprs[id].kind), rule, "a by-reference operand is not a place");
-      const Expr& root = body_->expr(rootOf(*body_, ExprId{id}));
-      if (root.kind != ExprKind::Local) found_effect_ = true;
+      require(isPlace(body_->expr(id).kind), rule, "a by-reference operand is not a place");
+      if (body_->expr(rootOf(*body_, id)).kind != ExprKind::Local) found_effect_ = true;
     }
-    const TypeId wanted = types_.resolve(local.type), given = typeOf(id);
+    const TypeId wanted = types_.resolve(parameter.type), given = typeOf(id);
     // A string of any capacity may be passed for an in-out or input string; ARRAY[*] takes every array of its element.
     const bool same_string_kind = TypeTable::isString(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
@@ -475,81 +490,81 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
   }
 }
 
-void Verifier::callStmt(const Stmt& s) {
-  if (!require(s.a != 0 && s.a < module_.bodies.size(), 22, "a call to a body that does not exist")) return;
-  const Body& callee = module_.bodies[s.a];
+void Verifier::callStmt(const CallStmt& s) {
+  if (!require(s.callee && s.callee.index < module_.bodies.size(), 22, "a call to a body that does not exist")) return;
+  const Body& callee = module_.body(s.callee);
   if (callee.may_fault) found_fault_ = true;
   if (!callee.pure) found_effect_ = true;
-  if (require((s.b != 0) == static_cast<bool>(callee.self), 22,
+  if (require(static_cast<bool>(s.self) == static_cast<bool>(callee.self), 22,
               "a call has a self and its callee has none, or the reverse") &&
-      s.b != 0 && place(s.b, 22))
-    require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + toString(typeOf(s.b)); });
-  callOperands(callee, s.c, s.d, 22, false);
-  if ((s.op & kVirtual) != 0) {
+      s.self && place(s.self, 22))
+    require(typeOf(s.self) == types_.resolve(callee.self), 22, [&] { return "a call on " + toString(typeOf(s.self)); });
+  callOperands(callee, s.operands, 22, false);
+  if (s.is_virtual) {
     found_fault_ = true;
-    require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
+    require(callee.kind == BodyKind::Function && callee.self && hasDispatch(s.callee), 31,
             "a virtual call to a body without a dispatch");
   } else {
     require(!callee.abstract, 31, "a non-virtual call to an abstract method");
   }
-  if (s.e != 0 && place(s.e, 22))
-    require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
+  if (s.result && place(s.result, 22))
+    require(callee.result && fits(typeOf(s.result), types_.resolve(callee.result)), 22,
             "the result does not have the type of its place");
 }
 
-void Verifier::switchStmt(const Stmt& s) {
-  if (!value(s.a)) return;
-  const TypeKind kind = plainOf(s.a);
-  require(isIntegral(kind), 24, [&] { return "a switch over " + toString(typeOf(s.a)); });
+void Verifier::switchStmt(const SwitchStmt& s) {
+  if (!value(s.selector)) return;
+  const TypeKind kind = plainOf(s.selector);
+  require(isIntegral(kind), 24, [&] { return "a switch over " + toString(typeOf(s.selector)); });
   const bool is_signed = types_.isSigned(kind);
   auto less = [&](int64_t a, int64_t b) {
     return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
   };
   std::vector<CaseRange> all;
-  if (!require(s.b + s.c <= body_->cases.size(), 5, "cases out of range")) return;
-  for (uint32_t i = 0; i < s.c; ++i) {
-    const Case& one = body_->cases[s.b + i];
-    if (!require(one.first_range + one.range_count <= body_->ranges.size(), 5, "case ranges out of range")) return;
-    require(one.range_count > 0, 24, "a case without values");
-    for (uint32_t k = 0; k < one.range_count; ++k) {
-      const CaseRange& range = body_->ranges[one.first_range + k];
+  if (!require(s.cases.first + s.cases.count <= body_->cases.size(), 5, "cases out of range")) return;
+  for (const Case& one : body_->list(s.cases)) {
+    if (!require(one.ranges.first + one.ranges.count <= body_->ranges.size(), 5, "case ranges out of range")) return;
+    require(!one.ranges.empty(), 24, "a case without values");
+    for (const CaseRange& range : body_->list(one.ranges)) {
       require(!less(range.high, range.low), 24, "a case range is reversed");
       all.push_back(range);
     }
   }
   std::sort(all.begin(), all.end(), [&](const CaseRange& a, const CaseRange& b) { return less(a.low, b.low); });
   for (size_t i = 1; i < all.size(); ++i) require(less(all[i - 1].high, all[i].low), 24, "a value in two cases");
-  for (uint32_t i = 0; i < s.c; ++i) block(body_->cases[s.b + i].block);
-  block(StmtId{s.d});
+  for (const Case& one : body_->list(s.cases)) block(one.block);
+  block(s.else_block);
 }
 
 // ---- expressions
 
-bool Verifier::place(uint32_t id, int rule) {
-  return value(id) && require(isPlace(body_->exprs[id].kind), rule, "expected a place, found a value");
+bool Verifier::place(ExprId id, int rule) {
+  return value(id) && require(isPlace(body_->expr(id).kind), rule, "expected a place, found a value");
 }
 
-bool Verifier::value(uint32_t id) {
-  if (!require(id != 0 && id < body_->exprs.size(), 5, "an expression id out of range")) return false;
-  if (!require(!expr_seen_[id], 5, "an expression is used twice")) return false;
-  expr_seen_[id] = true;
-  const Expr& e = body_->exprs[id];
+bool Verifier::value(ExprId id) {
+  if (!require(id && id.index < body_->exprs.size(), 5, "an expression id out of range")) return false;
+  if (!require(!expr_seen_[id.index], 5, "an expression is used twice")) return false;
+  expr_seen_[id.index] = true;
+  const Expr& e = body_->expr(id);
   if (!known(e.type)) return false;
   if (e.checks != 0) found_fault_ = true;
-  bool ok = true;
-  if (e.kind == ExprKind::Index || e.kind == ExprKind::Call)
-    ok = require(e.b + e.c <= body_->operands.size(), 5, "operands out of range");
-  if (ok && e.kind != ExprKind::Call) forEachSlot(*body_, e, [&](const uint32_t& slot) { ok = value(slot) && ok; });
-  if (ok) node(e);
+  const auto* index = e.tryAs<IndexExpr>();
+  const auto* call = e.tryAs<CallExpr>();
+  const Slice<ExprId> list = index != nullptr ? index->indices : call != nullptr ? call->operands : Slice<ExprId>{};
+  bool ok = require(list.first + list.count <= body_->operands.size(), 5, "operands out of range");
+  if (ok && call == nullptr) forEachOperand(*body_, e, [&](ExprId operand) { ok = value(operand) && ok; });
+  if (ok) isPlace(e.kind) ? placeNode(e) : node(e);
   return ok;
 }
 
 void Verifier::constant(const Expr& e) {
+  const uint64_t bits = e.as<ConstExpr>().bits;
   const TypeKind kind = types_.plainKind(e.type);
   if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, [&] { return "a constant of " + toString(e.type); }))
     return;
   if (TypeTable::isReal(kind)) {
-    const double real = types::Value{e.type, e.bits()}.asReal();
+    const double real = types::Value{e.type, bits}.asReal();
     require(kind != TypeKind::Real || real != real || static_cast<double>(static_cast<float>(real)) == real, 9,
             "a REAL constant does not fit in a REAL");
     return;
@@ -557,158 +572,211 @@ void Verifier::constant(const Expr& e) {
   const uint32_t width = TypeTable::bitWidth(kind);
   if (width == 0 || width >= 64) return;
   const auto shift = 64 - width;
-  const uint64_t extended = types_.isSigned(kind)
-                                ? static_cast<uint64_t>(static_cast<int64_t>(e.bits() << shift) >> shift)
-                                : e.bits() << shift >> shift;
-  require(extended == e.bits(), 9, [&] { return "a constant whose bits do not fit " + toString(e.type); });
+  const uint64_t extended = types_.isSigned(kind) ? static_cast<uint64_t>(static_cast<int64_t>(bits << shift) >> shift)
+                                                  : bits << shift >> shift;
+  require(extended == bits, 9, [&] { return "a constant whose bits do not fit " + toString(e.type); });
+}
+
+void Verifier::image(const Expr& e) {
+  const ImageExpr& image = e.as<ImageExpr>();
+  if (!require(image.area < module_.areas.size(), 10, "an image area that does not exist")) return;
+  const uint64_t size = image.bit == kNoBit ? types_.info(e.type).size : 1;
+  require(image.byte + size <= module_.areas[image.area].bytes, 10, "an image view outside of its area");
+  if (image.bit == kNoBit) return;
+  require(image.bit < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10,
+          "an image bit is out of range or not a BOOL");
+}
+
+void Verifier::bits(const Expr& e) {
+  const BitsExpr& bits = e.as<BitsExpr>();
+  const TypeKind kind = plainOf(bits.base), part = types_.kind(e.type);
+  if (!require(isIntegral(kind), 14, [&] { return "a part of " + toString(typeOf(bits.base)); })) return;
+  const bool is_part =
+      part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word || part == TypeKind::DWord;
+  require(is_part && (uint64_t{bits.position} + 1) * TypeTable::bitWidth(part) <= TypeTable::bitWidth(kind), 14,
+          [&] { return "a part outside of " + toString(typeOf(bits.base)); });
+}
+
+void Verifier::placeNode(const Expr& e) {
+  auto isBase = [&](ExprId base, int rule) {
+    return require(isPlace(body_->expr(base).kind), rule, "the base is not a place");
+  };
+  auto names = [&](uint32_t index, const auto& list, const char* what) {
+    return require(index < list.size(), 10, what);
+  };
+  switch (e.kind) {
+    case ExprKind::Local: {
+      const uint32_t local = e.as<LocalExpr>().local;
+      if (names(local, body_->locals, "a local that does not exist")) wantType(e, body_->locals[local].type, 10);
+      return allowChecks(e, 0, 10);
+    }
+    case ExprKind::Self:
+      if (require(static_cast<bool>(body_->self), 8, "self in a body that has none")) wantType(e, body_->self, 8);
+      return allowChecks(e, 0, 10);
+    case ExprKind::Global: {
+      const uint32_t list = e.as<GlobalExpr>().list;
+      if (names(list, module_.lists, "a list that does not exist")) wantType(e, module_.lists[list].record, 10);
+      return allowChecks(e, 0, 10);
+    }
+    case ExprKind::Program: {
+      const uint32_t program = e.as<ProgramExpr>().program;
+      if (names(program, module_.programs, "a program that does not exist"))
+        wantType(e, module_.programs[program].record, 10);
+      return allowChecks(e, 0, 10);
+    }
+    case ExprKind::Image: image(e); return allowChecks(e, 0, 10);
+    case ExprKind::Field: {
+      const FieldExpr& node = e.as<FieldExpr>();
+      const TypeInfo& info = types_.info(typeOf(node.base));
+      if (!isBase(node.base, 11) || !require(info.kind == TypeKind::Record && node.field < info.fields.size(), 11,
+                                             "a field of something other than a record"))
+        return;
+      wantType(e, info.fields[node.field].type, 11);
+      return allowChecks(e, info.fields[node.field].by_reference ? unsigned{kCheckNull} : 0u, 11);
+    }
+    case ExprKind::Index: {
+      const IndexExpr& node = e.as<IndexExpr>();
+      const TypeInfo& info = types_.info(typeOf(node.base));
+      if (!isBase(node.base, 12) ||
+          !require(info.kind == TypeKind::Array, 12, "an index into something other than an array"))
+        return;
+      require(info.dimensions.empty() || info.dimensions.size() == node.indices.count, 12,
+              "the number of indices differs from the number of dimensions");
+      for (const ExprId index : body_->list(node.indices))
+        require(isIntegral(plainOf(index)), 12, "an index is not an integer");
+      wantType(e, info.base, 12);
+      return allowChecks(e, kCheckIndex, 12);
+    }
+    case ExprKind::Deref: {
+      const TypeInfo& info = types_.info(typeOf(e.as<DerefExpr>().pointer));
+      if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
+      wantType(e, info.base, 13);
+      return allowChecks(e, kCheckNull | kCheckCast, 13);
+    }
+    case ExprKind::Bits:
+      if (isBase(e.as<BitsExpr>().base, 14)) bits(e);
+      return allowChecks(e, 0, 15);
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::String:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return;
+  }
+}
+
+void Verifier::conversion(const Expr& e) {
+  const ExprId operand = e.as<ConvertExpr>().operand;
+  const TypeKind from = plainOf(operand), to = types_.plainKind(e.type);
+  require((TypeTable::isScalar(from) && TypeTable::isScalar(to)) ||
+              (TypeTable::isString(from) && TypeTable::isString(to)) ||
+              ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
+          16, [&] { return "a conversion of " + toString(typeOf(operand)) + " to " + toString(e.type); });
+  allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
+}
+
+void Verifier::pureCall(const Expr& e) {
+  const CallExpr& call = e.as<CallExpr>();
+  if (!require(call.callee && call.callee.index < module_.bodies.size(), 18, "a call to a body that does not exist"))
+    return;
+  const Body& callee = module_.body(call.callee);
+  require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18, [&] {
+    return "`" + std::string(module_.names.string(callee.name)) + "` is called in an expression but is not pure";
+  });
+  if (callee.result) wantType(e, callee.result, 18);
+  for (const Local& parameter : parameters(callee))
+    require(parameter.kind == LocalKind::Input, 18, "a call in an expression with an output");
+  callOperands(callee, call.operands, 18, true);
 }
 
 void Verifier::node(const Expr& e) {
-  auto base = [&](int rule) { return require(isPlace(body_->exprs[e.a].kind), rule, "the base is not a place"); };
   switch (e.kind) {
     case ExprKind::None: require(false, 5, "an expression without kind"); return;
-    case ExprKind::Const: constant(e); break;
+    case ExprKind::Const: constant(e); return allowChecks(e, 0, 9);
     case ExprKind::String:
       require(TypeTable::isString(types_.kind(e.type)), 9, [&] { return "a string constant of " + toString(e.type); });
-      break;
-    case ExprKind::Data:
-      if (require(e.a < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[e.a].type, 9);
-      break;
-    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, [&] { return "zero of " + toString(e.type); }); break;
-    case ExprKind::Local:
-      if (require(e.a < body_->locals.size(), 10, "a local that does not exist"))
-        wantType(e, body_->locals[e.a].type, 10);
-      break;
-    case ExprKind::Self:
-      if (require(static_cast<bool>(body_->self), 8, "self in a body that has none")) wantType(e, body_->self, 8);
-      break;
-    case ExprKind::Global:
-      if (require(e.a < module_.lists.size(), 10, "a list that does not exist"))
-        wantType(e, module_.lists[e.a].record, 10);
-      break;
-    case ExprKind::Program:
-      if (require(e.a < module_.programs.size(), 10, "a program that does not exist"))
-        wantType(e, module_.programs[e.a].record, 10);
-      break;
-    case ExprKind::Image: {
-      if (!require(e.a < 3, 10, "an image area that does not exist")) return;
-      const uint64_t size = e.c == kNoBit ? types_.info(e.type).size : 1;
-      require(e.b + size <= module_.image_bytes[e.a], 10, "an image view outside of its area");
-      if (e.c != kNoBit)
-        require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10,
-                "an image bit is out of range or not a BOOL");
-      break;
+      return allowChecks(e, 0, 9);
+    case ExprKind::Data: {
+      const uint32_t index = e.as<DataExpr>().index;
+      if (require(index < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[index].type, 9);
+      return allowChecks(e, 0, 9);
     }
-    case ExprKind::Field: {
-      const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!base(11) || !require(info.kind == TypeKind::Record && e.b < info.fields.size(), 11,
-                                "a field of something other than a record"))
-        return;
-      wantType(e, info.fields[e.b].type, 11);
-      allowChecks(e, info.fields[e.b].by_reference ? unsigned{kCheckNull} : 0u, 11);
-      return;
+    case ExprKind::Zero:
+      require(isAggregate(types_, e.type), 9, [&] { return "zero of " + toString(e.type); });
+      return allowChecks(e, 0, 9);
+    case ExprKind::Unary: {
+      const UnaryExpr& node = e.as<UnaryExpr>();
+      return operatorNode(e, node.op, node.operand, {});
     }
-    case ExprKind::Index: {
-      const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!base(12) || !require(info.kind == TypeKind::Array, 12, "an index into something other than an array"))
-        return;
-      require(info.dimensions.empty() || info.dimensions.size() == e.c, 12,
-              "the number of indices differs from the number of dimensions");
-      for (uint32_t i = 0; i < e.c; ++i)
-        require(isIntegral(plainOf(body_->operands[e.b + i].index)), 12, "an index is not an integer");
-      wantType(e, info.base, 12);
-      allowChecks(e, kCheckIndex, 12);
-      return;
+    case ExprKind::Binary: {
+      const BinaryExpr& node = e.as<BinaryExpr>();
+      return operatorNode(e, node.op, node.left, node.right);
     }
-    case ExprKind::Deref: {
-      const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
-      wantType(e, info.base, 13);
-      allowChecks(e, kCheckNull | kCheckCast, 13);
-      return;
-    }
-    case ExprKind::Bits: {
-      const TypeKind kind = plainOf(e.a), part = types_.kind(e.type);
-      if (!base(14) || !require(isIntegral(kind), 14, [&] { return "a part of " + toString(typeOf(e.a)); })) return;
-      const bool is_part =
-          part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word || part == TypeKind::DWord;
-      require(is_part && (uint64_t{e.b} + 1) * TypeTable::bitWidth(part) <= TypeTable::bitWidth(kind), 14,
-              [&] { return "a part outside of " + toString(typeOf(e.a)); });
-      break;
-    }
-    case ExprKind::Unary:
-    case ExprKind::Binary: operatorNode(e); return;
-    case ExprKind::Convert: {
-      const TypeKind from = plainOf(e.a), to = types_.plainKind(e.type);
-      require((TypeTable::isScalar(from) && TypeTable::isScalar(to)) ||
-                  (TypeTable::isString(from) && TypeTable::isString(to)) ||
-                  ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
-              16, [&] { return "a conversion of " + toString(typeOf(e.a)) + " to " + toString(e.type); });
-      allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
-      return;
-    }
-    case ExprKind::Select:
-      require(types_.kind(typeOf(e.a)) == TypeKind::Bool, 17, "the condition of a select is not a BOOL");
-      require(fits(e.type, typeOf(e.b)) && fits(e.type, typeOf(e.c)), 17,
+    case ExprKind::Convert: return conversion(e);
+    case ExprKind::Select: {
+      const SelectExpr& node = e.as<SelectExpr>();
+      require(types_.kind(typeOf(node.condition)) == TypeKind::Bool, 17, "the condition of a select is not a BOOL");
+      require(fits(e.type, typeOf(node.when_true)) && fits(e.type, typeOf(node.when_false)), 17,
               "a select does not have the type of its operands");
-      break;
-    case ExprKind::Call: {
-      if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call to a body that does not exist")) return;
-      const Body& callee = module_.bodies[e.a];
-      require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18, [&] {
-        return "`" + std::string(module_.names.string(callee.name)) + "` is called in an expression but is not pure";
-      });
-      if (callee.result) wantType(e, callee.result, 18);
-      for (const Local& local : callee.locals)
-        if (isParameter(local)) require(local.kind == LocalKind::Input, 18, "a call in an expression with an output");
-      callOperands(callee, e.b, e.c, 18, true);
-      break;
+      return allowChecks(e, 0, 15);
     }
+    case ExprKind::Call: pureCall(e); return allowChecks(e, 0, 15);
     case ExprKind::Address: {
-      const Expr& place_expr = body_->exprs[e.a];
+      const Expr& target = body_->expr(e.as<AddressExpr>().place);
       require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + toString(e.type); });
-      require(isPlace(place_expr.kind) && place_expr.kind != ExprKind::Bits &&
-                  !(place_expr.kind == ExprKind::Image && place_expr.c != kNoBit),
-              19, "the address of something that has none");
-      break;
+      require(isPlace(target.kind) && target.kind != ExprKind::Bits && !isImageBit(target), 19,
+              "the address of something that has none");
+      return allowChecks(e, 0, 15);
     }
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits: return;
   }
-  allowChecks(e, 0, e.kind <= ExprKind::Zero ? 9 : e.kind <= ExprKind::Image ? 10 : 15);
 }
 
-void Verifier::operatorNode(const Expr& e) {
-  const bool is_unary = e.kind == ExprKind::Unary;
-  const std::string_view word = types::word(e.op);
-  if (!require(types::operandCount(e.op) == (is_unary ? 1 : 2), 15,
+void Verifier::operatorNode(const Expr& e, Op op, ExprId first, ExprId second) {
+  const std::string_view word = types::word(op);
+  if (!require(types::operandCount(op) == (second ? 2 : 1), 15,
                [&] { return std::string(word) + " has the wrong number of operands"; }))
     return;
-  const TypeId left = types_.plain(typeOf(e.a));
+  const TypeId left = types_.plain(typeOf(first));
   const TypeKind kind = types_.kind(left);
-  if (types::isComparison(e.op))
+  if (types::isComparison(op))
     require(types_.kind(e.type) == TypeKind::Bool, 15, [&] { return std::string(word) + " is not a BOOL"; });
   else
     require(types_.plain(e.type) == left || (TypeTable::isString(kind) && types_.kind(e.type) == kind), 15,
-            [&] { return std::string(word) + " of " + toString(typeOf(e.a)) + " gives " + toString(e.type); });
-  if (!is_unary) {
-    const TypeId right = types_.plain(typeOf(e.b));
+            [&] { return std::string(word) + " of " + toString(typeOf(first)) + " gives " + toString(e.type); });
+  if (second) {
+    const TypeId right = types_.plain(typeOf(second));
     const TypeKind right_kind = types_.kind(right);
-    const bool is_shift = e.op == Op::Shl || e.op == Op::Shr || e.op == Op::Rol || e.op == Op::Ror;
+    const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Rol || op == Op::Ror;
     const bool same = left == right || (TypeTable::isString(kind) && kind == right_kind) ||
                       (isPointer(kind) && isPointer(right_kind));
     if (is_shift)
-      require(isIntegral(right_kind), 15, [&] { return std::string(word) + " by " + toString(typeOf(e.b)); });
-    else if (e.op == Op::Power)
+      require(isIntegral(right_kind), 15, [&] { return std::string(word) + " by " + toString(typeOf(second)); });
+    else if (op == Op::Power)
       require(isIntegral(right_kind) || TypeTable::isReal(right_kind), 15,
-              [&] { return std::string(word) + " to " + toString(typeOf(e.b)); });
+              [&] { return std::string(word) + " to " + toString(typeOf(second)); });
     else
-      require(same, 15,
-              [&] { return std::string(word) + " of " + toString(typeOf(e.a)) + " and " + toString(typeOf(e.b)); });
+      require(same, 15, [&] {
+        return std::string(word) + " of " + toString(typeOf(first)) + " and " + toString(typeOf(second));
+      });
   }
   unsigned allowed = 0;
   const bool number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;
   if (number) allowed |= kCheckOverflow;
-  if (number && !TypeTable::isReal(kind) && (e.op == Op::Div || e.op == Op::Mod || e.op == Op::Power))
-    allowed |= kCheckDiv;
+  if (number && !TypeTable::isReal(kind) && (op == Op::Div || op == Op::Mod || op == Op::Power)) allowed |= kCheckDiv;
   allowChecks(e, allowed, 15);
 }
 

@@ -6,50 +6,44 @@
 
 namespace rung::ir {
 
-// f(uint32_t& slot): each operand of one node, as the slot that holds its id, so that a pass can replace it.
-// With a const body the slots are const.
+// Each row of instructions.def becomes a case: its fields that play no part in the walk expand to nothing.
+#define RUNG_OPERAND(name)
+#define RUNG_OPERANDS(name)
+#define RUNG_READ(name)
+#define RUNG_WRITE(name)
+#define RUNG_REFERENCE(name)
+#define RUNG_ARGUMENTS(name)
+#define RUNG_BLOCK(name)
+#define RUNG_CASES(name)
+#define RUNG_VALUE(type, name)
+
+// f(ExprId& operand): each operand of one node, in the place that holds it, so that a pass can replace it. With a const
+// body the ids are const. `f` adds no expressions.
 template <class BodyT, class ExprT, class F>
-void forEachSlot(BodyT& body, ExprT& expr, F&& f) {
-  switch (expr.kind) {
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image: return;
-    case ExprKind::Field:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Convert:
-    case ExprKind::Address: f(expr.a); return;
-    case ExprKind::Binary:
-      f(expr.a);
-      f(expr.b);
-      return;
-    case ExprKind::Select:
-      f(expr.a);
-      f(expr.b);
-      f(expr.c);
-      return;
-    case ExprKind::Index:
-      f(expr.a);
-      for (uint32_t i = 0; i < expr.c; ++i) f(body.operands[expr.b + i].index);
-      return;
-    case ExprKind::Call:
-      for (uint32_t i = 0; i < expr.c; ++i) f(body.operands[expr.b + i].index);
-      return;
+void forEachOperand(BodyT& body, ExprT& expr, F&& f) {
+#undef RUNG_OPERAND
+#undef RUNG_OPERANDS
+#define RUNG_OPERAND(name) f(node.name);
+#define RUNG_OPERANDS(name) \
+  for (auto& operand : body.list(node.name)) f(operand);
+#define RUNG_EXPR(kind, word, fields)                             \
+  case ExprKind::kind: {                                          \
+    [[maybe_unused]] auto& node = expr.template as<kind##Expr>(); \
+    fields return;                                                \
   }
+  switch (expr.kind) {
+#include "ir/instructions.def"
+  }
+#undef RUNG_OPERAND
+#undef RUNG_OPERANDS
+#define RUNG_OPERAND(name)
+#define RUNG_OPERANDS(name)
 }
 
 // f(ExprId): the node and all below it, operands first.
 template <class F>
 void forEachExpr(const Body& body, ExprId root, F&& f) {
-  forEachSlot(body, body.expr(root), [&](const uint32_t& slot) { forEachExpr(body, ExprId{slot}, f); });
+  forEachOperand(body, body.expr(root), [&](ExprId operand) { forEachExpr(body, operand, f); });
   f(root);
 }
 
@@ -60,114 +54,108 @@ enum class Use : uint8_t {
   Reference,  // a place given to a by-reference parameter or as instance: read and written
 };
 
-// f(uint32_t& slot, Use): each expression directly in a statement; empty slots are skipped.
+// f(ExprId& root, Use): each expression directly in a statement; a missing one is skipped.
 template <class BodyT, class StmtT, class F>
 void forEachRoot(const Module& module, BodyT& body, StmtT& stmt, F&& f) {
-  auto visit = [&](auto& slot, Use use) {
-    if (slot != 0) f(slot, use);
+  auto visit = [&](auto& root, Use use) {
+    if (root) f(root, use);
   };
-  switch (stmt.kind) {
-    case StmtKind::None:
-    case StmtKind::Break:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Jump:
-    case StmtKind::Label:
-    case StmtKind::Loop: return;
-    case StmtKind::Assign:
-      visit(stmt.a, Use::Write);
-      visit(stmt.b, Use::Read);
-      return;
-    case StmtKind::Bind:
-      visit(stmt.a, Use::Write);
-      visit(stmt.b, Use::Reference);
-      return;
-    case StmtKind::Call: {
-      visit(stmt.b, Use::Reference);
-      const Body& callee = module.body(BodyId{stmt.a});
-      uint32_t i = 0;
-      for (const Local& local : callee.locals) {
-        if (!isParameter(local)) continue;
-        if (i == stmt.d) break;
-        visit(body.operands[stmt.c + i].index, local.kind == LocalKind::Input ? Use::Read : Use::Reference);
-        ++i;
-      }
-      visit(stmt.e, Use::Write);
-      return;
+  auto visitArguments = [&](const Body& callee, auto arguments) {
+    size_t i = 0;
+    for (const Local& parameter : parameters(callee)) {
+      if (i == arguments.size()) break;
+      visit(arguments[i++], parameter.kind == LocalKind::Input ? Use::Read : Use::Reference);
     }
-    case StmtKind::If:
-    case StmtKind::Switch:
-    case StmtKind::Evaluate:
-    case StmtKind::Fault: visit(stmt.a, Use::Read); return;
-    case StmtKind::For:
-      visit(stmt.a, Use::Write);
-      visit(stmt.b, Use::Read);
-      visit(stmt.c, Use::Read);
-      visit(stmt.d, Use::Read);
-      return;
-    case StmtKind::Try: visit(stmt.d, Use::Write); return;
-    case StmtKind::Assert:
-      visit(stmt.a, Use::Read);
-      visit(stmt.b, Use::Read);
-      visit(stmt.c, Use::Read);
-      return;
+  };
+#undef RUNG_READ
+#undef RUNG_WRITE
+#undef RUNG_REFERENCE
+#undef RUNG_ARGUMENTS
+#define RUNG_READ(name) visit(node.name, Use::Read);
+#define RUNG_WRITE(name) visit(node.name, Use::Write);
+#define RUNG_REFERENCE(name) visit(node.name, Use::Reference);
+#define RUNG_ARGUMENTS(name) visitArguments(module.body(node.callee), body.list(node.name));
+#define RUNG_STMT(kind, word, fields)                             \
+  case StmtKind::kind: {                                          \
+    [[maybe_unused]] auto& node = stmt.template as<kind##Stmt>(); \
+    fields return;                                                \
   }
+  switch (stmt.kind) {
+#include "ir/instructions.def"
+  }
+#undef RUNG_READ
+#undef RUNG_WRITE
+#undef RUNG_REFERENCE
+#undef RUNG_ARGUMENTS
+#define RUNG_READ(name)
+#define RUNG_WRITE(name)
+#define RUNG_REFERENCE(name)
+#define RUNG_ARGUMENTS(name)
 }
 
-// f(slot): the first statement of each block that a statement holds, in order; empty blocks too (0). A slot is
-// uint32_t& or, for a case's block, the index of its StmtId: also a uint32_t&.
+// f(StmtId& first): the first statement of each block that a statement holds, in order; none for an empty block.
 template <class BodyT, class StmtT, class F>
 void forEachBlock(BodyT& body, StmtT& stmt, F&& f) {
+#undef RUNG_BLOCK
+#undef RUNG_CASES
+#define RUNG_BLOCK(name) f(node.name);
+#define RUNG_CASES(name) \
+  for (auto& one : body.list(node.name)) f(one.block);
+#define RUNG_STMT(kind, word, fields)                             \
+  case StmtKind::kind: {                                          \
+    [[maybe_unused]] auto& node = stmt.template as<kind##Stmt>(); \
+    fields return;                                                \
+  }
   switch (stmt.kind) {
-    case StmtKind::None:
-    case StmtKind::Assign:
-    case StmtKind::Bind:
-    case StmtKind::Call:
-    case StmtKind::Break:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Jump:
-    case StmtKind::Label:
-    case StmtKind::Fault:
-    case StmtKind::Assert:
-    case StmtKind::Evaluate: return;
-    case StmtKind::If:
-      f(stmt.b);
-      f(stmt.c);
-      return;
-    case StmtKind::Switch:
-      for (uint32_t i = 0; i < stmt.c; ++i) f(body.cases[stmt.b + i].block.index);
-      f(stmt.d);
-      return;
-    case StmtKind::Loop:
-      f(stmt.a);
-      f(stmt.b);
-      return;
-    case StmtKind::For: f(stmt.e); return;
-    case StmtKind::Try:
-      f(stmt.a);
-      f(stmt.b);
-      f(stmt.c);
-      return;
+#include "ir/instructions.def"
   }
 }
+#undef RUNG_OPERAND
+#undef RUNG_OPERANDS
+#undef RUNG_READ
+#undef RUNG_WRITE
+#undef RUNG_REFERENCE
+#undef RUNG_ARGUMENTS
+#undef RUNG_BLOCK
+#undef RUNG_CASES
+#undef RUNG_VALUE
 
 // f(StmtId): every statement from `first` on, and those in their blocks, each before its blocks.
 template <class F>
 void forEachStmt(const Body& body, StmtId first, F&& f) {
   for (StmtId id = first; id; id = body.stmt(id).next) {
     f(id);
-    forEachBlock(body, body.stmt(id), [&](const uint32_t& block) { forEachStmt(body, StmtId{block}, f); });
+    forEachBlock(body, body.stmt(id), [&](StmtId block) { forEachStmt(body, block, f); });
   }
 }
 
-// The variable at the root of a place, and whether the place is that variable itself.
+// The place that a Field, Index or Bits is a part of; none for other kinds.
+inline ExprId baseOf(const Expr& place) {
+  if (const auto* field = place.tryAs<FieldExpr>()) return field->base;
+  if (const auto* index = place.tryAs<IndexExpr>()) return index->base;
+  if (const auto* bits = place.tryAs<BitsExpr>()) return bits->base;
+  return {};
+}
+
+// Whether the evaluation of a tree may fault.
+inline bool mayFault(const Body& body, ExprId root) {
+  const Expr& expr = body.expr(root);
+  bool found = expr.checks != 0;
+  forEachOperand(body, expr, [&](ExprId operand) { found = found || mayFault(body, operand); });
+  return found;
+}
+
+// A Field that is a reference: the variable that it refers to may be anywhere.
+inline bool isReference(const Module& module, const Body& body, const Expr& place) {
+  const auto* field = place.tryAs<FieldExpr>();
+  if (field == nullptr) return false;
+  return module.types.info(module.types.resolve(body.expr(field->base).type)).fields[field->field].by_reference;
+}
+
+// The variable at the root of a place.
 inline ExprId rootOf(const Body& body, ExprId place) {
-  while (true) {
-    const Expr& e = body.expr(place);
-    if (e.kind != ExprKind::Field && e.kind != ExprKind::Index && e.kind != ExprKind::Bits) return place;
-    place = ExprId{e.a};
-  }
+  while (const ExprId base = baseOf(body.expr(place))) place = base;
+  return place;
 }
 
 }  // namespace rung::ir

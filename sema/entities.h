@@ -13,6 +13,7 @@
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
 #include "sema/ids.h"
+#include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -28,7 +29,7 @@ enum class Storage : uint8_t {
 };
 
 struct ImageView {  // 8-bit byte offset in its area, and the bit for %X
-  ImageArea area = ImageArea::Input;
+  types::AreaId area;
   uint32_t byte = 0;
   uint8_t bit = 0;
   bool is_bit = false;

@@ -12,6 +12,7 @@
 #include "frontend/source/dialect.h"
 #include "frontend/source/function_ref.h"
 #include "sema/ids.h"
+#include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -49,11 +50,12 @@ struct Options {
   CallConstant call_constant;  // none: calls of functions are not constant
   // TwinCAT stores any value in a subrange, and code such as TcUnit relies on it (a count of 0 in UINT(1..100)): a
   // project with a .plcproj sets this. In the manuals range types saturate.
-  bool free_subranges = false;     // a subrange takes all values of its base type, and begins with its lower bound
-  uint32_t pool_bytes = 0;         // of the pool for __NEW; 0: the library's default
-  Scheduled scheduled;             // none: no callback
-  bool with_tests = false;         // the program is for `rung test`
-  std::vector<std::string> mocks;  // … of the tests that name exactly these
+  bool free_subranges = false;  // a subrange takes all values of its base type, and begins with its lower bound
+  types::MemoryAreas areas = types::standardAreas();
+  uint32_t pool_bytes = 0;                   // of the pool for __NEW; 0: the library's default
+  Scheduled scheduled;                       // none: no callback
+  bool with_tests = false;                   // the program is for `rung test`
+  std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is created when there is no CONFIGURATION
 };
 

@@ -9,7 +9,7 @@
 #include "frontend/export/exporter.h"
 #include "frontend/syntax/sfc.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 namespace {
 
 // The GUIDs that 3S uses for the step actions without a qualifier.
@@ -357,4 +357,4 @@ void exportTransitions(Export& to, const PouDecl& pou) {
   if (any) to.xml.close();
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

@@ -5,7 +5,7 @@
 
 #include "frontend/export/exporter.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 namespace {
 
 class ConfigurationExport {
@@ -256,4 +256,4 @@ void ConfigurationExport::run(DeclId id) {
 
 void exportConfiguration(Export& to, DeclId configuration) { ConfigurationExport(to).run(configuration); }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

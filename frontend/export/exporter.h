@@ -11,7 +11,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/tree.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 
 struct Export {
   const Tree& tree;
@@ -93,4 +93,4 @@ void exportChart(Export& to, const PouDecl& pou);
 void exportTransitions(Export& to, const PouDecl& pou);
 void exportNetworks(Export& to, const Diagram& diagram);  // <LD>, <FBD>, or <ST> and <addData> with a <CFC>
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

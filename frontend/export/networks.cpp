@@ -9,7 +9,7 @@
 #include "frontend/import/plcopen/networks.h"
 #include "frontend/syntax/diagram.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 namespace {
 
 constexpr int kElementRow = 40, kElementColumn = 120;
@@ -88,13 +88,13 @@ void NetworkExport::number() {
     networks.push_back(n.number > networks.back() ? n.number : networks.back() + 1);
   std::vector<uint64_t> next;
   next.reserve(networks.size());
-  for (const uint64_t n : networks) next.push_back(n * kNumbersPerNetwork + 1);
+  for (const uint64_t n : networks) next.push_back(n * importer::plcopen::kNumbersPerNetwork + 1);
   titles_.resize(networks.size());
   std::unordered_set<uint64_t> taken;
   numbers_.resize(elements_.size());
   for (size_t k = 0; k < elements_.size(); ++k) {
     const DiagramElement& e = elements_[k];
-    if (e.number / kNumbersPerNetwork != networks[e.network]) continue;
+    if (e.number / importer::plcopen::kNumbersPerNetwork != networks[e.network]) continue;
     numbers_[k] = e.number;
     taken.insert(e.number);
   }
@@ -103,7 +103,7 @@ void NetworkExport::number() {
     return next[network];
   };
   for (size_t k = 0; k < elements_.size(); ++k)
-    if (elements_[k].number / kNumbersPerNetwork != networks[elements_[k].network])
+    if (elements_[k].number / importer::plcopen::kNumbersPerNetwork != networks[elements_[k].network])
       numbers_[k] = fresh(elements_[k].network);
   for (uint32_t n = 1; n < networks.size(); ++n) titles_[n] = fresh(n);
 }
@@ -348,4 +348,4 @@ void NetworkExport::run() {
 
 void exportNetworks(Export& to, const Diagram& diagram) { NetworkExport(to, diagram).run(); }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

@@ -8,7 +8,7 @@
 #include "frontend/export/exporter.h"
 #include "frontend/syntax/st_printer.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 
 void Export::openData(std::string_view name, std::string_view unknown) {
   xml.open("data").attribute("name", name).attribute("handleUnknown", unknown);
@@ -542,4 +542,4 @@ std::string writeProject(const Program& program, const std::string& project, Dia
   return to.xml.out();
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

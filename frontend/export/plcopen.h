@@ -11,7 +11,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/tree.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 
 // The program to write.
 struct Program {
@@ -25,4 +25,4 @@ struct Program {
 // omitted.
 std::string writeProject(const Program& program, const std::string& project, Diagnostics& diagnostics);
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "frontend/source/files.h"
+#include "frontend/source/scanner.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 
 class SourceText {
  public:
@@ -47,11 +48,6 @@ class SourceText {
   Span parenthesesAround(size_t from, size_t p) const;
 
  private:
-  enum class Kind : uint8_t { Comment, Pragma, Text, Word, Punctuation };
-  struct Unit {
-    uint32_t begin, end;
-    Kind kind;
-  };
   size_t unitAt(size_t p) const;  // the first that begins at or after `p`
   std::string_view textOf(const Unit& unit) const { return cut(unit.begin, unit.end); }
   bool lineEnds(size_t begin, size_t end) const { return cut(begin, end).find('\n') != std::string_view::npos; }
@@ -61,4 +57,4 @@ class SourceText {
   std::vector<Unit> units_;
 };
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

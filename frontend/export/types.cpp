@@ -4,7 +4,7 @@
 #include "frontend/export/exporter.h"
 #include "frontend/syntax/st_printer.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 namespace {
 
 constexpr std::string_view kElementary[] = {"BOOL",  "BYTE", "WORD",  "DWORD", "LWORD", "SINT",  "INT",
@@ -318,4 +318,4 @@ void exportDataType(Export& to, DeclId id) {
   to.xml.close();
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

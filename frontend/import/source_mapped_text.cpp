@@ -41,6 +41,32 @@ void SourceMappedText::add(const Document& document, const Attribute& attribute)
     replace(attribute.loc, end, document.decoded(attribute));
 }
 
+void SourceMappedText::addUnquoted(const Document& document, const Element& element) {
+  for (uint32_t i = element.first_run; i < element.end_run; ++i) {
+    const Run& run = document.runs[i];
+    const bool opens = i == element.first_run, closes = i + 1 == element.end_run;
+    if (run.character != 0) {  // possibly a quote written as an entity
+      if (!opens && !closes) addRuns(document, i, i + 1);
+      continue;
+    }
+    const Loc begin{run.loc.offset + (opens ? 1u : 0u)}, end{run.loc.offset + run.length - (closes ? 1u : 0u)};
+    if (begin < end) add(begin, end);
+  }
+}
+
+void SourceMappedText::add(const Excerpt& excerpt) {
+  if (excerpt.attribute != nullptr)
+    add(*excerpt.document, *excerpt.attribute);
+  else if (excerpt.element != nullptr && excerpt.quoted)
+    addUnquoted(*excerpt.document, *excerpt.element);
+  else if (excerpt.element != nullptr)
+    add(*excerpt.document, *excerpt.element);
+  if (excerpt.loc)
+    put(excerpt.loc, excerpt.text);
+  else
+    word(excerpt.text);
+}
+
 void SourceMappedText::word(std::string_view text) {
   if (text.empty()) return;
   segment(end_, false);

@@ -7,12 +7,33 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "frontend/import/xml.h"
 #include "frontend/source/files.h"
 
 namespace rung::xml {
+
+// A piece of the text as a reader passes it to a writer: the content of an element or the value of an attribute,
+// followed by characters that are not in the file.
+struct Excerpt {
+  Excerpt() = default;
+  Excerpt(const Document& from, const Element& content) : document(&from), element(&content) {}
+  Excerpt(const Document& from, const Attribute& value) : document(&from), attribute(&value) {}
+  Excerpt(Loc at, std::string made) : loc(at), text(std::move(made)) {}
+  explicit Excerpt(std::string made) : text(std::move(made)) {}
+
+  bool empty() const { return document == nullptr && text.empty(); }
+  Loc begin() const { return attribute != nullptr ? attribute->loc : element != nullptr ? element->loc : loc; }
+
+  const Document* document = nullptr;  // of one of these
+  const Element* element = nullptr;
+  const Attribute* attribute = nullptr;
+  bool quoted = false;  // the element's content has quotes, which are left out
+  Loc loc;              // of `text`; none: the end of what is before it
+  std::string text;
+};
 
 class SourceMappedText {
  public:
@@ -26,6 +47,7 @@ class SourceMappedText {
   void addRuns(const Document& document, uint32_t first, uint32_t end);
   // The value of an attribute, decoded.
   void add(const Document& document, const Attribute& attribute);
+  void add(const Excerpt& excerpt);
   // A keyword that the file leaves out. Errors in it are reported at the end of the part before it.
   void word(std::string_view text);
   // Replaces bytes [begin, end) of a file by `text`.
@@ -40,6 +62,7 @@ class SourceMappedText {
 
  private:
   void segment(Loc from, bool verbatim);
+  void addUnquoted(const Document& document, const Element& element);
 
   const Sources& sources_;
   std::string text_;

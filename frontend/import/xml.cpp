@@ -7,6 +7,7 @@
 
 #include "frontend/import/diagnostics.h"
 #include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 
 namespace rung::xml {
 namespace {
@@ -385,6 +386,11 @@ std::string Document::value(const Element& element, std::string_view name) const
   return found == nullptr ? std::string() : decoded(*found);
 }
 
+Loc Document::locOf(const Element& element, std::string_view name) const {
+  const Attribute* found = attribute(element, name);
+  return found == nullptr ? element.loc : found->loc;
+}
+
 const Element* Document::child(const Element& element, std::string_view name) const {
   for (const Element* e = firstChild(element); e != nullptr; e = next(*e))
     if (e->name == name) return e;
@@ -410,6 +416,8 @@ bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Documen
 }
 
 std::string_view rootTag(std::string_view text) {
+  text = withoutMark(text);
+  if (!text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with("<")) return {};
   for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
     if (text.substr(p, 4) == "<!--") {
       p = text.find("-->", p);
@@ -421,6 +429,12 @@ std::string_view rootTag(std::string_view text) {
     if (p == std::string_view::npos) break;
   }
   return {};
+}
+
+std::string_view rootName(std::string_view tag) {
+  if (tag.empty()) return {};
+  const std::string_view name = tag.substr(1, tag.find_first_of(" \t\r\n>/") - 1);
+  return name.substr(name.find(':') + 1);
 }
 
 }  // namespace rung::xml

@@ -40,6 +40,33 @@ struct Element {
   Loc end;                      // of its end tag, or of the `/>`
 };
 
+// The children of one element, for range-based loops.
+class Children {
+ public:
+  class Iterator {
+   public:
+    Iterator(const std::vector<Element>& elements, uint32_t at) : elements_(elements), at_(at) {}
+    const Element& operator*() const { return elements_[at_]; }
+    Iterator& operator++() {
+      at_ = elements_[at_].next;
+      return *this;
+    }
+    friend bool operator!=(const Iterator& a, const Iterator& b) { return a.at_ != b.at_; }
+
+   private:
+    const std::vector<Element>& elements_;
+    uint32_t at_;
+  };
+  Children(const std::vector<Element>& elements, const Element* parent)
+      : elements_(elements), first_(parent == nullptr ? kNone : parent->first_child) {}
+  Iterator begin() const { return {elements_, first_}; }
+  Iterator end() const { return {elements_, kNone}; }
+
+ private:
+  const std::vector<Element>& elements_;
+  uint32_t first_;
+};
+
 struct Document {
   std::vector<Element> elements;  // in the order of the file; the root is the first
   std::vector<Attribute> attributes;
@@ -49,9 +76,13 @@ struct Document {
   std::string decoded(const Attribute& attribute) const;
   // The value of an attribute of this name, decoded; empty where there is none.
   std::string value(const Element& element, std::string_view name) const;
+  // The location of the value of an attribute, or of the element where there is none.
+  Loc locOf(const Element& element, std::string_view attribute) const;
   // The first child of this name, or null.
   const Element* child(const Element& element, std::string_view name) const;
   const Element* next(const Element& element) const { return at(element.next); }
+  Children children(const Element& parent) const { return {elements, &parent}; }
+  Children children(const Element* parent) const { return {elements, parent}; }  // null: none
   const Element* firstChild(const Element& element) const { return at(element.first_child); }
   std::string text(const Element& element, const Sources& sources) const;  // decoded
 
@@ -61,6 +92,8 @@ struct Document {
 
 // The tag of the root element of a source that may be XML, from its `<` and without its `>`; empty: it has none.
 std::string_view rootTag(std::string_view text);
+// Its name in such a tag, without a prefix.
+std::string_view rootName(std::string_view tag);
 
 // False: an error has been reported, and the document holds the elements before it.
 [[nodiscard]] bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out);

@@ -4,6 +4,7 @@
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/expressions.h"
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 namespace {
@@ -53,7 +54,7 @@ constexpr TokMap<const char*> kNativeOperators = {
 
 ExpressionParser::ExpressionParser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                                    Diagnostics& diagnostics)
-    : Cursor(tree, names, sources, file, dialect, diagnostics), eno_(names.intern("ENO")) {}
+    : Cursor(tree, names, sources, file, dialect, diagnostics), eno_(names.intern(kEnableOutput)) {}
 
 ExprId ExpressionParser::parseExpr(uint32_t least) {
   ExprId left = parseUnary();
@@ -99,7 +100,7 @@ ExprId ExpressionParser::parseUnary() {
   const UnaryOp op = is_not ? UnaryOp::Not : at(Tok::Minus) ? UnaryOp::Negate : UnaryOp::Plus;
   if (at(Tok::Bang)) slip(diag::ForeignOperator, t_, {"!", "NOT"});
   // NOT(EN := x, IN := y): the functional form, with pins
-  if (is_not && peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, "EN") || is(t_ + 2, "IN")))
+  if (is_not && peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, kEnable) || is(t_ + 2, "IN")))
     return parsePrimary();
   const Loc start = here();
   if (++expr_depth_ > kMaxExprDepth) {

@@ -4,73 +4,63 @@
 //   operands    = operand {"," operand} | "(" operand {"," operand} ")" | "(" [pin ":=" operand …] ")" | "(" [operand]
 // The last form defers the operator up to a `)` on its own line.
 #include <algorithm>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/il.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 namespace {
 
 struct Instruction {
-  std::string_view text;  // sorted
   IlKind kind;
   BinaryOp op;
   uint8_t flags;
 };
-constexpr Instruction kInstructions[] = {
-    {"ADD", IlKind::Binary, BinaryOp::Add, 0},
-    {"AND", IlKind::Binary, BinaryOp::And, 0},
-    {"ANDN", IlKind::Binary, BinaryOp::And, kIlNegated},
-    {"CAL", IlKind::Call, {}, 0},
-    {"CALC", IlKind::Call, {}, kIlConditional},
-    {"CALCN", IlKind::Call, {}, kIlConditional | kIlNegated},
-    {"CALN", IlKind::Call, {}, kIlConditional | kIlNegated},
-    {"DIV", IlKind::Binary, BinaryOp::Divide, 0},
-    {"EQ", IlKind::Binary, BinaryOp::Equal, 0},
-    {"GE", IlKind::Binary, BinaryOp::GreaterEqual, 0},
-    {"GT", IlKind::Binary, BinaryOp::Greater, 0},
-    {"JMP", IlKind::Jump, {}, 0},
-    {"JMPC", IlKind::Jump, {}, kIlConditional},
-    {"JMPCN", IlKind::Jump, {}, kIlConditional | kIlNegated},
-    {"JMPN", IlKind::Jump, {}, kIlConditional | kIlNegated},
-    {"LD", IlKind::Load, {}, 0},
-    {"LDN", IlKind::Load, {}, kIlNegated},
-    {"LE", IlKind::Binary, BinaryOp::LessEqual, 0},
-    {"LT", IlKind::Binary, BinaryOp::Less, 0},
-    {"MOD", IlKind::Binary, BinaryOp::Modulo, 0},
-    {"MUL", IlKind::Binary, BinaryOp::Multiply, 0},
-    {"NE", IlKind::Binary, BinaryOp::NotEqual, 0},
-    {"NOT", IlKind::Not, {}, 0},
-    {"OR", IlKind::Binary, BinaryOp::Or, 0},
-    {"ORN", IlKind::Binary, BinaryOp::Or, kIlNegated},
-    {"R", IlKind::Reset, {}, 0},
-    {"RET", IlKind::Return, {}, 0},
-    {"RETC", IlKind::Return, {}, kIlConditional},
-    {"RETCN", IlKind::Return, {}, kIlConditional | kIlNegated},
-    {"RETN", IlKind::Return, {}, kIlConditional | kIlNegated},
-    {"S", IlKind::Set, {}, 0},
-    {"ST", IlKind::Store, {}, 0},
-    {"STN", IlKind::Store, {}, kIlNegated},
-    {"SUB", IlKind::Binary, BinaryOp::Subtract, 0},
-    {"XOR", IlKind::Binary, BinaryOp::Xor, 0},
-    {"XORN", IlKind::Binary, BinaryOp::Xor, kIlNegated},
+struct InstructionWord {
+  std::string_view word;
+  IlKind kind;
+  uint8_t flags;
 };
-constexpr Instruction kAmpersand = {"&", IlKind::Binary, BinaryOp::And, 0};
-constexpr Instruction kAmpersandN = {"&N", IlKind::Binary, BinaryOp::And, kIlNegated};
+// Besides the operators of frontend/syntax/standard_names.h.
+constexpr InstructionWord kInstructions[] = {
+    {"LD", IlKind::Load, 0},
+    {"LDN", IlKind::Load, kIlNegated},
+    {"ST", IlKind::Store, 0},
+    {"STN", IlKind::Store, kIlNegated},
+    {"S", IlKind::Set, 0},
+    {"R", IlKind::Reset, 0},
+    {"NOT", IlKind::Not, 0},
+    {"CAL", IlKind::Call, 0},
+    {"CALC", IlKind::Call, kIlConditional},
+    {"CALCN", IlKind::Call, kIlConditional | kIlNegated},
+    {"CALN", IlKind::Call, kIlConditional | kIlNegated},
+    {"JMP", IlKind::Jump, 0},
+    {"JMPC", IlKind::Jump, kIlConditional},
+    {"JMPCN", IlKind::Jump, kIlConditional | kIlNegated},
+    {"JMPN", IlKind::Jump, kIlConditional | kIlNegated},
+    {"RET", IlKind::Return, 0},
+    {"RETC", IlKind::Return, kIlConditional},
+    {"RETCN", IlKind::Return, kIlConditional | kIlNegated},
+    {"RETN", IlKind::Return, kIlConditional | kIlNegated},
+};
 constexpr size_t kLongestInstruction = 5;
 
-const Instruction* findInstruction(std::string_view text) {
-  char upper[kLongestInstruction];
-  if (text.size() > kLongestInstruction) return nullptr;
-  for (size_t i = 0; i < text.size(); ++i)
-    upper[i] = static_cast<char>(text[i] >= 'a' && text[i] <= 'z' ? text[i] - 32 : text[i]);
-  const std::string_view wanted(upper, text.size());
-  const Instruction* found =
-      std::lower_bound(std::begin(kInstructions), std::end(kInstructions), wanted,
-                       [](const Instruction& word, std::string_view t) { return word.text < t; });
-  return found != std::end(kInstructions) && found->text == wanted ? found : nullptr;
+// AND, OR and XOR may be followed by N.
+bool takesNegation(BinaryOp op) { return op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::Xor; }
+
+std::optional<Instruction> findInstruction(std::string_view text) {
+  if (text.empty() || text.size() > kLongestInstruction) return std::nullopt;
+  if (const OperatorFunction* function = operatorFunction(text)) return Instruction{IlKind::Binary, function->op, 0};
+  if (foldedCharacter(text.back()) == 'n')
+    if (const OperatorFunction* function = operatorFunction(text.substr(0, text.size() - 1));
+        function != nullptr && takesNegation(function->op))
+      return Instruction{IlKind::Binary, function->op, kIlNegated};
+  for (const InstructionWord& row : kInstructions)
+    if (sameIdentifier(row.word, text)) return Instruction{row.kind, {}, row.flags};
+  return std::nullopt;
 }
 
 // ADD, MUL, AND, OR, XOR take a list: `ADD 10, 12, 14`.
@@ -84,11 +74,12 @@ bool endsOperand(Tok k) {
 }
 bool isInfix(Tok k) { return (k >= Tok::Plus && k <= Tok::EqualLess) || (k >= Tok::And && k <= Tok::Mod); }
 
-const Instruction* instructionAt(Tok kind, std::string_view text) {
+std::optional<Instruction> instructionAt(Tok kind, std::string_view text) {
   if (isName(kind) || kind == Tok::And || kind == Tok::Or || kind == Tok::Xor || kind == Tok::Not || kind == Tok::Mod ||
       kind == Tok::Jmp)
     return findInstruction(text);
-  return kind == Tok::Ampersand ? &kAmpersand : nullptr;
+  if (kind != Tok::Ampersand) return std::nullopt;
+  return Instruction{IlKind::Binary, BinaryOp::And, 0};
 }
 
 }  // namespace
@@ -102,22 +93,22 @@ IlParser::IlParser(Tree& tree, Names& names, const Sources& sources, FileId file
 
 bool beginsIl(Tok kind, std::string_view text, const Token& next) {
   if (!isName(kind) || (next.flags & kLineStart) != 0) return false;
-  const Instruction* word = findInstruction(text);
-  return word != nullptr && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True ||
-                             next.kind == Tok::False || next.kind == Tok::Address);
+  const std::optional<Instruction> word = findInstruction(text);
+  return word && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True || next.kind == Tok::False ||
+                  next.kind == Tok::Address);
 }
 
 // Whether an instruction may begin here, judged by its first token only.
 bool IlParser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
-  return instructionAt(t->kind, textOf(t)) != nullptr;
+  return instructionAt(t->kind, textOf(t)).has_value();
 }
 
 // `LD x`, `JMP done`, `RET` on its own line, but not the statements `LD := 1;` and `AND(a, b);`.
 bool IlParser::isPlainInstruction(const Token* t) const {
-  const Instruction* word = instructionAt(t->kind, textOf(t));
-  if (word == nullptr) return false;
+  const std::optional<Instruction> word = instructionAt(t->kind, textOf(t));
+  if (!word) return false;
   const Token* next = t + 1;
   const bool alone = (next->flags & kLineStart) != 0 || next->kind == Tok::End;
   const bool operand = !alone && next->kind != Tok::LeftParen && t[2].kind != Tok::Equal &&  // not `r REF= x`
@@ -234,17 +225,17 @@ void IlParser::parseInstruction() {
     }
   }
   const Token* op = t_;
-  const Instruction* word = instructionAt(kind(), textOf(t_));
+  std::optional<Instruction> word = instructionAt(kind(), textOf(t_));
   i.loc = here();
   i.word = isName(kind()) ? nameOf(t_) : names_.intern(textOf(t_));
   if (at(Tok::RightParen)) {
     advance();
     i.kind = IlKind::Close;
     il_open_.pop_back();
-  } else if (word != nullptr && peek() != Tok::Assign && peek() != Tok::Dot) {
+  } else if (word && peek() != Tok::Assign && peek() != Tok::Dot) {
     advance();
-    if (word == &kAmpersand && at(Tok::Ident) && is(t_, "N") && t_->offset == op->offset + 1) {
-      word = &kAmpersandN;
+    if (op->kind == Tok::Ampersand && at(Tok::Ident) && is(t_, "N") && t_->offset == op->offset + 1) {
+      word->flags = kIlNegated;
       advance();
     }
     const bool attempt = word->kind == IlKind::Store && accept(Tok::Question);
@@ -479,7 +470,7 @@ void IlParser::closeIlParen(Tok close) {
 // Statements among the instructions: one error for the whole body, since their effect is unknown.
 bool IlParser::statementInIl() {
   const Token* t = t_;
-  const bool word = isReserved(t->kind) && instructionAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
+  const bool word = isReserved(t->kind) && !instructionAt(t->kind, textOf(t)) && t[1].kind != Tok::Colon;
   while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
   if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
   slip(diag::StatementInIl, t_, {textOf(t_)});

@@ -10,6 +10,7 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; }
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c; }
 int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
   c = lower(c);
@@ -398,20 +399,23 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
   return ok;
 }
 
+// Of the part that an address names: a bit, 8, 16, 32 or 64 bits.
+static bool isSize(char c) { return c == 'x' || c == 'b' || c == 'w' || c == 'd' || c == 'l'; }
+
 // %area [size] (number {. number} | *)
 bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,
                  std::vector<uint32_t>& path) {
   address = {};
   path.clear();
   std::string_view rest = text.substr(1);
-  const char area = rest.empty() ? '\0' : lower(rest.front());
-  bool ok = area == 'i' || area == 'q' || area == 'm';
-  address.area = area == 'i' ? ImageArea::Input : area == 'q' ? ImageArea::Output : ImageArea::Memory;
+  // The areas are sema's to know.
+  address.area = rest.empty() ? '\0' : upper(rest.front());
+  bool ok = address.area >= 'A' && address.area <= 'Z' && !isSize(lower(address.area));
   address.size = 'X';
   if (ok) rest.remove_prefix(1);
   if (ok && !rest.empty()) {
     const char size = lower(rest.front());
-    if (size == 'x' || size == 'b' || size == 'w' || size == 'd' || size == 'l') {
+    if (isSize(size)) {
       address.size = static_cast<char>(size & ~0x20);
       address.size_given = true;
       rest.remove_prefix(1);

@@ -22,28 +22,6 @@
 namespace rung::text {
 namespace {
 
-struct ElementName {
-  std::string_view word;
-  ElementKind kind;
-};
-constexpr ElementName kElementNames[] = {{"rail", ElementKind::Rail},
-                                         {"right_rail", ElementKind::RightRail},
-                                         {"contact", ElementKind::Contact},
-                                         {"coil", ElementKind::Coil},
-                                         {"box", ElementKind::Box},
-                                         {"input", ElementKind::Input},
-                                         {"output", ElementKind::Output},
-                                         {"inout", ElementKind::InOut},
-                                         {"connector", ElementKind::Connector},
-                                         {"continuation", ElementKind::Continuation},
-                                         {"jump", ElementKind::Jump},
-                                         {"label", ElementKind::Label},
-                                         {"return", ElementKind::Return},
-                                         {"execute", ElementKind::Execute},
-                                         {"compose", ElementKind::Compose},
-                                         {"select", ElementKind::Select},
-                                         {"comment", ElementKind::Comment}};
-
 // The variable or expression of the element is mandatory.
 bool needsOperand(ElementKind kind) {
   return kind == ElementKind::Contact || kind == ElementKind::Coil || kind == ElementKind::Input ||
@@ -170,15 +148,15 @@ ExprId NetworkParser::parseElementPath(Ident& name) {
 
 void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const Token* word = t_;
-  const auto* known = std::find_if(std::begin(kElementNames), std::end(kElementNames),
-                                   [&](const ElementName& w) { return is(word, w.word); });
-  if (known == std::end(kElementNames)) {
+  const auto* known =
+      std::find_if(std::begin(kElementWords), std::end(kElementWords), [&](std::string_view w) { return is(word, w); });
+  if (known == std::end(kElementWords)) {
     fail(diag::NoElement, t_, {textOf(t_)});
     return;
   }
   advance();
   DiagramElement e{};
-  e.kind = known->kind;
+  e.kind = static_cast<ElementKind>(known - std::begin(kElementWords));
   e.network = network;
   e.loc = here();
   if (!takeNumber(e.number)) return;
@@ -235,7 +213,7 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
       e.comment_length = text.length;
       advance();
     } else {
-      fail(diag::NoPartOfElement, t_, {describe(t_), known->word});
+      fail(diag::NoPartOfElement, t_, {describe(t_), *known});
     }
   }
   e.end = here();
@@ -243,7 +221,7 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
   const bool open =
       (e.kind == ElementKind::Box || e.kind == ElementKind::Jump || e.kind == ElementKind::Label) && !e.name.name;
   if (open || (needsOperand(e.kind) && !e.operand)) {
-    fail(diag::ElementUnnamed, named - 1, {known->word, open ? "name" : "variable"});
+    fail(diag::ElementUnnamed, named - 1, {*known, open ? "name" : "variable"});
     return;
   }
   e.pins = tree_.addList<DiagramPin>(pins);

@@ -6,6 +6,7 @@
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/sfc.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 

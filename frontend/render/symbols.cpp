@@ -5,6 +5,7 @@
 #include "frontend/render/network_plan.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/st_printer.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::picture {
 namespace {
@@ -38,9 +39,7 @@ int32_t widthOf(const std::vector<std::string>& lines) {
   return width;
 }
 
-bool isEnable(const Body& body, NameId name) {
-  return sameIdentifier(body.names.string(name), "EN") || sameIdentifier(body.names.string(name), "ENO");
-}
+bool isEnable(const Body& body, NameId name) { return isControl(body.names.string(name)); }
 
 // The letters in a contact or coil: | / |, | P |, ( S ).
 std::string lettersOf(const DiagramElement& e) {

@@ -6,6 +6,7 @@
 
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 #include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
@@ -54,7 +55,7 @@ TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
 TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) {
   const Slice<DiagramPin> pins = graph_.elements[element].pins;
   for (const DiagramPin& pin : tree_.list(pins)) {
-    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {"EN"})) continue;
+    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {kEnable})) continue;
     if (std::exchange(selects, false) || pin.wires.empty()) continue;
     if (pin.edge != EdgeKind::None) return named("BOOL", pin.name.loc);
     if (const TypeExprId type = ofSource(graph_.sourceOf(pin, 0), depth + 1)) return type;
@@ -109,7 +110,7 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
     case ElementKind::Compose:
     case ElementKind::Comment: return {};
   }
-  if (pin && isOneOf(names_.string(pin), {"ENO"})) return named("BOOL", e.loc);
+  if (pin && isOneOf(names_.string(pin), {kEnableOutput})) return named("BOOL", e.loc);
   const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
   const bool pou = callee && tree_.kind(callee) == DeclKind::Pou;
   if (pin && pou)

@@ -5,47 +5,39 @@
 // see a temporary that is 0 (the initial value) in cycles in which EN is FALSE.
 #include <algorithm>
 #include <cctype>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_scheduler.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
 
 enum class Form : uint8_t { Chain, Pair, Invert, Move };  // a op b op c …, a op b, NOT a, a
 struct Operator {
-  std::string_view name;
   Form form;
   BinaryOp op;
 };
-constexpr Operator kOperators[] = {{"AND", Form::Chain, BinaryOp::And},      {"OR", Form::Chain, BinaryOp::Or},
-                                   {"XOR", Form::Chain, BinaryOp::Xor},      {"ADD", Form::Chain, BinaryOp::Add},
-                                   {"MUL", Form::Chain, BinaryOp::Multiply}, {"SUB", Form::Pair, BinaryOp::Subtract},
-                                   {"DIV", Form::Pair, BinaryOp::Divide},    {"MOD", Form::Pair, BinaryOp::Modulo},
-                                   {"GT", Form::Pair, BinaryOp::Greater},    {"GE", Form::Pair, BinaryOp::GreaterEqual},
-                                   {"EQ", Form::Pair, BinaryOp::Equal},      {"LE", Form::Pair, BinaryOp::LessEqual},
-                                   {"LT", Form::Pair, BinaryOp::Less},       {"NE", Form::Pair, BinaryOp::NotEqual},
-                                   {"NOT", Form::Invert, BinaryOp::Or},      {"MOVE", Form::Move, BinaryOp::Or}};
-
-const Operator* operatorNamed(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kOperators), std::end(kOperators),
-                                   [&](const Operator& op) { return sameIdentifier(op.name, name); });
-  return found == std::end(kOperators) ? nullptr : found;
+// The function of an operator that a box without instance calls.
+std::optional<Operator> operatorNamed(std::string_view name) {
+  if (const OperatorFunction* function = operatorFunction(name))
+    return Operator{function->extensible ? Form::Chain : Form::Pair, function->op};
+  if (sameIdentifier(name, kNot)) return Operator{Form::Invert, BinaryOp::Or};
+  if (sameIdentifier(name, kMove)) return Operator{Form::Move, BinaryOp::Or};
+  return std::nullopt;
 }
 
-bool isControl(const Names& names, NameId pin) {
-  return sameIdentifier(names.string(pin), "EN") || sameIdentifier(names.string(pin), "ENO");
-}
+bool isControl(const Names& names, NameId pin) { return rung::isControl(names.string(pin)); }
 
 }  // namespace
 
 struct Scheduler::Call {
   Signature signature;
   ExprId callee;
-  const Operator* op = nullptr;
+  std::optional<Operator> op;
   std::vector<Argument> arguments;
   DiagramPin en{};
   bool has_en = false;
@@ -53,7 +45,7 @@ struct Scheduler::Call {
 
 bool Scheduler::isOperator(const DiagramElement& e) const {
   return e.kind == ElementKind::Box && !e.operand && e.path && tree_.kind(e.path) == ExprKind::Name &&
-         operatorNamed(names_.string(e.name.name)) != nullptr;
+         operatorNamed(names_.string(e.name.name)).has_value();
 }
 
 // The pin that a wire comes from; for a wire without a pin name the only one besides ENO.
@@ -229,7 +221,7 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
   for (size_t k = 1; k < call.arguments.size(); ++k)
     value = build_.binary(call.op->op, value, call.arguments[k].value, e.loc);
 
-  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   const uint32_t result = resultOf(element, {});
   if (!call.has_en) {
     if (eno != kNone) {
@@ -261,7 +253,7 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
 // The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
   const DiagramElement& e = graph_.elements[element];
-  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   if (call.has_en) {
     const Loc loc = call.en.name.loc;
     call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});

@@ -7,6 +7,7 @@
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 #include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
@@ -52,7 +53,7 @@ class Declarer {
   const std::vector<DeclId>& vars() const { return vars_; }
 
  private:
-  static std::string sensor(EdgeKind edge) { return edge == EdgeKind::Rising ? "R_TRIG_" : "F_TRIG_"; }
+  static std::string sensor(EdgeKind edge) { return std::string(edgeDetector(edge)) + "_"; }
   static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
 
   NameId ofElement(const DiagramElement& e) {
@@ -64,7 +65,7 @@ class Declarer {
   }
 
   TypeExprId sensorType(EdgeKind edge, Loc loc) {
-    const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
+    const Ident name{names_.intern(edgeDetector(edge)), loc};
     return TreeBuilder(tree_).namedType({&name, 1}, loc);
   }
   // The path of a box as a type expression.

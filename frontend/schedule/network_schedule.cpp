@@ -6,6 +6,7 @@
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_scheduler.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
@@ -389,7 +390,7 @@ void Scheduler::resolveComposer(uint32_t element) {
 
 void Scheduler::resolveExecute(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
-  const DiagramPin* en = pinNamed(e, "EN", PinDirection::Input);
+  const DiagramPin* en = pinNamed(e, kEnable, PinDirection::Input);
   ExprId condition;
   if (en != nullptr && !en->wires.empty()) {
     condition = valueOf(e, *en);

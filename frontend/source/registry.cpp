@@ -31,7 +31,7 @@ constexpr DiagInfo kRows[] = {
 #include "sema/checks/diagnostics.def"
 #include "sema/declarations/diagnostics.def"
 #include "sema/diagnostics.def"
-#include "tools/rung/diagnostics.def"
+#include "tools/driver/diagnostics.def"
 };
 
 constexpr auto kByNumber = [] {

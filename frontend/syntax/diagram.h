@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "frontend/syntax/ids.h"
 #include "frontend/syntax/pin.h"
@@ -30,6 +31,10 @@ enum class ElementKind : uint8_t {
   Select,   // CFC: the members, the outputs, of a structure of type `path`
   Comment,  // `text`
 };
+// Their words in the notation of networks, in the order of ElementKind.
+constexpr std::string_view kElementWords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
+                                              "output", "inout",      "connector", "continuation", "jump",   "label",
+                                              "return", "execute",    "compose",   "select",       "comment"};
 enum class NetworkLanguage : uint8_t { Ladder, Blocks, Continuous };  // LD, FBD, CFC
 enum class PinStorage : uint8_t { None, Set, Reset };
 

@@ -175,9 +175,8 @@ struct BitAccessExpr {
   uint8_t width;
 };
 
-enum class ImageArea : uint8_t { Input, Output, Memory };
-struct DirectAddress {  // %IX0.3, %QW*, %M5
-  ImageArea area;
+struct DirectAddress {   // %IX0.3, %QW*, %M5
+  char area;             // 'I', the letter of a memory area
   char size;             // 'X' 'B' 'W' 'D' 'L'
   bool incomplete;       // %I*
   bool size_given;       // %I5 has none

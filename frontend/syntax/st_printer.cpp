@@ -218,7 +218,7 @@ void StPrinter::literal(const LiteralExpr& e) {
 
 void StPrinter::address(const DirectAddress& a) {
   out += '%';
-  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  out += a.area;
   if (a.size_given) out += a.size;
   if (a.incomplete) out += '*';
   bool first = true;

@@ -76,7 +76,7 @@ uint32_t Tree::allocate(uint32_t words, uint32_t alignment) {
   const uint32_t used = next_word_ % kChunkWords;
   if (used == 0 || used + words > kChunkWords) {
     next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
-    if (next_word_ == 0) next_word_ = 2;  // word 0 means none
+    if (next_word_ == 0) next_word_ = 2;  // 0 means no node
     const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
     blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
     for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);

@@ -32,7 +32,7 @@ void TreeExprPrinter::quoted(std::string_view s) {
 
 void TreeExprPrinter::address(const DirectAddress& a) {
   out += '%';
-  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  if (a.area != '\0') out += a.area;  // none: relative to a structure
   if (a.size_given) out += a.size;
   if (a.incomplete) out += '*';
   bool first = true;

@@ -562,11 +562,8 @@ void Printer::modifiers(const Modifiable& element) {
 
 // A wire is printed as the number of the element that it comes from.
 void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth) {
-  static const char* const kKeywords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
-                                          "output", "inout",      "connector", "continuation", "jump",   "label",
-                                          "return", "execute",    "compose",   "select",       "comment"};
   line(depth);
-  out += kKeywords[static_cast<size_t>(e.kind)];
+  out += kElementWords[static_cast<size_t>(e.kind)];
   out += ' ' + std::to_string(e.number);
   if (e.network != 0) out += " network " + std::to_string(tree_.list(diagram.networks)[e.network - 1].number);
   if (e.order != 0) out += " order " + std::to_string(e.order);

@@ -20,14 +20,13 @@ NativeThunk BodyTranslator::findNative(const Body& callee) {
 }
 
 // The arguments of a call and where they go; `at` is the offset of the first in the callee's frame.
-std::vector<BodyTranslator::Argument> BodyTranslator::arguments(const Body& callee, uint32_t first, uint32_t count,
+std::vector<BodyTranslator::Argument> BodyTranslator::arguments(const Body& callee, Slice<ExprId> operands,
                                                                 uint32_t at) {
   std::vector<Argument> out;
   uint32_t i = 0;
-  for (const Local& parameter : callee.locals) {
-    if (!isParameter(parameter)) continue;
-    if (i == count) break;
-    out.push_back({&parameter, body_->operands[first + i], {at + 8 * i, true}, false, {}});
+  for (const Local& parameter : parameters(callee)) {
+    if (i == operands.count) break;
+    out.push_back({&parameter, body_->list(operands)[i], {at + 8 * i, true}, false, {}});
     ++i;
   }
   return out;
@@ -134,9 +133,9 @@ uint32_t slotsOf(const Body& callee, size_t arguments) {
 }  // namespace
 
 Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
-  const BodyId id{e.a};
+  const auto [id, operands] = e.as<CallExpr>();
   const Body& callee = module_.body(id);
-  std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  std::vector<Argument> passed = arguments(callee, operands, headerSize(callee));
   traceCall(id, nullptr);
   passArguments(passed);
   const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
@@ -152,9 +151,9 @@ Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
 }
 
 Address BodyTranslator::callString(const Expr& e) {
-  const BodyId id{e.a};
+  const auto [id, operands] = e.as<CallExpr>();
   const Body& callee = module_.body(id);
-  std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  std::vector<Argument> passed = arguments(callee, operands, headerSize(callee));
   traceCall(id, nullptr);
   passArguments(passed);
   const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
@@ -171,21 +170,21 @@ Address BodyTranslator::callString(const Expr& e) {
   return to;
 }
 
-void BodyTranslator::callStatement(const Stmt& stmt) {
-  const BodyId id{stmt.a};
+void BodyTranslator::callStatement(const CallStmt& stmt, Loc loc) {
+  const BodyId id = stmt.callee;
   const Body& callee = module_.body(id);
   Address self;
-  if (stmt.b != 0) {
-    self = place(ExprId{stmt.b});
+  if (stmt.self) {
+    self = place(stmt.self);
     if (self.base != Base::Self) self = {Base::Pointer, pointerTo(self), 0, 0, kNoBit};
   }
-  traceCall(id, stmt.b != 0 ? &self : nullptr);
+  traceCall(id, stmt.self ? &self : nullptr);
   const bool has_self_slot = callee.native && callee.self;
   const uint32_t at = callee.native ? (has_self_slot ? 8 : 0) : kFrameHeader;
-  std::vector<Argument> passed = arguments(callee, stmt.c, stmt.d, at);
+  std::vector<Argument> passed = arguments(callee, stmt.operands, at);
   passArguments(passed);
   const Ref result{at + 8 * static_cast<uint32_t>(passed.size()), true};
-  const ExprId to{stmt.e};
+  const ExprId to = stmt.result;
   if (to && mayFault(to)) place(to);  // its checks come before the call
 
   // A result in memory: written directly to its target, if nothing that the callee reads can be there.
@@ -195,12 +194,12 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
   if (by_reference) {
     if (to && !isImage(to) && expr(to).kind != ExprKind::Bits) {
       const TypeId type = expr(to).type;
-      const Expr& root = expr(rootOf(*body_, to));
-      direct_result = callee.native || (root.kind == ExprKind::Local && !body_->locals[root.a].by_reference);
+      const uint32_t* root = localOf(expr(rootOf(*body_, to)));
+      direct_result = callee.native || (root != nullptr && !body_->locals[*root].by_reference);
       for (const Argument& argument : passed) {
         if (!direct_result || callee.native || !argument.operand || !isPlace(expr(argument.operand).kind)) continue;
-        const Expr& other = expr(rootOf(*body_, argument.operand));
-        direct_result = !(other.kind == ExprKind::Local && other.a == root.a);
+        const uint32_t* other = localOf(expr(rootOf(*body_, argument.operand)));
+        direct_result = other == nullptr || *other != *root;
       }
       if (isString(callee.result)) {
         if (!callee.native && capacityOf(type) < capacityOf(callee.result)) direct_result = false;
@@ -220,10 +219,10 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
     if (has_self_slot) pointerInto(self, {0, true});
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
-  } else if ((stmt.op & kVirtual) != 0) {
-    emitVirtualCall(id, self, site(stmt.loc));
+  } else if (stmt.is_virtual) {
+    emitVirtualCall(id, self, site(loc));
   } else {
-    emitCall(id, stmt.b != 0 ? &self : nullptr, site(stmt.loc));
+    emitCall(id, stmt.self ? &self : nullptr, site(loc));
   }
 
   if (to && by_reference && !direct_result) {

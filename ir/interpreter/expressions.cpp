@@ -51,8 +51,7 @@ bool BodyTranslator::touchesForeignMemory(ExprId id) const {
   bool found = false;
   forEachExpr(*body_, id, [&](ExprId at) {
     const Expr& e = expr(at);
-    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index ||
-            (e.kind == ExprKind::Field && info(expr(ExprId{e.a}).type).fields[e.b].by_reference);
+    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index || isReference(module_, *body_, e);
   });
   return found;
 }
@@ -67,10 +66,10 @@ bool BodyTranslator::contains(ExprId id, ExprKind kind) const {
 
 Operand BodyTranslator::constant(const Expr& e) const {
   if (types_.plainKind(e.type) == TypeKind::Real) {
-    const auto number = static_cast<float>(rung_f64_of(e.bits()));
+    const auto number = static_cast<float>(rung_f64_of(bitsOf(e)));
     return {Mode::Constant, {}, static_cast<int64_t>(rung_bits_of_f32(number))};
   }
-  return {Mode::Constant, {}, static_cast<int64_t>(e.bits())};
+  return {Mode::Constant, {}, static_cast<int64_t>(bitsOf(e))};
 }
 
 void BodyTranslator::move(Scalar type, const Operand& from, const Operand& to) {
@@ -119,7 +118,7 @@ Operand BodyTranslator::value(ExprId id, const Operand* want) {
     case ExprKind::Call: return callExpression(e, want);
     case ExprKind::Address: {
       const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
-      pointerInto(place(ExprId{e.a}), to.ref);
+      pointerInto(place(e.as<AddressExpr>().place), to.ref);
       return to;
     }
     case ExprKind::String:
@@ -138,31 +137,32 @@ Operand BodyTranslator::operate(Op op, Scalar type, Operand left, Operand right,
 }
 
 Operand BodyTranslator::unary(const Expr& e, const Operand* want) {
-  const Scalar type = scalarOf(ExprId{e.a});
-  Operand a = inMemory(value(ExprId{e.a}), type);
-  if ((e.checks & kCheckOverflow) != 0 && type != Scalar::Bool && e.op != Op::Not) {
+  const auto [operand, op] = e.as<UnaryExpr>();
+  const Scalar type = scalarOf(operand);
+  Operand a = inMemory(value(operand), type);
+  if ((e.checks & kCheckOverflow) != 0 && type != Scalar::Bool && op != Op::Not) {
     a = inFrame(a, type);
-    emit(overflowHandler(e.op, type), {}, a.ref, {}, site(e.loc));
+    emit(overflowHandler(op, type), {}, a.ref, {}, site(e.loc));
   }
-  if (e.op == Op::Abs && !isSigned(type) && !isReal(type)) return a;
+  if (op == Op::Abs && !isSigned(type) && !isReal(type)) return a;
   const Operand to = target(want);
-  emit(unaryHandler(e.op, type, a.mode, to.mode), to.ref, a.ref);
+  emit(unaryHandler(op, type, a.mode, to.mode), to.ref, a.ref);
   return to;
 }
 
 Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
-  const ExprId a{e.a}, b{e.b};
-  if (types::isComparison(e.op)) return comparison(e, want);
-  if (isShift(e.op)) return shift(e, want);
-  if (e.op == Op::Power) return power(e, want);
+  const auto [a, b, op] = e.as<BinaryExpr>();
+  if (types::isComparison(op)) return comparison(e, want);
+  if (isShift(op)) return shift(e, want);
+  if (op == Op::Power) return power(e, want);
   const Scalar type = scalarOf(a);
   const TypeKind kind = kindOf(a);
-  if (type == Scalar::Bool && (e.op == Op::And || e.op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
+  if (type == Scalar::Bool && (op == Op::And || op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
     // Nothing is checked: memory that the left operand guards is not read, as in native code.
     const Operand to = temp();
     const Label decided = newLabel();
     valueInto(a, to);
-    jumpTo(emit(branchTruthHandler(to.mode, e.op == Op::Or), to.ref), decided);
+    jumpTo(emit(branchTruthHandler(to.mode, op == Op::Or), to.ref), decided);
     valueInto(b, to);
     place(decided);
     return to;
@@ -170,7 +170,7 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   Operand left = value(a), right = value(b);
   if (kind == TypeKind::Pointer || kind == TypeKind::Reference) right = wide(right, scalarOf(b));
   uint32_t at = 0;
-  const bool divides = e.op == Op::Div || e.op == Op::Mod;
+  const bool divides = op == Op::Div || op == Op::Mod;
   if ((e.checks & kCheckDiv) != 0 && divides) {
     at = site(e.loc);
     if (isReal(type)) {
@@ -182,28 +182,28 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
       place(ok);
     }
   }
-  if ((e.checks & kCheckOverflow) != 0 && overflowHandler(e.op, type) != nullptr && type != Scalar::Bool) {
+  if ((e.checks & kCheckOverflow) != 0 && overflowHandler(op, type) != nullptr && type != Scalar::Bool) {
     left = inFrame(left, type);
     right = inFrame(right, type);
     if (divides && at != 0 && !isReal(type)) {  // the divisor first
       const Operand zero = temp();
-      emit(binaryHandler(e.op, type, left.mode, right.mode, Mode::Frame), zero.ref, left.ref, right.ref, at);
+      emit(binaryHandler(op, type, left.mode, right.mode, Mode::Frame), zero.ref, left.ref, right.ref, at);
     }
-    emit(overflowHandler(e.op, type), {}, left.ref, right.ref, site(e.loc));
+    emit(overflowHandler(op, type), {}, left.ref, right.ref, site(e.loc));
   }
-  return operate(e.op, type, left, right, want, isReal(type) ? 0 : at);
+  return operate(op, type, left, right, want, isReal(type) ? 0 : at);
 }
 
 Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
+  auto [a, b, op] = e.as<BinaryExpr>();
   const Operand to = target(want);
-  if (isString(expr(ExprId{e.a}).type)) {
-    const Operand order = stringOrder(ExprId{e.a}, ExprId{e.b});
-    emit(compareHandler(e.op, Scalar::I32, order.mode, Mode::Constant, to.mode), to.ref, order.ref);
+  if (isString(expr(a).type)) {
+    const Operand order = stringOrder(a, b);
+    emit(compareHandler(op, Scalar::I32, order.mode, Mode::Constant, to.mode), to.ref, order.ref);
     return to;
   }
-  const Scalar type = scalarOf(ExprId{e.a});
-  Operand left = value(ExprId{e.a}), right = value(ExprId{e.b});
-  Op op = e.op;
+  const Scalar type = scalarOf(a);
+  Operand left = value(a), right = value(b);
   if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
     std::swap(left, right);
     op = mirrored(op);
@@ -214,19 +214,21 @@ Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
 }
 
 Operand BodyTranslator::shift(const Expr& e, const Operand* want) {
-  const Scalar type = scalarOf(ExprId{e.a});
-  const Operand left = inMemory(value(ExprId{e.a}), type);
-  Operand count = wide(value(ExprId{e.b}), scalarOf(ExprId{e.b}));
+  const auto [a, b, op] = e.as<BinaryExpr>();
+  const Scalar type = scalarOf(a);
+  const Operand left = inMemory(value(a), type);
+  Operand count = wide(value(b), scalarOf(b));
   if (count.mode == Mode::Self) count = inFrame(count, Scalar::U64);
   const Operand to = target(want);
-  emit(shiftHandler(e.op, type, left.mode, count.mode, to.mode), to.ref, left.ref, count.ref, 0, count.imm);
+  emit(shiftHandler(op, type, left.mode, count.mode, to.mode), to.ref, left.ref, count.ref, 0, count.imm);
   return to;
 }
 
 Operand BodyTranslator::power(const Expr& e, const Operand* want) {
-  const Scalar type = scalarOf(ExprId{e.a}), exponent_type = scalarOf(ExprId{e.b});
-  const Operand base = inFrame(value(ExprId{e.a}), type);
-  Operand exponent = value(ExprId{e.b});
+  const auto [a, b, op] = e.as<BinaryExpr>();
+  const Scalar type = scalarOf(a), exponent_type = scalarOf(b);
+  const Operand base = inFrame(value(a), type);
+  Operand exponent = value(b);
   Scalar wide_type = isReal(type) || isReal(exponent_type) ? Scalar::F64
                      : isSigned(exponent_type)             ? Scalar::I64
                                                            : Scalar::U64;
@@ -239,7 +241,7 @@ Operand BodyTranslator::power(const Expr& e, const Operand* want) {
   if ((e.checks & kCheckOverflow) != 0 && isReal(type)) {
     Operand other = exponent;
     if (type == Scalar::F32) other = converted(exponent, Scalar::F64, Scalar::F32, nullptr);
-    emit(overflowHandler(Op::Power, type), {}, base.ref, other.ref, site(e.loc));
+    emit(overflowHandler(op, type), {}, base.ref, other.ref, site(e.loc));
   }
   const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
   emit(powerHandler(type, wide_type), to.ref, base.ref, exponent.ref);
@@ -247,7 +249,7 @@ Operand BodyTranslator::power(const Expr& e, const Operand* want) {
 }
 
 Operand BodyTranslator::select(const Expr& e, const Operand* want) {
-  const ExprId condition{e.a}, yes{e.b}, no{e.c};
+  const auto [condition, yes, no] = e.as<SelectExpr>();
   const Scalar type = scalarOf(e.type);
   if (mayFault(yes) || mayFault(no)) {  // both are evaluated
     const Operand chooses = inFrame(value(condition), Scalar::Bool);
@@ -273,14 +275,14 @@ Operand BodyTranslator::select(const Expr& e, const Operand* want) {
 void BodyTranslator::branch(ExprId id, bool sense, Label to) {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::Const) {
-    if ((e.bits() != 0) == sense) jump(to);
+    if ((bitsOf(e) != 0) == sense) jump(to);
     return;
   }
-  if (e.kind == ExprKind::Unary && e.op == Op::Not) return branch(ExprId{e.a}, !sense, to);
+  if (isNot(e)) return branch(e.as<UnaryExpr>().operand, !sense, to);
   if (e.kind == ExprKind::Binary && types_.plainKind(e.type) == TypeKind::Bool) {
-    const ExprId a{e.a}, b{e.b};
-    const bool is_and = e.op == Op::And;
-    if ((is_and || e.op == Op::Or) && !mayFault(b)) {
+    auto [a, b, op] = e.as<BinaryExpr>();
+    const bool is_and = op == Op::And;
+    if ((is_and || op == Op::Or) && !mayFault(b)) {
       if (is_and == sense) {  // both must agree
         const Label out = newLabel();
         branch(a, !sense, out);
@@ -292,15 +294,14 @@ void BodyTranslator::branch(ExprId id, bool sense, Label to) {
       }
       return;
     }
-    if (types::isComparison(e.op)) {
+    if (types::isComparison(op)) {
       if (isString(expr(a).type)) {
         const Operand order = stringOrder(a, b);
-        jumpTo(emit(branchHandler(e.op, Scalar::I32, order.mode, Mode::Constant, sense), order.ref), to);
+        jumpTo(emit(branchHandler(op, Scalar::I32, order.mode, Mode::Constant, sense), order.ref), to);
         return;
       }
       const Scalar type = scalarOf(a);
       Operand left = value(a), right = value(b);
-      Op op = e.op;
       if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
         std::swap(left, right);
         op = mirrored(op);
@@ -340,7 +341,7 @@ Operand BodyTranslator::wideBits(ExprId id) {
 
 // With checks, the value must fit the target (convert) or its subrange before it is cut.
 void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
-  const ExprId a{e.a};
+  const ExprId a = e.as<ConvertExpr>().operand;
   const TypeKind source = kindOf(a), target_kind = types_.plainKind(e.type);
   if (TypeTable::isString(source) || TypeTable::isString(target_kind)) return;
   const Scalar type = scalarOf(a);
@@ -384,7 +385,7 @@ void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
 
 Operand BodyTranslator::convert(ExprId id, const Operand* want) {
   const Expr& e = expr(id);
-  const ExprId a{e.a};
+  const ExprId a = e.as<ConvertExpr>().operand;
   const TypeKind source = kindOf(a), target_kind = types_.plainKind(e.type);
   const Scalar to = scalarOf(e.type);
   const TypeInfo& to_info = info(e.type);

@@ -22,18 +22,18 @@ std::vector<BodyId> reachable(const Module& module, BodyId from) {
   std::vector<BodyId> out{from};
   std::vector<bool> is_listed(module.bodies.size());
   is_listed[from.index] = true;
-  const auto note = [&](uint32_t index) {
-    if (is_listed[index]) return;
-    is_listed[index] = true;
-    out.push_back({index});
+  const auto note = [&](BodyId id) {
+    if (is_listed[id.index]) return;
+    is_listed[id.index] = true;
+    out.push_back(id);
   };
   for (size_t i = 0; i < out.size(); ++i) {
     const Body& body = module.body(out[i]);
     for (size_t e = 1; e < body.exprs.size(); ++e) {
-      if (body.exprs[e].kind == ExprKind::Call) note(body.exprs[e].a);
+      if (const auto* call = body.exprs[e].tryAs<CallExpr>()) note(call->callee);
     }
     for (size_t s = 1; s < body.stmts.size(); ++s) {
-      if (body.stmts[s].kind == StmtKind::Call) note(body.stmts[s].a);
+      if (const auto* call = body.stmts[s].tryAs<CallStmt>()) note(call->callee);
     }
   }
   return out;
@@ -95,9 +95,8 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
     memory.push_back(std::make_unique<uint64_t[]>(module.types.info(module.types.resolve(type)).size / 8 + 1));
     return memory.back().get();
   };
-  for (const Local& local : body.locals) {
-    const bool takes = local.kind == LocalKind::Input || local.kind == LocalKind::InOut;
-    if (!takes && local.kind != LocalKind::Output) continue;
+  for (const Local& local : parameters(body)) {
+    const bool takes = local.kind != LocalKind::Output;
     uint64_t bits = 0;
     types::Value value;
     if (takes && next < arguments.size()) value = arguments[next++];

@@ -110,7 +110,7 @@ void block(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 void image(RUNG_HANDLER_PARAMETERS) {
-  store<uint8_t*>(fp + ip->a, m->ctx->image[ip->b]);
+  store<uint8_t*>(fp + ip->a, m->ctx->areas[ip->b]);
   RUNG_NEXT;
 }
 

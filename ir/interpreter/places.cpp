@@ -61,44 +61,48 @@ void BodyTranslator::write(const Address& to, Scalar type, const Operand& value)
 }
 
 Address BodyTranslator::fieldMemory(const Expr& e) {
-  const Field& field = info(expr(ExprId{e.a}).type).fields[e.b];
-  return shifted(place(ExprId{e.a}), field.offset);
+  const auto [base, field] = e.as<FieldExpr>();
+  const uint64_t offset = info(expr(base).type).fields[field].offset;
+  return shifted(place(base), offset);
 }
 
 Address BodyTranslator::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
     case ExprKind::Local: {
-      const Ref at{local_offset_[e.a], false};
-      return {body_->locals[e.a].by_reference ? Base::Pointer : Base::Frame, at, 0, 0, kNoBit};
+      const uint32_t local = e.as<LocalExpr>().local;
+      const Ref at{local_offset_[local], false};
+      return {body_->locals[local].by_reference ? Base::Pointer : Base::Frame, at, 0, 0, kNoBit};
     }
     case ExprKind::Self: return {Base::Self, {}, 0, 0, kNoBit};
     case ExprKind::Global:
     case ExprKind::Program: {
-      const uint32_t number = e.kind == ExprKind::Global ? blocks_.list_block[e.a] : blocks_.program_block[e.a];
+      const uint32_t number = e.kind == ExprKind::Global ? blocks_.list_block[e.as<GlobalExpr>().list]
+                                                         : blocks_.program_block[e.as<ProgramExpr>().program];
       for (const auto& [known, at] : block_slots_) {
         if (known == number) return {Base::Pointer, at, 0, 0, kNoBit};
       }
       return {};
     }
-    case ExprKind::Image:
+    case ExprKind::Image: {
+      const ImageExpr& image = e.as<ImageExpr>();
       for (const auto& [known, at] : image_slots_) {
-        if (known == e.a) return {Base::Pointer, at, e.b, 0, e.c};
+        if (known == image.area) return {Base::Pointer, at, image.byte, 0, image.bit};
       }
       return {};
+    }
     case ExprKind::Field: {
-      const Field& field = info(expr(ExprId{e.a}).type).fields[e.b];
       const Address at = fieldMemory(e);
-      if (!field.by_reference) return at;
+      if (!isReference(module_, *body_, e)) return at;
       const Operand own = temp();
       const Operand pointer = inFrame(read(at, Scalar::U64, &own), Scalar::U64);
       if ((e.checks & kCheckNull) != 0)
         emit(checkNullHandler(), {RUNG_FAULT_NULL, false}, pointer.ref, {}, site(e.loc));
       return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
     }
-    case ExprKind::Index: return indexed(e, e.c);
+    case ExprKind::Index: return indexed(e, e.as<IndexExpr>().indices.count);
     case ExprKind::Deref: {
-      const Operand pointer = inFrame(value(ExprId{e.a}), Scalar::U64);
+      const Operand pointer = inFrame(value(e.as<DerefExpr>().pointer), Scalar::U64);
       if ((e.checks & (kCheckNull | kCheckCast)) != 0) {
         const uint32_t kind = (e.checks & kCheckNull) != 0 ? RUNG_FAULT_NULL : RUNG_FAULT_CAST;
         emit(checkNullHandler(), {kind, false}, pointer.ref, {}, site(e.loc));
@@ -107,13 +111,17 @@ Address BodyTranslator::place(ExprId id) {
     }
     case ExprKind::Bits: {  // little-endian: a part is at its own bytes
       const uint32_t width = TypeTable::bitWidth(types_.plainKind(e.type));
-      const Address base = place(ExprId{e.a});
-      if (width > 1) return shifted(base, uint64_t{e.b} * width / 8);
-      Address at = shifted(base, e.b / 8);
-      at.bit = e.b % 8;
+      const uint32_t position = e.as<BitsExpr>().position;
+      const Address base = place(e.as<BitsExpr>().base);
+      if (width > 1) return shifted(base, uint64_t{position} * width / 8);
+      Address at = shifted(base, position / 8);
+      at.bit = position % 8;
       return at;
     }
-    case ExprKind::Data: return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.data_of_module[e.a]), kNoBit};
+    case ExprKind::Data: {
+      const uint64_t* const bytes = code_.data_of_module[e.as<DataExpr>().index];
+      return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(bytes), kNoBit};
+    }
     case ExprKind::Zero: {
       if (isString(e.type)) return string(id);
       const Ref memory = slot(info(e.type).size, info(e.type).align);
@@ -123,11 +131,12 @@ Address BodyTranslator::place(ExprId id) {
     case ExprKind::Select: {
       const Operand to = temp();
       const Label otherwise = newLabel(), end = newLabel();
-      branch(ExprId{e.a}, false, otherwise);
-      pointerInto(isString(e.type) ? string(ExprId{e.b}) : place(ExprId{e.b}), to.ref);
+      const auto [condition, yes, no] = e.as<SelectExpr>();
+      branch(condition, false, otherwise);
+      pointerInto(isString(e.type) ? string(yes) : place(yes), to.ref);
       jump(end);
       place(otherwise);
-      pointerInto(isString(e.type) ? string(ExprId{e.c}) : place(ExprId{e.c}), to.ref);
+      pointerInto(isString(e.type) ? string(no) : place(no), to.ref);
       place(end);
       return {Base::Pointer, to.ref, 0, 0, kNoBit};
     }
@@ -162,21 +171,21 @@ uint32_t BodyTranslator::indexSite(const Expr& e, const Dimension& dimension) {
 }
 
 // The element or, with `count` below the number of dimensions, the part of the array at the first indices.
-Address BodyTranslator::indexed(const Expr& e, uint32_t count) {
-  const TypeInfo& array = info(expr(ExprId{e.a}).type);
-  Address at = place(ExprId{e.a});
+Address BodyTranslator::indexed(const Expr& e, size_t count) {
+  const IndexExpr& node = e.as<IndexExpr>();
+  const TypeInfo& array = info(expr(node.base).type);
+  Address at = place(node.base);
   uint64_t stride = info(array.base).size;
-  std::vector<uint64_t> strides(e.c);
-  for (uint32_t i = e.c; i-- > 0;) {
+  std::vector<uint64_t> strides(node.indices.count);
+  for (size_t i = strides.size(); i-- > 0;) {
     strides[i] = stride;
     stride *= array.dimensions[i].count();
   }
-  for (uint32_t i = 0; i < count; ++i) {
-    const ExprId operand = body_->operands[e.b + i];
+  for (size_t i = 0; i < count; ++i) {
+    const ExprId operand = body_->list(node.indices)[i];
     const Dimension& dimension = array.dimensions[i];
-    const Expr& index = expr(operand);
-    if (index.kind == ExprKind::Const) {
-      const auto number = static_cast<int64_t>(index.bits());
+    if (isConst(expr(operand))) {
+      const auto number = static_cast<int64_t>(bitsOf(expr(operand)));
       if (number >= dimension.low && number <= dimension.high) {
         at = shifted(at, static_cast<uint64_t>(number - dimension.low) * strides[i]);
         continue;
@@ -208,17 +217,18 @@ int64_t rangeOf(const Dimension& dimension) {
 
 bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
   const Expr& e = expr(id);
-  if (e.c != 2 || isString(e.type) || isAggregate(e.type)) return false;
-  const ExprId first = body_->operands[e.b], second = body_->operands[e.b + 1];
+  const IndexExpr& node = e.as<IndexExpr>();
+  if (node.indices.count != 2 || isString(e.type) || isAggregate(e.type)) return false;
+  const ExprId first = body_->list(node.indices)[0], second = body_->list(node.indices)[1];
   const Scalar type = scalarOf(first);
   if (expr(first).kind == ExprKind::Const || expr(second).kind == ExprKind::Const || type != scalarOf(second) ||
       (type != Scalar::I16 && type != Scalar::I32) || mayFault(second) || contains(second, ExprKind::Call))
     return false;
-  const TypeInfo& array = info(expr(ExprId{e.a}).type);
+  const TypeInfo& array = info(expr(node.base).type);
   const Dimension &rows = array.dimensions[0], &columns = array.dimensions[1];
   const uint64_t stride = info(array.base).size * columns.count();
   if (!fitsInstruction(rows) || !fitsInstruction(columns) || stride > UINT32_MAX) return false;
-  Address base = place(ExprId{e.a});
+  Address base = place(node.base);
   if (base.base == Base::Constant || (base.base == Base::Pointer && base.offset != 0))
     base = {Base::Pointer, pointerTo(base), 0, 0, kNoBit};
   Operand row = inMemory(value(first), type), column = inMemory(value(second), type);
@@ -235,11 +245,12 @@ bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
 
 bool BodyTranslator::element(const Expr& e, Element& out) {
   if (e.kind != ExprKind::Index || isString(e.type) || isAggregate(e.type)) return false;
-  const Dimension& dimension = info(expr(ExprId{e.a}).type).dimensions[e.c - 1];
-  const ExprId last = body_->operands[e.b + e.c - 1];
+  const std::span<const ExprId> indices = body_->list(e.as<IndexExpr>().indices);
+  const Dimension& dimension = info(expr(e.as<IndexExpr>().base).type).dimensions[indices.size() - 1];
+  const ExprId last = indices.back();
   if (expr(last).kind == ExprKind::Const) return false;
   if (!fitsInstruction(dimension)) return false;
-  out.base = indexed(e, e.c - 1);
+  out.base = indexed(e, indices.size() - 1);
   if (out.base.base == Base::Constant || out.base.offset != 0) {
     out.base = {Base::Pointer, pointerTo(out.base), 0, 0, kNoBit};
   }

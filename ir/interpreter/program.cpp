@@ -198,6 +198,7 @@ void Program::Parts::describe() {
     count = static_cast<uint32_t>(rows.size());
   };
   table(from.blocks, is.blocks, is.block_count);
+  table(from.areas, is.areas, is.area_count);
   table(tasks, is.tasks, is.task_count);
   table(from.symbols, is.symbols, is.symbol_count);
   table(from.types, is.types, is.type_count);
@@ -221,7 +222,6 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
   parts.name = options.module_name;
   parts.description = std::make_unique<Description>(module, blocks, options.with_tests);
   parts.translate(module, blocks, options);
-  for (uint32_t area = 0; area < 3; ++area) parts.is.image_bytes[area] = module.image_bytes[area];
   parts.describe();
 }
 

@@ -46,29 +46,30 @@ void BodyTranslator::statement(const Stmt& stmt) {
   if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;
-    case StmtKind::Assign: return assign(stmt);
+    case StmtKind::Assign: return assign(stmt.as<AssignStmt>().place, stmt.as<AssignStmt>().value);
     case StmtKind::Bind: {
-      const Expr& field = expr(ExprId{stmt.a});
-      const Address to = fieldMemory(field);
-      if (stmt.b == 0) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
-      const Address variable = isString(field.type) ? string(ExprId{stmt.b}) : place(ExprId{stmt.b});
+      const auto [field, variable_of] = stmt.as<BindStmt>();
+      const Address to = fieldMemory(expr(field));
+      if (!variable_of) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
+      const Address variable = isString(expr(field).type) ? string(variable_of) : place(variable_of);
       return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
     }
-    case StmtKind::Call: return callStatement(stmt);
+    case StmtKind::Call: return callStatement(stmt.as<CallStmt>(), stmt.loc);
     case StmtKind::If: {
       const Label otherwise = newLabel();
-      branch(ExprId{stmt.a}, false, otherwise);
-      block(StmtId{stmt.b});
-      if (stmt.c == 0) return place(otherwise);
+      const IfStmt& node = stmt.as<IfStmt>();
+      branch(node.condition, false, otherwise);
+      block(node.then_block);
+      if (!node.else_block) return place(otherwise);
       const Label end = newLabel();
       jump(end);
       place(otherwise);
-      block(StmtId{stmt.c});
+      block(node.else_block);
       return place(end);
     }
-    case StmtKind::Switch: return switchStatement(stmt);
-    case StmtKind::Loop: return loopStatement(stmt);
-    case StmtKind::For: return forStatement(stmt);
+    case StmtKind::Switch: return switchStatement(stmt.as<SwitchStmt>());
+    case StmtKind::Loop: return loopStatement(stmt.as<LoopStmt>());
+    case StmtKind::For: return forStatement(stmt.as<ForStmt>());
     case StmtKind::Break:
       if (!loops_.empty()) leaveTo(loops_.back().on_break, loops_.back().try_depth);
       return;
@@ -76,32 +77,38 @@ void BodyTranslator::statement(const Stmt& stmt) {
       if (!loops_.empty()) leaveTo(loops_.back().on_continue, loops_.back().try_depth);
       return;
     case StmtKind::Return: return leaveTo(return_label_, 0);
-    case StmtKind::Jump: return leaveTo(user_labels_[stmt.a].label, user_labels_[stmt.a].try_depth);
+    case StmtKind::Jump: {
+      const UserLabel& to = user_labels_[stmt.as<JumpStmt>().label];
+      return leaveTo(to.label, to.try_depth);
+    }
     case StmtKind::Label:
-      place(user_labels_[stmt.a].label);
+      place(user_labels_[stmt.as<LabelStmt>().label].label);
       if (options_.bounded) emit(tickHandler());
       return;
-    case StmtKind::Try: return tryStatement(stmt);
+    case StmtKind::Try: return tryStatement(stmt.as<TryStmt>());
     case StmtKind::Fault: {
+      const auto [shown, fault] = stmt.as<FaultStmt>();
       Operand value = temp();
-      if (stmt.a != 0) {
-        value = wideBits(ExprId{stmt.a});
+      if (shown) {
+        value = wideBits(shown);
       } else {
         move(Scalar::U64, {}, value);
       }
-      const bool open_array = static_cast<types::Fault>(stmt.op) == types::Fault::Index;  // low above high: unknown
-      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
+      const bool open_array = fault == types::Fault::Index;  // low above high: unknown
+      emit(raiseHandler(), {static_cast<uint32_t>(fault), false}, value.ref, {},
+           open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
       return;
     }
     case StmtKind::Assert: return assertStatement(stmt);
     case StmtKind::Evaluate: {
-      const TypeId type = expr(ExprId{stmt.a}).type;
+      const ExprId evaluated = stmt.as<EvaluateStmt>().value;
+      const TypeId type = expr(evaluated).type;
       if (isString(type)) {
-        string(ExprId{stmt.a});
+        string(evaluated);
       } else if (isAggregate(type)) {
-        place(ExprId{stmt.a});
+        place(evaluated);
       } else {
-        value(ExprId{stmt.a});
+        value(evaluated);
       }
       return;
     }
@@ -119,8 +126,7 @@ void BodyTranslator::copyAggregate(const Address& to, const Address& from, uint6
   emit(copyHandler(a.base, b.base), a.ref, b.ref, {static_cast<uint32_t>(size), false}, 0, b.imm);
 }
 
-void BodyTranslator::assign(const Stmt& stmt) {
-  const ExprId to{stmt.a}, from{stmt.b};
+void BodyTranslator::assign(ExprId to, ExprId from) {
   const TypeId type = expr(to).type;
   if (isString(type)) {
     const Address at = place(to);
@@ -153,10 +159,9 @@ void BodyTranslator::assign(const Stmt& stmt) {
 
 // ---- branches
 
-void BodyTranslator::switchStatement(const Stmt& stmt) {
-  const ExprId selector{stmt.a};
-  const Scalar type = scalarOf(selector);
-  const Operand value_of = inMemory(value(selector), type);
+void BodyTranslator::switchStatement(const SwitchStmt& stmt) {
+  const Scalar type = scalarOf(stmt.selector);
+  const Operand value_of = inMemory(value(stmt.selector), type);
   const Label otherwise = newLabel(), end = newLabel();
   const uint64_t flip = isSigned(type) ? uint64_t{1} << 63 : 0;
   struct Row {
@@ -165,11 +170,9 @@ void BodyTranslator::switchStatement(const Stmt& stmt) {
   };
   std::vector<Row> rows;
   std::vector<Label> labels;
-  for (uint32_t i = 0; i < stmt.c; ++i) {
-    const Case& one = body_->cases[stmt.b + i];
+  for (const Case& one : body_->list(stmt.cases)) {
     labels.push_back(newLabel());
-    for (uint32_t r = 0; r < one.range_count; ++r) {
-      const CaseRange& range = body_->ranges[one.first_range + r];
+    for (const CaseRange& range : body_->list(one.ranges)) {
       rows.push_back(
           {static_cast<uint64_t>(range.low) ^ flip, static_cast<uint64_t>(range.high) ^ flip, labels.back()});
     }
@@ -207,37 +210,34 @@ void BodyTranslator::switchStatement(const Stmt& stmt) {
       table_jumps_.push_back({&ranges[i].to, insn, rows[i].label});
     }
   }
-  for (uint32_t i = 0; i < stmt.c; ++i) {
+  for (uint32_t i = 0; i < stmt.cases.count; ++i) {
     place(labels[i]);
-    block(body_->cases[stmt.b + i].block);
+    block(body_->list(stmt.cases)[i].block);
     jump(end);
   }
   place(otherwise);
-  block(StmtId{stmt.d});
+  block(stmt.else_block);
   place(end);
 }
 
 // ---- loops
 
-// `if condition { break }`
-bool BodyTranslator::isExitTest(StmtId id) const {
-  if (!id) return false;
-  const Stmt& stmt = body_->stmt(id);
-  if (stmt.kind != StmtKind::If || stmt.c != 0 || stmt.b == 0) return false;
-  const Stmt& inner = body_->stmt(StmtId{stmt.b});
-  return inner.kind == StmtKind::Break && !inner.next;
+// The condition of `if condition { break }`; none of other statements.
+ExprId BodyTranslator::exitTest(StmtId id) const {
+  const auto* test = id ? body_->stmt(id).tryAs<IfStmt>() : nullptr;
+  if (test == nullptr || test->else_block || !test->then_block) return {};
+  const Stmt& inner = body_->stmt(test->then_block);
+  return inner.kind == StmtKind::Break && !inner.next ? test->condition : ExprId{};
 }
 
 // The test of a WHILE follows its body, so that an iteration takes one branch.
-void BodyTranslator::loopStatement(const Stmt& stmt) {
+void BodyTranslator::loopStatement(const LoopStmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
   const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
   loops_.push_back({end, on_continue, depth});
-  StmtId first{stmt.a};
-  const StmtId next{stmt.b};
-  const bool tests_first = !next && isExitTest(first);
-  const StmtId test = first;
-  if (tests_first) {
+  auto [first, next] = stmt;
+  const ExprId test = next ? ExprId{} : exitTest(first);
+  if (test) {
     first = body_->stmt(first).next;
     jump(on_continue);
   }
@@ -245,10 +245,10 @@ void BodyTranslator::loopStatement(const Stmt& stmt) {
   if (options_.bounded) emit(tickHandler());
   block(first);
   place(on_continue);
-  if (tests_first) {
-    branch(ExprId{body_->stmt(test).a}, false, iteration);
-  } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
-    branch(ExprId{body_->stmt(next).a}, false, iteration);
+  if (test) {
+    branch(test, false, iteration);
+  } else if (exitTest(next) && !body_->stmt(next).next) {  // REPEAT
+    branch(exitTest(next), false, iteration);
   } else {
     block(next);
     jump(iteration);
@@ -257,11 +257,11 @@ void BodyTranslator::loopStatement(const Stmt& stmt) {
   loops_.pop_back();
 }
 
-void BodyTranslator::forStatement(const Stmt& stmt) {
+void BodyTranslator::forStatement(const ForStmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
-  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+  const auto [control, from, to, step_of, body_block] = stmt;
   const Scalar type = scalarOf(control);
-  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const auto step = static_cast<int64_t>(bitsOf(expr(step_of)));
   const bool up = step > 0;
   const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
 
@@ -275,10 +275,10 @@ void BodyTranslator::forStatement(const Stmt& stmt) {
   write(at, type, first);
   const Operand tested = is_constant ? inFrame(first, type) : begin;
   const bool enters =
-      is_constant && expr(to).kind == ExprKind::Const &&
-      (isSigned(type) ? (up ? static_cast<int64_t>(expr(from).bits()) <= static_cast<int64_t>(expr(to).bits())
-                            : static_cast<int64_t>(expr(from).bits()) >= static_cast<int64_t>(expr(to).bits()))
-                      : (up ? expr(from).bits() <= expr(to).bits() : expr(from).bits() >= expr(to).bits()));
+      is_constant && isConst(expr(to)) &&
+      (isSigned(type) ? (up ? static_cast<int64_t>(bitsOf(expr(from))) <= static_cast<int64_t>(bitsOf(expr(to)))
+                            : static_cast<int64_t>(bitsOf(expr(from))) >= static_cast<int64_t>(bitsOf(expr(to))))
+                      : (up ? bitsOf(expr(from)) <= bitsOf(expr(to)) : bitsOf(expr(from)) >= bitsOf(expr(to))));
   if (!enters) {
     jumpTo(emit(branchHandler(up ? Op::Le : Op::Ge, type, Mode::Frame, Mode::Frame, false), tested.ref, limit.ref),
            end);
@@ -286,7 +286,7 @@ void BodyTranslator::forStatement(const Stmt& stmt) {
   loops_.push_back({end, on_continue, depth});
   place(iteration);
   if (options_.bounded) emit(tickHandler());
-  block(StmtId{stmt.e});
+  block(body_block);
   place(on_continue);
   if (is_direct) {
     const Operand counter = direct(at);
@@ -308,12 +308,12 @@ void BodyTranslator::forStatement(const Stmt& stmt) {
 void BodyTranslator::noteLabels(StmtId first, uint32_t depth) {
   for (StmtId id = first; id; id = body_->stmt(id).next) {
     const Stmt& stmt = body_->stmt(id);
-    if (stmt.kind == StmtKind::Label) user_labels_[stmt.a].try_depth = depth;
-    const bool guards = stmt.kind == StmtKind::Try;
+    if (const auto* label = stmt.tryAs<LabelStmt>()) user_labels_[label->label].try_depth = depth;
+    const auto* guard = stmt.tryAs<TryStmt>();
     uint32_t part = 0;
-    forEachBlock(*body_, stmt, [&](const uint32_t& inner) {
-      const bool guarded = guards && (part == 0 || (part == 1 && stmt.c != 0));
-      noteLabels(StmtId{inner}, depth + (guarded ? 1 : 0));
+    forEachBlock(*body_, stmt, [&](StmtId inner) {
+      const bool guarded = guard != nullptr && (part == 0 || (part == 1 && guard->finally_block));
+      noteLabels(inner, depth + (guarded ? 1 : 0));
       ++part;
     });
   }
@@ -328,9 +328,9 @@ void BodyTranslator::leaveTo(Label label, uint32_t try_depth) {
   emit(haltHandler());
 }
 
-void BodyTranslator::tryStatement(const Stmt& stmt) {
+void BodyTranslator::tryStatement(const TryStmt& stmt) {
   const Operand fault = temp(), exit = temp();
-  const bool has_catch = stmt.op != 0, has_finally = stmt.c != 0;
+  const bool has_catch = stmt.catches, has_finally = static_cast<bool>(stmt.finally_block);
   move(Scalar::U64, {}, exit);
   const auto guarded = [&](StmtId first) {
     const Label after = newLabel();
@@ -343,31 +343,31 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
     tries_.pop_back();
     return exits;
   };
-  std::vector<Exit> exits = guarded(StmtId{stmt.a});
+  std::vector<Exit> exits = guarded(stmt.body_block);
   if (has_catch) {
     const Label ok = newLabel();
     jumpTo(emit(branchHandler(Op::Eq, Scalar::U8, Mode::Frame, Mode::Constant, true), fault.ref), ok);
-    if (stmt.d != 0) {
-      const Scalar type = scalarOf(ExprId{stmt.d});
+    if (stmt.number) {
+      const Scalar type = scalarOf(stmt.number);
       const Operand number = converted(fault, Scalar::U8, type, nullptr);
-      write(place(ExprId{stmt.d}), type, number);
+      write(place(stmt.number), type, number);
     }
     if (has_finally) {
       // The numbers of its exits follow those of the body.
       tries_.push_back({exit, exits});
       const Label after = newLabel();
       jumpTo(emit(tryHandler(), fault.ref), after);
-      block(StmtId{stmt.b});
+      block(stmt.catch_block);
       emit(haltHandler());
       place(after);
       exits = std::move(tries_.back().exits);
       tries_.pop_back();
     } else {
-      block(StmtId{stmt.b});
+      block(stmt.catch_block);
     }
     place(ok);
   }
-  if (has_finally) block(StmtId{stmt.c});
+  if (has_finally) block(stmt.finally_block);
   if (!has_catch || has_finally) emit(rethrowHandler(), fault.ref);
   for (size_t i = 0; i < exits.size(); ++i) {
     const Label other = newLabel();
@@ -398,9 +398,9 @@ void BodyTranslator::assertStatement(const Stmt& stmt) {
     move(Scalar::U64, wideBits(id), {Mode::Frame, to, 0});
   };
   AssertionKind kind = AssertionKind::Truth;
-  const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
+  const auto [first, second, third, text, shown, assertion] = stmt.as<AssertStmt>();
   if (second) created.kind = assertedKind(types_, expr(second).type);
-  switch (static_cast<Assertion>(stmt.op)) {
+  switch (assertion) {
     case Assertion::Assert:
       move(Scalar::Bool, value(first), {Mode::Frame, slots, 0});
       if (!second) break;

@@ -41,7 +41,7 @@ std::u16string utf16(std::string_view string) {
 }  // namespace
 
 Address BodyTranslator::literal(const Expr& e) {
-  const std::string_view characters = module_.names.string(NameId{e.a});
+  const std::string_view characters = module_.names.string(e.as<StringExpr>().characters);
   if (isWide(e.type)) {
     code_.wide_strings.push_back(utf16(characters));
     return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.wide_strings.back().c_str()), kNoBit};
@@ -70,10 +70,11 @@ Address BodyTranslator::string(ExprId id) {
     }
     case ExprKind::Call: return callString(e);
     case ExprKind::Binary: {  // MIN, MAX
-      const Ref a = pointerTo(string(ExprId{e.a})), b = pointerTo(string(ExprId{e.b}));
+      const auto [left, right, op] = e.as<BinaryExpr>();
+      const Ref a = pointerTo(string(left)), b = pointerTo(string(right));
       const Operand order = temp(), takes_first = temp(), to = temp();
       emit(compareStringHandler(isWide(e.type), Base::Pointer, Base::Pointer), order.ref, a, b);
-      emit(compareHandler(e.op == Op::Min ? Op::Lt : Op::Ge, Scalar::I32, Mode::Frame, Mode::Constant, Mode::Frame),
+      emit(compareHandler(op == Op::Min ? Op::Lt : Op::Ge, Scalar::I32, Mode::Frame, Mode::Constant, Mode::Frame),
            takes_first.ref, order.ref);
       emit(selectHandler(Scalar::U64), to.ref, a, b, takes_first.ref.offset);
       return {Base::Pointer, to.ref, 0, 0, kNoBit};
@@ -112,7 +113,7 @@ void BodyTranslator::assignString(const Address& to, uint32_t capacity, bool wid
   const Expr& e = expr(from);
   if (e.kind == ExprKind::Convert && isWide(e.type) == wide) {
     const uint32_t limit = std::min(capacity, capacityOf(e.type));
-    const ExprId inner{e.a};
+    const ExprId inner = e.as<ConvertExpr>().operand;
     if (isString(expr(inner).type)) return assignString(to, limit, wide, inner);
     const Operand bits = wideBits(inner);
     emit(stringOfScalarHandler(wide), pointerTo(to), bits.ref, {limit, false},

@@ -88,12 +88,14 @@ void BodyTranslator::loadBases() {
     emit(run, slots.back().second, {number, false});
   };
   forEachStmt(*body_, body_->first, [&](StmtId id) {
-    forEachRoot(module_, *body_, body_->stmt(id), [&](const uint32_t& root, Use) {
-      forEachExpr(*body_, ExprId{root}, [&](ExprId at) {
+    forEachRoot(module_, *body_, body_->stmt(id), [&](ExprId root, Use) {
+      forEachExpr(*body_, root, [&](ExprId at) {
         const Expr& e = expr(at);
-        if (e.kind == ExprKind::Global) note(block_slots_, blocks_.list_block[e.a], blockHandler());
-        if (e.kind == ExprKind::Program) note(block_slots_, blocks_.program_block[e.a], blockHandler());
-        if (e.kind == ExprKind::Image) note(image_slots_, e.a, imageHandler());
+        if (const auto* global = e.tryAs<GlobalExpr>())
+          note(block_slots_, blocks_.list_block[global->list], blockHandler());
+        if (const auto* program = e.tryAs<ProgramExpr>())
+          note(block_slots_, blocks_.program_block[program->program], blockHandler());
+        if (const auto* image = e.tryAs<ImageExpr>()) note(image_slots_, image->area, imageHandler());
       });
     });
   });
@@ -103,20 +105,20 @@ void BodyTranslator::loadBases() {
 void BodyTranslator::clearVariables() {
   std::vector<bool> is_set(body_->locals.size());
   for (StmtId id = body_->first; id; id = body_->stmt(id).next) {
-    const Stmt& stmt = body_->stmt(id);
-    if (stmt.kind != StmtKind::Assign) break;
+    const auto* assign = body_->stmt(id).tryAs<AssignStmt>();
+    if (assign == nullptr) break;
     bool reads_unset = false;
     const auto note = [&](ExprId at) {
-      if (expr(at).kind == ExprKind::Local && !is_set[expr(at).a]) {
-        const Local& local = body_->locals[expr(at).a];
-        reads_unset = reads_unset || local.kind == LocalKind::Variable || local.kind == LocalKind::Result;
-      }
+      const uint32_t* read = localOf(expr(at));
+      if (read == nullptr || is_set[*read]) return;
+      const LocalKind kind = body_->locals[*read].kind;
+      reads_unset = reads_unset || kind == LocalKind::Variable || kind == LocalKind::Result;
     };
-    const bool sets = expr(ExprId{stmt.a}).kind == ExprKind::Local;
-    forEachExpr(*body_, ExprId{stmt.b}, note);
-    if (!sets) forEachExpr(*body_, ExprId{stmt.a}, note);
+    const uint32_t* set = localOf(expr(assign->place));
+    forEachExpr(*body_, assign->value, note);
+    if (set == nullptr) forEachExpr(*body_, assign->place, note);
     if (reads_unset) break;
-    if (sets) is_set[expr(ExprId{stmt.a}).a] = true;
+    if (set != nullptr) is_set[*set] = true;
   }
   for (size_t i = 0; i < body_->locals.size(); ++i) {
     const Local& local = body_->locals[i];

@@ -147,7 +147,7 @@ class BodyTranslator {
   // ---- places.cpp
   Address place(ExprId id);
   Address fieldMemory(const Expr& e);  // of a by-reference field: of the pointer itself
-  Address indexed(const Expr& e, uint32_t count);
+  Address indexed(const Expr& e, size_t count);
   uint32_t indexSite(const Expr& e, const types::Dimension& dimension);  // 0 where it is not checked
   bool loadOfTwo(ExprId id, const Operand* want, Operand& to);           // a[i, j] by one instruction
   bool element(const Expr& e, Element& out);                             // false: not of that kind, nothing emitted
@@ -172,15 +172,15 @@ class BodyTranslator {
   // ---- statements.cpp
   void block(StmtId first);
   void statement(const Stmt& stmt);
-  void assign(const Stmt& stmt);
+  void assign(ExprId to, ExprId from);
   void copyAggregate(const Address& to, const Address& from, uint64_t size);
-  void switchStatement(const Stmt& stmt);
-  void loopStatement(const Stmt& stmt);
-  void forStatement(const Stmt& stmt);
-  void tryStatement(const Stmt& stmt);
+  void switchStatement(const SwitchStmt& stmt);
+  void loopStatement(const LoopStmt& stmt);
+  void forStatement(const ForStmt& stmt);
+  void tryStatement(const TryStmt& stmt);
   void leaveTo(Label label, uint32_t try_depth);
   void assertStatement(const Stmt& stmt);
-  bool isExitTest(StmtId id) const;
+  ExprId exitTest(StmtId id) const;
   void noteLabels(StmtId first, uint32_t depth);
 
   void count(Loc loc, const char* function);
@@ -188,7 +188,7 @@ class BodyTranslator {
 
   // ---- calls.cpp
   void traceCall(BodyId callee, const Address* self);
-  void callStatement(const Stmt& stmt);
+  void callStatement(const CallStmt& stmt, Loc loc);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callString(const Expr& e);
   struct Argument {
@@ -198,7 +198,7 @@ class BodyTranslator {
     bool copied = false;
     Address copy;
   };
-  std::vector<Argument> arguments(const Body& callee, uint32_t first, uint32_t count, uint32_t at);
+  std::vector<Argument> arguments(const Body& callee, Slice<ExprId> operands, uint32_t at);
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);
   void emitVirtualCall(BodyId method, const Address& self, uint32_t site);

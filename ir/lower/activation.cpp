@@ -95,22 +95,17 @@ void BodyLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
   const sema::Var& var = project_.var(block);
   const ExprId instance = field(asBase(programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
   const BodyId code = in_.bodyOf(in_.pouOfRecord(strip(var.type)));
-  append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = instance.index});
-  body_.first = block_.first;
-  finish();
+  append(loc, CallStmt{.callee = code, .self = instance});
+  body_.first = build_.block().first;
 }
 
 ExprId BodyLowering::programPlace(uint32_t program, Loc loc) {
-  return add({.kind = ExprKind::Program, .type = in_.module.programs[program].record, .loc = loc, .a = program});
+  return add(loc, in_.module.programs[program].record, ProgramExpr{.program = program});
 }
 
 ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
-  return add({.kind = ExprKind::Image,
-              .type = strip(type),
-              .loc = loc,
-              .a = static_cast<uint32_t>(view.area),
-              .b = view.byte,
-              .c = view.is_bit ? view.bit : kNoBit});
+  return add(loc, strip(type),
+             ImageExpr{.area = view.area.index, .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
 }
 
 ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {
@@ -133,14 +128,7 @@ ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& p
         indices[d] = constant(types::kDInt, static_cast<uint64_t>(index), loc);
         rest /= dimension.count();
       }
-      const uint32_t first = static_cast<uint32_t>(body_.operands.size());
-      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
-      at = add({.kind = ExprKind::Index,
-                .type = strip(info.base),
-                .loc = loc,
-                .a = at.index,
-                .b = first,
-                .c = static_cast<uint32_t>(indices.size())});
+      at = element(at, indices, loc);
     }
   }
   return at;
@@ -150,23 +138,22 @@ void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId c
                                    std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Output) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Output) continue;
     const TypeId type = project_.var(path.var).type;
     assign(instancePlace(program, path), imagePlace(path.image, type, loc), loc);
   }
   if (call) {
-    const CallExpr& node = tree_.as<CallExpr>(call);
+    const rung::CallExpr& node = tree_.as<rung::CallExpr>(call);
     lowerBlockCall(project_.call(node.call), node, programPlace(program, loc));
   } else {
-    append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = programPlace(program, loc).index});
+    append(loc, CallStmt{.callee = code, .self = programPlace(program, loc)});
   }
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Input) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Input) continue;
     const TypeId type = project_.var(path.var).type;
     assign(imagePlace(path.image, type, loc), instancePlace(program, path), loc);
   }
-  body_.first = block_.first;
-  finish();
+  body_.first = build_.block().first;
 }
 
 void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePath> paths) {
@@ -178,8 +165,7 @@ void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePa
     if (path.located && (path.init || var.init))
       assign(imagePlace(path.image, var.type, loc), instancePlace(program, path), loc);
   }
-  body_.first = block_.first;
-  finish();
+  body_.first = build_.block().first;
 }
 
 }  // namespace rung::ir

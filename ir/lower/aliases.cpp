@@ -60,10 +60,11 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
       return root && areApart(root, variable);
     }
     case rung::ExprKind::Convert:
-      return (in_.options.checks & kChecksOfConversions) == 0 && isApart(tree_.as<ConvertExpr>(id).operand, variable);
-    case rung::ExprKind::Unary: return isApart(tree_.as<UnaryExpr>(id).operand, variable);
+      return (in_.options.checks & kChecksOfConversions) == 0 &&
+             isApart(tree_.as<rung::ConvertExpr>(id).operand, variable);
+    case rung::ExprKind::Unary: return isApart(tree_.as<rung::UnaryExpr>(id).operand, variable);
     case rung::ExprKind::Binary: {
-      const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+      const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
       if (node.op() == BinaryOp::Power) return false;
       if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) {  // a fault would leave the variable changed
         auto divisor = constantOf(project_, node.right);
@@ -73,7 +74,7 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     }
     case rung::ExprKind::Call: {
       if (!isPlainCall(id)) return false;
-      const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
+      const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
       if (call.kind != sema::CallKind::Function) return false;
       const sema::Pou& pou = project_.pou(call.pou);
       if (!pou.pragmas.pure || !pou.pragmas.native) return false;

@@ -16,7 +16,7 @@ ExprId BodyLowering::placeOf(Target& target) {
 }
 
 ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
-  const CallExpr& node = tree_.as<CallExpr>(id);
+  const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
   const sema::Call& call = project_.call(node.call);
   Loc loc = node.h.loc;
 
@@ -62,13 +62,13 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
     StmtId guarded = body;
     body = block([&] {
       StmtId failed = block([&] { assign(eno, constantBool(false, loc), loc); });
-      append({.kind = StmtKind::Try, .op = 1, .loc = loc, .a = guarded.index, .b = failed.index});
+      append(loc, TryStmt{.body_block = guarded, .catch_block = failed, .catches = true});
     });
   }
-  append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
+  append(loc, IfStmt{.condition = eno, .then_block = body});
   if (call.eno && call.eno_is_pin) {  // the callee has set it, if it ran
     const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
-    append({.kind = StmtKind::If, .loc = loc, .a = unary(Op::Not, types::kBool, eno, loc).index, .b = none.index});
+    append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, eno, loc), .then_block = none});
   } else if (call.eno) {
     storeOutput(call.eno, eno, false, loc);
   }
@@ -88,7 +88,7 @@ ExprId BodyLowering::operandOr0(const sema::Binding& binding, TypeId type, Loc l
   return binding.value ? lowerValue(binding.value) : ofValue(types::defaultValue(types_, in_.module.names, type), loc);
 }
 
-ExprId BodyLowering::lowerOperator(const sema::Call& call, const CallExpr& node) {
+ExprId BodyLowering::lowerOperator(const sema::Call& call, const rung::CallExpr& node) {
   const sema::Pou& pou = project_.pou(call.pou);
   switch (pou.pragmas.operator_kind) {
     case sema::OperatorKind::Op: return lowerArithmeticOperator(call, node);
@@ -102,7 +102,7 @@ ExprId BodyLowering::lowerOperator(const sema::Call& call, const CallExpr& node)
   return {};
 }
 
-ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallExpr& node) {
+ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node) {
   Op op = project_.pou(call.pou).pragmas.op;
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
@@ -137,18 +137,17 @@ ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallE
 }
 
 // SEL(G, IN0, IN1): only the chosen input is evaluated, if evaluating the other could be observed.
-ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
+ExprId BodyLowering::lowerSelect(const sema::Call& call, const rung::CallExpr& node) {
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
   RUNG_INVARIANT(call.bindings.size() == 3, "SEL has a selector and two inputs");
   ExprId selector = operandOr0(call.bindings[0], types::kBool, loc);
   if (guard_ && mayFault(selector)) selector = toTemp(selector, loc);
-  Block outer = block_;
   auto branch = [&](const sema::Binding& binding, Block& created) {
-    block_ = {};
+    const Block outer = build_.open();
     ExprId value = convertValue(operandOr0(binding, type, loc), type, loc);
-    created = block_;
-    block_ = outer;
+    created = build_.block();
+    build_.close(outer);
     return value;
   };
   Block created0, created1;
@@ -156,28 +155,22 @@ ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
   ExprId value1 = branch(call.bindings[2], created1);
   bool plain = !created0.first && !created1.first && !mayFault(value0) && !mayFault(value1);
   if (plain && !isAggregate(type))
-    return add({.kind = ExprKind::Select,
-                .type = type,
-                .loc = loc,
-                .a = selector.index,
-                .b = value1.index,
-                .c = value0.index});
+    return add(loc, type, SelectExpr{.condition = selector, .when_true = value1, .when_false = value0});
   ExprId result = temp(type, loc);
   auto finish = [&](Block created, ExprId value) {
-    block_ = created;
-    assign(result, value, loc);
-    StmtId first = block_.first;
-    block_ = outer;
-    return first;
+    return block([&] {
+      build_.block() = created;
+      assign(result, value, loc);
+    });
   };
   StmtId when_true = finish(created1, value1);
   StmtId when_false = finish(created0, value0);
-  append({.kind = StmtKind::If, .loc = loc, .a = selector.index, .b = when_true.index, .c = when_false.index});
+  append(loc, IfStmt{.condition = selector, .then_block = when_true, .else_block = when_false});
   return result;
 }
 
 // MUX(K, IN0, IN1, …): any K outside 0..n-1 chooses the last input (syntax manual 5.4.1.3.4, TM/TP 6.2.2).
-ExprId BodyLowering::lowerMux(const sema::Call& call, const CallExpr& node) {
+ExprId BodyLowering::lowerMux(const sema::Call& call, const rung::CallExpr& node) {
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
   RUNG_INVARIANT(call.bindings.size() >= 2, "MUX has a selector and inputs");
@@ -191,15 +184,10 @@ ExprId BodyLowering::lowerMux(const sema::Call& call, const CallExpr& node) {
         block([&] { assign(result, convertValue(operandOr0(call.bindings[i + 1], type, loc), type, loc), loc); }));
   uint32_t first_case = static_cast<uint32_t>(body_.cases.size());
   for (uint32_t i = 0; i + 1 < inputs; ++i) {
-    body_.cases.push_back({static_cast<uint32_t>(body_.ranges.size()), 1, blocks[i]});
+    body_.cases.push_back({{static_cast<uint32_t>(body_.ranges.size()), 1}, blocks[i]});
     body_.ranges.push_back({i, i});
   }
-  append({.kind = StmtKind::Switch,
-          .loc = loc,
-          .a = selector.index,
-          .b = first_case,
-          .c = inputs - 1,
-          .d = blocks.back().index});
+  append(loc, SwitchStmt{.selector = selector, .cases = {first_case, inputs - 1}, .else_block = blocks.back()});
   return result;
 }
 
@@ -225,7 +213,8 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
   bool is_value = expr.kind == ExprKind::Convert || expr.kind == ExprKind::Select || expr.kind == ExprKind::Call;
   bool same = typeOf(value) == strip(pin_type) || TypeTable::isString(types_.kind(pin_type));
   if (constant_memory || (same && !is_value && !may_alias)) return value;
-  if (expr.kind == ExprKind::Local && body_.locals[expr.a].kind == LocalKind::Temp) return value;
+  if (const uint32_t* index = localOf(expr); index != nullptr && body_.locals[*index].kind == LocalKind::Temp)
+    return value;
   ExprId copy = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
   assign(copy, value, loc);
   return copy;
@@ -245,7 +234,7 @@ ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
 // An unconditional call: without EN and ENO.
 bool BodyLowering::isPlainCall(rung::ExprId expr) const {
   if (tree_.kind(expr) != rung::ExprKind::Call) return false;
-  const sema::Call& call = project_.call(tree_.as<CallExpr>(expr).call);
+  const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(expr).call);
   return !call.en && !call.eno;
 }
 
@@ -263,7 +252,7 @@ bool BodyLowering::mayChain(const sema::Call& call, const Target& target) const 
   return true;
 }
 
-ExprId BodyLowering::lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target) {
+ExprId BodyLowering::lowerMethodCall(const sema::Call& call, const rung::CallExpr& node, Target* target) {
   const sema::PouId owner = project_.pou(call.pou).owner;
   ExprId object;
   if (call.instance)
@@ -277,7 +266,8 @@ ExprId BodyLowering::lowerMethodCall(const sema::Call& call, const CallExpr& nod
   return lowerFunctionCall(call, node, target, asBase(object, owner, node.h.loc));
 }
 
-ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object) {
+ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target,
+                                       ExprId object) {
   const sema::Pou& pou = project_.pou(call.pou);
   BodyId callee_id = in_.bodyOf(call.pou);
   Loc loc = node.h.loc;
@@ -374,7 +364,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = inOutPlace(binding->value, pin_type);
       const Expr& place = body_.expr(argument);
-      bool part_of_byte = place.kind == ExprKind::Bits || (place.kind == ExprKind::Image && place.c != kNoBit);
+      bool part_of_byte = place.kind == ExprKind::Bits || isImageBit(place);
       if (part_of_byte) {  // a copy that is written back
         ExprId copy = toTemp(argument, loc);
         after.push_back({binding->value, copy, false});
@@ -400,38 +390,30 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     spillArguments(point);
     target->stored = true;
   }
-  uint32_t first = static_cast<uint32_t>(body_.operands.size());
-  body_.operands.insert(body_.operands.end(), arguments.begin(), arguments.end());
-  uint32_t count = static_cast<uint32_t>(arguments.size());
+  const Slice<ExprId> operands = list(arguments);
   if (callee_is_pure && result_type && !isAggregate(result_type) && after.empty())
-    return add({.kind = ExprKind::Call, .type = result_type, .loc = loc, .a = callee_id.index, .b = first, .c = count});
+    return add(loc, result_type, CallExpr{.callee = callee_id, .operands = operands});
 
   if (result_type && !result) result = temp(result_type, loc);
-  append({.kind = StmtKind::Call,
-          .op = call.is_virtual ? in_.virtualCall() : uint8_t{0},
-          .loc = loc,
-          .a = callee_id.index,
-          .b = object.index,
-          .c = first,
-          .d = count,
-          .e = result.index});
+  append(loc, CallStmt{.callee = callee_id,
+                       .self = object,
+                       .operands = operands,
+                       .result = result,
+                       .is_virtual = call.is_virtual,
+                       .is_checked = call.is_virtual && in_.checksCasts()});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
   if (pou.pragmas.faults && !(pou_ && project_.pou(pou_).library)) {
-    const StmtId fault = block([&] {
-      append({.kind = StmtKind::Fault,
-              .op = static_cast<uint8_t>(types::Fault::Lock),
-              .loc = loc,
-              .a = convert(result, types::kLInt, loc).index});
-    });
+    const StmtId fault = block(
+        [&] { append(loc, FaultStmt{.value = convert(result, types::kLInt, loc), .fault = types::Fault::Lock}); });
     const ExprId bad = binary(Op::Ne, types::kBool, result, constant(result_type, 0, loc), loc);
-    append({.kind = StmtKind::If, .loc = loc, .a = bad.index, .b = fault.index});
+    append(loc, IfStmt{.condition = bad, .then_block = fault});
   }
   return result;
 }
 
 // ---- function blocks and programs ------------------------------------------------------------------------------
 
-void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance) {
+void BodyLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
   Loc loc = node.h.loc;
   struct CopyBack {
     rung::ExprId target;
@@ -439,7 +421,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
   };
   std::vector<CopyBack> copies;
   std::vector<ExprId> short_lived;  // in-outs of an instance that outlives their variable
-  const auto isLocal = [&](ExprId place) { return body_.expr(rootOf(place)).kind == ExprKind::Local; };
+  const auto isLocal = [&](ExprId place) { return body_.expr(rootOf(body_, place)).kind == ExprKind::Local; };
   for (const sema::Binding& binding : call.bindings) {
     if (binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
@@ -458,13 +440,13 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
-      if (expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit)) {
+      if (expr.kind == ExprKind::Bits || isImageBit(expr)) {
         ExprId copy = toTemp(variable, at);
         copies.push_back({binding.value, copy});
         variable = copy;
       }
       if (isLocal(variable) && !isLocal(instance)) short_lived.push_back(place);
-      append({.kind = StmtKind::Bind, .loc = at, .a = place.index, .b = variable.index});
+      append(at, BindStmt{.field = place, .place = variable});
     } else {
       assign(place, lowerValue(binding.value), at);
     }
@@ -475,14 +457,13 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     lowerFunctionCall(action, node, nullptr, asBase(instance, project_.pou(call.pou).owner, loc));
   } else {
     const BodyId callee = call.is_virtual ? in_.blockCallOf(call.pou) : in_.bodyOf(call.pou);
-    append({.kind = StmtKind::Call,
-            .op = call.is_virtual ? in_.virtualCall() : uint8_t{0},
-            .loc = loc,
-            .a = callee.index,
-            .b = instance.index});
+    append(loc, CallStmt{.callee = callee,
+                         .self = instance,
+                         .is_virtual = call.is_virtual,
+                         .is_checked = call.is_virtual && in_.checksCasts()});
   }
   // The variables that they refer to end with this body or sooner, and a trace must not follow them there.
-  for (const ExprId field : short_lived) append({.kind = StmtKind::Bind, .loc = loc, .a = field.index});
+  for (const ExprId field : short_lived) append(loc, BindStmt{.field = field});
   for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;
@@ -512,7 +493,7 @@ std::string collapseBlanks(std::string_view text) {
 }  // namespace
 
 // The condition, its left and its right side as written, a line each; a literal's side is empty.
-NameId BodyLowering::comparedOperands(const CallExpr& node, const BinaryExpr& condition) {
+NameId BodyLowering::comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition) {
   const Sources& sources = project_.sources;
   const FileId file = sources.fileOf(node.h.loc);
   const std::string_view source = sources.sourceText(file);
@@ -525,7 +506,7 @@ NameId BodyLowering::comparedOperands(const CallExpr& node, const BinaryExpr& co
   const std::string left = collapseBlanks(source.substr(open + 1, at - open - 1)), op(source.substr(at, op_size)),
                     right = collapseBlanks(source.substr(at + op_size, end - at - op_size));
   const auto name = [&](rung::ExprId side, const std::string& text) {
-    while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<ConvertExpr>(side).operand;
+    while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<rung::ConvertExpr>(side).operand;
     const TypeKind kind = types_.info(strip(tree_.expr(side).type)).kind;
     const bool is_self_explanatory =
         tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && constantOf(project_, side));
@@ -536,22 +517,22 @@ NameId BodyLowering::comparedOperands(const CallExpr& node, const BinaryExpr& co
   return in_.module.names.intern(left + ' ' + op + ' ' + right + '\n' + left_name + '\n' + right_name);
 }
 
-void BodyLowering::lowerAssertion(const sema::Call& call, const CallExpr& node) {
-  Stmt stmt{.kind = StmtKind::Assert, .op = static_cast<uint8_t>(call.assertion), .loc = node.h.loc};
+void BodyLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& node) {
+  AssertStmt stmt{.assertion = static_cast<Assertion>(call.assertion)};
   size_t count = call.bindings.size();
   size_t operands = call.assertion == sema::Assertion::Assert ? 1 : call.assertion == sema::Assertion::AssertEq ? 2 : 3;
   RUNG_INVARIANT(count >= operands, "an assertion has its operands");
   const rung::ExprId condition = call.bindings[0].value;
   if (operands == 1 && tree_.kind(condition) == rung::ExprKind::Binary) {
-    const BinaryExpr& node_of = tree_.as<BinaryExpr>(condition);
+    const rung::BinaryExpr& node_of = tree_.as<rung::BinaryExpr>(condition);
     const BinaryOp op = node_of.op();
     const TypeId type = strip(tree_.expr(node_of.left).type);
     const bool compares = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
-    if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.e = comparedOperands(node, node_of).index;
+    if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.shown = comparedOperands(node, node_of);
   }
   ExprId a, b, c;
-  if (stmt.e != 0) {
-    const BinaryExpr& compared = tree_.as<BinaryExpr>(condition);
+  if (stmt.shown) {
+    const rung::BinaryExpr& compared = tree_.as<rung::BinaryExpr>(condition);
     const auto once = [&](ExprId value) { return isStable(value) ? value : toTemp(value, compared.h.loc); };
     b = lowerValue(compared.left);
     c = lowerAfter({&b}, [&] { return lowerValue(compared.right); });
@@ -563,12 +544,13 @@ void BodyLowering::lowerAssertion(const sema::Call& call, const CallExpr& node) 
     if (operands > 1) b = lowerAfter({&a}, [&] { return lowerValue(call.bindings[1].value); });
     if (operands > 2) c = lowerAfter({&a, &b}, [&] { return lowerValue(call.bindings[2].value); });
   }
-  stmt.a = a.index;
-  stmt.b = b.index;
-  stmt.c = c.index;
+  stmt.first = a;
+  stmt.second = b;
+  stmt.third = c;
   if (count > operands && call.bindings[operands].value)
-    if (auto text = constantOf(project_, call.bindings[operands].value)) stmt.d = static_cast<uint32_t>(text->bits);
-  append(stmt);
+    if (auto text = constantOf(project_, call.bindings[operands].value))
+      stmt.text = NameId{static_cast<uint32_t>(text->bits)};
+  append(node.h.loc, stmt);
 }
 
 }  // namespace rung::ir

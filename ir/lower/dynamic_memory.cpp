@@ -6,15 +6,8 @@ namespace rung::ir {
 
 ExprId BodyLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
   const BodyId body = in_.bodyOf(function);
-  const auto first = static_cast<uint32_t>(body_.operands.size());
-  body_.operands.insert(body_.operands.end(), arguments.begin(), arguments.end());
   const ExprId result = temp(strip(project_.pou(function).result), loc);
-  append({.kind = StmtKind::Call,
-          .loc = loc,
-          .a = body.index,
-          .c = first,
-          .d = static_cast<uint32_t>(arguments.size()),
-          .e = result.index});
+  append(loc, CallStmt{.callee = body, .operands = list({arguments.begin(), arguments.size()}), .result = result});
   return result;
 }
 
@@ -38,7 +31,7 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
   given_ = node.constructor;
   const StmtId then = block([&] {
     if (!node.count) {
-      const ExprId place = add({.kind = ExprKind::Deref, .type = type, .loc = loc, .a = pointer.index});
+      const ExprId place = add(loc, type, DerefExpr{.pointer = pointer});
       storeInitial(place, declared, {}, true);
       return;
     }
@@ -49,25 +42,18 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
     types_.layout(row);
     types_.layout(to_row);
     const ExprId elements = convert(pointer, to_row, loc);
-    const ExprId whole = add({.kind = ExprKind::Deref, .type = row, .loc = loc, .a = elements.index});
+    const ExprId whole = add(loc, row, DerefExpr{.pointer = elements});
     const ExprId control = temp(types::kLInt, loc);
-    const StmtId body = block([&] {
-      const auto first = static_cast<uint32_t>(body_.operands.size());
-      body_.operands.push_back(control);
-      storeInitial(add({.kind = ExprKind::Index, .type = type, .loc = loc, .a = whole.index, .b = first, .c = 1}),
-                   declared, {}, true);
-    });
+    const StmtId body = block([&] { storeInitial(element(whole, {&control, 1}, loc), declared, {}, true); });
     const ExprId last = binary(Op::Sub, types::kLInt, count, constant(types::kLInt, 1, loc), loc);
-    append({.kind = StmtKind::For,
-            .loc = loc,
-            .a = control.index,
-            .b = constant(types::kLInt, 0, loc).index,
-            .c = last.index,
-            .d = constant(types::kLInt, 1, loc).index,
-            .e = body.index});
+    append(loc, ForStmt{.control = control,
+                        .from = constant(types::kLInt, 0, loc),
+                        .to = last,
+                        .step = constant(types::kLInt, 1, loc),
+                        .body_block = body});
   });
   given_ = outer;
-  append({.kind = StmtKind::If, .loc = loc, .a = is_there.index, .b = then.index});
+  append(loc, IfStmt{.condition = is_there, .then_block = then});
   return pointer;
 }
 
@@ -83,10 +69,8 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
     if ((in_.options.checks & kCheckNull) == 0) return;
     const ExprId failed = unary(Op::Not, types::kBool, ok, loc);
     const ExprId value = convert(pointer, types::kLInt, loc);
-    const StmtId fault = block([&] {
-      append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Null), .loc = loc, .a = value.index});
-    });
-    append({.kind = StmtKind::If, .loc = loc, .a = failed.index, .b = fault.index});
+    const StmtId fault = block([&] { append(loc, FaultStmt{.value = value, .fault = types::Fault::Null}); });
+    append(loc, IfStmt{.condition = failed, .then_block = fault});
   };
   const StmtId then = block([&] {
     const sema::PouId object = in_.pouOfRecord(type);
@@ -94,19 +78,19 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
       const ExprId owned = callPool(call.owns, {memory()}, loc);
       require(owned);
       const StmtId ends = block([&] {
-        const ExprId whole = add({.kind = ExprKind::Deref, .type = type, .loc = loc, .a = pointer.index});
+        const ExprId whole = add(loc, type, DerefExpr{.pointer = pointer});
         if (object)
           callExit(whole, false, loc);
         else
           exitElement(whole, type);
       });
-      if (ends) append({.kind = StmtKind::If, .loc = loc, .a = owned.index, .b = ends.index});
+      if (ends) append(loc, IfStmt{.condition = owned, .then_block = ends});
     }
     require(callPool(call.pou, {memory()}, loc));
     if (!is_this) assign(place, constant(pointer_type, 0, loc), loc);
   });
   const ExprId is_there = binary(Op::Ne, types::kBool, pointer, constant(pointer_type, 0, loc), loc);
-  append({.kind = StmtKind::If, .loc = loc, .a = is_there.index, .b = then.index});
+  append(loc, IfStmt{.condition = is_there, .then_block = then});
 }
 
 }  // namespace rung::ir

@@ -31,8 +31,7 @@ BodyId ModuleLowering::exitOf(TypeId record) {
   body.self = record;
   BodyLowering lowering(*this, body, {});
   lowering.lowerExit(lowering.self(body.loc), record);
-  body.first = lowering.block_.first;
-  lowering.finish();
+  body.first = lowering.build_.block().first;
   return created;
 }
 
@@ -52,15 +51,15 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
 BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists,
                               std::span<const uint32_t> programs) {
   struct End {
-    ExprKind kind;
+    bool is_list;  // else a program
     uint32_t index;
     TypeId record;
   };
   std::vector<End> ends;
   for (const uint32_t list : lists)
-    if (hasExit(module.lists[list].record)) ends.push_back({ExprKind::Global, list, module.lists[list].record});
+    if (hasExit(module.lists[list].record)) ends.push_back({true, list, module.lists[list].record});
   for (const uint32_t p : programs)
-    if (hasExit(module.programs[p].record)) ends.push_back({ExprKind::Program, p, module.programs[p].record});
+    if (hasExit(module.programs[p].record)) ends.push_back({false, p, module.programs[p].record});
   if (ends.empty()) return {};
   const BodyId created = addHelper(name, {}, suffix);
   std::vector<BodyId> bodies;  // before the lowering begins: they create bodies
@@ -69,12 +68,12 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
   Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});
   for (size_t i = ends.size(); i-- > 0;) {
-    const ExprId place =
-        lowering.add({.kind = ends[i].kind, .type = ends[i].record, .loc = body.loc, .a = ends[i].index});
-    lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = bodies[i].index, .b = place.index});
+    const ExprId place = ends[i].is_list
+                             ? lowering.add(body.loc, ends[i].record, GlobalExpr{.list = ends[i].index})
+                             : lowering.add(body.loc, ends[i].record, ProgramExpr{.program = ends[i].index});
+    lowering.append(body.loc, CallStmt{.callee = bodies[i], .self = place});
   }
-  body.first = lowering.block_.first;
-  lowering.finish();
+  body.first = lowering.build_.block().first;
   return created;
 }
 
@@ -95,7 +94,7 @@ void ModuleLowering::addExit() {
 void BodyLowering::lowerExit(ExprId place, TypeId record) {
   const Loc loc = body_.loc;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.pouOfRecord(record), "FB_Exit");
-  CallExpr node{};
+  rung::CallExpr node{};
   node.h.loc = loc;
   for (size_t i = methods.size(); i-- > 0;) {
     sema::Call call;
@@ -130,7 +129,7 @@ void BodyLowering::exitElement(ExprId place, TypeId type) {
         place, type, loc, 0, indices, [&](ExprId element) { exitElement(element, typeOf(element)); }, true);
     return;
   }
-  append({.kind = StmtKind::Call, .loc = loc, .a = in_.exitOf(type).index, .b = place.index});
+  append(loc, CallStmt{.callee = in_.exitOf(type), .self = place});
 }
 
 void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
@@ -138,11 +137,9 @@ void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
   const bool is_virtual = object && !exact && project_.pou(object).object.dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
   if (!end) return;
-  append({.kind = StmtKind::Call,
-          .op = is_virtual ? in_.virtualCall() : uint8_t{0},
-          .loc = loc,
-          .a = end.index,
-          .b = place.index});
+  append(
+      loc,
+      CallStmt{.callee = end, .self = place, .is_virtual = is_virtual, .is_checked = is_virtual && in_.checksCasts()});
 }
 
 }  // namespace rung::ir

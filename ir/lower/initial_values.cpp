@@ -166,14 +166,7 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
                                   FunctionRef<void(ExprId)> store, bool backwards) {
   const TypeInfo& info = types_.info(type);
   if (dimension == info.dimensions.size()) {
-    uint32_t first = static_cast<uint32_t>(body_.operands.size());
-    body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
-    store(add({.kind = ExprKind::Index,
-               .type = strip(info.base),
-               .loc = loc,
-               .a = array.index,
-               .b = first,
-               .c = static_cast<uint32_t>(indices.size())}));
+    store(element(array, indices, loc));
     return;
   }
   ExprId control = temp(types::kDInt, loc);
@@ -182,31 +175,30 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
   indices.pop_back();
   const types::Dimension range = types_.info(type).dimensions[dimension];
   auto bound = [&](int64_t value) { return constant(types::kDInt, static_cast<uint64_t>(value), loc); };
-  append({.kind = StmtKind::For,
-          .loc = loc,
-          .a = control.index,
-          .b = bound(backwards ? range.high : range.low).index,
-          .c = bound(backwards ? range.low : range.high).index,
-          .d = bound(backwards ? -1 : 1).index,
-          .e = body.index});
+  append(loc, ForStmt{.control = control,
+                      .from = bound(backwards ? range.high : range.low),
+                      .to = bound(backwards ? range.low : range.high),
+                      .step = bound(backwards ? -1 : 1),
+                      .body_block = body});
 }
 
 void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
   if (BodyId initializer = in_.initOf(type))
-    append({.kind = StmtKind::Call, .loc = body_.expr(place).loc, .a = initializer.index, .b = place.index});
+    append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = place});
   construct(place, type);
   if (init) storeMembers(place, init);
 }
 
 // The variable to which a place belongs, if its declaration gives arguments to FB_Init.
 const sema::Var* BodyLowering::constructedVar(ExprId place) const {
-  Expr at = body_.expr(place);
-  while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
-  if (at.kind == ExprKind::Field) return in_.constructedVar(typeOf(ExprId{at.a}), at.b);
-  if (at.kind != ExprKind::Local || !pou_) return nullptr;
+  while (const auto* index = body_.expr(place).tryAs<IndexExpr>()) place = index->base;
+  const Expr& at = body_.expr(place);
+  if (const auto* part = at.tryAs<FieldExpr>()) return in_.constructedVar(typeOf(part->base), part->field);
+  const uint32_t* index = localOf(at);
+  if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1 && var.start.constructor.index != 0)
+    if (var.storage == sema::Storage::Local && local_of_[var.field] == *index + 1 && var.start.constructor.index != 0)
       return &var;
   }
   return nullptr;
@@ -218,12 +210,13 @@ void BodyLowering::construct(ExprId place, TypeId type) {
   if (!object) return;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(object, "FB_Init");
   if (methods.empty()) return;
-  Expr at = body_.expr(place);
-  while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
-  if (at.kind == ExprKind::Field) {
-    const sema::PouId derived = in_.pouOfRecord(typeOf(ExprId{at.a}));
+  ExprId whole = place;
+  while (const auto* index = body_.expr(whole).tryAs<IndexExpr>()) whole = index->base;
+  const Expr at = body_.expr(whole);
+  if (const auto* part = at.tryAs<FieldExpr>()) {
+    const sema::PouId derived = in_.pouOfRecord(typeOf(part->base));
     if (derived && project_.pou(derived).object.base_var &&
-        project_.var(project_.pou(derived).object.base_var).field == at.b)
+        project_.var(project_.pou(derived).object.base_var).field == part->field)
       return;  // the whole is not made yet
   }
   CallId given;
@@ -233,7 +226,7 @@ void BodyLowering::construct(ExprId place, TypeId type) {
     given = var->start.constructor;
     if (var->start.element_constructors != 0) given.index += element_;
   }
-  CallExpr node{};
+  rung::CallExpr node{};
   node.h.loc = at.loc;
   const std::vector<sema::Binding> none;
   const std::vector<sema::Binding>& bindings = given.index ? project_.call(given).bindings : none;
@@ -286,14 +279,7 @@ ExprId BodyLowering::elementAt(ExprId array, uint64_t number, Loc loc) {
                      static_cast<uint64_t>(dimension.low + static_cast<int64_t>(number % dimension.count())), loc);
     number /= dimension.count();
   }
-  const auto first = static_cast<uint32_t>(body_.operands.size());
-  body_.operands.insert(body_.operands.end(), at.begin(), at.end());
-  return add({.kind = ExprKind::Index,
-              .type = strip(info.base),
-              .loc = loc,
-              .a = array.index,
-              .b = first,
-              .c = static_cast<uint32_t>(at.size())});
+  return element(array, at, loc);
 }
 
 void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero) {
@@ -310,7 +296,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     }
     in_.module.data.push_back({type, std::move(bytes)});
     uint32_t index = static_cast<uint32_t>(in_.module.data.size() - 1);
-    assign(place, add({.kind = ExprKind::Data, .type = type, .loc = loc, .a = index}), loc);
+    assign(place, add(loc, type, DataExpr{.index = index}), loc);
     return;
   }
   // Elements that need code: FB instances, and types that hold them.
@@ -381,7 +367,7 @@ void BodyLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId init
   }
   ExprId value = convertValue(lowerValue(init), type, loc);
   const Expr& expr = body_.expr(value);
-  if (place_is_zero && expr.kind == ExprKind::Const && expr.bits() == 0) return;
+  if (place_is_zero && isConst(expr) && bitsOf(expr) == 0) return;
   assign(place, value, loc);
 }
 

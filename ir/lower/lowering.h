@@ -11,6 +11,7 @@
 #include "frontend/source/function_ref.h"
 #include "ir/builder.h"
 #include "ir/lower.h"
+#include "ir/walk.h"
 #include "sema/project.h"
 
 namespace rung::ir {
@@ -47,7 +48,7 @@ struct ModuleLowering {
   bool hasExit(TypeId type);
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
-  uint8_t virtualCall() const { return (options.checks & kCheckCast) != 0 ? kVirtual | kChecked : kVirtual; }
+  bool checksCasts() const { return (options.checks & kCheckCast) != 0; }
   // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
   const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.
@@ -125,7 +126,23 @@ class BodyLowering {
   void lowerBlockTask(uint32_t program, sema::VarId block);
 
   // ---- building
-  ExprId add(Expr expr);
+  template <class T>
+  ExprId add(Loc loc, TypeId type, const T& fields, uint8_t checks = 0) {
+    Expr expr;
+    expr.checks = checks;
+    expr.type = type;
+    expr.loc = loc;
+    expr.set(fields);
+    return addExpr(expr);
+  }
+  template <class T>
+  StmtId append(Loc loc, const T& fields) {
+    Stmt stmt;
+    stmt.loc = loc;
+    stmt.set(fields);
+    return appendStmt(stmt);
+  }
+  Slice<ExprId> list(std::span<const ExprId> operands);
   ExprId constant(TypeId type, uint64_t bits, Loc loc);
   ExprId constantBool(bool value, Loc loc) { return constant(types::kBool, value ? 1 : 0, loc); }
   ExprId stringConstant(TypeId type, NameId string, Loc loc);
@@ -134,6 +151,8 @@ class BodyLowering {
   ExprId local(uint32_t index, Loc loc);
   ExprId temp(TypeId type, Loc loc);  // a new temporary, as a place
   ExprId field(ExprId base, uint32_t index, TypeId type, Loc loc);
+  ExprId element(ExprId array, std::span<const ExprId> indices, Loc loc);  // without check
+  void callOn(BodyId callee, ExprId self, Loc loc);
   ExprId self(Loc loc);
   // The place of an object as what it extends.
   ExprId asBase(ExprId place, sema::PouId base, Loc loc);
@@ -141,8 +160,8 @@ class BodyLowering {
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc);
   void assign(ExprId place, ExprId value, Loc loc);
-  StmtId append(Stmt stmt);
-  void finish();  // the body is complete
+  ExprId addExpr(Expr expr);
+  StmtId appendStmt(Stmt stmt);
   TypeId typeOf(ExprId expr) const { return body_.expr(expr).type; }
   TypeId strip(TypeId type) const { return types_.resolve(type); }
   bool isAggregate(TypeId type) const;  // array, record or string: in memory, passed by reference
@@ -153,16 +172,12 @@ class BodyLowering {
   // Lowers into a separate block; returns its first statement.
   template <class Fill>
   StmtId block(Fill fill) {
-    Block outer = block_;
-    block_ = {};
+    const Block outer = build_.open();
     fill();
-    StmtId first = block_.first;
-    block_ = outer;
-    return first;
+    return build_.close(outer);
   }
-  StmtId make(Stmt stmt);
-  uint32_t attach(uint32_t expr);  // as operand: a node that already has a parent is copied
-  uint32_t copyTree(uint32_t expr);
+  void attach(ExprId& expr);
+  std::vector<bool> attached_;
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
@@ -174,14 +189,14 @@ class BodyLowering {
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
   ExprId stable(ExprId place);
-  bool mayFault(ExprId expr) const;
+  ExprId stableElement(const Expr& expr);
+  bool mayFault(ExprId expr) const { return ir::mayFault(body_, expr); }
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
-  ExprId rootOf(ExprId place) const;
 
   // open_arrays.cpp
   ExprId openArrayPointer(rung::ExprId array, Loc loc);
   ExprId openArrayBound(rung::ExprId array, uint32_t index, Loc loc);
-  ExprId openArrayElement(const IndexExpr& node);
+  ExprId openArrayElement(const rung::IndexExpr& node);
   ExprId openArrayPart(rung::ExprId array, sema::VarId part, Loc loc);
   // The parts of an ARRAY[*] argument: the address of the first element, and the bounds.
   struct OpenArray {
@@ -221,7 +236,8 @@ class BodyLowering {
     StmtId last;
     uint32_t effects;
   };
-  InsertionPoint here() const { return {block_.last, effects_}; }
+  InsertionPoint here() { return {build_.block().last, effects()}; }
+  uint32_t effects();  // statements so far that change more than temporaries
   // Lowers `next`. When the statements that it emitted could change what `before` reads, or must not run when `before`
   // faults, `before` moves to a temporary in front of them.
   template <class Lower>
@@ -233,21 +249,22 @@ class BodyLowering {
   }
   void spill(InsertionPoint point, std::initializer_list<ExprId*> values);
   void spillPlace(InsertionPoint point, ExprId& place);  // stays a place: its indices and pointers move
-  bool mustSpill(InsertionPoint point, ExprId value) const;
+  bool mustSpill(InsertionPoint point, ExprId value);
   bool hasEffect(const Stmt& stmt) const;  // of its own, without its blocks
   bool isTemp(ExprId place) const;         // a compiler temporary or a part of one
   // Emits at `point` instead of at the end of the block.
   template <class Fill>
   void insertAt(InsertionPoint point, Fill fill) {
-    Block rest = point.last ? Block{body_.stmt(point.last).next, block_.last} : block_;
-    block_ = {point.last ? block_.first : StmtId{}, point.last};
+    Block& open = build_.block();
+    const Block rest = point.last ? Block{body_.stmt(point.last).next, open.last} : open;
+    open = {point.last ? open.first : StmtId{}, point.last};
     if (point.last) body_.stmt(point.last).next = {};
     fill();
-    if (block_.last)
-      body_.stmt(block_.last).next = rest.first;
+    if (open.last)
+      body_.stmt(open.last).next = rest.first;
     else
-      block_.first = rest.first;
-    if (rest.first) block_.last = rest.last;
+      open.first = rest.first;
+    if (rest.first) open.last = rest.last;
   }
   ExprId toTemp(ExprId value, Loc loc);
 
@@ -263,21 +280,21 @@ class BodyLowering {
   ExprId placeOf(Target& target);
   // Lowers a call; the result as a value (none: the callee has no result, or target->stored was set).
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
-  ExprId lowerOperator(const sema::Call& call, const CallExpr& node);
-  ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
-  ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
-  ExprId lowerMux(const sema::Call& call, const CallExpr& node);
+  ExprId lowerOperator(const sema::Call& call, const rung::CallExpr& node);
+  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node);
+  ExprId lowerSelect(const sema::Call& call, const rung::CallExpr& node);
+  ExprId lowerMux(const sema::Call& call, const rung::CallExpr& node);
   // `object`: the object of a method; none for a function.
-  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object = {});
-  ExprId lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target);
-  ExprId lowerObjectConversion(const ConvertExpr& node);
+  ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerMethodCall(const sema::Call& call, const rung::CallExpr& node, Target* target);
+  ExprId lowerObjectConversion(const rung::ConvertExpr& node);
   // objects.cpp
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
   ExprId checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
-  void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
-  void lowerAssertion(const sema::Call& call, const CallExpr& node);
-  NameId comparedOperands(const CallExpr& node, const BinaryExpr& condition);
+  void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
+  void lowerAssertion(const sema::Call& call, const rung::CallExpr& node);
+  NameId comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
@@ -290,18 +307,18 @@ class BodyLowering {
   void detectEdges();
   void lowerStatements(Slice<rung::StmtId> statements);
   void lowerStatement(rung::StmtId stmt);
-  void lowerAssign(const AssignStmt& stmt);
-  void lowerIf(const IfStmt& stmt);
+  void lowerAssign(const rung::AssignStmt& stmt);
+  void lowerIf(const rung::IfStmt& stmt);
   void lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc);
   void lowerCase(const CaseStmt& stmt);
-  void lowerFor(const ForStmt& stmt);
-  void lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+  void lowerFor(const rung::ForStmt& stmt);
+  void lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                           const std::optional<Value>& step);
-  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+  void lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                                 FunctionRef<void()> iteration);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
-  void lowerTry(const TryStmt& stmt);
+  void lowerTry(const rung::TryStmt& stmt);
   uint32_t labelNumber(NameId label);
   std::unordered_map<uint32_t, uint32_t> label_numbers_;  // by the key of the name
 
@@ -336,18 +353,17 @@ class BodyLowering {
   TypeTable& types_;
   Body& body_;
   sema::PouId pou_;
-  Block block_;
+  Builder build_;
   std::vector<uint32_t> local_of_;                          // by Var::field of a local: local index + 1
   std::vector<std::pair<uint32_t, uint32_t>> edge_locals_;  // R_EDGE, F_EDGE pins: VarId and the local with the edge
   uint32_t result_local_ = kNoBit;
-  uint32_t temp_count_ = 0;
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when the operand's
   // value matters. Its checks count only then.
   ExprId guard_;
   uint32_t element_ = 0;  // the current element of an array whose elements have arguments of their own for FB_Init
   CallId given_;          // the arguments of FB_Init for an object that __NEW creates
   ExprId logical_;        // the temporary of the last AND or OR that needed one
-  uint32_t effects_ = 0;  // statements so far that change more than temporaries
+  uint32_t effects_ = 0, effects_counted_ = 1;  // of the statements up to that one
 };
 
 }  // namespace rung::ir

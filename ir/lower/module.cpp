@@ -65,7 +65,8 @@ void ModuleLowering::run() {
   addTasks();
   addLocated();
   addAccessPaths();
-  for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
+  module.areas = project.options.areas;
+  for (size_t area = 0; area < module.areas.size(); ++area) module.areas[area].bytes = project.area_bytes[area];
   setPhaseSubject("", 0);
 }
 
@@ -84,7 +85,6 @@ sema::PouId ModuleLowering::lowerBodies() {
     Body& body = module.body(body_of_[id.index]);
     BodyLowering lowering(*this, body, id);
     lowering.lowerPou();
-    lowering.finish();
   }
   return {};
 }
@@ -172,9 +172,10 @@ void ModuleLowering::markFaulting() {
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;
-      if (stmt.kind != StmtKind::Call) continue;
-      callers[stmt.a].push_back(i);
-      body.may_fault = body.may_fault || (stmt.op & kVirtual) != 0;
+      const auto* call = stmt.tryAs<CallStmt>();
+      if (call == nullptr) continue;
+      callers[call->callee.index].push_back(i);
+      body.may_fault = body.may_fault || call->is_virtual;
     }
     if (body.may_fault) faulting.push_back(i);
   }
@@ -373,7 +374,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
       sema::PouId first = pou;
       while (!project.pou(first).object.id_var) first = project.pou(first).base;
       const uint32_t field = project.var(project.pou(first).object.id_var).field;
-      ExprId number = lowering.add({.kind = ExprKind::Const, .type = types::kUDInt, .loc = loc, .c = type.index});
+      ExprId number = lowering.add(loc, types::kUDInt, ConstExpr{.number_of = type});
       ExprId place = lowering.field(lowering.asBase(lowering.self(loc), first, loc), field, types::kUDInt, loc);
       lowering.assign(place, number, loc);
     }
@@ -398,8 +399,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
                                 init, !info.overlaps);
         if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
       }
-  body.first = lowering.block_.first;
-  lowering.finish();
+  body.first = lowering.build_.block().first;
   return id;
 }
 
@@ -506,7 +506,7 @@ void ModuleLowering::addAccessPaths() {
     created.type = types.resolve(path.type);
     created.read_only = path.read_only;
     if (path.located) {
-      created.index = static_cast<uint32_t>(path.image.area);
+      created.index = path.image.area.index;
       created.offset = path.image.byte;
       if (path.image.is_bit) created.bit = path.image.bit;
     } else {
@@ -527,7 +527,7 @@ void ModuleLowering::addLocated() {
     Located created;
     created.name = var.name;
     created.type = types.resolve(var.type);
-    created.area = static_cast<uint8_t>(var.image.area);
+    created.area = var.image.area.index;
     created.byte = var.image.byte;
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;

@@ -61,7 +61,8 @@ void ModuleLowering::addClasses() {
   fillKindTests();
   for (uint32_t i = 1; i < module.bodies.size(); ++i)
     for (Expr& expr : module.bodies[i].exprs)
-      if (expr.kind == ExprKind::Const && expr.c != 0) expr.a = number_of[expr.c];
+      if (expr.kind == ExprKind::Const && expr.as<ConstExpr>().number_of)
+        expr.as<ConstExpr>().bits = number_of[expr.as<ConstExpr>().number_of.index];
 }
 
 // An object's implementation of `method`; none when it has none, or an abstract one.
@@ -79,7 +80,8 @@ void ModuleLowering::addDispatches() {
   std::vector<bool> called(module.bodies.size());
   for (uint32_t i = 1; i < module.bodies.size(); ++i)
     for (const Stmt& stmt : module.bodies[i].stmts)
-      if (stmt.kind == StmtKind::Call && (stmt.op & kVirtual) != 0) called[stmt.a] = true;
+      if (const auto* call = stmt.tryAs<CallStmt>(); call != nullptr && call->is_virtual)
+        called[call->callee.index] = true;
   const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are added below
   for (uint32_t i = 1; i < called.size(); ++i) {
     if (!called[i]) continue;
@@ -141,9 +143,8 @@ BodyId ModuleLowering::blockCallOf(sema::PouId block) {
   Body& body = module.body(created);
   body.self = project.pou(block).record;
   BodyLowering lowering(*this, body, {});
-  lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = code.index, .b = lowering.self(body.loc).index});
-  body.first = lowering.block_.first;
-  lowering.finish();
+  lowering.append(body.loc, CallStmt{.callee = code, .self = lowering.self(body.loc)});
+  body.first = lowering.build_.block().first;
   return created;
 }
 
@@ -170,8 +171,7 @@ void ModuleLowering::fillKindTests() {
       return c < module.classes.size() && isKindOf(pou_of_record_[module.classes[c].record.index], wanted);
     };
     auto compare = [&](Op op, size_t c) {
-      const ExprId number = lowering.add(
-          {.kind = ExprKind::Const, .type = types::kUDInt, .loc = loc, .c = module.classes[c].record.index});
+      const ExprId number = lowering.add(loc, types::kUDInt, ConstExpr{.number_of = module.classes[c].record});
       return lowering.binary(op, types::kBool, lowering.local(0, loc), number, loc);
     };
     ExprId is;
@@ -185,8 +185,7 @@ void ModuleLowering::fillKindTests() {
       is = is ? lowering.binary(Op::Or, types::kBool, is, run, loc) : run;
     }
     lowering.assign(lowering.local(1, loc), is ? is : lowering.constantBool(false, loc), loc);
-    body.first = lowering.block_.first;
-    lowering.finish();
+    body.first = lowering.build_.block().first;
   }
 }
 
@@ -198,13 +197,10 @@ ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wan
   const TypeId record = strip(types_.info(typeOf(pointer)).base);
   sema::PouId first = given;
   while (!project_.pou(first).object.id_var) first = project_.pou(first).base;
-  ExprId object = add({.kind = ExprKind::Deref, .type = record, .loc = loc, .a = pointer.index});
+  ExprId object = add(loc, record, DerefExpr{.pointer = pointer});
   object = asBase(object, first, loc);
   const ExprId id = field(object, project_.var(project_.pou(first).object.id_var).field, types::kUDInt, loc);
-  const BodyId test = in_.kindTestOf(wanted);
-  const auto operands = static_cast<uint32_t>(body_.operands.size());
-  body_.operands.push_back(id);
-  return add({.kind = ExprKind::Call, .type = types::kBool, .loc = loc, .a = test.index, .b = operands, .c = 1});
+  return add(loc, types::kBool, CallExpr{.callee = in_.kindTestOf(wanted), .operands = list({&id, 1})});
 }
 
 // Converts a pointer to a base to one to an object that extends it; fault[cast] when the object is of another kind.
@@ -214,11 +210,10 @@ ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::Po
   const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
   const StmtId test = block([&] {
     const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
-    const StmtId fault =
-        block([&] { append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Cast), .loc = loc}); });
-    append({.kind = StmtKind::If, .loc = loc, .a = is_other.index, .b = fault.index});
+    const StmtId fault = block([&] { append(loc, FaultStmt{.fault = types::Fault::Cast}); });
+    append(loc, IfStmt{.condition = is_other, .then_block = fault});
   });
-  append({.kind = StmtKind::If, .loc = loc, .a = is_set.index, .b = test.index});
+  append(loc, IfStmt{.condition = is_set, .then_block = test});
   return pointer;
 }
 
@@ -229,13 +224,13 @@ ExprId BodyLowering::lowerAttempt(const sema::Call& call, Loc loc) {
   assign(is, binary(Op::Ne, types::kBool, source, constant(typeOf(source), 0, loc), loc), loc);
   if (call.pou) {
     const StmtId test = block([&] { assign(is, isKindOf(source, given, call.pou, loc), loc); });
-    append({.kind = StmtKind::If, .loc = loc, .a = is.index, .b = test.index});
+    append(loc, IfStmt{.condition = is, .then_block = test});
   }
   const ExprId target = stable(lowerPlace(call.bindings[1].value));
   const TypeId type = typeOf(target);
   const StmtId taken = block([&] { assign(target, convertValue(source, type, loc), loc); });
   const StmtId refused = block([&] { assign(target, constant(type, 0, loc), loc); });
-  append({.kind = StmtKind::If, .loc = loc, .a = is.index, .b = taken.index, .c = refused.index});
+  append(loc, IfStmt{.condition = is, .then_block = taken, .else_block = refused});
   return is;
 }
 

@@ -28,7 +28,7 @@ ExprId BodyLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc)
   return openArrayPart(array, {project_.var(rootVar(array)).open_array.bounds.index + index}, loc);
 }
 
-ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
+ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
   const Loc loc = node.h.loc;
   const TypeId element = strip(node.h.type);
   const TypeId number = types::kLInt;
@@ -50,11 +50,8 @@ ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
       ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, index, bound(0), loc),
                               binary(Op::Gt, types::kBool, index, bound(1), loc), loc);
       if (guard_) outside = binary(Op::And, types::kBool, guard_, outside, loc);
-      StmtId fault = block([&] {
-        append(
-            {.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Index), .loc = loc, .a = index.index});
-      });
-      append({.kind = StmtKind::If, .loc = loc, .a = outside.index, .b = fault.index});
+      StmtId fault = block([&] { append(loc, FaultStmt{.value = index, .fault = types::Fault::Index}); });
+      append(loc, IfStmt{.condition = outside, .then_block = fault});
     }
     ExprId step = binary(Op::Sub, number, index, bound(0), loc);
     if (!offset) {
@@ -71,14 +68,9 @@ ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
   types_.layout(row);
   const ExprId pointer = convert(openArrayPointer(node.base, loc), types_.pointer(row), loc);
   const bool of_block = project_.var(rootVar(node.base)).storage == sema::Storage::Field;  // may be called without it
-  const ExprId base = add({.kind = ExprKind::Deref,
-                           .checks = static_cast<uint8_t>(of_block ? in_.options.checks & kCheckNull : 0),
-                           .type = row,
-                           .loc = loc,
-                           .a = pointer.index});
-  const auto first = static_cast<uint32_t>(body_.operands.size());
-  body_.operands.push_back(offset);
-  return add({.kind = ExprKind::Index, .type = element, .loc = loc, .a = base.index, .b = first, .c = 1});
+  const ExprId base = add(loc, row, DerefExpr{.pointer = pointer},
+                          static_cast<uint8_t>(of_block ? in_.options.checks & kCheckNull : 0));
+  return this->element(base, {&offset, 1}, loc);
 }
 
 BodyLowering::OpenArray BodyLowering::noOpenArray(TypeId pin_type, Loc loc) {
@@ -104,7 +96,7 @@ BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeI
   ExprId place = lowerPlace(argument);
   if (copies) place = argumentPlace(place, typeOf(place), true, loc);
   place = isPlace(body_.expr(place).kind) ? stable(place) : toTemp(place, loc);
-  passed.pointer = add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = place.index});
+  passed.pointer = add(loc, pointer, AddressExpr{.place = place});
   for (uint32_t i = 0; i < count; ++i) {
     const types::Dimension& dimension = given.dimensions[i / 2];
     passed.bounds.push_back(

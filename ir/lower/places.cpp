@@ -1,5 +1,6 @@
 // Lowering of lvalues: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
 #include "ir/lower/lowering.h"
+#include "ir/walk.h"
 
 namespace rung::ir {
 
@@ -17,7 +18,7 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
       // A variable of another program, named through the program.
       uint32_t instance = in_.instanceOf(var->pou);
       TypeId record = in_.module.programs[instance].record;
-      return field(add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance}), var->field, type, loc);
+      return field(add(loc, record, ProgramExpr{.program = instance}), var->field, type, loc);
     }
     case sema::Storage::Local:
       RUNG_INVARIANT(var->field < local_of_.size() && local_of_[var->field] != 0,
@@ -25,16 +26,14 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
       return local(local_of_[var->field] - 1, loc);
     case sema::Storage::Global: {
       uint32_t list = in_.listIndex(var->list);
-      ExprId base = add({.kind = ExprKind::Global, .type = in_.module.lists[list].record, .loc = loc, .a = list});
+      ExprId base = add(loc, in_.module.lists[list].record, GlobalExpr{.list = list});
       return field(base, var->field, type, loc);
     }
     case sema::Storage::Image:
-      return add({.kind = ExprKind::Image,
-                  .type = type,
-                  .loc = loc,
-                  .a = static_cast<uint32_t>(var->image.area),
-                  .b = var->image.byte,
-                  .c = var->image.is_bit ? var->image.bit : kNoBit});
+      return add(loc, type,
+                 ImageExpr{.area = var->image.area.index,
+                           .byte = var->image.byte,
+                           .bit = var->image.is_bit ? var->image.bit : kNoBit});
     case sema::Storage::Constant: return ofValue(var->value, loc);
   }
   return {};
@@ -62,7 +61,7 @@ TypeId BodyLowering::fieldType(const sema::Var& var) const { return var.bits.is_
 ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
   if (!pin.bits.is_bit) return place;
-  return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bits.bit});
+  return add(loc, types::kBool, BitsExpr{.base = place, .position = pin.bits.bit});
 }
 
 // A string as the array of its bytes or words, including the final zero where it is only read; or of its characters,
@@ -77,8 +76,8 @@ ExprId BodyLowering::characters(ExprId string, TypeId unit, bool writes) {
   const TypeId pointer = types_.pointer(array);
   types_.layout(array);
   types_.layout(pointer);
-  string = add({.kind = ExprKind::Address, .type = pointer, .loc = place.loc, .a = string.index});
-  return add({.kind = ExprKind::Deref, .type = array, .loc = place.loc, .a = string.index});
+  string = add(place.loc, pointer, AddressExpr{.place = string});
+  return add(place.loc, array, DerefExpr{.pointer = string});
 }
 
 ExprId BodyLowering::lowerPlace(rung::ExprId id) {
@@ -97,7 +96,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
           uint32_t instance = node.entity.entityKind() == EntityKind::Program ? in_.programOfInstance(node.entity.index)
                                                                               : in_.instanceOf({node.entity.index});
           TypeId record = in_.module.programs[instance].record;
-          return add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance});
+          return add(loc, record, ProgramExpr{.program = instance});
         }
         case EntityKind::None:
         case EntityKind::Error:
@@ -111,7 +110,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     }
     case rung::ExprKind::Member: return memberPlace(id);
     case rung::ExprKind::Index: {
-      const IndexExpr& node = tree_.as<IndexExpr>(id);
+      const rung::IndexExpr& node = tree_.as<rung::IndexExpr>(id);
       if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
       if (TypeTable::isString(types_.kind(body_.expr(base).type)))
@@ -124,37 +123,27 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
         for (ExprId& earlier : indices) spill(point, {&earlier});
         indices.push_back(value);
       }
-      uint32_t first = static_cast<uint32_t>(body_.operands.size());
-      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
-      return add({.kind = ExprKind::Index,
-                  .checks = static_cast<uint8_t>(in_.options.checks & kCheckIndex),
-                  .type = strip(node.h.type),
-                  .loc = loc,
-                  .a = base.index,
-                  .b = first,
-                  .c = static_cast<uint32_t>(indices.size())});
+      return add(loc, strip(node.h.type), IndexExpr{.base = base, .indices = list(indices)},
+                 static_cast<uint8_t>(in_.options.checks & kCheckIndex));
     }
     case rung::ExprKind::This:
     case rung::ExprKind::Super: return lowerValue(id);
     case rung::ExprKind::Deref: {
-      const rung::ExprId target = tree_.as<DerefExpr>(id).base;
+      const rung::ExprId target = tree_.as<rung::DerefExpr>(id).base;
       if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
       if (tree_.kind(target) == rung::ExprKind::Super)
         return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
-      ExprId pointer = lowerValue(tree_.as<DerefExpr>(id).base);
-      return add({.kind = ExprKind::Deref,
-                  .checks = static_cast<uint8_t>(in_.options.checks & kCheckNull),
-                  .type = strip(tree_.expr(id).type),
-                  .loc = loc,
-                  .a = pointer.index});
+      ExprId pointer = lowerValue(tree_.as<rung::DerefExpr>(id).base);
+      return add(loc, strip(tree_.expr(id).type), DerefExpr{.pointer = pointer},
+                 static_cast<uint8_t>(in_.options.checks & kCheckNull));
     }
     case rung::ExprKind::BitAccess: {
       const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
       ExprId base = lowerPlace(node.base);
-      return add({.kind = ExprKind::Bits, .type = strip(node.h.type), .loc = loc, .a = base.index, .b = node.position});
+      return add(loc, strip(node.h.type), BitsExpr{.base = base, .position = node.position});
     }
     case rung::ExprKind::Address: {
-      const DirectAddress& address = tree_.as<AddressExpr>(id).address;
+      const DirectAddress& address = tree_.as<rung::AddressExpr>(id).address;
       auto path = tree_.list(address.path);
       TypeId type = strip(tree_.expr(id).type);
       uint32_t width = TypeTable::bitWidth(types_.kind(type));
@@ -169,12 +158,8 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       } else {
         byte *= width / 8;
       }
-      return add({.kind = ExprKind::Image,
-                  .type = type,
-                  .loc = loc,
-                  .a = static_cast<uint32_t>(address.area),
-                  .b = byte,
-                  .c = bit});
+      const uint32_t area = types::findArea(project_.options.areas, address.area)->index;
+      return add(loc, type, ImageExpr{.area = area, .byte = byte, .bit = bit});
     }
     case rung::ExprKind::Error:
     case rung::ExprKind::Literal:
@@ -206,8 +191,8 @@ bool BodyLowering::isStable(ExprId id) const {
     case ExprKind::Self:
     case ExprKind::Global:
     case ExprKind::Program: return true;
-    case ExprKind::Local: return body_.locals[expr.a].kind == LocalKind::Temp;
-    case ExprKind::Convert: return expr.checks == 0 && isStable(ExprId{expr.a});
+    case ExprKind::Local: return body_.locals[expr.as<LocalExpr>().local].kind == LocalKind::Temp;
+    case ExprKind::Convert: return expr.checks == 0 && isStable(expr.as<ConvertExpr>().operand);
     case ExprKind::Image:
     case ExprKind::Field:
     case ExprKind::Index:
@@ -227,40 +212,19 @@ ExprId BodyLowering::stable(ExprId place) {
   switch (expr.kind) {
     case ExprKind::Field:
     case ExprKind::Bits: {
-      ExprId base = stable(ExprId{expr.a});
-      if (base.index == expr.a) return place;
-      Expr copy = expr;
-      copy.a = base.index;
-      return add(copy);
+      const ExprId own = baseOf(expr), base = stable(own);
+      if (base == own) return place;
+      Expr moved = expr;
+      forEachOperand(body_, moved, [&](ExprId& operand) { operand = base; });
+      return addExpr(moved);
     }
-    case ExprKind::Index: {
-      Expr copy = expr;
-      copy.a = stable(ExprId{expr.a}).index;
-      std::vector<ExprId> indices;
-      for (uint32_t i = 0; i < expr.c; ++i) {
-        ExprId index = body_.operands[expr.b + i];
-        indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
-      }
-      auto created = [&] {  // with a separate slice
-        copy.b = static_cast<uint32_t>(body_.operands.size());
-        body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
-        return add(copy);
-      };
-      if (copy.checks != 0) {  // checked once, here
-        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = created().index});
-        copy.checks = 0;
-      }
-      return created();
-    }
+    case ExprKind::Index: return stableElement(expr);
     case ExprKind::Deref: {
-      Expr copy = expr;
-      if (!isStable(ExprId{expr.a})) copy.a = toTemp(ExprId{expr.a}, expr.loc).index;
-      if (copy.checks != 0) {
-        ExprId checked = add(copy);
-        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = checked.index});
-        copy.checks = 0;
-      }
-      return add(copy);
+      ExprId pointer = expr.as<DerefExpr>().pointer;
+      if (!isStable(pointer)) pointer = toTemp(pointer, expr.loc);
+      if (expr.checks != 0)  // checked once, here
+        append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, DerefExpr{pointer}, expr.checks)});
+      return add(expr.loc, expr.type, DerefExpr{pointer});
     }
     case ExprKind::None:
     case ExprKind::Const:
@@ -282,46 +246,16 @@ ExprId BodyLowering::stable(ExprId place) {
   return place;
 }
 
-ExprId BodyLowering::rootOf(ExprId place) const {
-  for (;;) {
-    const Expr& expr = body_.expr(place);
-    if (expr.kind != ExprKind::Field && expr.kind != ExprKind::Index && expr.kind != ExprKind::Bits) return place;
-    // The target of a by-reference field is elsewhere.
-    place = ExprId{expr.a};
+ExprId BodyLowering::stableElement(const Expr& expr) {
+  const ExprId base = stable(expr.as<IndexExpr>().base);
+  std::vector<ExprId> indices;
+  for (uint32_t i = 0; i < expr.as<IndexExpr>().indices.count; ++i) {
+    const ExprId index = body_.list(expr.as<IndexExpr>().indices)[i];
+    indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
   }
-}
-
-bool BodyLowering::mayFault(ExprId id) const {
-  const Expr& expr = body_.expr(id);
-  if (expr.checks != 0) return true;
-  switch (expr.kind) {
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image: return false;
-    case ExprKind::Field:
-    case ExprKind::Bits:
-    case ExprKind::Deref:
-    case ExprKind::Unary:
-    case ExprKind::Convert:
-    case ExprKind::Address: return mayFault(ExprId{expr.a});
-    case ExprKind::Binary: return mayFault(ExprId{expr.a}) || mayFault(ExprId{expr.b});
-    case ExprKind::Select: return mayFault(ExprId{expr.a}) || mayFault(ExprId{expr.b}) || mayFault(ExprId{expr.c});
-    case ExprKind::Index:
-      if (mayFault(ExprId{expr.a})) return true;
-      [[fallthrough]];
-    case ExprKind::Call:
-      for (uint32_t i = 0; i < expr.c; ++i)
-        if (mayFault(body_.operands[expr.b + i])) return true;
-      return false;
-  }
-  return false;
+  if (expr.checks != 0)  // checked once, here
+    append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, IndexExpr{base, list(indices)}, expr.checks)});
+  return add(expr.loc, expr.type, IndexExpr{base, list(indices)});
 }
 
 }  // namespace rung::ir

@@ -19,7 +19,7 @@ void BodyLowering::lowerPou() {
       if (!var.use.written || !body_.locals[index - 1].by_reference) continue;
       ExprId copy = temp(strip(var.type), var.loc);
       assign(copy, local(index - 1, var.loc), var.loc);
-      index = body_.expr(copy).a + 1;
+      index = *localOf(body_.expr(copy)) + 1;
       continue;
     }
     storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
@@ -30,7 +30,7 @@ void BodyLowering::lowerPou() {
   }
   detectEdges();
   lowerStatements(tree_.as<PouDecl>(pou.decl).body);
-  body_.first = block_.first;
+  body_.first = build_.block().first;
 }
 
 // An R_EDGE or F_EDGE pin is TRUE inside the block for the one call in which the input has changed (ed. 3 table 12).
@@ -43,7 +43,7 @@ void BodyLowering::detectEdges() {
     auto inverse = [&](ExprId value) { return unary(Op::Not, types::kBool, value, var.loc); };
     bool rising = var.edge == EdgeKind::Rising;
     ExprId edge = temp(types::kBool, var.loc);
-    uint32_t edge_local = body_.expr(edge).a;
+    const uint32_t edge_local = *localOf(body_.expr(edge));
     assign(edge,
            binary(Op::And, types::kBool, rising ? input() : inverse(input()), rising ? inverse(memory()) : memory(),
                   var.loc),
@@ -61,28 +61,29 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
   Loc loc = tree_.loc(id);
   switch (tree_.kind(id)) {
     case rung::StmtKind::Empty: return;
-    case rung::StmtKind::Assign: return lowerAssign(tree_.as<AssignStmt>(id));
+    case rung::StmtKind::Assign: return lowerAssign(tree_.as<rung::AssignStmt>(id));
     case rung::StmtKind::Call: {
-      if (tree_.kind(tree_.as<CallStmt>(id).call) != rung::ExprKind::Call) return;  // a known value: nothing happens
-      ExprId value = lowerCall(tree_.as<CallStmt>(id).call);
+      const rung::ExprId call = tree_.as<rung::CallStmt>(id).call;
+      if (tree_.kind(call) != rung::ExprKind::Call) return;  // a known value: nothing happens
+      ExprId value = lowerCall(call);
       // A pure call as a statement has no effect; only its faults count.
-      if (value && mayFault(value)) append({.kind = StmtKind::Evaluate, .loc = loc, .a = value.index});
+      if (value && mayFault(value)) append(loc, EvaluateStmt{.value = value});
       return;
     }
-    case rung::StmtKind::If: return lowerIf(tree_.as<IfStmt>(id));
+    case rung::StmtKind::If: return lowerIf(tree_.as<rung::IfStmt>(id));
     case rung::StmtKind::Case: return lowerCase(tree_.as<CaseStmt>(id));
-    case rung::StmtKind::For: return lowerFor(tree_.as<ForStmt>(id));
+    case rung::StmtKind::For: return lowerFor(tree_.as<rung::ForStmt>(id));
     case rung::StmtKind::While: return lowerWhile(tree_.as<WhileStmt>(id));
     case rung::StmtKind::Repeat: return lowerRepeat(tree_.as<RepeatStmt>(id));
-    case rung::StmtKind::Try: return lowerTry(tree_.as<TryStmt>(id));
-    case rung::StmtKind::Exit: append({.kind = StmtKind::Break, .loc = loc}); return;
-    case rung::StmtKind::Continue: append({.kind = StmtKind::Continue, .loc = loc}); return;
-    case rung::StmtKind::Return: append({.kind = StmtKind::Return, .loc = loc}); return;
+    case rung::StmtKind::Try: return lowerTry(tree_.as<rung::TryStmt>(id));
+    case rung::StmtKind::Exit: append(loc, BreakStmt{}); return;
+    case rung::StmtKind::Continue: append(loc, ContinueStmt{}); return;
+    case rung::StmtKind::Return: append(loc, ReturnStmt{}); return;
     case rung::StmtKind::Jump:
-      append({.kind = StmtKind::Jump, .loc = loc, .a = labelNumber(tree_.as<JumpStmt>(id).label.name)});
+      append(loc, JumpStmt{.label = labelNumber(tree_.as<rung::JumpStmt>(id).label.name)});
       return;
     case rung::StmtKind::Label:
-      append({.kind = StmtKind::Label, .loc = loc, .a = labelNumber(tree_.as<LabelStmt>(id).label.name)});
+      append(loc, LabelStmt{.label = labelNumber(tree_.as<rung::LabelStmt>(id).label.name)});
       return;
     case rung::StmtKind::Error: break;
   }
@@ -97,7 +98,7 @@ uint32_t BodyLowering::labelNumber(NameId label) {
   return known->second;
 }
 
-void BodyLowering::lowerAssign(const AssignStmt& stmt) {
+void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
   switch (stmt.effect()) {
     case AssignOp::Assign: {
@@ -108,7 +109,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       rung::ExprId source = stmt.value;
       // A call may write its result directly into the target, and EN guards the whole assignment.
       if (tree_.kind(source) == rung::ExprKind::Convert) {
-        rung::ExprId operand = tree_.as<ConvertExpr>(source).operand;
+        rung::ExprId operand = tree_.as<rung::ConvertExpr>(source).operand;
         bool same = strip(tree_.expr(source).type) == strip(tree_.expr(stmt.target).type);
         bool string = TypeTable::isString(types_.kind(tree_.expr(operand).type));  // the assignment itself cuts it
         if (tree_.kind(operand) == rung::ExprKind::Call && (same || string)) source = operand;
@@ -134,7 +135,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       ExprId condition = lowerValue(stmt.value);
       StmtId then =
           block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
-      append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = then.index});
+      append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
     case AssignOp::Add:
@@ -161,7 +162,9 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
   }
 }
 
-void BodyLowering::lowerIf(const IfStmt& stmt) { lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc); }
+void BodyLowering::lowerIf(const rung::IfStmt& stmt) {
+  lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc);
+}
 
 // ELSIF nests in the else block; a loop, not a recursion, so that a thousand of them need no deep stack.
 void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc) {
@@ -172,21 +175,20 @@ void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::S
   std::vector<Level> levels;
   for (size_t i = 0; i < branches.size(); ++i) {
     if (i > 0) {
-      levels.push_back({block_, block_.last});
-      block_ = {};
+      const StmtId branch = build_.block().last;
+      levels.push_back({build_.open(), branch});
       loc = tree_.loc(branches[i].condition);
     }
     ExprId condition = lowerValue(branches[i].condition);
     StmtId then = block([&] { lowerStatements(branches[i].body); });
-    append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = then.index});
+    append(loc, IfStmt{.condition = condition, .then_block = then});
   }
-  StmtId last = block_.last;
+  StmtId last = build_.block().last;
   StmtId otherwise_block = block([&] { lowerStatements(otherwise); });
-  body_.stmt(last).c = otherwise_block.index;
+  body_.stmt(last).as<IfStmt>().else_block = otherwise_block;
   while (!levels.empty()) {
-    StmtId first = block_.first;
-    block_ = levels.back().outer;
-    body_.stmt(levels.back().branch).c = first.index;
+    const StmtId first = build_.close(levels.back().outer);
+    body_.stmt(levels.back().branch).as<IfStmt>().else_block = first;
     levels.pop_back();
   }
 }
@@ -196,7 +198,7 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
   std::vector<Case> cases;
   for (const CaseBranch& branch : tree_.list(stmt.branches)) {
     StmtId body = block([&] { lowerStatements(branch.body); });
-    Case created{static_cast<uint32_t>(body_.ranges.size()), 0, body};
+    Case created{{static_cast<uint32_t>(body_.ranges.size()), 0}, body};
     for (rung::ExprId label : tree_.list(branch.labels)) {
       rung::ExprId low = label, high = label;
       if (tree_.kind(label) == rung::ExprKind::Range) {
@@ -206,22 +208,19 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
       auto from = constantOf(project_, low), to = constantOf(project_, high);
       RUNG_INVARIANT(from && to, "a CASE label is constant");
       body_.ranges.push_back({from->asSigned(), to->asSigned()});
-      ++created.range_count;
+      ++created.ranges.count;
     }
     cases.push_back(created);
   }
   StmtId otherwise = block([&] { lowerStatements(stmt.otherwise); });
   uint32_t first = static_cast<uint32_t>(body_.cases.size());
   body_.cases.insert(body_.cases.end(), cases.begin(), cases.end());
-  append({.kind = StmtKind::Switch,
-          .loc = stmt.h.loc,
-          .a = selector.index,
-          .b = first,
-          .c = static_cast<uint32_t>(cases.size()),
-          .d = otherwise.index});
+  append(
+      stmt.h.loc,
+      SwitchStmt{.selector = selector, .cases = {first, static_cast<uint32_t>(cases.size())}, .else_block = otherwise});
 }
 
-void BodyLowering::lowerFor(const ForStmt& stmt) {
+void BodyLowering::lowerFor(const rung::ForStmt& stmt) {
   Loc loc = stmt.h.loc;
   ExprId control = stable(lowerPlace(stmt.control));
   TypeId type = typeOf(control), plain = types_.plain(type);
@@ -238,28 +237,21 @@ void BodyLowering::lowerFor(const ForStmt& stmt) {
   if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, to, step);
   if (!step) return lowerForWithVariableStep(stmt, control, from, to, [&] { lowerStatements(stmt.body); });
   StmtId body = block([&] { lowerStatements(stmt.body); });
-  append({.kind = StmtKind::For,
-          .loc = loc,
-          .a = control.index,
-          .b = from.index,
-          .c = to.index,
-          .d = constant(type, step->bits, loc).index,
-          .e = body.index});
+  append(
+      loc,
+      ForStmt{.control = control, .from = from, .to = to, .step = constant(type, step->bits, loc), .body_block = body});
 }
 
 // FOR with a control variable of a subrange type counts in the plain type, since the first value that fails the test
 // may be outside the subrange. Then the variable is left at the limit.
-void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+void BodyLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                                       const std::optional<Value>& step) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control), plain = types_.plain(type);
   ExprId count = temp(plain, loc);
   ExprId first = toTemp(convertValue(from, plain, loc), loc), last = toTemp(convertValue(to, plain, loc), loc);
   auto store = [&](ExprId value) {  // in range: no check, no saturation
-    append({.kind = StmtKind::Assign,
-            .loc = loc,
-            .a = control.index,
-            .b = add({.kind = ExprKind::Convert, .type = type, .loc = loc, .a = value.index}).index});
+    append(loc, AssignStmt{.place = control, .value = add(loc, type, ConvertExpr{.operand = value})});
   };
   auto iteration = [&] {
     store(count);
@@ -267,13 +259,10 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
   };
   if (step) {
     StmtId body = block(iteration);
-    append({.kind = StmtKind::For,
-            .loc = loc,
-            .a = count.index,
-            .b = first.index,
-            .c = last.index,
-            .d = constant(plain, step->bits, loc).index,
-            .e = body.index});
+    append(
+        loc,
+        ForStmt{
+            .control = count, .from = first, .to = last, .step = constant(plain, step->bits, loc), .body_block = body});
   } else {
     lowerForWithVariableStep(stmt, count, first, last, iteration);
   }
@@ -283,12 +272,12 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
                           binary(Op::Gt, types::kBool, count, bound(range.high), loc), loc);
   StmtId at_limit = block([&] { store(last); });
   StmtId past = block([&] { store(count); });
-  append({.kind = StmtKind::If, .loc = loc, .a = outside.index, .b = at_limit.index, .c = past.index});
+  append(loc, IfStmt{.condition = outside, .then_block = at_limit, .else_block = past});
 }
 
 // FOR with a step that is only known at run time: the direction is tested in each iteration, and the loop ends when the
 // next value does not fit the type.
-void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+void BodyLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                                             FunctionRef<void()> iteration) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control);
@@ -302,19 +291,14 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
       is_signed ? binary(Op::Ge, types::kBool, step, constant(step_type, 0, loc), loc) : constantBool(true, loc), loc);
   step = toTemp(convertValue(step, type, loc), loc);
   ExprId next = temp(type, loc);
-  StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+  StmtId leave = block([&] { append(loc, BreakStmt{}); });
   auto chosen = [&](ExprId when_up, ExprId when_down) {
-    return add({.kind = ExprKind::Select,
-                .type = types::kBool,
-                .loc = loc,
-                .a = upward.index,
-                .b = when_up.index,
-                .c = when_down.index});
+    return add(loc, types::kBool, SelectExpr{.condition = upward, .when_true = when_up, .when_false = when_down});
   };
   StmtId body = block([&] {
     ExprId past =
         chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
-    append({.kind = StmtKind::If, .loc = loc, .a = past.index, .b = leave.index});
+    append(loc, IfStmt{.condition = past, .then_block = leave});
     iteration();
   });
   StmtId advance = block([&] {
@@ -323,24 +307,23 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
         chosen(binary(Op::Lt, types::kBool, next, control, loc), binary(Op::Gt, types::kBool, next, control, loc));
     StmtId stop = block([&] {
       assign(control, to, loc);
-      append({.kind = StmtKind::Break, .loc = loc});
+      append(loc, BreakStmt{});
     });
-    append({.kind = StmtKind::If, .loc = loc, .a = wrapped.index, .b = stop.index});
+    append(loc, IfStmt{.condition = wrapped, .then_block = stop});
     assign(control, next, loc);
   });
-  append({.kind = StmtKind::Loop, .loc = loc, .a = body.index, .b = advance.index});
+  append(loc, LoopStmt{.body_block = body, .next_block = advance});
 }
 
 void BodyLowering::lowerWhile(const WhileStmt& stmt) {
   Loc loc = stmt.h.loc;
   StmtId body = block([&] {
     ExprId condition = lowerValue(stmt.condition);
-    StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
-    append(
-        {.kind = StmtKind::If, .loc = loc, .a = unary(Op::Not, types::kBool, condition, loc).index, .b = leave.index});
+    StmtId leave = block([&] { append(loc, BreakStmt{}); });
+    append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, condition, loc), .then_block = leave});
     lowerStatements(stmt.body);
   });
-  append({.kind = StmtKind::Loop, .loc = loc, .a = body.index});
+  append(loc, LoopStmt{.body_block = body});
 }
 
 void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
@@ -348,10 +331,10 @@ void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
   StmtId body = block([&] { lowerStatements(stmt.body); });
   StmtId test = block([&] {
     ExprId condition = lowerValue(stmt.until);
-    StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
-    append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = leave.index});
+    StmtId leave = block([&] { append(loc, BreakStmt{}); });
+    append(loc, IfStmt{.condition = condition, .then_block = leave});
   });
-  append({.kind = StmtKind::Loop, .loc = stmt.h.loc, .a = body.index, .b = test.index});
+  append(stmt.h.loc, LoopStmt{.body_block = body, .next_block = test});
 }
 
 // The number of a fault in CODESYS's runtime: the items of __SYSTEM.ExceptionCode.
@@ -370,7 +353,7 @@ static uint32_t exceptionCode(types::Fault fault) {
   return 0xffffffff;  // RTSEXCPT_UNKNOWN
 }
 
-void BodyLowering::lowerTry(const TryStmt& stmt) {
+void BodyLowering::lowerTry(const rung::TryStmt& stmt) {
   const Loc loc = stmt.h.loc;
   StmtId body = block([&] { lowerStatements(stmt.body); });
   ExprId number = stmt.code ? temp(types::kDInt, loc) : ExprId{};
@@ -381,12 +364,7 @@ void BodyLowering::lowerTry(const TryStmt& stmt) {
         ExprId is_it =
             binary(Op::Eq, types::kBool, number, constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
         ExprId own = constant(types::kUDInt, exceptionCode(fault), loc);
-        code = add({.kind = ExprKind::Select,
-                    .type = types::kUDInt,
-                    .loc = loc,
-                    .a = is_it.index,
-                    .b = own.index,
-                    .c = code.index});
+        code = add(loc, types::kUDInt, SelectExpr{.condition = is_it, .when_true = own, .when_false = code});
       }
       ExprId place = lowerPlace(stmt.code);
       assign(place, convertValue(code, typeOf(place), loc), loc);
@@ -394,13 +372,11 @@ void BodyLowering::lowerTry(const TryStmt& stmt) {
     lowerStatements(stmt.handler);
   });
   StmtId finally = block([&] { lowerStatements(stmt.finally); });
-  append({.kind = StmtKind::Try,
-          .op = static_cast<uint8_t>(stmt.catches ? 1 : 0),
-          .loc = loc,
-          .a = body.index,
-          .b = handler.index,
-          .c = finally.index,
-          .d = number.index});
+  append(loc, TryStmt{.body_block = body,
+                      .catch_block = handler,
+                      .finally_block = finally,
+                      .number = number,
+                      .catches = stmt.catches});
 }
 
 }  // namespace rung::ir

@@ -27,7 +27,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return Value{types.resolve(var->value.type), var->value.bits};
     }
     case rung::ExprKind::Convert: {
-      auto operand = constantOf(project, tree.as<ConvertExpr>(id).operand);
+      auto operand = constantOf(project, tree.as<rung::ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
       TypeId to = types.resolve(tree.expr(id).type);
       bool from_string = TypeTable::isString(types.plainKind(operand->type));
@@ -41,7 +41,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return types::convert(types, *operand, to).value;
     }
     case rung::ExprKind::Unary: {
-      const UnaryExpr& node = tree.as<UnaryExpr>(id);
+      const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
       auto operand = constantOf(project, node.operand);
       if (!operand || !TypeTable::isScalar(types.plainKind(operand->type))) return std::nullopt;
       switch (node.op()) {
@@ -52,7 +52,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return std::nullopt;
     }
     case rung::ExprKind::Binary: {
-      const BinaryExpr& node = tree.as<BinaryExpr>(id);
+      const rung::BinaryExpr& node = tree.as<rung::BinaryExpr>(id);
       auto left = constantOf(project, node.left);
       if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
       auto right = constantOf(project, node.right);
@@ -82,15 +82,18 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
 }
 
 bool BodyLowering::isTemp(ExprId place) const {
-  const Expr& root = body_.expr(rootOf(place));
-  return root.kind == ExprKind::Local && body_.locals[root.a].kind == LocalKind::Temp;
+  const uint32_t* root = localOf(body_.expr(rootOf(body_, place)));
+  return root != nullptr && body_.locals[*root].kind == LocalKind::Temp;
 }
 
 bool BodyLowering::hasEffect(const Stmt& stmt) const {
   switch (stmt.kind) {
-    case StmtKind::Assign:
-    case StmtKind::For: return !isTemp(ExprId{stmt.a});
-    case StmtKind::Call: return !in_.module.body(BodyId{stmt.a}).pure || (stmt.e != 0 && !isTemp(ExprId{stmt.e}));
+    case StmtKind::Assign: return !isTemp(stmt.as<AssignStmt>().place);
+    case StmtKind::For: return !isTemp(stmt.as<ForStmt>().control);
+    case StmtKind::Call: {
+      const CallStmt& call = stmt.as<CallStmt>();
+      return !in_.module.body(call.callee).pure || (call.result && !isTemp(call.result));
+    }
     case StmtKind::None:
     case StmtKind::If:
     case StmtKind::Switch:
@@ -109,9 +112,9 @@ bool BodyLowering::hasEffect(const Stmt& stmt) const {
   return true;
 }
 
-bool BodyLowering::mustSpill(InsertionPoint point, ExprId value) const {
-  if (!value || block_.last.index == point.last.index || isStable(value)) return false;
-  return effects_ != point.effects || mayFault(value);
+bool BodyLowering::mustSpill(InsertionPoint point, ExprId value) {
+  if (!value || build_.block().last == point.last || isStable(value)) return false;
+  return effects() != point.effects || mayFault(value);
 }
 
 void BodyLowering::spill(InsertionPoint point, std::initializer_list<ExprId*> values) {
@@ -160,8 +163,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
       ExprId object = self(tree_.loc(id));
       if (tree_.kind(id) == rung::ExprKind::Super)
         object = asBase(object, project_.pou(in_.objectOf(pou_)).base, tree_.loc(id));
-      return add(
-          {.kind = ExprKind::Address, .type = strip(tree_.expr(id).type), .loc = tree_.loc(id), .a = object.index});
+      return add(tree_.loc(id), strip(tree_.expr(id).type), AddressExpr{.place = object});
     }
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
@@ -189,7 +191,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
 }
 
 ExprId BodyLowering::lowerUnary(rung::ExprId id) {
-  const UnaryExpr& node = tree_.as<UnaryExpr>(id);
+  const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
   ExprId operand = lowerValue(node.operand);
   TypeId type = strip(node.h.type);
@@ -202,7 +204,7 @@ ExprId BodyLowering::lowerUnary(rung::ExprId id) {
 }
 
 ExprId BodyLowering::lowerBinary(rung::ExprId id) {
-  const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+  const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
   BinaryOp op = node.op();
   bool logical = op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::AndThen || op == BinaryOp::OrElse;
   if (logical && types_.plainKind(strip(node.h.type)) == TypeKind::Bool) {
@@ -219,25 +221,25 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
 // Whether the expression contains a call of a function that may have an effect.
 bool BodyLowering::callsFunction(rung::ExprId id) const {
   switch (tree_.kind(id)) {
-    case rung::ExprKind::Unary: return callsFunction(tree_.as<UnaryExpr>(id).operand);
-    case rung::ExprKind::Convert: return callsFunction(tree_.as<ConvertExpr>(id).operand);
+    case rung::ExprKind::Unary: return callsFunction(tree_.as<rung::UnaryExpr>(id).operand);
+    case rung::ExprKind::Convert: return callsFunction(tree_.as<rung::ConvertExpr>(id).operand);
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
-    case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
+    case rung::ExprKind::Deref: return callsFunction(tree_.as<rung::DerefExpr>(id).base);
     case rung::ExprKind::Bound: return false;
     case rung::ExprKind::New: return true;
     case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
     case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).lvalue);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
-      return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
+      return callsFunction(tree_.as<rung::BinaryExpr>(id).left) || callsFunction(tree_.as<rung::BinaryExpr>(id).right);
     case rung::ExprKind::Index: {
-      const IndexExpr& node = tree_.as<IndexExpr>(id);
+      const rung::IndexExpr& node = tree_.as<rung::IndexExpr>(id);
       for (rung::ExprId index : tree_.list(node.indices))
         if (callsFunction(index)) return true;
       return isOpenArray(types_, tree_.expr(node.base).type) || callsFunction(node.base);  // its check is a statement
     }
     case rung::ExprKind::Call: {
-      const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
+      const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
       if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pragmas.pure) return true;
       for (const sema::Binding& binding : call.bindings)
         if (binding.value && callsFunction(binding.value)) return true;
@@ -261,16 +263,14 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
 // BOOL AND and OR. codesys: calls in both operands run, but a check in the right one counts only when the left operand
 // does not decide the result. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
 ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
-  const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+  const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
   Loc loc = node.h.loc;
   Op op = is_and ? Op::And : Op::Or;
   ExprId left = lowerValue(node.left);
   const ExprId chained = left == logical_ ? left : ExprId{};
   auto guarded = [&](ExprId result, StmtId right_block) {
-    Stmt branch{.kind = StmtKind::If, .loc = loc, .a = result.index};
-    if (!is_and) branch.a = unary(Op::Not, types::kBool, result, loc).index;
-    branch.b = right_block.index;
-    append(branch);
+    const ExprId matters = is_and ? result : unary(Op::Not, types::kBool, result, loc);
+    append(loc, IfStmt{.condition = matters, .then_block = right_block});
     return logical_ = result;
   };
   // A chain such as `a AND b AND c` shares one temporary.
@@ -296,24 +296,21 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
     return guarded(result, block([&] { assign(result, right, loc); }));
   }
 
-  Block outer = block_;
-  block_ = {};
+  const Block outer = build_.open();
   ExprId right = lowerValue(node.right);
-  Block inner = block_;
-  block_ = outer;
+  const Block inner = build_.block();
+  build_.close(outer);
   if (!inner.first && !mayFault(right)) return binary(op, types::kBool, left, right, loc);
   ExprId result = holding(left);
-  Block before = block_;
-  block_ = inner;
-  assign(result, right, loc);
-  StmtId right_block = block_.first;
-  block_ = before;
-  return guarded(result, right_block);
+  return guarded(result, block([&] {
+                   build_.block() = inner;
+                   assign(result, right, loc);
+                 }));
 }
 
 ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
-  const ConvertExpr& node = tree_.as<ConvertExpr>(id);
+  const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
   if (ExprId object = lowerObjectConversion(node)) return object;
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
 }
@@ -326,10 +323,10 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
     return convertValue(openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
   // ADR(p^) is p, even if p points nowhere; for p[i] the base is a place that will be used.
   if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
-    return convertValue(lowerValue(tree_.as<DerefExpr>(node.lvalue).base), type, node.h.loc);
+    return convertValue(lowerValue(tree_.as<rung::DerefExpr>(node.lvalue).base), type, node.h.loc);
   const ExprId place = lowerPlace(node.lvalue);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null
-  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = place.index});
+  return add(node.h.loc, type, AddressExpr{.place = place});
 }
 
 // A descriptor of the value in a temporary; a value that is not an lvalue is stored in a temporary.
@@ -338,7 +335,7 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   const Loc loc = node.h.loc;
   ExprId value = lowerPlace(node.value);
   const Expr& expr = body_.expr(value);
-  const bool is_bit = expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit);
+  const bool is_bit = expr.kind == ExprKind::Bits || isImageBit(expr);
   if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
   ExprId descriptor = temp(node.h.type, loc);
   const TypeInfo& record = types_.info(strip(node.h.type));
@@ -347,20 +344,20 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
     storeInitial(descriptor, node.h.type, node.facts, false);
     const TypeId to = types_.pointer(typeOf(value));
     types_.layout(to);
-    const ExprId address = add({.kind = ExprKind::Address, .type = to, .loc = loc, .a = value.index});
+    const ExprId address = add(loc, to, AddressExpr{.place = value});
     assign(part(0), convert(convert(address, types::kULInt, loc), types::kDWord, loc), loc);
     return descriptor;
   }
   const TypeId pointer = strip(record.fields[1].type);
   const uint64_t size = types_.info(typeOf(value)).size;
   assign(part(0), constant(strip(record.fields[0].type), node.type_class, loc), loc);
-  assign(part(1), add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = value.index}), loc);
+  assign(part(1), add(loc, pointer, AddressExpr{.place = value}), loc);
   assign(part(2), constant(types::kDInt, size, loc), loc);
   return descriptor;
 }
 
 // An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
-ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
+ExprId BodyLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
   const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
   if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
   const sema::PouId wanted = in_.pouOfRecord(strip(types_.info(to).base));
@@ -368,8 +365,8 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   const Loc loc = node.h.loc;
   auto addressOf = [&](ExprId place) {
     const TypeId pointer = types_.pointer(typeOf(place));
-    const ExprId address = add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = place.index});
-    return pointer == to ? address : add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = address.index});
+    const ExprId address = add(loc, pointer, AddressExpr{.place = place});
+    return pointer == to ? address : add(loc, to, ConvertExpr{.operand = address});
   };
   if (types_.kind(from) == TypeKind::Record) return addressOf(lowerPlace(node.operand));
   if (types_.kind(from) != TypeKind::Pointer && types_.kind(from) != TypeKind::Reference) return {};
@@ -382,16 +379,16 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   // The pointer changes only where the base lies after the type id of the derived object.
   if (project_.pou(wanted).kind == PouKind::Interface || !pou.object.dispatched ||
       project_.pou(wanted).object.dispatched)
-    return add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = pointer.index});
+    return add(loc, to, ConvertExpr{.operand = pointer});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);
   const ExprId result = temp(to, loc);
   assign(result, constant(to, 0, loc), loc);
   const ExprId is_null = binary(Op::Ne, types::kBool, pointer, constant(from, 0, loc), loc);
   const StmtId then = block([&] {
-    const ExprId whole = add({.kind = ExprKind::Deref, .type = target, .loc = loc, .a = pointer.index});
+    const ExprId whole = add(loc, target, DerefExpr{.pointer = pointer});
     assign(result, addressOf(asBase(whole, wanted, loc)), loc);
   });
-  append({.kind = StmtKind::If, .loc = loc, .a = is_null.index, .b = then.index});
+  append(loc, IfStmt{.condition = is_null, .then_block = then});
   return result;
 }
 
@@ -401,7 +398,7 @@ ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {
   if (from == to) return value;
   if (body_.expr(value).kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(to)) &&
       TypeTable::isScalar(types_.plainKind(from)))
-    return ofValue(types::convert(types_, {from, body_.expr(value).bits()}, to).value, loc);
+    return ofValue(types::convert(types_, {from, bitsOf(body_.expr(value))}, to).value, loc);
   return convert(value, to, loc);
 }
 

@@ -46,9 +46,9 @@ class Folder {
   }
 
  private:
-  const Expr& at(uint32_t id) const { return body_.exprs[id]; }
+  const Expr& at(ExprId id) const { return body_.expr(id); }
 
-  void becomeOperand(Expr& e, uint32_t operand) {
+  void becomeOperand(Expr& e, ExprId operand) {
     if (at(operand).type != e.type) return;
     const Loc loc = e.loc;
     e = at(operand);
@@ -71,48 +71,57 @@ class Folder {
     becomeBits(e, outcome.value.bits);
     return true;
   }
+  static types::Value valueOf(const Expr& e) {
+    const auto* string = e.tryAs<StringExpr>();
+    return {e.type, string != nullptr ? string->characters.index : bitsOf(e)};
+  }
   bool isScalarConst(const Expr& e) const { return isConst(e) && TypeTable::isScalar(types_.plainKind(e.type)); }
 
   void unary(Expr& e) {
-    const Expr& a = at(e.a);
+    const auto [operand, op] = e.as<UnaryExpr>();
+    const Expr& a = at(operand);
     if (isScalarConst(a)) {
-      take(e, types::apply(types_, names_, e.op, valueOf(a)));
+      take(e, types::apply(types_, names_, op, valueOf(a)));
       return;
     }
-    const bool is_inverse = e.op == Op::Not || (e.op == Op::Neg && e.checks == 0);
-    if (is_inverse && a.kind == ExprKind::Unary && a.op == e.op && a.checks == 0) becomeOperand(e, a.a);
+    const bool is_inverse = op == Op::Not || (op == Op::Neg && e.checks == 0);
+    const auto* inner = a.tryAs<UnaryExpr>();
+    if (is_inverse && inner != nullptr && inner->op == op && a.checks == 0) becomeOperand(e, inner->operand);
   }
 
   void binary(Expr& e) {
-    const Expr& a = at(e.a);
-    const Expr& b = at(e.b);
+    const BinaryExpr node = e.as<BinaryExpr>();
+    const Expr& a = at(node.left);
+    const Expr& b = at(node.right);
     const TypeKind kind = types_.plainKind(a.type);
     if ((isScalarConst(a) && isScalarConst(b)) ||
-        (a.kind == ExprKind::String && b.kind == ExprKind::String && types::isComparison(e.op))) {
-      if (take(e, types::apply(types_, names_, e.op, valueOf(a), valueOf(b)))) return;
+        (a.kind == ExprKind::String && b.kind == ExprKind::String && types::isComparison(node.op))) {
+      if (take(e, types::apply(types_, names_, node.op, valueOf(a), valueOf(b)))) return;
     }
-    if (isScalarConst(b) && !TypeTable::isReal(kind) && b.bits() != 0 && (e.op == Op::Div || e.op == Op::Mod))
-      clear(e, kCheckDiv);
+    const bool divides = node.op == Op::Div || node.op == Op::Mod;
+    if (isScalarConst(b) && !TypeTable::isReal(kind) && bitsOf(b) != 0 && divides) clear(e, kCheckDiv);
     if (!TypeTable::isScalar(kind)) return;
     if (TypeTable::isReal(kind)) {
-      realIdentity(e, a, b);
+      realIdentity(e, node);
     } else if (isScalarConst(b)) {
-      rightIdentity(e, b.bits(), kind);
+      rightIdentity(e, node, bitsOf(b), kind);
     } else if (isScalarConst(a)) {
-      leftIdentity(e, a.bits(), kind);
+      leftIdentity(e, node, bitsOf(a), kind);
     }
   }
 
   // Exact for every x, -0.0 and NaN included; x + 0.0 is not (it turns -0.0 into 0.0).
-  void realIdentity(Expr& e, const Expr& a, const Expr& b) {
+  void realIdentity(Expr& e, const BinaryExpr& node) {
+    const Expr& a = at(node.left);
+    const Expr& b = at(node.right);
     const bool right = isConst(b), left = isConst(a);
     const double value = right ? valueOf(b).asReal() : left ? valueOf(a).asReal() : 0.0;
-    if (value == 1.0 && right && (e.op == Op::Mul || e.op == Op::Div))
-      becomeOperand(e, e.a);
-    else if (value == 1.0 && left && e.op == Op::Mul)
-      becomeOperand(e, e.b);
-    else if (right && e.op == Op::Sub && b.bits() == 0)
-      becomeOperand(e, e.a);  // x - (+0.0)
+    if (value == 1.0 && right && (node.op == Op::Mul || node.op == Op::Div))
+      becomeOperand(e, node.left);
+    else if (value == 1.0 && left && node.op == Op::Mul)
+      becomeOperand(e, node.right);
+    else if (right && node.op == Op::Sub && bitsOf(b) == 0)
+      becomeOperand(e, node.left);  // x - (+0.0)
   }
 
   uint64_t ones(TypeKind kind) const {  // all bits set, as a Const has them
@@ -121,55 +130,55 @@ class Folder {
     return (uint64_t{1} << width) - 1;
   }
   // The result is 0 or ones whatever the other operand is, if that cannot fault.
-  void absorb(Expr& e, uint32_t other, uint64_t bits) {
-    if (!mayFault(body_, ExprId{other})) becomeBits(e, bits);
+  void absorb(Expr& e, ExprId other, uint64_t bits) {
+    if (!mayFault(body_, other)) becomeBits(e, bits);
   }
 
-  void rightIdentity(Expr& e, uint64_t b, TypeKind kind) {
-    switch (e.op) {
+  void rightIdentity(Expr& e, const BinaryExpr& node, uint64_t b, TypeKind kind) {
+    switch (node.op) {
       case Op::Add:
       case Op::Sub:
       case Op::Xor:
-        if (b == 0) becomeOperand(e, e.a);
+        if (b == 0) becomeOperand(e, node.left);
         break;
       case Op::Or:
         if (b == 0)
-          becomeOperand(e, e.a);
+          becomeOperand(e, node.left);
         else if (b == ones(kind))
-          absorb(e, e.a, b);
+          absorb(e, node.left, b);
         break;
       case Op::And:
         if (b == 0)
-          absorb(e, e.a, 0);
+          absorb(e, node.left, 0);
         else if (b == ones(kind))
-          becomeOperand(e, e.a);
+          becomeOperand(e, node.left);
         break;
       case Op::Mul:
         if (b == 1)
-          becomeOperand(e, e.a);
+          becomeOperand(e, node.left);
         else if (b == 0)
-          absorb(e, e.a, 0);
+          absorb(e, node.left, 0);
         break;
       case Op::Div:
-        if (b == 1) becomeOperand(e, e.a);
+        if (b == 1) becomeOperand(e, node.left);
         break;
       case Op::Mod:
-        if (b == 1) absorb(e, e.a, 0);
+        if (b == 1) absorb(e, node.left, 0);
         break;
       case Op::Shl:
       case Op::Shr:
         if (b == 0)
-          becomeOperand(e, e.a);
+          becomeOperand(e, node.left);
         else if (b >= TypeTable::bitWidth(kind))
-          absorb(e, e.a, 0);
+          absorb(e, node.left, 0);
         break;
       case Op::Rol:
       case Op::Ror:
-        if (b % TypeTable::bitWidth(kind) == 0) becomeOperand(e, e.a);
+        if (b % TypeTable::bitWidth(kind) == 0) becomeOperand(e, node.left);
         break;
       case Op::Eq:
       case Op::Ne:
-        if (kind == TypeKind::Bool) compareBool(e, e.a, e.b, b != 0);
+        if (kind == TypeKind::Bool) compareBool(e, node.op, node.left, b != 0);
         break;
       case Op::Power:
       case Op::Neg:
@@ -184,39 +193,39 @@ class Folder {
     }
   }
 
-  void leftIdentity(Expr& e, uint64_t a, TypeKind kind) {
-    switch (e.op) {
+  void leftIdentity(Expr& e, const BinaryExpr& node, uint64_t a, TypeKind kind) {
+    switch (node.op) {
       case Op::Add:
       case Op::Xor:
-        if (a == 0) becomeOperand(e, e.b);
+        if (a == 0) becomeOperand(e, node.right);
         break;
       case Op::Or:
         if (a == 0)
-          becomeOperand(e, e.b);
+          becomeOperand(e, node.right);
         else if (a == ones(kind))
-          absorb(e, e.b, a);
+          absorb(e, node.right, a);
         break;
       case Op::And:
         if (a == 0)
-          absorb(e, e.b, 0);
+          absorb(e, node.right, 0);
         else if (a == ones(kind))
-          becomeOperand(e, e.b);
+          becomeOperand(e, node.right);
         break;
       case Op::Mul:
         if (a == 1)
-          becomeOperand(e, e.b);
+          becomeOperand(e, node.right);
         else if (a == 0)
-          absorb(e, e.b, 0);
+          absorb(e, node.right, 0);
         break;
       case Op::Shl:
       case Op::Shr:
       case Op::Rol:
       case Op::Ror:
-        if (a == 0) absorb(e, e.b, 0);
+        if (a == 0) absorb(e, node.right, 0);
         break;
       case Op::Eq:
       case Op::Ne:
-        if (kind == TypeKind::Bool) compareBool(e, e.b, e.a, a != 0);
+        if (kind == TypeKind::Bool) compareBool(e, node.op, node.right, a != 0);
         break;
       case Op::Sub:
       case Op::Div:
@@ -235,26 +244,24 @@ class Folder {
   }
 
   // x = TRUE is x, x = FALSE is NOT x.
-  void compareBool(Expr& e, uint32_t x, uint32_t constant, bool value) {
-    if (value == (e.op == Op::Eq)) return becomeOperand(e, x);
-    (void)constant;
-    e.kind = ExprKind::Unary;
-    e.op = Op::Not;
-    e.a = x;
-    e.b = 0;
+  void compareBool(Expr& e, Op op, ExprId x, bool value) {
+    if (value == (op == Op::Eq)) return becomeOperand(e, x);
+    e.set(UnaryExpr{x, Op::Not});
     changed_ = true;
   }
 
   void convert(Expr& e) {
-    const Expr& a = at(e.a);
-    if (a.type == e.type) return becomeOperand(e, e.a);
+    const ExprId operand = e.as<ConvertExpr>().operand;
+    const Expr& a = at(operand);
+    if (a.type == e.type) return becomeOperand(e, operand);
     if (isScalarConst(a) && TypeTable::isScalar(types_.plainKind(e.type))) {
       take(e, types::convert(types_, valueOf(a), e.type));
       return;
     }
-    if (a.kind == ExprKind::String && types_.kind(a.type) == types_.kind(e.type)) {
+    const auto* string = a.tryAs<StringExpr>();
+    if (string != nullptr && types_.kind(a.type) == types_.kind(e.type)) {
       // A string has at most as many characters as bytes, so one whose bytes fit is not cut.
-      if (names_.string(NameId{a.a}).size() > types_.info(e.type).length) return;
+      if (names_.string(string->characters).size() > types_.info(e.type).length) return;
       const TypeId type = e.type;
       e = a;
       e.type = type;
@@ -266,26 +273,29 @@ class Folder {
   }
 
   void select(Expr& e) {
-    const Expr& condition = at(e.a);
+    const SelectExpr node = e.as<SelectExpr>();
+    const Expr& condition = at(node.condition);
     if (isConst(condition)) {
-      const bool yes = condition.bits() != 0;
-      if (!mayFault(body_, ExprId{yes ? e.c : e.b})) becomeOperand(e, yes ? e.b : e.c);
+      const bool yes = bitsOf(condition) != 0;
+      if (!mayFault(body_, yes ? node.when_false : node.when_true))
+        becomeOperand(e, yes ? node.when_true : node.when_false);
       return;
     }
-    const Expr& b = at(e.b);
-    const Expr& c = at(e.c);
-    if (isConst(b) && isConst(c) && types_.kind(e.type) == TypeKind::Bool && b.bits() != 0 && c.bits() == 0)
-      becomeOperand(e, e.a);
+    const Expr& yes = at(node.when_true);
+    const Expr& no = at(node.when_false);
+    if (isConst(yes) && isConst(no) && types_.kind(e.type) == TypeKind::Bool && bitsOf(yes) != 0 && bitsOf(no) == 0)
+      becomeOperand(e, node.condition);
   }
 
   void index(Expr& e) {
     if ((e.checks & kCheckIndex) == 0) return;
-    const TypeInfo& array = types_.info(types_.resolve(at(e.a).type));
-    if (array.dimensions.size() != e.c) return;
-    for (uint32_t i = 0; i < e.c; ++i) {
-      const Expr& one = body_.expr(body_.operands[e.b + i]);
+    const IndexExpr& node = e.as<IndexExpr>();
+    const TypeInfo& array = types_.info(types_.resolve(at(node.base).type));
+    if (array.dimensions.size() != node.indices.count) return;
+    for (uint32_t i = 0; i < node.indices.count; ++i) {
+      const Expr& one = at(body_.list(node.indices)[i]);
       if (!isScalarConst(one)) return;
-      const auto value = static_cast<int64_t>(one.bits());
+      const auto value = static_cast<int64_t>(bitsOf(one));
       if (value < 0 && !types_.isSigned(types_.plainKind(one.type))) return;
       if (value < array.dimensions[i].low || value > array.dimensions[i].high) return;
     }

@@ -27,26 +27,29 @@ class Privatizer {
     explicit operator bool() const { return kind != ExprKind::None; }
     friend bool operator==(const Scalar&, const Scalar&) = default;
   };
-  Scalar scalarAt(uint32_t id) const {
-    const Expr& e = body_.exprs[id];
+  Scalar scalarAt(ExprId id) const {
+    const Expr& e = body_.expr(id);
     if (!TypeTable::isScalar(types_.plainKind(e.type))) return {};
-    if (e.kind == ExprKind::Local && !body_.locals[e.a].by_reference) return {e.kind, e.a};
-    if (e.kind == ExprKind::Field && body_.exprs[e.a].kind == ExprKind::Self) return {e.kind, e.b};
+    if (const uint32_t* local = localOf(e); local != nullptr && !body_.locals[*local].by_reference)
+      return {e.kind, *local};
+    const auto* field = e.tryAs<FieldExpr>();
+    if (field != nullptr && body_.expr(field->base).kind == ExprKind::Self) return {e.kind, field->field};
     return {};
   }
 
   void block(StmtId first) {
     for (StmtId id = first; id; id = body_.stmt(id).next) {
-      if (body_.stmts[id.index].kind == StmtKind::For) tryLoop(id);
+      if (body_.stmt(id).kind == StmtKind::For) tryLoop(id);
       const Stmt stmt = body_.stmt(id);  // a copy: changing the loop adds statements
-      forEachBlock(body_, stmt, [&](const uint32_t& inner) { block(StmtId{inner}); });
+      forEachBlock(body_, stmt, [&](StmtId inner) { block(inner); });
     }
   }
 
   void tryLoop(StmtId loop) {
     uint64_t last_iteration = 0;
-    if (!lastIteration(body_.stmt(loop), last_iteration)) return;
-    const StmtId first{body_.stmt(loop).e};
+    const ForStmt node = body_.stmt(loop).as<ForStmt>();
+    if (!lastIteration(node, last_iteration)) return;
+    const StmtId first = node.body_block;
     StmtId last = first;
     bool has_inner_loop = false;
     for (StmtId id = first; id; id = body_.stmt(id).next) {
@@ -54,37 +57,37 @@ class Privatizer {
       last = id;
     }
     if (!has_inner_loop || body_.stmt(last).kind != StmtKind::Assign) return;
-    const Stmt store = body_.stmt(last);
-    const Scalar control = scalarAt(body_.stmt(loop).a), value = scalarAt(store.b);
-    if (!control || !value || value == control || body_.exprs[store.a].kind != ExprKind::Index ||
-        body_.exprs[store.a].type != body_.exprs[store.b].type) {
+    const AssignStmt store = body_.stmt(last).as<AssignStmt>();
+    const TypeId type = body_.expr(store.value).type;
+    const Scalar control = scalarAt(node.control), value = scalarAt(store.value);
+    if (!control || !value || value == control || body_.expr(store.place).kind != ExprKind::Index ||
+        body_.expr(store.place).type != type) {
       return;
     }
     if (!isClosed(first) || !isWritten(first, value) || isWritten(first, control) || !beginsWithWrite(first, value))
       return;
-    if (!isFixed(store.a, first, control)) return;
+    if (!isFixed(store.place, first, control)) return;
 
     Builder builder(module_, body_);
-    builder.loc = store.loc;
-    const TypeId type = body_.exprs[store.b].type;
-    const ExprId variable = builder.copy(ExprId{store.b}), stored = builder.copy(ExprId{store.a});
-    atLastIteration(stored.index, control, last_iteration);
+    builder.loc = body_.stmt(last).loc;
+    const ExprId variable = builder.copy(store.value), stored = builder.copy(store.place);
+    atLastIteration(stored, control, last_iteration);
     const uint32_t temp = builder.temp(type);
     rename(first, value, temp);
     const Block outer = builder.open();
     const StmtId after = builder.assign(variable, stored);
     builder.close(outer);
-    body_.stmts[after.index].next = body_.stmt(loop).next;
-    body_.stmts[loop.index].next = after;
+    body_.stmt(after).next = body_.stmt(loop).next;
+    body_.stmt(loop).next = after;
     changed_ = true;
   }
 
   // The control variable's value in the last iteration, if there is one.
-  bool lastIteration(const Stmt& loop, uint64_t& value) const {
-    const Expr &from = body_.exprs[loop.b], &to = body_.exprs[loop.c], &step = body_.exprs[loop.d];
+  bool lastIteration(const ForStmt& loop, uint64_t& value) const {
+    const Expr &from = body_.expr(loop.from), &to = body_.expr(loop.to), &step = body_.expr(loop.step);
     if (!isConst(from) || !isConst(to) || !isConst(step)) return false;
-    const auto low = static_cast<int64_t>(from.bits()), high = static_cast<int64_t>(to.bits()),
-               by = static_cast<int64_t>(step.bits());
+    const auto low = static_cast<int64_t>(bitsOf(from)), high = static_cast<int64_t>(bitsOf(to)),
+               by = static_cast<int64_t>(bitsOf(step));
     constexpr int64_t kMax = int64_t{1} << 40;  // far from any limit
     if (low < -kMax || low > kMax || high < -kMax || high > kMax || by < -kMax || by > kMax || by == 0) return false;
     if (by > 0 ? low > high : low < high) return false;
@@ -100,9 +103,9 @@ class Privatizer {
       closed = closed && (s.kind == StmtKind::Assign || s.kind == StmtKind::If || s.kind == StmtKind::Switch ||
                           s.kind == StmtKind::For);
       if (!closed) return;
-      forEachRoot(module_, body_, s, [&](const uint32_t& slot, Use) {
-        forEachExpr(body_, ExprId{slot}, [&](ExprId e) { closed = closed && isOwn(body_.expr(e)); });
-        closed = closed && body_.exprs[slot].kind != ExprKind::Self;  // not the instance as a whole
+      forEachRoot(module_, body_, s, [&](ExprId root, Use) {
+        forEachExpr(body_, root, [&](ExprId e) { closed = closed && isOwn(body_.expr(e)); });
+        closed = closed && body_.expr(root).kind != ExprKind::Self;  // not the instance as a whole
       });
     });
     return closed;
@@ -123,10 +126,11 @@ class Privatizer {
       case ExprKind::Convert:
       case ExprKind::Select:
       case ExprKind::Call: return true;
-      case ExprKind::Local: return !body_.locals[e.a].by_reference;
+      case ExprKind::Local: return !body_.locals[e.as<LocalExpr>().local].by_reference;
       case ExprKind::Field: {
-        const types::TypeInfo& record = types_.info(types_.resolve(body_.exprs[e.a].type));
-        return record.record_kind != types::RecordKind::Union && !record.fields[e.b].by_reference;
+        const FieldExpr& node = e.as<FieldExpr>();
+        const types::TypeInfo& record = types_.info(types_.resolve(body_.expr(node.base).type));
+        return record.record_kind != types::RecordKind::Union && !record.fields[node.field].by_reference;
       }
       case ExprKind::Global:
       case ExprKind::Program:
@@ -141,30 +145,30 @@ class Privatizer {
     bool found = false;
     forEachStmt(body_, first, [&](StmtId id) {
       forEachWritten(module_, body_, body_.stmt(id), [&](ExprId place) {
-        uint32_t at = place.index;
-        while (body_.exprs[at].kind == ExprKind::Bits) at = body_.exprs[at].a;
-        found = found || scalarAt(at) == of;
+        while (const auto* bits = body_.expr(place).tryAs<BitsExpr>()) place = bits->base;
+        found = found || scalarAt(place) == of;
       });
     });
     return found;
   }
-  bool mentions(uint32_t root, const Scalar& of) const {
+  bool mentions(ExprId root, const Scalar& of) const {
     bool found = false;
-    forEachExpr(body_, ExprId{root}, [&](ExprId e) { found = found || scalarAt(e.index) == of; });
+    forEachExpr(body_, root, [&](ExprId e) { found = found || scalarAt(e) == of; });
     return found;
   }
   bool mentions(const Stmt& stmt, const Scalar& of) const {
     bool found = false;
-    forEachRoot(module_, body_, stmt, [&](const uint32_t& slot, Use) { found = found || mentions(slot, of); });
-    forEachBlock(body_, stmt, [&](const uint32_t& block) {
-      for (StmtId id{block}; id && !found; id = body_.stmt(id).next) found = mentions(body_.stmt(id), of);
+    forEachRoot(module_, body_, stmt, [&](ExprId root, Use) { found = found || mentions(root, of); });
+    forEachBlock(body_, stmt, [&](StmtId block) {
+      for (StmtId id = block; id && !found; id = body_.stmt(id).next) found = mentions(body_.stmt(id), of);
     });
     return found;
   }
   bool beginsWithWrite(StmtId first, const Scalar& of) const {
     for (StmtId id = first; id; id = body_.stmt(id).next) {
       const Stmt& s = body_.stmt(id);
-      if (s.kind == StmtKind::Assign && scalarAt(s.a) == of) return !mentions(s.b, of);
+      const auto* assign = s.tryAs<AssignStmt>();
+      if (assign != nullptr && scalarAt(assign->place) == of) return !mentions(assign->value, of);
       if (mentions(s, of)) return false;
     }
     return false;
@@ -172,12 +176,12 @@ class Privatizer {
 
   // Whether a place is the same after the loop as at its end, apart from the control variable: its indices are sums and
   // products of variables that the loop does not write.
-  bool isFixed(uint32_t place, StmtId first, const Scalar& control) const {
+  bool isFixed(ExprId place, StmtId first, const Scalar& control) const {
     bool fixed = true;
-    forEachExpr(body_, ExprId{place}, [&](ExprId id) {
+    forEachExpr(body_, place, [&](ExprId id) {
       const Expr& e = body_.expr(id);
-      if (id.index == place || !TypeTable::isScalar(types_.plainKind(e.type))) return;
-      const Scalar of = scalarAt(id.index);
+      if (id == place || !TypeTable::isScalar(types_.plainKind(e.type))) return;
+      const Scalar of = scalarAt(id);
       fixed = fixed && (of ? of == control || !isWritten(first, of)
                            : isConst(e) || e.kind == ExprKind::Unary || e.kind == ExprKind::Binary ||
                                  e.kind == ExprKind::Convert);
@@ -185,24 +189,19 @@ class Privatizer {
     return fixed;
   }
 
-  void atLastIteration(uint32_t id, const Scalar& control, uint64_t value) {
-    Expr& e = body_.exprs[id];
+  void atLastIteration(ExprId id, const Scalar& control, uint64_t value) {
+    Expr& e = body_.expr(id);
     if (scalarAt(id) == control) return becomeConst(e, e.type, value);
-    forEachSlot(body_, e, [&](uint32_t& slot) { atLastIteration(slot, control, value); });
+    forEachOperand(body_, e, [&](ExprId operand) { atLastIteration(operand, control, value); });
   }
-  void renameIn(uint32_t id, const Scalar& of, uint32_t temp) {
-    Expr& e = body_.exprs[id];
-    if (scalarAt(id) == of) {
-      e.kind = ExprKind::Local;
-      e.a = temp;
-      e.b = e.c = 0;
-      return;
-    }
-    forEachSlot(body_, e, [&](uint32_t& slot) { renameIn(slot, of, temp); });
+  void renameIn(ExprId id, const Scalar& of, uint32_t temp) {
+    Expr& e = body_.expr(id);
+    if (scalarAt(id) == of) return e.set(LocalExpr{temp});
+    forEachOperand(body_, e, [&](ExprId operand) { renameIn(operand, of, temp); });
   }
   void rename(StmtId first, const Scalar& of, uint32_t temp) {
     forEachStmt(body_, first, [&](StmtId id) {
-      forEachRoot(module_, body_, body_.stmt(id), [&](const uint32_t& slot, Use) { renameIn(slot, of, temp); });
+      forEachRoot(module_, body_, body_.stmt(id), [&](ExprId root, Use) { renameIn(root, of, temp); });
     });
   }
 

@@ -34,8 +34,9 @@ class Propagator {
  private:
   bool isWorthIt() const {
     for (const Stmt& s : body_.stmts) {
-      if (s.kind != StmtKind::Assign || body_.exprs[s.a].kind != ExprKind::Local) continue;
-      const ExprKind value = body_.exprs[s.b].kind;
+      const auto* assign = s.tryAs<AssignStmt>();
+      if (assign == nullptr || body_.expr(assign->place).kind != ExprKind::Local) continue;
+      const ExprKind value = body_.expr(assign->value).kind;
       if (value == ExprKind::Const || value == ExprKind::Local) return true;
     }
     return false;
@@ -47,8 +48,8 @@ class Propagator {
     version_[local] = ++versions_;
   }
   void forget(ExprId place) {
-    const Expr& root = body_.expr(rootOf(body_, place));
-    if (root.kind == ExprKind::Local && private_[root.a]) set(root.a, {});
+    const uint32_t* local = localOf(body_.expr(rootOf(body_, place)));
+    if (local != nullptr && private_[*local]) set(*local, {});
   }
   void forgetWrittenIn(StmtId first) {
     forEachStmt(body_, first, [&](StmtId id) {
@@ -81,32 +82,27 @@ class Propagator {
 
   // ---- reads
 
-  void read(uint32_t& slot) {
-    Expr& e = body_.exprs[slot];
+  void read(ExprId id) {
+    Expr& e = body_.expr(id);
     if (e.kind == ExprKind::Local) return replace(e);
-    if (e.kind == ExprKind::Field || e.kind == ExprKind::Index || e.kind == ExprKind::Bits) return readInPlace(slot);
-    if (e.kind == ExprKind::Address) return readInPlace(e.a);
-    forEachSlot(body_, e, [&](uint32_t& below) { read(below); });
+    if (baseOf(e)) return readInPlace(id);
+    if (const auto* address = e.tryAs<AddressExpr>()) return readInPlace(address->place);
+    forEachOperand(body_, e, [&](ExprId below) { read(below); });
   }
   // The indices and pointers in a place; its root stays a place.
-  void readInPlace(uint32_t& slot) {
-    Expr& e = body_.exprs[slot];
+  void readInPlace(ExprId place) {
+    const Expr& e = body_.expr(place);
     if (e.kind == ExprKind::Local) return;
-    if (e.kind == ExprKind::Field || e.kind == ExprKind::Index || e.kind == ExprKind::Bits) {
-      readInPlace(e.a);
-      if (e.kind == ExprKind::Index)
-        for (uint32_t i = 0; i < e.c; ++i) read(body_.operands[e.b + i].index);
-      return;
-    }
-    forEachSlot(body_, e, [&](uint32_t& below) { read(below); });
+    const ExprId base = baseOf(e);
+    forEachOperand(body_, e, [&](ExprId below) { below == base ? readInPlace(below) : read(below); });
   }
   void replace(Expr& e) {
-    const Known& known = known_[e.a];
+    const Known& known = known_[e.as<LocalExpr>().local];
     if (known.kind == Known::Kind::Constant) {
       becomeConst(e, e.type, known.bits);
       changed_ = true;
     } else if (known.kind == Known::Kind::Copy && version_[known.of] == known.version) {
-      e.a = known.of;
+      e.as<LocalExpr>().local = known.of;
       changed_ = true;
     }
   }
@@ -121,81 +117,65 @@ class Propagator {
       case StmtKind::Return:
       case StmtKind::Jump:
       case StmtKind::Label: return;
-      case StmtKind::Assign: return assign(s);
+      case StmtKind::Assign: return assign(s.as<AssignStmt>());
       case StmtKind::Bind:
       case StmtKind::Call:
       case StmtKind::Fault:
       case StmtKind::Assert:
       case StmtKind::Evaluate:
         forEachRoot(module_, body_, s,
-                    [&](uint32_t& slot, Use use) { use == Use::Read ? read(slot) : readInPlace(slot); });
+                    [&](ExprId root, Use use) { use == Use::Read ? read(root) : readInPlace(root); });
         forEachWritten(module_, body_, s, [&](ExprId place) { forget(place); });
         return;
-      case StmtKind::If: {
-        read(s.a);
-        const size_t mark = touched_.size();
-        branch(StmtId{s.b});
-        branch(StmtId{s.c});
-        forgetTouched(mark);
-        return;
-      }
-      case StmtKind::Switch: {
-        read(s.a);
-        const size_t mark = touched_.size();
-        for (uint32_t i = 0; i < s.c; ++i) branch(body_.cases[s.b + i].block);
-        branch(StmtId{s.d});
-        forgetTouched(mark);
-        return;
-      }
-      case StmtKind::Loop: {
-        forgetWrittenIn(StmtId{s.a});
-        forgetWrittenIn(StmtId{s.b});
-        const size_t mark = touched_.size();
-        branch(StmtId{s.a});
-        branch(StmtId{s.b});
-        forgetTouched(mark);
-        return;
-      }
+      case StmtKind::If: read(s.as<IfStmt>().condition); return branches(s);
+      case StmtKind::Switch: read(s.as<SwitchStmt>().selector); return branches(s);
+      case StmtKind::Loop: forEachBlock(body_, s, [&](StmtId block) { forgetWrittenIn(block); }); return branches(s);
       case StmtKind::For: {
-        readInPlace(s.a);
-        read(s.b);
-        read(s.c);
-        forgetWrittenIn(StmtId{s.e});
-        forget(ExprId{s.a});
-        const size_t mark = touched_.size();
-        branch(StmtId{s.e});
-        forgetTouched(mark);
-        return;
+        const ForStmt& node = s.as<ForStmt>();
+        readInPlace(node.control);
+        read(node.from);
+        read(node.to);
+        forgetWrittenIn(node.body_block);
+        forget(node.control);
+        return branches(s);
       }
-      case StmtKind::Try: {
-        const size_t mark = touched_.size();
-        for (uint32_t part : {s.a, s.b, s.c}) {  // each may begin anywhere in the one before
-          if (part == s.b && s.d != 0) forget(ExprId{s.d});
-          branch(StmtId{part});
-          forgetTouched(mark);
-        }
-        if (s.d != 0) forget(ExprId{s.d});
-        return;
-      }
+      case StmtKind::Try: return tryStmt(s.as<TryStmt>());
     }
   }
-
-  void assign(Stmt& s) {
-    readInPlace(s.a);
-    read(s.b);
-    const Expr& place = body_.exprs[s.a];
-    if (place.kind != ExprKind::Local || !private_[place.a]) return forget(ExprId{s.a});
-    const Expr& value = body_.exprs[s.b];
-    Known known;
-    if (value.kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(place.type))) {
-      known.kind = Known::Kind::Constant;
-      known.bits = value.bits();
-    } else if (value.kind == ExprKind::Local && private_[value.a] && value.a != place.a && value.type == place.type) {
-      known.kind = Known::Kind::Copy;
-      known.of = value.a;
-      known.version = version_[value.a];
+  // The blocks of a statement, each of which may run or not.
+  void branches(const Stmt& s) {
+    const size_t mark = touched_.size();
+    forEachBlock(body_, s, [&](StmtId block) { branch(block); });
+    forgetTouched(mark);
+  }
+  void tryStmt(const TryStmt& s) {
+    const size_t mark = touched_.size();
+    for (const StmtId part : {s.body_block, s.catch_block, s.finally_block}) {  // begins anywhere in the one before
+      if (part == s.catch_block && s.number) forget(s.number);
+      branch(part);
+      forgetTouched(mark);
     }
-    set(place.a, known);
+    if (s.number) forget(s.number);
+  }
+
+  void assign(const AssignStmt& s) {
+    readInPlace(s.place);
+    read(s.value);
+    const Expr& place = body_.expr(s.place);
+    const uint32_t* to = localOf(place);
+    if (to == nullptr || !private_[*to]) return forget(s.place);
+    const Expr& value = body_.expr(s.value);
+    const uint32_t* from = localOf(value);
+    Known known;
+    if (isConst(value) && TypeTable::isScalar(types_.plainKind(place.type))) {
+      known.kind = Known::Kind::Constant;
+      known.bits = bitsOf(value);
+    } else if (from != nullptr && private_[*from] && *from != *to && value.type == place.type) {
+      known.kind = Known::Kind::Copy;
+      known.of = *from;
+      known.version = version_[*from];
+    }
+    set(*to, known);
   }
 
   struct Change {

@@ -51,9 +51,11 @@ class Analysis {
 
   // By a positive constant: cheaper without sign.
   bool isSignedDivision(const Expr& e) const {
-    if (e.kind != ExprKind::Binary || (e.op != Op::Div && e.op != Op::Mod) || !unsignedOf(e.type)) return false;
-    const Expr& divisor = body_.exprs[e.b];
-    return isConst(divisor) && static_cast<int64_t>(divisor.bits()) > 0;
+    const auto* division = e.tryAs<BinaryExpr>();
+    if (division == nullptr || (division->op != Op::Div && division->op != Op::Mod) || !unsignedOf(e.type))
+      return false;
+    const Expr& divisor = body_.expr(division->right);
+    return isConst(divisor) && static_cast<int64_t>(bitsOf(divisor)) > 0;
   }
   static TypeId unsignedOf(TypeId type) {
     return type == types::kSInt   ? types::kUSInt
@@ -64,24 +66,16 @@ class Analysis {
   }
   void dropSign(ExprId id) {
     const Expr signed_one = body_.expr(id);
-    const TypeId type = unsignedOf(signed_one.type);
-    const auto add = [&](Expr e) {
-      e.type = type;
-      e.loc = signed_one.loc;
+    BinaryExpr division = signed_one.as<BinaryExpr>();
+    Builder builder(module_, body_);
+    const auto add = [&](const auto& fields) {
       has_checks_.push_back(has_checks_[id.index]);
-      body_.exprs.push_back(e);
-      return static_cast<uint32_t>(body_.exprs.size() - 1);
+      return builder.add(signed_one.loc, unsignedOf(signed_one.type), fields);
     };
-    Expr dividend, division = signed_one;
-    dividend.kind = ExprKind::Convert;
-    dividend.a = signed_one.a;
-    division.a = add(dividend);
-    division.b = add(body_.exprs[signed_one.b]);
-    const uint32_t created = add(division);
-    Expr& e = body_.expr(id);
-    e.kind = ExprKind::Convert;
-    e.a = created;
-    e.b = 0;
+    division.left = add(ConvertExpr{division.left});
+    division.right = add(ConstExpr{.bits = bitsOf(body_.expr(division.right))});
+    const ExprId created = add(division);
+    body_.expr(id).set(ConvertExpr{created});
     changed_ = true;
   }
 
@@ -95,9 +89,9 @@ class Analysis {
       const Expr& e = body_.exprs[i];
       divisions += isSignedDivision(e);
       uint8_t found = e.checks != 0 || isSignedDivision(e);
-      forEachSlot(body_, e, [&](const uint32_t& slot) {
-        found |= has_checks_[slot];
-        all_known = all_known && slot < i;
+      forEachOperand(body_, e, [&](ExprId operand) {
+        found |= has_checks_[operand.index];
+        all_known = all_known && operand.index < i;
       });
       has_checks_[i] = found;
     }
@@ -125,11 +119,12 @@ class Analysis {
   uint32_t variable(ExprId id) const {
     const Expr& e = body_.expr(id);
     if (!isIntegral(e.type)) return kNone;
-    if (e.kind == ExprKind::Local) return private_[e.a] ? e.a : kNone;
-    if (e.kind != ExprKind::Field || body_.expr(ExprId{e.a}).kind != ExprKind::Self) return kNone;
+    if (const uint32_t* local = localOf(e)) return private_[*local] ? *local : kNone;
+    const auto* field = e.tryAs<FieldExpr>();
+    if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self) return kNone;
     const TypeInfo& self = types_.info(types_.resolve(body_.self));
-    if (self.record_kind == RecordKind::Union || self.fields[e.b].by_reference) return kNone;
-    return self_first_ + e.b;
+    if (self.record_kind == RecordKind::Union || self.fields[field->field].by_reference) return kNone;
+    return self_first_ + field->field;
   }
   bool holds(uint32_t variable, const Fact& fact) const {
     return fact.known && (variable < self_first_ || fact.epoch == epoch_);
@@ -151,20 +146,18 @@ class Analysis {
     const Expr* e = &body_.expr(place);
     uint32_t below_self = kNone;  // the field of self that the place lies in
     bool leads_out = false;
-    while (e->kind == ExprKind::Field || e->kind == ExprKind::Index || e->kind == ExprKind::Bits) {
-      const Expr& base = body_.expr(ExprId{e->a});
-      if (e->kind == ExprKind::Field) {
-        leads_out = leads_out || types_.info(types_.resolve(base.type)).fields[e->b].by_reference;
-        below_self = e->b;
-      }
-      e = &base;
+    for (ExprId base = baseOf(*e); base; base = baseOf(*e)) {
+      leads_out = leads_out || isReference(module_, body_, *e);
+      if (const auto* field = e->tryAs<FieldExpr>()) below_self = field->field;
+      e = &body_.expr(base);
     }
+    const uint32_t* local = localOf(*e);
     if (leads_out) {
       ++epoch_;
-    } else if (e->kind == ExprKind::Local) {
-      if (private_[e->a])
-        set(e->a, {});
-      else if (body_.locals[e->a].by_reference)
+    } else if (local != nullptr) {
+      if (private_[*local])
+        set(*local, {});
+      else if (body_.locals[*local].by_reference)
         ++epoch_;
     } else if (e->kind == ExprKind::Self && below_self != kNone &&
                types_.info(types_.resolve(body_.self)).record_kind != RecordKind::Union) {
@@ -175,7 +168,7 @@ class Analysis {
   }
   void effectsOf(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
-    if (s.kind == StmtKind::Call && !module_.body(BodyId{s.a}).pure) ++epoch_;
+    if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure) ++epoch_;
   }
   void effectsIn(StmtId first) {
     forEachStmt(body_, first, [&](StmtId id) { effectsOf(body_.stmt(id)); });
@@ -269,41 +262,28 @@ class Analysis {
       case StmtKind::Return:
       case StmtKind::Jump: return false;
       case StmtKind::Fault:
-        if (s.a != 0) value(ExprId{s.a});
+        if (const ExprId shown = s.as<FaultStmt>().value) value(shown);
         return false;
-      case StmtKind::Assign: {
-        const uint32_t v = variable(ExprId{s.a});
-        if (v == kNone) {
-          if (has_checks_[s.a] != 0) value(ExprId{s.a});
-          if (has_checks_[s.b] != 0) value(ExprId{s.b});
-          written(ExprId{s.a});
-        } else {
-          const Interval given = value(ExprId{s.b});
-          const Interval both = meet(given, allOf(body_.exprs[s.a].type, true));
-          setInterval(v, both.isEmpty() ? given : both);
-        }
-        return true;
-      }
+      case StmtKind::Assign: assign(s.as<AssignStmt>()); return true;
       case StmtKind::Bind:
       case StmtKind::Call:
       case StmtKind::Assert:
       case StmtKind::Evaluate:
-        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use) {
-          if (has_checks_[slot] != 0) value(ExprId{slot});
-        });
+        forEachRoot(module_, body_, s, [&](ExprId root, Use) { valueForChecks(root); });
         effectsOf(s);
         return true;
       case StmtKind::If: {
-        if (has_checks_[s.a] != 0) value(ExprId{s.a});
+        const IfStmt node = s.as<IfStmt>();
+        valueForChecks(node.condition);
         const size_t mark = touched_.size();
-        const bool yes = branch(StmtId{s.b}, [&] { refine(ExprId{s.a}, true); });
-        const bool no = branch(StmtId{s.c}, [&] { refine(ExprId{s.a}, false); });
+        const bool yes = branch(node.then_block, [&] { refine(node.condition, true); });
+        const bool no = branch(node.else_block, [&] { refine(node.condition, false); });
         joinBranches(mark, static_cast<uint32_t>(yes) + static_cast<uint32_t>(no));
         return yes || no;
       }
-      case StmtKind::Switch: return switchStmt(s);
+      case StmtKind::Switch: return switchStmt(s.as<SwitchStmt>());
       case StmtKind::Loop: {
-        LoopState loop{StmtId{s.a}, StmtId{s.b}, {}};
+        LoopState loop{s.as<LoopStmt>().body_block, s.as<LoopStmt>().next_block, {}};
         const size_t mark = trail_.size();
         effectsIn(loop.body);
         effectsIn(loop.next);
@@ -313,22 +293,34 @@ class Analysis {
           if (one.at_exit.known) setInterval(one.variable, one.at_exit.interval);
         return true;
       }
-      case StmtKind::For: return forLoop(s);
-      case StmtKind::Try: {
-        for (uint32_t part : {s.a, s.b, s.c}) {  // each may begin anywhere in the one before
-          const size_t mark = touched_.size();
-          branch(StmtId{part});
-          touched_.resize(mark);
-          effectsIn(StmtId{part});
-          if (part == s.a && s.d != 0) {
-            place(ExprId{s.d});
-            written(ExprId{s.d});
-          }
-        }
-        return true;
-      }
+      case StmtKind::For: return forLoop(s.as<ForStmt>());
+      case StmtKind::Try: tryStmt(s.as<TryStmt>()); return true;
     }
     return true;
+  }
+  void assign(const AssignStmt& s) {
+    const uint32_t v = variable(s.place);
+    if (v == kNone) {
+      valueForChecks(s.place);
+      valueForChecks(s.value);
+      written(s.place);
+    } else {
+      const Interval given = value(s.value);
+      const Interval both = meet(given, allOf(body_.expr(s.place).type, true));
+      setInterval(v, both.isEmpty() ? given : both);
+    }
+  }
+  void tryStmt(const TryStmt& s) {
+    for (const StmtId part : {s.body_block, s.catch_block, s.finally_block}) {  // begins anywhere in the one before
+      const size_t mark = touched_.size();
+      branch(part);
+      touched_.resize(mark);
+      effectsIn(part);
+      if (part == s.body_block && s.number) {
+        value(s.number);
+        written(s.number);
+      }
+    }
   }
 
   // ---- loops. At the head of a loop, a variable that it writes may have any value, unless each iteration leaves it
@@ -365,7 +357,7 @@ class Analysis {
     forEachStmt(body_, first, [&](StmtId id) {
       has_try = has_try || body_.stmt(id).kind == StmtKind::Try;
       forEachRoot(module_, body_, body_.stmt(id),
-                  [&](const uint32_t& slot, Use) { has_checks = has_checks || has_checks_[slot] != 0; });
+                  [&](ExprId root, Use) { has_checks = has_checks || has_checks_[root.index] != 0; });
     });
     return has_checks && !has_try;
   }
@@ -453,46 +445,43 @@ class Analysis {
     iterateOnce(loop, before);
   }
 
-  bool switchStmt(Stmt& s) {
-    value(ExprId{s.a});
-    const bool is_signed = types_.isSigned(types_.plainKind(body_.exprs[s.a].type));
+  bool switchStmt(const SwitchStmt& s) {
+    value(s.selector);
+    const bool is_signed = types_.isSigned(types_.plainKind(body_.expr(s.selector).type));
     const auto bound = [&](int64_t bits) { return is_signed ? Int128{bits} : Int128{static_cast<uint64_t>(bits)}; };
     const size_t mark = touched_.size();
     uint32_t falling = 0;
-    for (uint32_t i = 0; i < s.c; ++i) {
-      const Case& one = body_.cases[s.b + i];
+    for (const Case& one : body_.list(s.cases)) {
       falling += branch(one.block, [&] {
-        const uint32_t v = variableAfter(ExprId{s.a});
+        const uint32_t v = variableAfter(s.selector);
         if (v == kNone) return;
-        Interval hull{bound(body_.ranges[one.first_range].low), bound(body_.ranges[one.first_range].high)};
-        for (uint32_t k = 1; k < one.range_count; ++k) {
-          const CaseRange& range = body_.ranges[one.first_range + k];
-          hull = join(hull, {bound(range.low), bound(range.high)});
-        }
+        const std::span<const CaseRange> ranges = body_.list(one.ranges);
+        Interval hull{bound(ranges[0].low), bound(ranges[0].high)};
+        for (const CaseRange& range : ranges) hull = join(hull, {bound(range.low), bound(range.high)});
         narrow(v, hull);
       });
     }
-    falling += branch(StmtId{s.d});
+    falling += branch(s.else_block);
     joinBranches(mark, falling);
     return falling > 0;
   }
 
-  bool forLoop(Stmt& s) {
-    place(ExprId{s.a});
-    const Interval from = value(ExprId{s.b});
-    const Interval to = value(ExprId{s.c});
-    const uint32_t control = variable(ExprId{s.a});
+  bool forLoop(const ForStmt& s) {
+    value(s.control);
+    const Interval from = value(s.from);
+    const Interval to = value(s.to);
+    const uint32_t control = variable(s.control);
     const uint32_t epoch_before = epoch_;
     // Whether the body itself writes the control variable: its fact is set before the scan.
     if (control != kNone) setInterval(control, from);
     const size_t mark = trail_.size();
-    effectsIn(StmtId{s.e});
+    effectsIn(s.body_block);
     const bool is_kept = control != kNone && facts_[control].known && (control < self_first_ || epoch_ == epoch_before);
-    LoopState loop{StmtId{s.e}, {}, {}};
+    LoopState loop{s.body_block, {}, {}};
     watch(loop, mark, control);
-    written(ExprId{s.a});
-    const bool up =
-        static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 || !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
+    written(s.control);
+    const Expr& step = body_.expr(s.step);
+    const bool up = static_cast<int64_t>(bitsOf(step)) > 0 || !types_.isSigned(types_.plainKind(step.type));
     const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
     iterate(loop, [&] {
       if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
@@ -506,13 +495,10 @@ class Analysis {
 
   // The variable whose value an expression is, also through conversions that keep every value.
   uint32_t variableAfter(ExprId id) const {
-    while (body_.expr(id).kind == ExprKind::Convert) {
-      const Expr& e = body_.expr(id);
-      const ExprId inner{e.a};
-      if (!isIntegral(e.type) || !isIntegral(body_.expr(inner).type) ||
-          !types::isLossless(types_, body_.expr(inner).type, e.type))
-        return kNone;
-      id = inner;
+    while (const auto* convert = body_.expr(id).tryAs<ConvertExpr>()) {
+      const TypeId from = body_.expr(convert->operand).type, to = body_.expr(id).type;
+      if (!isIntegral(to) || !isIntegral(from) || !types::isLossless(types_, from, to)) return kNone;
+      id = convert->operand;
     }
     return variable(id);
   }
@@ -533,17 +519,18 @@ class Analysis {
   // Narrows variables by the outcome of a condition.
   void refine(ExprId condition, bool outcome) {
     const Expr& e = body_.expr(condition);
-    if (e.kind == ExprKind::Unary && e.op == Op::Not) return refine(ExprId{e.a}, !outcome);
+    if (isNot(e)) return refine(e.as<UnaryExpr>().operand, !outcome);
     if (e.kind != ExprKind::Binary) return;
-    if ((e.op == Op::And && outcome) || (e.op == Op::Or && !outcome)) {
+    const auto [left, right, op] = e.as<BinaryExpr>();
+    if ((op == Op::And && outcome) || (op == Op::Or && !outcome)) {
       if (types_.kind(e.type) != TypeKind::Bool) return;
-      refine(ExprId{e.a}, outcome);
-      refine(ExprId{e.b}, outcome);
+      refine(left, outcome);
+      refine(right, outcome);
       return;
     }
-    if (!types::isComparison(e.op) || !isIntegral(body_.exprs[e.a].type)) return;
-    compare(e.op, outcome, ExprId{e.a}, ExprId{e.b}, false);
-    compare(e.op, outcome, ExprId{e.b}, ExprId{e.a}, true);
+    if (!types::isComparison(op) || !isIntegral(body_.expr(left).type)) return;
+    compare(op, outcome, left, right, false);
+    compare(op, outcome, right, left, true);
   }
 
   // `one op other` (or `other op one` when swapped) gave `outcome`: narrows `one`.
@@ -590,7 +577,7 @@ class Analysis {
   bool keepsBounds(ExprId id) const {
     const Expr* e = &body_.expr(id);
     while (e->kind == ExprKind::Field || e->kind == ExprKind::Index) {
-      const Expr& base = body_.expr(ExprId{e->a});
+      const Expr& base = body_.expr(baseOf(*e));
       if (e->kind == ExprKind::Field && types_.info(types_.resolve(base.type)).record_kind == RecordKind::Union)
         return false;
       e = &base;
@@ -599,61 +586,45 @@ class Analysis {
            e->kind == ExprKind::Program;
   }
 
-  void place(ExprId id) { value(id); }
+  void valueForChecks(ExprId id) {
+    if (has_checks_[id.index] != 0) value(id);
+  }
 
   // The values that an expression can have; clears the checks below that it proves.
   Interval value(ExprId id) {
-    Expr& e = body_.exprs[id.index];
+    Expr& e = body_.expr(id);
     if (has_checks_[id.index] == 0 && !isIntegral(e.type)) return {-kWide, kWide};
     switch (e.kind) {
       case ExprKind::Const: {
         if (!isIntegral(e.type)) break;
+        const uint64_t value = bitsOf(e);
         const Int128 bits =
-            types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(e.bits())} : Int128{e.bits()};
+            types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(value)} : Int128{value};
         return {bits, bits};
       }
       case ExprKind::Local:
       case ExprKind::Field: {
-        if (e.kind == ExprKind::Field) value(ExprId{e.a});
+        if (e.kind == ExprKind::Field) value(e.as<FieldExpr>().base);
         const uint32_t v = variable(id);
         if (v != kNone) return current(v);
         return allOf(e.type, keepsBounds(id));
       }
-      case ExprKind::Index: {
-        value(ExprId{e.a});
-        const TypeInfo& array = types_.info(types_.resolve(body_.exprs[e.a].type));
-        bool inside = array.dimensions.size() == e.c;
-        for (uint32_t i = 0; i < e.c; ++i) {
-          const Interval one = value(body_.operands[e.b + i]);
-          inside = inside && one.within({array.dimensions[i].low, array.dimensions[i].high});
-        }
-        if (inside) clear(e, kCheckIndex);
-        return allOf(e.type, keepsBounds(id));
-      }
+      case ExprKind::Index: return indexed(id);
       case ExprKind::Unary: {
-        const Interval a = value(ExprId{e.a});
+        const auto [operand, op] = e.as<UnaryExpr>();
+        const Interval a = value(operand);
         if (!isIntegral(e.type)) break;
-        const IntervalResult result = apply(e.op, a, {0, 0}, allOf(e.type, false));
+        const IntervalResult result = apply(op, a, {0, 0}, allOf(e.type, false));
         if (result.fits) clear(e, kCheckOverflow);
         return result.interval;
       }
-      case ExprKind::Binary: {
-        const Interval a = value(ExprId{e.a});
-        const Interval b = value(ExprId{e.b});
-        const bool integers = isIntegral(body_.exprs[e.a].type) && isIntegral(body_.exprs[e.b].type);
-        if (types::isComparison(e.op)) return {0, 1};
-        if (!integers || !isIntegral(e.type)) break;
-        if ((e.op == Op::Div || e.op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
-        const IntervalResult result = apply(e.op, a, b, allOf(e.type, false));
-        if (result.fits) clear(e, kCheckOverflow);
-        if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(e)) dropSign(id);
-        return result.interval;
-      }
+      case ExprKind::Binary: return binary(id);
       case ExprKind::Convert: {
-        const Interval a = value(ExprId{e.a});
+        const ExprId operand = e.as<ConvertExpr>().operand;
+        const Interval a = value(operand);
         if (!isIntegral(e.type)) break;
         const Interval target = allOf(e.type, true);
-        if (!isIntegral(body_.exprs[e.a].type)) return target;
+        if (!isIntegral(body_.expr(operand).type)) return target;
         if (types_.plainKind(e.type) == TypeKind::Bool) break;  // <> 0
         if (a.within(target)) {
           clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
@@ -662,9 +633,10 @@ class Analysis {
         return target;
       }
       case ExprKind::Select: {
-        value(ExprId{e.a});
-        const Interval yes = value(ExprId{e.b});
-        const Interval no = value(ExprId{e.c});
+        const SelectExpr node = e.as<SelectExpr>();
+        value(node.condition);
+        const Interval yes = value(node.when_true);
+        const Interval no = value(node.when_false);
         return join(yes, no);
       }
       case ExprKind::None:
@@ -678,9 +650,36 @@ class Analysis {
       case ExprKind::Deref:
       case ExprKind::Bits:
       case ExprKind::Call:
-      case ExprKind::Address: forEachSlot(body_, e, [&](const uint32_t& slot) { value(ExprId{slot}); }); break;
+      case ExprKind::Address: forEachOperand(body_, e, [&](ExprId operand) { value(operand); }); break;
     }
     return allOf(e.type, false);
+  }
+  Interval indexed(ExprId id) {
+    Expr& e = body_.expr(id);
+    const IndexExpr& node = e.as<IndexExpr>();
+    value(node.base);
+    const TypeInfo& array = types_.info(types_.resolve(body_.expr(node.base).type));
+    bool inside = array.dimensions.size() == node.indices.count;
+    for (uint32_t i = 0; i < node.indices.count; ++i) {
+      const Interval one = value(body_.list(node.indices)[i]);
+      inside = inside && one.within({array.dimensions[i].low, array.dimensions[i].high});
+    }
+    if (inside) clear(e, kCheckIndex);
+    return allOf(e.type, keepsBounds(id));
+  }
+  Interval binary(ExprId id) {
+    Expr& e = body_.expr(id);
+    const auto [left, right, op] = e.as<BinaryExpr>();
+    const Interval a = value(left);
+    const Interval b = value(right);
+    const bool integers = isIntegral(body_.expr(left).type) && isIntegral(body_.expr(right).type);
+    if (types::isComparison(op)) return {0, 1};
+    if (!integers || !isIntegral(e.type)) return allOf(e.type, false);
+    if ((op == Op::Div || op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
+    const IntervalResult result = apply(op, a, b, allOf(e.type, false));
+    if (result.fits) clear(e, kCheckOverflow);
+    if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(e)) dropSign(id);
+    return result.interval;
   }
 
   Module& module_;

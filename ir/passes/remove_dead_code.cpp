@@ -17,7 +17,7 @@ class Remover {
     for (int round = 0; round < 3; ++round) {  // a removed assignment may have been the last reader of another local
       changed_ = false;
       count();
-      block(body_.first.index);
+      block(body_.first);
       if (!changed_) break;
       changed = true;
     }
@@ -29,10 +29,12 @@ class Remover {
   bool isWorthIt() const {
     for (const Stmt& s : body_.stmts) {
       if (s.kind == StmtKind::Evaluate) return true;
-      if (s.kind == StmtKind::Call && (module_.body(BodyId{s.a}).pure || s.e != 0)) return true;
-      if (s.kind != StmtKind::Assign) continue;
-      const Expr& root = body_.expr(rootOf(body_, ExprId{s.a}));
-      if (root.kind == ExprKind::Local && body_.locals[root.a].kind != LocalKind::Result) return true;
+      if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && (module_.body(call->callee).pure || call->result))
+        return true;
+      const auto* assign = s.tryAs<AssignStmt>();
+      if (assign == nullptr) continue;
+      const uint32_t* local = localOf(body_.expr(rootOf(body_, assign->place)));
+      if (local != nullptr && body_.locals[*local].kind != LocalKind::Result) return true;
     }
     return false;
   }
@@ -43,86 +45,80 @@ class Remover {
     forEachStmt(body_, body_.first, [&](StmtId id) {
       const Stmt& s = body_.stmt(id);
       const bool writes_only = s.kind == StmtKind::Assign || s.kind == StmtKind::Call;
-      forEachRoot(module_, body_, s, [&](const uint32_t& slot, Use use) {
+      forEachRoot(module_, body_, s, [&](ExprId root, Use use) {
         if (use == Use::Write && writes_only)
-          countPlace(ExprId{slot});
+          countPlace(root);
         else
-          countReads(ExprId{slot});
+          countReads(root);
       });
     });
   }
   void countReads(ExprId id) {
     const Expr& e = body_.expr(id);
-    if (e.kind == ExprKind::Local) ++reads_[e.a];
-    forEachSlot(body_, e, [&](const uint32_t& slot) { countReads(ExprId{slot}); });
+    if (const uint32_t* local = localOf(e)) ++reads_[*local];
+    forEachOperand(body_, e, [&](ExprId operand) { countReads(operand); });
   }
   // Indices in a written place are read, its root is not.
   void countPlace(ExprId id) {
     const Expr& e = body_.expr(id);
     if (e.kind == ExprKind::Local) return;
-    if (e.kind != ExprKind::Field && e.kind != ExprKind::Index && e.kind != ExprKind::Bits) return countReads(id);
-    countPlace(ExprId{e.a});
-    if (e.kind == ExprKind::Index)
-      for (uint32_t i = 0; i < e.c; ++i) countReads(body_.operands[e.b + i]);
+    const ExprId base = baseOf(e);
+    if (!base) return countReads(id);
+    forEachOperand(body_, e, [&](ExprId operand) { operand == base ? countPlace(operand) : countReads(operand); });
   }
 
   // A place in a local of this call that nothing reads.
-  bool isUnread(uint32_t place) const {
-    const Expr& root = body_.expr(rootOf(body_, ExprId{place}));
-    if (root.kind != ExprKind::Local) return false;
-    const Local& local = body_.locals[root.a];
+  bool isUnread(ExprId place) const {
+    const uint32_t* root = localOf(body_.expr(rootOf(body_, place)));
+    if (root == nullptr) return false;
+    const Local& local = body_.locals[*root];
     // A by-reference field on the way leads out of the local; a Temp never holds one.
     const bool own =
         local.kind == LocalKind::Temp || local.kind == LocalKind::Variable || local.kind == LocalKind::Input;
-    return own && !local.by_reference && reads_[root.a] == 0 && !leadsOut(place);
+    return own && !local.by_reference && reads_[*root] == 0 && !leadsOut(place);
   }
-  bool leadsOut(uint32_t place) const {
-    for (uint32_t id = place;;) {
-      const Expr& e = body_.exprs[id];
-      if (e.kind != ExprKind::Field && e.kind != ExprKind::Index && e.kind != ExprKind::Bits) return false;
-      if (e.kind == ExprKind::Field &&
-          module_.types.info(module_.types.resolve(body_.exprs[e.a].type)).fields[e.b].by_reference)
-        return true;
-      id = e.a;
-    }
+  bool leadsOut(ExprId place) const {
+    for (; place; place = baseOf(body_.expr(place)))
+      if (isReference(module_, body_, body_.expr(place))) return true;
+    return false;
   }
 
-  void block(uint32_t& first) {
-    uint32_t* link = &first;
-    while (*link != 0) {
-      Stmt& s = body_.stmts[*link];
-      forEachBlock(body_, s, [&](uint32_t& inner) { block(inner); });
+  void block(StmtId& first) {
+    StmtId* link = &first;
+    while (*link) {
+      Stmt& s = body_.stmt(*link);
+      forEachBlock(body_, s, [&](StmtId& inner) { block(inner); });
       if (isDead(s)) {
-        *link = s.next.index;
+        *link = s.next;
         changed_ = true;
       } else {
-        link = &s.next.index;
+        link = &s.next;
       }
     }
   }
 
   bool isDead(Stmt& s) {
     switch (s.kind) {
-      case StmtKind::Evaluate: return !mayFault(body_, ExprId{s.a});
-      case StmtKind::Assign:
-        if (!isUnread(s.a) || mayFault(body_, ExprId{s.a})) return false;
-        if (!mayFault(body_, ExprId{s.b})) return true;
-        s.kind = StmtKind::Evaluate;
-        s.a = s.b;
-        s.b = 0;
+      case StmtKind::Evaluate: return !mayFault(body_, s.as<EvaluateStmt>().value);
+      case StmtKind::Assign: {
+        const auto [place, value] = s.as<AssignStmt>();
+        if (!isUnread(place) || mayFault(body_, place)) return false;
+        if (!mayFault(body_, value)) return true;
+        s.set(EvaluateStmt{value});
         changed_ = true;
         return false;
+      }
       case StmtKind::Call: {
-        if (s.e != 0 && isUnread(s.e) && !mayFault(body_, ExprId{s.e})) {
-          s.e = 0;
+        CallStmt& call = s.as<CallStmt>();
+        if (call.result && isUnread(call.result) && !mayFault(body_, call.result)) {
+          call.result = {};
           changed_ = true;
         }
-        const Body& callee = module_.body(BodyId{s.a});
-        if (!callee.pure || s.e != 0) return false;
+        const Body& callee = module_.body(call.callee);
+        if (!callee.pure || call.result) return false;
         bool needed = callee.may_fault;
-        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use use) {
-          needed = needed || use != Use::Read || mayFault(body_, ExprId{slot});
-        });
+        forEachRoot(module_, body_, s,
+                    [&](ExprId root, Use use) { needed = needed || use != Use::Read || mayFault(body_, root); });
         return !needed;
       }
       case StmtKind::None:

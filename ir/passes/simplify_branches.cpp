@@ -9,17 +9,17 @@ namespace {
 
 class Simplifier {
  public:
-  Simplifier(Module& module, Body& body) : types_(module.types), body_(body) {}
+  Simplifier(Module& module, Body& body) : module_(module), types_(module.types), body_(body) {}
 
   bool run() {
     if (!body_.first) return false;
     if (body_.has_labels) {
       jumps_.assign(body_.labels.size(), 0);
       forEachStmt(body_, body_.first, [&](StmtId id) {
-        if (body_.stmt(id).kind == StmtKind::Jump) ++jumps_[body_.stmt(id).a];
+        if (const auto* jump = body_.stmt(id).tryAs<JumpStmt>()) ++jumps_[jump->label];
       });
     }
-    block(body_.first.index);
+    block(body_.first);
     if (body_.has_labels && labels_kept_ == 0) {
       body_.has_labels = false;
       body_.labels.clear();
@@ -28,61 +28,63 @@ class Simplifier {
   }
 
  private:
-  const Expr& at(uint32_t id) const { return body_.exprs[id]; }
-
   // Simplifies the list that begins at `first`; whether control can leave its end.
-  bool block(uint32_t& first) {
+  bool block(StmtId& first) {
     bool reached = true;
     StmtId previous;
-    for (uint32_t id = first; id != 0;) {
+    for (StmtId id = first; id;) {
       // Found again in each iteration: `first` may be a field of a statement.
-      auto relink = [&](uint32_t to) {
-        (previous ? body_.stmt(previous).next.index : first) = to;
+      auto relink = [&](StmtId to) {
+        (previous ? body_.stmt(previous).next : first) = to;
         id = to;
         changed_ = true;
       };
-      Stmt& s = body_.stmts[id];
+      Stmt& s = body_.stmt(id);
       if (!reached && s.kind != StmtKind::Label) {
         forget(s);
-        relink(s.next.index);
+        relink(s.next);
         continue;
       }
-      if (s.kind == StmtKind::Label) {
-        if (jumps_[s.a] == 0) {
-          relink(s.next.index);
+      if (const auto* label = s.tryAs<LabelStmt>()) {
+        if (jumps_[label->label] == 0) {
+          relink(s.next);
           continue;
         }
         ++labels_kept_;
         reached = true;
       }
-      if (s.kind == StmtKind::If && replaceIf(s)) {
-        const uint32_t block_first = s.a != 0 ? s.b : s.c;  // replaceIf leaves 1 or 0 in a
-        relink(splice(block_first, s.next.index));
-        continue;
-      }
-      if (s.kind == StmtKind::Switch && isConst(at(s.a))) {
-        relink(splice(taken(s), s.next.index));
+      if (isDecided(s)) {
+        relink(splice(taken(s), s.next));
         continue;
       }
       reached = stmt(s) && reached;
-      // A statement whose blocks became empty.
-      if (s.kind == StmtKind::If && s.b == 0 && s.c == 0) {
-        dropTo(s);
-        if (s.kind == StmtKind::None) {
-          relink(s.next.index);
-          continue;
-        }
-      } else if (s.kind == StmtKind::If && s.b == 0) {
-        negate(s);
-      } else if (s.kind == StmtKind::Loop && s.a != 0 && body_.stmts[s.a].kind == StmtKind::Break &&
-                 !body_.stmts[s.a].next) {
-        relink(s.next.index);  // WHILE FALSE
+      if (isEmptied(s)) {
+        relink(s.next);
         continue;
       }
-      previous = StmtId{id};
-      id = s.next.index;
+      previous = id;
+      id = s.next;
     }
     return reached;
+  }
+
+  // Whether a statement whose blocks became empty does nothing. An `if` that only has an else block is turned round.
+  bool isEmptied(Stmt& s) {
+    if (s.kind == StmtKind::If) {
+      const IfStmt& node = s.as<IfStmt>();
+      if (node.then_block) return false;
+      if (node.else_block) {
+        negate(s.as<IfStmt>());
+        return false;
+      }
+      changed_ = true;
+      if (!mayFault(body_, node.condition)) return true;
+      s.set(EvaluateStmt{ExprId{node.condition}});
+      return false;
+    }
+    if (s.kind != StmtKind::Loop) return false;
+    const StmtId first = s.as<LoopStmt>().body_block;  // WHILE FALSE
+    return first && body_.stmt(first).kind == StmtKind::Break && !body_.stmt(first).next;
   }
 
   // Whether control can reach what follows the statement.
@@ -100,35 +102,31 @@ class Simplifier {
       case StmtKind::Return:
       case StmtKind::Jump:
       case StmtKind::Fault: return false;
-      case StmtKind::If: {
-        const bool yes = block(s.b);
-        const bool no = block(s.c);
-        return yes || no;
-      }
+      case StmtKind::If:
       case StmtKind::Switch: {
         bool falls = false;
-        for (uint32_t i = 0; i < s.c; ++i) falls = block(body_.cases[s.b + i].block.index) || falls;
-        return block(s.d) || falls;
+        forEachBlock(body_, s, [&](StmtId& first) { falls = block(first) || falls; });
+        return falls;
       }
       case StmtKind::Loop: {
         const bool outer = breaks_;
         breaks_ = false;
-        block(s.a);
-        block(s.b);
+        forEachBlock(body_, s, [&](StmtId& first) { block(first); });
         const bool leaves = breaks_;
         breaks_ = outer;
         return leaves;
       }
       case StmtKind::For: {
         const bool outer = breaks_;
-        block(s.e);
+        block(s.as<ForStmt>().body_block);
         breaks_ = outer;
         return true;
       }
       case StmtKind::Try: {
-        const bool tried = block(s.a);
-        const bool caught = block(s.b);
-        return block(s.c) && (tried || caught);
+        TryStmt& node = s.as<TryStmt>();
+        const bool tried = block(node.body_block);
+        const bool caught = block(node.catch_block);
+        return block(node.finally_block) && (tried || caught);
       }
     }
     return true;
@@ -137,88 +135,70 @@ class Simplifier {
   // The jumps of a removed statement no longer keep their labels.
   void forget(const Stmt& s) {
     if (jumps_.empty()) return;
-    if (s.kind == StmtKind::Jump) --jumps_[s.a];
-    forEachBlock(body_, s, [&](const uint32_t& inner) {
-      for (uint32_t id = inner; id != 0; id = body_.stmts[id].next.index) forget(body_.stmts[id]);
-    });
+    if (const auto* jump = s.tryAs<JumpStmt>()) --jumps_[jump->label];
+    forEachBlock(body_, s, [&](StmtId inner) { forgetBlock(inner); });
   }
-  void forgetBlock(uint32_t first) {
-    for (uint32_t id = first; id != 0; id = body_.stmts[id].next.index) forget(body_.stmts[id]);
+  void forgetBlock(StmtId first) {
+    for (StmtId id = first; id; id = body_.stmt(id).next) forget(body_.stmt(id));
   }
 
-  // An `if` on a constant: leaves 1 or 0 in its condition slot.
-  bool replaceIf(Stmt& s) {
-    if (!isConst(at(s.a))) return false;
-    const bool yes = at(s.a).bits() != 0;
-    forgetBlock(yes ? s.c : s.b);
-    s.a = yes;
-    return true;
+  // An `if` or a `switch` on a constant.
+  bool isDecided(const Stmt& s) const {
+    if (const auto* branch = s.tryAs<IfStmt>()) return isConst(body_.expr(branch->condition));
+    if (const auto* branch = s.tryAs<SwitchStmt>()) return isConst(body_.expr(branch->selector));
+    return false;
   }
-
-  // The block that a constant selector takes.
-  uint32_t taken(const Stmt& s) {
-    const bool is_signed = types_.isSigned(types_.plainKind(at(s.a).type));
-    const uint64_t value = at(s.a).bits();
+  // The block that it takes; the others are forgotten.
+  StmtId taken(const Stmt& s) {
+    if (s.kind == StmtKind::Switch) return taken(s.as<SwitchStmt>());
+    const IfStmt& node = s.as<IfStmt>();
+    const bool yes = bitsOf(body_.expr(node.condition)) != 0;
+    forgetBlock(yes ? node.else_block : node.then_block);
+    return yes ? node.then_block : node.else_block;
+  }
+  StmtId taken(const SwitchStmt& s) {
+    const Expr& selector = body_.expr(s.selector);
+    const bool is_signed = types_.isSigned(types_.plainKind(selector.type));
+    const uint64_t value = bitsOf(selector);
     auto notAbove = [&](uint64_t a, uint64_t b) {
       return is_signed ? static_cast<int64_t>(a) <= static_cast<int64_t>(b) : a <= b;
     };
-    uint32_t found = s.d;
+    StmtId found = s.else_block;
     bool in_case = false;
-    for (uint32_t i = 0; i < s.c; ++i) {
-      const Case& one = body_.cases[s.b + i];
+    for (const Case& one : body_.list(s.cases)) {
       bool hit = false;
-      for (uint32_t k = 0; k < one.range_count && !in_case; ++k) {
-        const CaseRange& range = body_.ranges[one.first_range + k];
-        hit = hit ||
-              (notAbove(static_cast<uint64_t>(range.low), value) && notAbove(value, static_cast<uint64_t>(range.high)));
-      }
+      for (const CaseRange& range : body_.list(one.ranges))
+        hit = hit || (!in_case && notAbove(static_cast<uint64_t>(range.low), value) &&
+                      notAbove(value, static_cast<uint64_t>(range.high)));
       if (hit) {
-        found = one.block.index;
+        found = one.block;
         in_case = true;
       } else {
-        forgetBlock(one.block.index);
+        forgetBlock(one.block);
       }
     }
-    if (in_case) forgetBlock(s.d);
+    if (in_case) forgetBlock(s.else_block);
     return found;
   }
 
   // Appends `rest` to the list at `first`; returns the joined list.
-  uint32_t splice(uint32_t first, uint32_t rest) {
-    if (first == 0) return rest;
-    uint32_t last = first;
-    while (body_.stmts[last].next) last = body_.stmts[last].next.index;
-    body_.stmts[last].next.index = rest;
+  StmtId splice(StmtId first, StmtId rest) {
+    if (!first) return rest;
+    StmtId last = first;
+    while (body_.stmt(last).next) last = body_.stmt(last).next;
+    body_.stmt(last).next = rest;
     return first;
   }
 
-  // An `if` without branches: its condition is evaluated for its faults, or removed.
-  void dropTo(Stmt& s) {
-    const bool needed = mayFault(body_, ExprId{s.a});
-    s.kind = needed ? StmtKind::Evaluate : StmtKind::None;
-    changed_ = true;
-  }
-
   // if c {} else {x}: if not c {x}
-  void negate(Stmt& s) {
-    Expr& condition = body_.exprs[s.a];
-    if (condition.kind == ExprKind::Unary && condition.op == Op::Not) {
-      s.a = condition.a;
-    } else {
-      Expr inverse;
-      inverse.kind = ExprKind::Unary;
-      inverse.op = Op::Not;
-      inverse.type = types::kBool;
-      inverse.loc = condition.loc;
-      inverse.a = s.a;
-      s.a = static_cast<uint32_t>(body_.exprs.size());
-      body_.exprs.push_back(inverse);
-    }
-    s.b = s.c;
-    s.c = 0;
+  void negate(IfStmt& s) {
+    Builder builder(module_, body_);
+    builder.loc = body_.expr(s.condition).loc;
+    s = {.condition = builder.negation(s.condition), .then_block = s.else_block, .else_block = {}};
     changed_ = true;
   }
 
+  Module& module_;
   const types::TypeTable& types_;
   Body& body_;
   std::vector<uint32_t> jumps_;  // by label

@@ -16,7 +16,7 @@ class Threader {
   bool run() {
     if (body_.has_labels || !body_.first || !isWorthIt()) return false;
     count();
-    body_.first.index = block(body_.first.index);
+    body_.first = block(body_.first);
     return changed_;
   }
 
@@ -27,23 +27,26 @@ class Threader {
   };
 
   // An `if` on a temporary, negated or not.
-  Test testOf(uint32_t id) const {
-    if (id == 0 || body_.stmts[id].kind != StmtKind::If) return {};
-    const Expr* e = &body_.exprs[body_.stmts[id].a];
-    const bool negated = e->kind == ExprKind::Unary && e->op == Op::Not;
-    if (negated) e = &body_.exprs[e->a];
-    if (e->kind != ExprKind::Local || body_.locals[e->a].kind != LocalKind::Temp) return {};
-    return {e->a, true, negated};
+  Test testOf(StmtId id) const {
+    const auto* branch = id ? body_.stmt(id).tryAs<IfStmt>() : nullptr;
+    if (branch == nullptr) return {};
+    const Expr* condition = &body_.expr(branch->condition);
+    const bool negated = isNot(*condition);
+    if (negated) condition = &body_.expr(condition->as<UnaryExpr>().operand);
+    const uint32_t* local = localOf(*condition);
+    if (local == nullptr || body_.locals[*local].kind != LocalKind::Temp) return {};
+    return {*local, true, negated};
   }
   bool isWorthIt() const {
     for (uint32_t id = 1; id < body_.stmts.size(); ++id)
-      if (testOf(id).is_found) return true;
+      if (testOf(StmtId{id}).is_found) return true;
     return false;
   }
 
-  bool assigns(uint32_t id, uint32_t local) const {
-    const Stmt& s = body_.stmts[id];
-    return s.kind == StmtKind::Assign && body_.exprs[s.a].kind == ExprKind::Local && body_.exprs[s.a].a == local;
+  bool assigns(StmtId id, uint32_t local) const {
+    const auto* assign = body_.stmt(id).tryAs<AssignStmt>();
+    const uint32_t* place = assign == nullptr ? nullptr : localOf(body_.expr(assign->place));
+    return place != nullptr && *place == local;
   }
 
   // Uses of each local, its assignments not counted.
@@ -51,86 +54,88 @@ class Threader {
     reads_.assign(body_.locals.size(), 0);
     forEachStmt(body_, body_.first, [&](StmtId id) {
       const Stmt& s = body_.stmt(id);
-      forEachRoot(module_, body_, s, [&](const uint32_t& slot, Use use) {
-        if (use == Use::Write && s.kind == StmtKind::Assign && body_.exprs[slot].kind == ExprKind::Local) return;
-        forEachExpr(body_, ExprId{slot}, [&](ExprId e) {
-          if (body_.expr(e).kind == ExprKind::Local) ++reads_[body_.expr(e).a];
+      forEachRoot(module_, body_, s, [&](ExprId root, Use use) {
+        if (use == Use::Write && s.kind == StmtKind::Assign && localOf(body_.expr(root)) != nullptr) return;
+        forEachExpr(body_, root, [&](ExprId e) {
+          if (const uint32_t* local = localOf(body_.expr(e))) ++reads_[*local];
         });
       });
     });
   }
 
-  uint32_t lastOf(uint32_t first) const {
-    while (first != 0 && body_.stmts[first].next) first = body_.stmts[first].next.index;
+  StmtId lastOf(StmtId first) const {
+    while (first && body_.stmt(first).next) first = body_.stmt(first).next;
     return first;
   }
-  bool onlyLeaves(uint32_t first) const {
-    if (first == 0 || body_.stmts[first].next) return false;
-    const StmtKind kind = body_.stmts[first].kind;
+  bool onlyLeaves(StmtId first) const {
+    if (!first || body_.stmt(first).next) return false;
+    const StmtKind kind = body_.stmt(first).kind;
     return kind == StmtKind::Break || kind == StmtKind::Continue || kind == StmtKind::Return;
   }
-  uint32_t negation(uint32_t condition) {
+  ExprId negation(ExprId condition) {
     Builder builder(module_, body_);
-    builder.loc = body_.exprs[condition].loc;
-    return builder.negation(ExprId{condition}).index;
+    builder.loc = body_.expr(condition).loc;
+    return builder.negation(condition);
   }
 
   // The list that begins at `first`; returns its new beginning. The vector of statements may grow.
-  uint32_t block(uint32_t first) {
-    for (uint32_t id = first, previous = 0; id != 0;) {
-      const uint32_t now = thread(id);
+  StmtId block(StmtId first) {
+    for (StmtId id = first, previous; id;) {
+      const StmtId now = thread(id);
       if (now != id) {
-        (previous != 0 ? body_.stmts[previous].next.index : first) = now;
+        (previous ? body_.stmt(previous).next : first) = now;
         changed_ = true;
         id = now;
         continue;
       }
-      Stmt s = body_.stmts[id];
-      forEachBlock(body_, s, [&](uint32_t& inner) { inner = block(inner); });
-      body_.stmts[id] = s;
+      Stmt s = body_.stmt(id);
+      forEachBlock(body_, s, [&](StmtId& inner) { inner = block(inner); });
+      body_.stmt(id) = s;
       previous = id;
-      id = s.next.index;
+      id = s.next;
     }
     return first;
   }
 
   // Threads the condition that begins at `id`; returns the statement that begins it now.
-  uint32_t thread(uint32_t id) {
-    const Stmt start = body_.stmts[id];
-    const uint32_t second = start.next.index;
+  StmtId thread(StmtId id) {
+    const StmtId second = body_.stmt(id).next;
     const Test test = testOf(second);
     if (!test.is_found || !assigns(id, test.local)) return id;
+    const ExprId value = body_.stmt(id).as<AssignStmt>().value;
     if (reads_[test.local] == 1) {
-      Stmt& branch = body_.stmts[second];
-      (test.negated ? body_.exprs[branch.a].a : branch.a) = start.b;
+      ExprId& condition = body_.stmt(second).as<IfStmt>().condition;
+      (test.negated ? body_.expr(condition).as<UnaryExpr>().operand : condition) = value;
       return second;
     }
 
-    uint32_t reads = 1, last = second;
+    uint32_t reads = 1;
+    StmtId last = second;
     while (isLink(last, test)) {
-      last = body_.stmts[last].next.index;
+      last = body_.stmt(last).next;
       ++reads;
     }
     const Test asked = testOf(last);
     if (last == second || !asked.is_found || asked.local != test.local || reads_[test.local] != reads) return id;
 
     // The branch that runs when the left operand alone decides.
-    const Stmt& branch = body_.stmts[last];
-    const uint32_t decided = asked.negated == test.negated ? branch.c : branch.b;
-    const uint32_t condition = test.negated ? negation(start.b) : start.b;
-    const uint32_t inner = body_.stmts[second].b, rest = body_.stmts[second].next.index;
-    if (decided == 0) {  // the rest moves into the branch
-      body_.stmts[lastOf(inner)].next.index = rest;
-      body_.stmts[second].next = body_.stmts[last].next;
-      body_.stmts[last].next = {};
-      body_.stmts[second].a = condition;
+    const IfStmt& branch = body_.stmt(last).as<IfStmt>();
+    const StmtId decided = asked.negated == test.negated ? branch.else_block : branch.then_block;
+    const ExprId condition = test.negated ? negation(value) : value;
+    const StmtId inner = body_.stmt(second).as<IfStmt>().then_block, rest = body_.stmt(second).next;
+    if (!decided) {  // the rest moves into the branch
+      body_.stmt(lastOf(inner)).next = rest;
+      body_.stmt(second).next = body_.stmt(last).next;
+      body_.stmt(last).next = {};
+      body_.stmt(second).as<IfStmt>().condition = condition;
     } else if (onlyLeaves(decided)) {
-      const Stmt leave = body_.stmts[decided];
+      const Stmt leave = body_.stmt(decided);
       body_.stmts.push_back(leave);
-      body_.stmts[lastOf(inner)].next.index = rest;
-      body_.stmts[second].next.index = inner;
-      body_.stmts[second].b = static_cast<uint32_t>(body_.stmts.size() - 1);
-      body_.stmts[second].a = negation(condition);
+      const StmtId own_leave{static_cast<uint32_t>(body_.stmts.size() - 1)};
+      body_.stmt(lastOf(inner)).next = rest;
+      body_.stmt(second).next = inner;
+      body_.stmt(second).as<IfStmt>().then_block = own_leave;
+      body_.stmt(second).as<IfStmt>().condition = negation(condition);
     } else {
       return id;
     }
@@ -139,11 +144,12 @@ class Threader {
   }
 
   // The `if` of one more operand: its block ends with the temporary's new value.
-  bool isLink(uint32_t id, const Test& test) const {
+  bool isLink(StmtId id, const Test& test) const {
     const Test own = testOf(id);
     if (!own.is_found || own.local != test.local || own.negated != test.negated) return false;
-    const Stmt& s = body_.stmts[id];
-    return s.c == 0 && s.b != 0 && s.next && assigns(lastOf(s.b), test.local);
+    const Stmt& s = body_.stmt(id);
+    const IfStmt& branch = s.as<IfStmt>();
+    return !branch.else_block && branch.then_block && s.next && assigns(lastOf(branch.then_block), test.local);
   }
 
   Module& module_;

@@ -3,6 +3,7 @@
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
@@ -210,7 +211,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
   for (const Binding& binding : call.bindings) {
-    if (!binding.value || !binding.is_output || !isNamed(context, context.symbols.var(binding.pin).name, "ENO"))
+    if (!binding.value || !binding.is_output || !isNamed(context, context.symbols.var(binding.pin).name, kEnableOutput))
       continue;
     call.eno = binding.value;
     call.eno_is_pin = true;
@@ -430,11 +431,11 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
       for (slot = 0; slot < pins.size() && pins[slot] != found;) ++slot;
     }
     if (slot == pins.size()) {
-      if (isNamed(context, argument.pin.name, "EN") && !argument.is_output) {
+      if (isNamed(context, argument.pin.name, kEnable) && !argument.is_output) {
         out.en = i + 1;
         continue;
       }
-      if (isNamed(context, argument.pin.name, "ENO") && argument.is_output) {
+      if (isNamed(context, argument.pin.name, kEnableOutput) && argument.is_output) {
         out.eno = i + 1;
         continue;
       }

@@ -4,6 +4,7 @@
 // Strings are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
 #include <string>
 
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
@@ -73,9 +74,9 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument& argument = context.tree().list(node.arguments)[i];
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
-    if (sameIdentifier(pin, "EN") && !argument.is_output) {
+    if (isEnable(pin) && !argument.is_output) {
       out.en = argument.value;
-    } else if (sameIdentifier(pin, "ENO") && argument.is_output) {
+    } else if (isEnableOutput(pin) && argument.is_output) {
       out.eno = argument.value;
     } else if (!pin.empty() && !sameIdentifier(pin, "IN")) {
       context.report(diag::UnknownPin, argument.pin.loc, {string(context, name), pin}).didYouMean("IN");
@@ -257,14 +258,14 @@ TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
   std::vector<Argument> arguments;
   for (const Argument& argument : context.tree().list(node.arguments)) {
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
-    if (sameIdentifier(pin, argument.is_output ? "ENO" : "EN")) arguments.push_back(argument);
+    if (sameIdentifier(pin, argument.is_output ? kEnableOutput : kEnable)) arguments.push_back(argument);
   }
   arguments.push_back(Argument{{}, value, false, false, node.h.loc});
   const ExprId guarded = context.tree().insertCopy(expr);
   context.tree().as<CallExpr>(guarded).arguments = context.tree().addList<Argument>(arguments);
   context.replace(expr, guarded);
   const NameId name = context.tree().as<NameExpr>(node.callee).name;
-  return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
+  return callLibrary(context, expr, kMove, context.tree().expr(value).type, name);
 }
 
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {

@@ -6,6 +6,7 @@
 // before an implicit conversion. If that does not decide, fewer open inputs win.
 #include <algorithm>
 
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/declarations/overloads.h"
@@ -58,7 +59,7 @@ bool match(Context& context, const CallExpr& node, Candidate& candidate) {
       while (slot < pins.size() && !context.names().same(context.symbols.var(pins[slot]).name, argument.pin.name))
         ++slot;
       if (slot == pins.size()) {
-        const bool control = isNamed(context, argument.pin.name, argument.is_output ? "ENO" : "EN");
+        const bool control = isNamed(context, argument.pin.name, argument.is_output ? kEnableOutput : kEnable);
         if (!control) return false;
         candidate.pin_of.push_back({});
         continue;

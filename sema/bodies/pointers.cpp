@@ -46,7 +46,7 @@ TypeId checkBitAdr(Context& context, ExprId& expr, const PseudoCall& call) {
     context.report(diag::NoBitAddress, context.tree().begin(lvalue));
     return types::kError;
   }
-  const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
+  const uint32_t area = view->area == types::kMemoryArea ? 1 : view->area == types::kInputArea ? 2 : 3;
   const auto number = static_cast<int64_t>(uint64_t{area} << 30 | (view->byte * 8 + view->bit));
   context.replace(expr, makeLiteral(context, LiteralKind::Integer, types::kDWord, number, loc));
   return types::kDWord;

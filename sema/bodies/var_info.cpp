@@ -4,6 +4,7 @@
 #include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -64,7 +65,7 @@ void addLvalue(Facts& facts, ExprId lvalue) {
     if (var->storage == Storage::Global) area = 0, memory = 4;
     if (var->retain) memory = 3;
     if (var->storage == Storage::Image) {
-      const auto number = static_cast<int64_t>(var->image.area);  // I, Q, M
+      const auto number = static_cast<int64_t>(var->image.area.index);  // I, Q, M
       area = number + 1;
       memory = number == 2 ? 0 : number + 1;
       offset = var->image.byte;
@@ -105,7 +106,8 @@ ExprId byteOfImage(Context& context, ExprId lvalue) {
   if (var->external) var = &context.symbols.var(var->external);
   if (var->storage != Storage::Image || !var->image.is_bit) return {};
   const Slice<uint32_t> path = context.tree().addList<uint32_t>({&var->image.byte, 1});
-  const DirectAddress byte{.area = var->image.area, .size = 'B', .incomplete = false, .size_given = true, .path = path};
+  const char letter = context.project.options.areas[var->image.area.index].letter;
+  const DirectAddress byte{.area = letter, .size = 'B', .incomplete = false, .size_given = true, .path = path};
   return typed(context, context.build().address(byte, context.tree().loc(lvalue)), types::kByte);
 }
 

@@ -14,7 +14,7 @@ namespace rung::sema {
 namespace {
 
 struct Span {
-  ImageArea area;
+  types::AreaId area;
   uint64_t begin, end;  // in bits
   VarId var;
 };

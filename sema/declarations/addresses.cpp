@@ -2,6 +2,7 @@
 // the size letter (%ID48 begins at byte 192); %IX5 is byte 0, bit 5.
 #include <algorithm>
 
+#include "frontend/parse/diagnostics.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
@@ -12,7 +13,7 @@ namespace {
 
 std::string toString(const Context& context, const DirectAddress& address) {
   std::string text = "%";
-  text += address.area == ImageArea::Input ? 'I' : address.area == ImageArea::Output ? 'Q' : 'M';
+  text += address.area;
   if (address.size_given) text += address.size;
   if (address.incomplete) return text + '*';
   bool first = true;
@@ -28,7 +29,24 @@ uint32_t unitBytes(char size) { return size == 'B' ? 1 : size == 'W' ? 2 : size 
 
 bool isBitAddress(const DirectAddress& address) { return !address.size_given || unitBytes(address.size) == 0; }
 
+// Marks the bytes before `end` of an area as used.
+void use(Project& project, types::AreaId area, uint64_t end) {
+  uint32_t& bytes = project.area_bytes[area.index];
+  bytes = std::max(bytes, static_cast<uint32_t>(end));
+}
+
 }  // namespace
+
+std::optional<types::AreaId> areaOf(Context& context, const DirectAddress& address, Loc loc) {
+  if (const auto area = types::findArea(context.project.options.areas, address.area)) return area;
+  context.report(diag::AddressForm, loc, {toString(context, address)});
+  return std::nullopt;
+}
+
+uint64_t areaLimit(const Context& context, types::AreaId area) {
+  const uint32_t bytes = context.project.options.areas[area.index].bytes;
+  return bytes != 0 ? bytes : types::kMaxAreaBytes;
+}
 
 TypeId addressType(const DirectAddress& address) {
   if (!address.size_given) return types::kBool;
@@ -56,8 +74,10 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
     context.report(diag::AddressParts, loc, {text, is_bit ? "`byte.bit`" : "one number"});
     return std::nullopt;
   }
+  const std::optional<types::AreaId> area = areaOf(context, address, loc);
+  if (!area) return std::nullopt;
   ImageView view;
-  view.area = address.area;
+  view.area = *area;
   uint64_t byte = 0, bytes = 1;
   if (is_bit) {
     if (path.size() == 2 && path[1] > 7) {
@@ -84,13 +104,12 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
       bytes = context.types().info(context.types().resolve(type)).size;
     }
   }
-  if (byte + bytes > kMaxImageBytes) {
-    context.report(diag::AddressTooLarge, loc, {text, std::to_string(kMaxImageBytes)});
+  if (byte + bytes > areaLimit(context, view.area)) {
+    context.report(diag::AddressTooLarge, loc, {text, std::to_string(areaLimit(context, view.area))});
     return std::nullopt;
   }
   view.byte = static_cast<uint32_t>(byte);
-  uint32_t& end = context.project.image_bytes[static_cast<size_t>(view.area)];
-  if (byte + bytes > end) end = static_cast<uint32_t>(byte + bytes);
+  use(context.project, view.area, byte + bytes);
   return view;
 }
 
@@ -112,6 +131,8 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
     return {};
   }
   if (!ensureLayout(context, type)) return {};
+  const std::optional<types::AreaId> area = areaOf(context, address, loc);
+  if (!area) return {};
   const NameId name = context.names().intern(text);
   Entity known = scopes.hierarchical_names.find(keyOf(context, name));
   if (!known) {
@@ -124,7 +145,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
     var.type = addressType(address);
     var.section = SectionKind::Global;
     var.storage = Storage::Image;
-    var.image.area = address.area;
+    var.image.area = *area;
     var.image.is_bit = isBitAddress(address);
     var.hierarchical = true;
     const VarId named{static_cast<uint32_t>(project.vars.size())};
@@ -140,7 +161,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   if (user) {
     Var& var = project.var(user);
     var.hierarchical = true;
-    var.image.area = address.area;
+    var.image.area = *area;
     var.image.is_bit = context.types().kind(type) == types::TypeKind::Bool;
     allocation.users.push_back(user);
   }
@@ -157,16 +178,16 @@ void allocateHierarchical(Context& context) {
   });
   for (const Scopes::HierarchicalAddress& allocation : allocations) {
     Var& named = project.var(allocation.named);
-    uint32_t& end = project.image_bytes[static_cast<size_t>(named.image.area)];
+    const uint64_t end = project.area_bytes[named.image.area.index];
     const uint64_t byte = (end + allocation.align - 1) / allocation.align * allocation.align;
-    if (byte + allocation.bytes > kMaxImageBytes) {
-      context.report(diag::AddressTooLarge, named.loc,
-                     {context.names().string(named.name), std::to_string(kMaxImageBytes)});
+    const uint64_t limit = areaLimit(context, named.image.area);
+    if (byte + allocation.bytes > limit) {
+      context.report(diag::AddressTooLarge, named.loc, {context.names().string(named.name), std::to_string(limit)});
       return;
     }
     named.image.byte = static_cast<uint32_t>(byte);
     for (const VarId user : allocation.users) project.var(user).image.byte = static_cast<uint32_t>(byte);
-    end = static_cast<uint32_t>(byte + allocation.bytes);
+    use(project, named.image.area, byte + allocation.bytes);
   }
 }
 

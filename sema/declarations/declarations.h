@@ -131,10 +131,10 @@ void addObjectFields(Context& context, PouId object);
 void declareMembers(Context& context, PouId object);
 
 // ---- addresses.cpp: see resolveAddress in context.h
-inline char areaLetter(ImageArea area) {
-  return area == ImageArea::Input ? 'I' : area == ImageArea::Output ? 'Q' : 'M';
-}
-inline constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
+// None: no area has that letter, which was reported.
+std::optional<types::AreaId> areaOf(Context& context, const DirectAddress& address, Loc loc);
+// How many bytes an area may have.
+uint64_t areaLimit(const Context& context, types::AreaId area);
 
 // ---- types.cpp
 void resolveNamed(Context& context, TypeId type);

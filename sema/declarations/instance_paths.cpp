@@ -261,8 +261,10 @@ struct InstancePathResolver {
     }
     std::optional<ImageView> view;
     if (decl.located) {
-      if (decl.address.area != var.image.area) {
-        const std::string area(1, areaLetter(var.image.area));
+      const std::optional<types::AreaId> named = areaOf(context, decl.address, decl.address_loc);
+      if (!named) return;
+      if (*named != var.image.area) {
+        const std::string area(1, letterOf(var.image.area));
         context.report(diag::ConfigArea, decl.address_loc, {string(last.name), area}).declaredHere(var.loc);
         return;
       }
@@ -341,24 +343,26 @@ struct InstancePathResolver {
   // ---- addresses that VAR_CONFIG does not complete
 
   // The next free bits of each area.
-  uint64_t free_bit_[3] = {0, 0, 0};
+  std::vector<uint64_t> free_bit_;
+
+  char letterOf(types::AreaId area) const { return project.options.areas[area.index].letter; }
 
   // Manual 4.1.1: the system chooses; D: after the last fixed address, in order of declaration, aligned to the size.
   // The standard has no such choice: it is an error there, which names what to add.
   //   fails   iec: PROGRAM Main VAR x AT %I* : BOOL; END_VAR …              E0342
   bool complete(const Var& var, ImageView& view, const std::string& path) {
-    const auto area = static_cast<size_t>(var.image.area);
+    const types::AreaId area = var.image.area;
     const bool is_bool = context.types().kind(var.type) == TypeKind::Bool;
     const TypeInfo& info = context.types().info(context.types().resolve(var.type));
     if (context.iec()) {
       std::string address = "%";
-      address += areaLetter(var.image.area);
+      address += letterOf(area);
       address += is_bool ? "X0.0" : info.size == 2 ? "W0" : info.size == 4 ? "D0" : info.size == 8 ? "L0" : "B0";
       context.report(diag::AddressIncomplete, var.loc, {path, address, context.types().toString(var.type)});
       return false;
     }
-    uint64_t& bit = free_bit_[area];
-    view.area = var.image.area;
+    uint64_t& bit = free_bit_[area.index];
+    view.area = area;
     if (is_bool) {
       view.byte = static_cast<uint32_t>(bit / 8);
       view.bit = static_cast<uint8_t>(bit % 8);
@@ -370,16 +374,17 @@ struct InstancePathResolver {
       view.byte = static_cast<uint32_t>(byte);
       bit = (byte + info.size) * 8;
     }
-    if (bit / 8 >= kMaxImageBytes) {
-      context.report(diag::AddressTooLarge, var.loc, {path, std::to_string(kMaxImageBytes)});
+    if ((bit + 7) / 8 > areaLimit(context, area)) {
+      context.report(diag::AddressTooLarge, var.loc, {path, std::to_string(areaLimit(context, area))});
       return false;
     }
-    project.image_bytes[area] = static_cast<uint32_t>((bit + 7) / 8);
+    uint32_t& bytes = project.area_bytes[area.index];
+    bytes = std::max(bytes, static_cast<uint32_t>((bit + 7) / 8));
     return true;
   }
 
   void completeAll() {
-    for (size_t area = 0; area < 3; ++area) free_bit_[area] = uint64_t{project.image_bytes[area]} * 8;
+    for (const uint32_t bytes : project.area_bytes) free_bit_.push_back(uint64_t{bytes} * 8);
     for (const auto& [id, done] : whole_) {
       if (done) continue;
       Var& var = project.var(id);
@@ -402,7 +407,7 @@ struct InstancePathResolver {
 void resolveInstancePaths(Context& context) {
   Context there = at(context, {}, {}, false);
   InstancePathResolver resolver{
-      .context = there, .project = context.project, .targets = {}, .has_open_ = {}, .whole_ = {}};
+      .context = there, .project = context.project, .targets = {}, .has_open_ = {}, .whole_ = {}, .free_bit_ = {}};
   resolver.collect();
   resolver.configureAll();
   resolver.completeAll();

@@ -3,6 +3,7 @@
 
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/children.h"
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
@@ -293,12 +294,16 @@ void ensureVarType(Context& context, VarId id) {
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
-        const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
+        const std::string address = {'%', decl.address.area, 'X', '*'};
         there.report(diag::AddressType, decl.address_loc, {address, context.types().toString(type)});
         var.type = types::kError;
       }
+      const std::optional<types::AreaId> area = areaOf(there, decl.address, decl.address_loc);
+      if (area)
+        var.image.area = *area;
+      else
+        var.type = types::kError;
       var.open_address = true;
-      var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
     } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
       const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
@@ -445,7 +450,7 @@ static void declareHidden(Context& context, PouId id) {
 // IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
 static void declareEno(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
-  const NameId name = context.names().intern("ENO");
+  const NameId name = context.names().intern(kEnableOutput);
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(created))) return;
   Var var;

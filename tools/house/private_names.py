@@ -16,8 +16,6 @@ VARIABLE = re.compile(r"(?:(?:constexpr|const|static|inline|thread_local|[\w:<>,
 def target_of(path):
     """The folder whose sources are compiled into one target."""
     parts = path.split("/")
-    if parts[:2] == ["frontend", "import"] and parts[2] in ("plcopen", "iec10"):
-        return "/".join(parts[:3])
     if parts[0] == "frontend":
         return "/".join(parts[:2])
     if parts[0] == "sema":

@@ -1,14 +1,18 @@
-// Writes the table through which the interpreter calls the native bodies of the libraries: a thunk for each, in C++.
-// In: the declarations of stdlib/*/*.st, read by the compiler's own front end. Out: a source file. Generic functions
+// Writes the table through which the interpreter calls the native bodies of the libraries: a thunk for each, in C++;
+// and the header that the native bodies include, with the structs of native blocks. In: the declarations of
+// stdlib/*/*.st, read by the compiler's own front end. Out: two files, rewritten only if they change. Generic functions
 // appear once for each tuple of types that they admit, so every function that a program may call is there, and linking
 // rung fails when a library lacks a body. Run when rung is built.
-//   native_table OUTPUT FILE...      FILE: <folder>/<library>/<name>.st
+//   native_table TABLE HEADER FILE...      FILE: <folder>/<library>/<name>.st
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "codegen/body.h"
+#include "codegen/native_header.h"
 #include "codegen/types.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
@@ -17,7 +21,7 @@
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/libraries.h"
 #include "sema/project.h"
-#include "tools/rung/namespaces.h"
+#include "tools/driver/namespaces.h"
 
 namespace {
 
@@ -93,14 +97,16 @@ void instantiateAll(Context& context, PouId generic) {
   choose(choose, 0);
 }
 
-// `table`: the thunks by the name of the C function.
-bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<std::string, std::string>& table) {
+// Calls `use` with a module that has all native bodies. False: a declaration has errors, which were printed.
+bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_t pointer_size,
+                 rung::FunctionRef<void(const rung::ir::Module&)> use) {
   rung::Sources sources;
   rung::Names names;
   rung::Diagnostics diagnostics(sources);
   rung::Tree tree;
   rung::sema::Options options;
   options.dialect = dialect;
+  options.pointer_size = pointer_size;
   options.libraries = libraries.files;
   rung::sema::Project project(sources, names, diagnostics, tree, options);
   rung::sema::Scopes scopes;
@@ -138,6 +144,12 @@ bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<
   lower_options.used_of_libraries = true;
   rung::ir::lower(project, lower_options, module);
 
+  use(module);
+  return true;
+}
+
+// `table`: the thunks by the name of the C function.
+void addThunks(const rung::ir::Module& module, std::map<std::string, std::string>& table) {
   for (size_t i = 1; i < module.bodies.size(); ++i) {
     const rung::ir::Body& body = module.bodies[i];
     if (!body.native) continue;
@@ -148,11 +160,7 @@ bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<
     uint32_t slot = 0;
     const auto next = [&] { return "slots + " + std::to_string(slot++); };
     if (body.self) arguments += ", at<void*>(" + next() + ")";
-    for (const rung::ir::Local& local : body.locals) {
-      if (local.kind != rung::ir::LocalKind::Input && local.kind != rung::ir::LocalKind::Output &&
-          local.kind != rung::ir::LocalKind::InOut) {
-        continue;
-      }
+    for (const rung::ir::Local& local : rung::ir::parameters(body)) {
       const TypeKind kind = types.kind(local.type);
       std::string type = "void*";
       if (kind != TypeKind::Array && kind != TypeKind::Record) {
@@ -180,22 +188,75 @@ bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<
     created +=
         ";\nstatic void call_" + function + "(rung_context* ctx, [[maybe_unused]] uint64_t* slots) { " + call + " }\n";
   }
+}
+
+// Adds the declarations of each library's native blocks and methods by its name, and the functions that take records.
+void addDeclarations(const rung::ir::Module& module, std::map<std::string, std::string>& of_library) {
+  std::map<std::string, std::vector<rung::ir::BodyId>> bodies;
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    const rung::ir::Body& body = module.bodies[i];
+    if (body.native && body.self) bodies[std::string(module.names.string(body.library_name))].push_back({i});
+  }
+  for (const auto& [library, ids] : bodies) {
+    std::string name_space = "rung_" + library;
+    for (char& c : name_space) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
+    of_library[library] = rung::codegen::nativeDeclarations(module, ids, name_space);
+  }
+}
+
+// One program of all dialects may use a block, so its layout cannot differ between them.
+bool header(const LibrarySources& libraries, std::string& out) {
+  std::map<std::string, std::string> narrow, wide;
+  for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
+    for (const uint32_t pointer_size : {4u, 8u}) {
+      std::map<std::string, std::string>& known = pointer_size == 4 ? narrow : wide;
+      std::map<std::string, std::string> here;
+      if (!withNatives(libraries, dialect, pointer_size,
+                       [&](const rung::ir::Module& module) { addDeclarations(module, here); }))
+        return false;
+      for (const auto& [library, declarations] : here) {
+        if (known.try_emplace(library, declarations).first->second == declarations) continue;
+        std::fprintf(stderr, "native_table: the native blocks of %s differ between the dialects\n", library.c_str());
+        return false;
+      }
+    }
+  }
+  std::string text;
+  for (const auto& [library, declarations] : wide) {
+    if (narrow[library] == declarations)
+      text += declarations + "\n";
+    else
+      text += "#if UINTPTR_MAX > UINT32_MAX\n\n" + declarations + "\n#else\n\n" + narrow[library] + "\n#endif\n\n";
+  }
+  out = rung::codegen::nativeHeader(text);
   return true;
+}
+
+// An unchanged file keeps its time, so what includes it is not compiled again.
+bool write(const char* path, const std::string& text) {
+  std::ostringstream old;
+  if (std::ifstream file(path, std::ios::binary); file) old << file.rdbuf();
+  if (old.str() == text) return true;
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) std::perror(path);
+  return bool(file);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fputs("usage: native_table OUTPUT FILE...\n", stderr);
+  if (argc < 4) {
+    std::fputs("usage: native_table TABLE HEADER FILE...\n", stderr);
     return 2;
   }
   LibrarySources libraries;
-  const auto count = static_cast<size_t>(argc - 2);
+  const auto count = static_cast<size_t>(argc - 3);
   libraries.names.reserve(count);
   libraries.paths.reserve(count);
   libraries.contents.reserve(count);
-  for (int i = 2; i < argc; ++i) {
+  for (int i = 3; i < argc; ++i) {
     const std::string path = argv[i];
     const size_t name = path.rfind('/'), folder = path.rfind('/', name - 1);
     rung::ReadResult read = rung::readFile(path);
@@ -203,7 +264,7 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "native_table: cannot read `%s`: %s\n", argv[i], read.error.c_str());
       return 2;
     }
-    libraries.names.push_back(rung::tool::namespaceOf(path.substr(folder + 1, name - folder - 1)));
+    libraries.names.push_back(rung::driver::namespaceOf(path.substr(folder + 1, name - folder - 1)));
     libraries.paths.push_back(path.substr(folder + 1));
     libraries.contents.push_back(std::move(read.content));
     libraries.files.push_back(
@@ -211,7 +272,9 @@ int main(int argc, char** argv) {
   }
   std::map<std::string, std::string> table;
   for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
-    if (!addThunks(libraries, dialect, table)) return 1;
+    if (!withNatives(libraries, dialect, sizeof(void*),
+                     [&](const rung::ir::Module& module) { addThunks(module, table); }))
+      return 1;
   }
 
   std::string out =
@@ -228,11 +291,7 @@ int main(int argc, char** argv) {
   }
   out += "\nnamespace rung::natives {\n\nconst ir::interpreter::Native table[] = {\n" + rows +
          "};\nconst size_t count = sizeof table / sizeof table[0];\n\n}  // namespace rung::natives\n";
-  FILE* file = std::fopen(argv[1], "wb");
-  const bool ok = file != nullptr && std::fwrite(out.data(), 1, out.size(), file) == out.size();
-  if (file == nullptr || std::fclose(file) != 0 || !ok) {
-    std::perror(argv[1]);
-    return 2;
-  }
-  return 0;
+  std::string blocks;
+  if (!header(libraries, blocks)) return 1;
+  return write(argv[1], out) && write(argv[2], blocks) ? 0 : 2;
 }

@@ -11,8 +11,8 @@
 #include "frontend/source/invariant.h"
 #include "ir/interpreter/program.h"
 #include "rung/host.h"
-#include "tools/rung/installation.h"
-#include "tools/rung/options.h"
+#include "tools/driver/installation.h"
+#include "tools/driver/options.h"
 
 namespace rung::tool {
 namespace {
@@ -45,7 +45,7 @@ void handle(int number, siginfo_t* info, void* details) {
     put("rung: the program crashed with ");
     put(signalName(number));
     put("; run it with the checks div,index,null,cast to see the location\n");
-    _exit(kFault);
+    _exit(driver::kFault);
   }
   put("rung: internal error: ");
   put(signalName(number));
@@ -59,14 +59,14 @@ void handle(int number, siginfo_t* info, void* details) {
     }
   }
   put("\nthis is a bug in rung ");
-  put(version());
+  put(driver::version());
   put(", not in your program; please report it with the input and this command:\n  rung");
   for (int i = 0; i < word_count; i++) {
     put(" ");
     put(arguments[i]);
   }
   put("\n");
-  _exit(kInternal);
+  _exit(driver::kInternal);
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void printInternalError(const char* what) {
   fprintf(stderr,
           "rung: internal error: %s\nthis is a bug in rung %s, not in your program; please report it with the input "
           "and this command:\n  rung",
-          what, version());
+          what, driver::version());
   for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", arguments[i]);
   fputc('\n', stderr);
 }

@@ -1,31 +1,34 @@
-// rung: parses the command line and runs the command. All exit codes are those of options.h.
+// rung: parses the command line and runs the command. All exit codes are those of tools/driver/options.h.
 #include <csignal>
-#include <cstdio>
 
 #include "frontend/source/invariant.h"
-#include "tools/rung/commands.h"
-#include "tools/rung/compile.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/rung/console.h"
 #include "tools/rung/crash.h"
+#include "tools/rung/options.h"
 
 namespace {
 
-int runCommand(const rung::tool::Options& options) {
-  using rung::tool::Command;
+using rung::tool::Command;
+using rung::tool::Console;
+
+int runCommand(const rung::tool::Options& options, Console& console) {
   switch (options.command) {
-    case Command::Check: return rung::tool::runCheck(options);
-    case Command::Emit: return rung::tool::runEmit(options);
-    case Command::Build: return rung::tool::runBuild(options);
-    case Command::Run: return rung::tool::runRun(options);
-    case Command::Test: return rung::tool::runTest(options);
-    case Command::Convert: return rung::tool::runConvert(options);
-    case Command::Graph: return rung::tool::runGraph(options);
-    case Command::List: return rung::tool::runList(options);
-    case Command::Explain: return rung::tool::runExplain(options);
-    case Command::Version: return rung::tool::runVersion(options);
+    case Command::Check: return rung::driver::runCheck(options, console);
+    case Command::Emit: return rung::driver::runEmit(options, console);
+    case Command::Build: return rung::driver::runBuild(options, console);
+    case Command::Run: return rung::driver::runRun(options, console);
+    case Command::Test: return rung::driver::runTest(options, console);
+    case Command::Convert: return rung::driver::runConvert(options, console);
+    case Command::Graph: return rung::driver::runGraph(options, console);
+    case Command::List: return rung::driver::runList(options, console);
+    case Command::Explain: return rung::driver::runExplain(options, console);
+    case Command::Version: return rung::driver::runVersion(console);
     case Command::None:
     case Command::Help: break;
   }
-  return rung::tool::kUsage;
+  return rung::driver::kUsage;
 }
 
 }  // namespace
@@ -34,20 +37,19 @@ int main(int argc, char** argv) {
   signal(SIGXFSZ, SIG_IGN);  // makes exceeding a file size limit a write error, like a full disk
   rung::tool::installCrashHandler(argv + 1, argc > 0 ? argc - 1 : 0);
   rung::setPhase("command line");
+  Console console;
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; i++) arguments.emplace_back(argv[i]);
   if (arguments.empty()) {
-    fputs(rung::tool::helpText(rung::tool::Command::None).c_str(), stderr);
-    return rung::tool::kUsage;
+    console.message(rung::tool::helpText(Command::None));
+    return rung::driver::kUsage;
   }
   rung::tool::Options options;
   std::string error = rung::tool::expandResponseFiles(arguments);
   if (error.empty()) error = rung::tool::parseOptions(arguments, options);
-  if (error.empty() && !options.help) error = rung::tool::checkDumpName(options.dump_after);
-  if (!error.empty()) return rung::tool::usageError(error);
-  if (options.help) {
-    error = rung::tool::printOut(rung::tool::helpText(options.command));
-    return error.empty() ? rung::tool::kSuccess : rung::tool::usageError(error);
-  }
-  return runCommand(options);
+  if (error.empty() && !options.help) error = rung::driver::checkDumpName(options.dump_after);
+  if (!error.empty()) return rung::driver::usageError(console, error);
+  if (options.help) return rung::driver::printResult(console, rung::tool::helpText(options.command));
+  options.color = rung::tool::useColor(options.color_choice);
+  return runCommand(options, console);
 }

@@ -153,55 +153,6 @@ constexpr OptionRow kOptions[] = {
     {Key::Help, "-h", nullptr, kAll, nullptr},
 };
 
-struct CheckRow {
-  const char* name;
-  uint8_t bits;
-};
-constexpr uint8_t kDefaultChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
-constexpr uint8_t kAllChecks = kDefaultChecks | ir::kCheckSubrange | ir::kCheckConvert | ir::kCheckOverflow;
-constexpr CheckRow kChecks[] = {
-    {"div", ir::kCheckDiv},
-    {"index", ir::kCheckIndex},
-    {"null", ir::kCheckNull},
-    {"cast", ir::kCheckCast},
-    {"subrange", ir::kCheckSubrange},
-    {"convert", ir::kCheckConvert},
-    {"overflow", ir::kCheckOverflow},
-    {"default", kDefaultChecks},
-    {"all", kAllChecks},
-    {"none", 0},
-};
-
-std::string backquoted(std::string_view text) { return "`" + std::string(text) + "`"; }
-
-std::string withSuggestion(std::string message, std::string_view written,
-                           const std::vector<std::string_view>& candidates) {
-  std::string_view near = nearest(written, candidates);
-  if (!near.empty()) message += "; did you mean " + backquoted(near) + "?";
-  return message;
-}
-
-// The position of `value` in `a|b|c`.
-std::string parseChoice(std::string_view option, std::string_view value, std::string_view choices, uint32_t& index) {
-  uint32_t position = 0;
-  std::vector<std::string_view> names;
-  for (std::string_view rest = choices;;) {
-    size_t bar = rest.find('|');
-    std::string_view name = rest.substr(0, bar);
-    if (name == value) {
-      index = position;
-      return {};
-    }
-    names.push_back(name);
-    if (bar == std::string_view::npos) break;
-    rest.remove_prefix(bar + 1);
-    position++;
-  }
-  return withSuggestion(
-      backquoted(value) + " is not a value of " + backquoted(option) + "; it takes " + std::string(choices), value,
-      names);
-}
-
 std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high,
                         uint32_t& number) {
   uint64_t n = 0;
@@ -230,7 +181,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Define: return parseDefine(value, options.defines);
     case Key::Root: options.root = value; return {};
     case Key::Name:
-      if (!isIdentifier(value))
+      if (!isModuleName(value))
         return backquoted(value) + " is not a C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
       return {};
@@ -263,7 +214,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Jobs: return parseNumber(row.name, value, 1, 1024, options.jobs);
     case Key::Color:
       error = parseChoice(row.name, value, row.value, choice);
-      options.color = static_cast<Color>(choice);
+      options.color_choice = static_cast<Color>(choice);
       return error;
     case Key::DumpAfter: options.dump_after = value; return {};
     case Key::TimePhases: options.time_phases = true; return {};
@@ -427,53 +378,10 @@ std::string synopsis(const OptionRow& row) {
 
 }  // namespace
 
-bool isIdentifier(std::string_view name) {
-  if (name.empty() || name.size() > 200 || (name[0] >= '0' && name[0] <= '9')) return false;
-  for (char c : name)
-    if (!((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_')) return false;
-  return true;
-}
-
 const char* commandName(Command command) {
   for (const CommandRow& row : kCommands)
     if (row.command == command) return row.name;
   return "help";
-}
-
-std::string parseDialect(std::string_view name, Dialect& dialect) {
-  uint32_t choice = 0;
-  std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
-  if (error.empty()) dialect = static_cast<Dialect>(choice);
-  return error;
-}
-
-std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
-  const size_t equal = text.find('=');
-  const std::string_view name = text.substr(0, equal);
-  if (!isIdentifier(name)) return backquoted(name) + " is not a name; `-D` takes NAME or NAME=VALUE";
-  defines.push_back({std::string(name), equal == text.npos ? "" : std::string(text.substr(equal + 1))});
-  return {};
-}
-
-std::string parseChecks(std::string_view list, uint8_t& checks) {
-  uint8_t bits = 0;
-  std::vector<std::string_view> names;
-  for (const CheckRow& row : kChecks) names.push_back(row.name);
-  for (std::string_view rest = list;;) {
-    size_t comma = rest.find(',');
-    std::string_view name = rest.substr(0, comma);
-    bool known = false;
-    for (const CheckRow& row : kChecks) {
-      if (name != row.name) continue;
-      bits |= row.bits;
-      known = true;
-    }
-    if (!known) return withSuggestion("unknown check " + backquoted(name) + " in `--checks`", name, names);
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
-  checks = bits;
-  return {};
 }
 
 std::string expandResponseFiles(std::vector<std::string>& arguments) {
@@ -522,7 +430,6 @@ std::string expandResponseFiles(std::vector<std::string>& arguments) {
 }
 
 std::string parseOptions(const std::vector<std::string>& arguments, Options& options) {
-  options.checks = kDefaultChecks;
   if (arguments.empty()) return "expected a command; `rung --help` lists all";
   options.command = findCommand(arguments[0]);
   if (options.command == Command::None) {

@@ -1,101 +1,26 @@
 // The command line of rung: its commands and options, in one table for the parser, "did you mean" and --help.
-// In: argv. Out: Options, or a usage error (exit 2). Called by main.cpp; the commands read the result.
+// In: argv. Out: Options, or a usage error (exit 2). Called by main.cpp.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "frontend/parse/conditions.h"
-#include "frontend/parse/parse.h"
-#include "frontend/source/dialect.h"
-#include "frontend/source/render.h"
+#include "tools/driver/options.h"
 
 namespace rung::tool {
+
+using namespace driver;
 
 enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Graph, List, Explain, Version, Help };
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
-enum class EmitKind : uint8_t { Cpp, Ir, Tree };
-enum class ConvertTo : uint8_t { None, St, Xml };
-enum class BuildKind : uint8_t { Executable, Shared, Static };
-// The engine that runs a program: the interpreter of the IR, or compiled C++.
-enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter when possible
 enum class Color : uint8_t { Auto, Always, Never };
 
-// The exit codes of rung (docs/cli.md).
-enum Exit : int { kSuccess = 0, kInputErrors = 1, kUsage = 2, kFault = 3, kTestFailed = 4, kInternal = 70 };
-
-struct WarningSwitch {
-  std::string name;
-  bool on;
-};
-
-struct Options {
+struct Options : driver::Options {
   Command command = Command::None;
   bool help = false;  // `rung CMD --help`
-  std::vector<std::string> inputs;
-
-  // common
-  std::string output;                      // -o
-  std::vector<std::string> library_paths;  // -I
-  std::vector<text::Define> defines;       // -D
-  std::string root;                        // --root
-  std::string name;                        // --name; empty: plc
-  Dialect dialect = Dialect::Codesys;
-  bool dialect_given = false;
-  uint8_t checks = 0;  // ir::Check bits
-  bool checks_given = false;
-  int level = 1;  // -O
-  bool level_given = false;
-  std::vector<WarningSwitch> warnings;
-  bool werror = false;
-  uint32_t max_errors = 100;
-  DiagnosticFormat format = DiagnosticFormat::Text;
-  uint32_t jobs = 0;  // 0: one per processor
-  Color color = Color::Auto;
-  std::string dump_after;
-  bool time_phases = false;
-  bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
-
-  // emit
-  EmitKind emit = EmitKind::Cpp;
-  std::string depfile, depfile_target;
-  bool list_outputs = false;
-  uint32_t bundles = 0;
-
-  // convert
-  ConvertTo to = ConvertTo::None;
-
-  // graph
-  uint32_t page_width = 1200;  // 0: unlimited
-
-  // build
-  BuildKind build = BuildKind::Executable;
-  bool keep = false;
-
-  // run: options for the host (rung::host::parseRunOptions), one `--name=value` each
-  std::vector<std::string> host_arguments;
-  uint32_t pointer_size = 8;
-  int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
-
-  // run, test
-  Engine engine = Engine::Auto;
-
-  bool trace_calls = false;  // set from --trace-calls by run.cpp
-
-  // test
-  std::string filter, junit, lcov;
-  bool coverage = false;           // as a table
-  std::vector<std::string> mocks;  // sema::Options::mocks, set by test.cpp
-  bool counts() const { return coverage || !lcov.empty(); }
-  bool separate = false;
-
-  // list
-  std::string signature;
-
-  std::string moduleName() const { return name.empty() ? "plc" : name; }
+  Color color_choice = Color::Auto;
 };
 
 // Parses the arguments after the program's name. Returns an error message for the user, or an empty string.
@@ -104,17 +29,8 @@ struct Options {
 // Expands `@file` arguments (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
 [[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& arguments);
 
-// The bits of `div,index,…`, `default`, `all` or `none`.
-[[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
-// NAME or NAME=VALUE.
-[[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);
-[[nodiscard]] std::string parseDialect(std::string_view name, Dialect& dialect);
-
 // One screen of help: of rung (Command::None) or of one command.
 std::string helpText(Command command);
 const char* commandName(Command command);
-
-// True for a valid C identifier, as --name and the stem of a file must be.
-bool isIdentifier(std::string_view name);
 
 }  // namespace rung::tool

@@ -2,13 +2,18 @@
 // actions (which follow the END_…), types and lists of globals are plain ST, except drawn bodies: `_FBD_BODY` and the
 // like. Other exported objects (visualisations, the PLC's configuration, lists of libraries) are skipped; an unknown
 // keyword is left to the parser, which reports it.
-#include "frontend/import/diagnostics.h"
-#include "frontend/import/readers.h"
-#include "frontend/import/scanner.h"
-#include "frontend/import/source_mapped_text.h"
-#include "frontend/source/names.h"
+#include "frontend/import/codesys2/codesys2.h"
 
-namespace rung::vendor {
+#include <algorithm>
+#include <optional>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/source_mapped_text.h"
+#include "frontend/import/tool_comments.h"
+#include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
+
+namespace rung::importer::codesys2 {
 namespace {
 
 // The first word of an object that is not part of the program.
@@ -31,25 +36,24 @@ class Codesys2Reader {
   // False: the file can be parsed unchanged.
   bool run() {
     Scanner scanner(source_);
-    while (scanner.next()) {
-      const size_t begin = scanner.begin();
-      std::string_view word = scanner.word();
+    while (std::optional<Unit> unit = nextName(scanner)) {
+      const size_t begin = unit->begin;
+      std::string_view word = scanner.textOf(*unit);
       if (sameIdentifier(word, "FUNCTIONBLOCK")) {  // accepted by CODESYS 2.3
         keep(begin);
         word = "FUNCTION_BLOCK";
-        program_.replace(loc(begin), loc(scanner.end()), word);
-        kept_ = scanner.end();
+        program_.replace(loc(begin), loc(unit->end), word);
+        kept_ = unit->end;
         changed_ = true;
       }
       if (sameIdentifier(word, "TYPE")) {
-        scanner.moveTo(endOfObject(scanner, "END_TYPE"));
+        skipObject(scanner, "END_TYPE");
       } else if (sameIdentifier(word, "VAR_GLOBAL") || sameIdentifier(word, "VAR_CONFIG")) {
-        scanner.moveTo(endOfObject(scanner, "END_VAR"));
+        skipObject(scanner, "END_VAR");
       } else if (!endWordOf(word).empty()) {
-        scanner.moveTo(endOfPou(scanner, endWordOf(word)));
+        skipPou(scanner, endWordOf(word));
       } else if (isForeign(word)) {
-        size_t next = source_.find("(* @NESTEDCOMMENTS", begin);
-        if (next == std::string_view::npos) next = source_.size();
+        const size_t next = std::min(source_.find("(* @NESTEDCOMMENTS", begin), source_.size());
         exclude(begin, next);
         scanner.moveTo(next);
       }
@@ -73,30 +77,37 @@ class Codesys2Reader {
     changed_ = true;
   }
 
-  static size_t endOfObject(Scanner& scanner, std::string_view closing) {
-    while (scanner.next())
-      if (sameIdentifier(scanner.word(), closing)) break;
-    return scanner.end();
+  static std::optional<Unit> nextName(Scanner& scanner) {
+    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode())
+      if (unit.kind == UnitKind::Name) return unit;
+    return std::nullopt;
+  }
+  static void skipObject(Scanner& scanner, std::string_view closing) {
+    while (const std::optional<Unit> unit = nextName(scanner))
+      if (sameIdentifier(scanner.textOf(*unit), closing)) break;
+  }
+  // Nothing but blanks before it on its line.
+  bool isAtLineStart(size_t begin) const {
+    const size_t last = source_.find_last_not_of(" \t", begin - 1);
+    return begin == 0 || last == std::string_view::npos || source_[last] == '\n';
   }
 
-  // Skips the POU or action whose first word has been read, excluding a drawn body. Returns its end.
-  size_t endOfPou(Scanner& scanner, std::string_view closing) {
+  // Skips the POU or action whose first word has been read, excluding a drawn body.
+  void skipPou(Scanner& scanner, std::string_view closing) {
     std::string_view name;
-    while (scanner.next()) {
-      const std::string_view word = scanner.word();
+    while (const std::optional<Unit> unit = nextName(scanner)) {
+      const std::string_view word = scanner.textOf(*unit);
       if (name.empty()) name = word;
       if (sameIdentifier(word, closing)) break;
-      if (!word.starts_with("_") || !word.ends_with("_BODY") || !scanner.atLineStart()) continue;
+      if (!word.starts_with("_") || !word.ends_with("_BODY") || !isAtLineStart(unit->begin)) continue;
       const std::string how = "drawn in " + std::string(word.substr(1, word.size() - 6));
-      diagnostics_.report(diag::NetworkBody, loc(scanner.begin()), {name, how})
-          .length(static_cast<uint32_t>(word.size()));
+      diagnostics_.report(diag::NetworkBody, loc(unit->begin), {name, how}).length(static_cast<uint32_t>(word.size()));
       // A drawn body is not ST: search for the line that closes the POU.
-      size_t end = source_.find("\n" + std::string(closing), scanner.begin());
+      size_t end = source_.find("\n" + std::string(closing), unit->begin);
       end = end == std::string_view::npos ? source_.size() : end + 1;
-      exclude(scanner.begin(), end);
+      exclude(unit->begin, end);
       scanner.moveTo(end);
     }
-    return scanner.end();
   }
 
   Diagnostics& diagnostics_;
@@ -109,9 +120,13 @@ class Codesys2Reader {
 
 }  // namespace
 
-FileId readCodesys2(Sources& sources, FileId file, Diagnostics& diagnostics) {
-  Codesys2Reader reader(sources, file, diagnostics);
-  return reader.run() ? reader.program().finish(sources, file) : file;
+bool isCodesys2(std::string_view text) {
+  return hasToolComment(text, {"@NESTEDCOMMENTS", "@PATH", "@OBJECTFLAGS", "@GLOBAL_VARIABLE_LIST"});
 }
 
-}  // namespace rung::vendor
+FileId readProgram(ReadContext& context, FileId file) {
+  Codesys2Reader reader(context.sources, file, context.diagnostics);
+  return reader.run() ? reader.program().finish(context.sources, file) : file;
+}
+
+}  // namespace rung::importer::codesys2

@@ -9,35 +9,19 @@
 #include "frontend/import/iec10/parts.h"
 #include "frontend/source/names.h"
 
-namespace rung::iec10 {
+namespace rung::importer::iec10 {
 namespace {
 
-struct PouKeywords {
-  std::string_view element, begin, end;
-};
-constexpr PouKeywords kPous[] = {
-    {"Program", "PROGRAM ", "END_PROGRAM"},       {"FunctionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
-    {"Function", "FUNCTION ", "END_FUNCTION"},    {"Class", "CLASS ", "END_CLASS"},
-    {"Interface", "INTERFACE ", "END_INTERFACE"}, {"Method", "METHOD ", "END_METHOD"}};
-
-const PouKeywords* keywordsOf(std::string_view element) {
-  const auto* found = std::find_if(std::begin(kPous), std::end(kPous),
-                                   [&](const PouKeywords& keywords) { return keywords.element == element; });
-  return found == std::end(kPous) ? nullptr : found;
-}
-
-class ProjectReader {
+class Iec10Reader {
  public:
-  explicit ProjectReader(Import& import) : import_(import), document_(import.document) {}
+  explicit Iec10Reader(Reading& import) : import_(import), document_(import.document) {}
 
   void run();
 
  private:
-  using Element = xml::Element;
-
   void writeNamespace(const Element& space);
   void writePou(const Element& pou, const std::string& owner);
-  bool writeHeader(const Element& pou, const PouKeywords& keywords);
+  bool writeHeader(const Element& pou, std::string_view word);
   void writeConfiguration(const Element& configuration);
   void writeResource(const Element& resource);
   void writeTask(const Element& task);
@@ -45,47 +29,43 @@ class ProjectReader {
   const Element* plainText(const Element& pou) const;
   template <class Visit>
   void forEach(const Element& owner, std::string_view name, Visit visit) {
-    for (const Element* e = document_.firstChild(owner); e != nullptr; e = document_.next(*e))
-      if (e->name == name) visit(*e);
+    for (const xml::Element& e : document_.children(owner))
+      if (e.name == name) visit(e);
   }
 
-  Import& import_;
+  Reading& import_;
   const xml::Document& document_;
 };
 
 // The declaration as text: <TextDeclaration>, or <textDeclaration><content>.
-const xml::Element* ProjectReader::plainText(const Element& pou) const {
+const xml::Element* Iec10Reader::plainText(const Element& pou) const {
   const Element* data = document_.child(pou, "AddData");
-  for (const Element* one = data == nullptr ? nullptr : document_.firstChild(*data); one != nullptr;
-       one = document_.next(*one))
-    for (const Element* e = document_.firstChild(*one); e != nullptr; e = document_.next(*e)) {
-      if (e->name != "TextDeclaration" && e->name != "textDeclaration") continue;
-      const Element* content = document_.child(*e, "content");
-      return content == nullptr ? e : content;
+  for (const xml::Element& one : document_.children(data))
+    for (const xml::Element& e : document_.children(one)) {
+      if (e.name != "TextDeclaration" && e.name != "textDeclaration") continue;
+      const Element* content = document_.child(e, "content");
+      return content == nullptr ? &e : content;
     }
   return nullptr;
 }
 
 // FUNCTION_BLOCK FINAL name EXTENDS a IMPLEMENTS b, c : INT and the sections. False: it has no name.
-bool ProjectReader::writeHeader(const Element& pou, const PouKeywords& keywords) {
+bool Iec10Reader::writeHeader(const Element& pou, std::string_view word) {
   if (const Element* plain = plainText(pou)) {
-    import_.out.put(plain->loc, "");
-    plcopen::writeText(import_, *plain);
-    import_.out.word("\n");
+    writeLines(import_, *plain);
     return true;
   }
-  if (!plcopen::checkName(import_, pou)) return false;
-  import_.out.put(pou.loc, keywords.begin);
-  if (keywords.element == "Method" && plcopen::hasName(import_, pou, "accessSpecifier"))
-    import_.out.word(plcopen::upper(document_.value(pou, "accessSpecifier")) + " ");
+  if (!checkName(import_, pou)) return false;
+  import_.out.put(pou.loc, std::string(word) + " ");
+  if (word == "METHOD" && hasName(import_, pou, "accessSpecifier"))
+    import_.out.word(upper(document_.value(pou, "accessSpecifier")) + " ");
   for (const std::string_view modifier : {"abstract", "final", "override"})
-    if (plcopen::isTrue(import_, pou, modifier)) import_.out.word(plcopen::upper(modifier) + " ");
-  plcopen::writeName(import_, pou);
+    if (isTrue(import_, pou, modifier)) import_.out.word(upper(modifier) + " ");
+  writeName(import_, pou);
   for (const auto& list : {std::pair{"Extends", " EXTENDS "}, std::pair{"Implements", " IMPLEMENTS "}}) {
-    bool first = true;
+    Separator separator(import_.out, list.second);
     forEach(pou, list.first, [&](const Element& base) {
-      import_.out.word(first ? list.second : ", ");
-      first = false;
+      separator.next();
       writeTypeRef(import_, base);
     });
   }
@@ -99,39 +79,38 @@ bool ProjectReader::writeHeader(const Element& pou, const PouKeywords& keywords)
 }
 
 // declaration {METHOD … END_METHOD} body END_…
-void ProjectReader::writePou(const Element& pou, const std::string& owner) {
-  const PouKeywords& keywords = *keywordsOf(pou.name);
-  if (!writeHeader(pou, keywords)) return;
+void Iec10Reader::writePou(const Element& pou, const std::string& owner) {
+  const std::string word(pouWordOf(pou.name));
+  if (!writeHeader(pou, word)) return;
   const std::string name = owner + document_.value(pou, "name");
   forEach(pou, "Method", [&](const Element& method) { writePou(method, name + "."); });
   for (const std::string_view body : {"MainBody", "Body"})
     if (const Element* found = document_.child(pou, body)) writeMainBody(import_, *found, name);
-  import_.out.put(pou.end, keywords.end);
-  import_.out.word("\n");
+  import_.out.put(pou.end, "END_" + word + "\n");
 }
 
 // Programs are not allowed in a NAMESPACE: a namespace that contains one is treated as a folder.
-void ProjectReader::writeNamespace(const Element& space) {
+void Iec10Reader::writeNamespace(const Element& space) {
   const bool named =
-      space.name == "NamespaceDecl" && document_.child(space, "Program") == nullptr && plcopen::hasName(import_, space);
+      space.name == "NamespaceDecl" && document_.child(space, "Program") == nullptr && hasName(import_, space);
   if (named) {
     import_.out.put(space.loc, "NAMESPACE ");
-    plcopen::writeName(import_, space);
+    writeName(import_, space);
     import_.out.word("\n");
   }
-  for (const Element* e = document_.firstChild(space); e != nullptr; e = document_.next(*e)) {
-    if (e->name == "GlobalNamespace" || e->name == "NamespaceDecl")
-      writeNamespace(*e);
-    else if (e->name == "DataTypeDecl")
-      writeTypeDecl(import_, *e);
-    else if (keywordsOf(e->name) != nullptr && e->name != "Method")
-      writePou(*e, {});
+  for (const xml::Element& e : document_.children(space)) {
+    if (e.name == "GlobalNamespace" || e.name == "NamespaceDecl")
+      writeNamespace(e);
+    else if (e.name == "DataTypeDecl")
+      writeTypeDecl(import_, e);
+    else if (!pouWordOf(e.name).empty() && e.name != "Method")
+      writePou(e, {});
   }
   if (named) import_.out.put(space.end, "END_NAMESPACE\n");
 }
 
 // T#10ms, or PT0.01S of ISO 8601.
-void ProjectReader::writeInterval(const Element& task) {
+void Iec10Reader::writeInterval(const Element& task) {
   const xml::Attribute* interval = document_.attribute(task, "interval");
   if (interval == nullptr || interval->raw.empty()) return;
   import_.out.word("INTERVAL := ");
@@ -146,42 +125,42 @@ void ProjectReader::writeInterval(const Element& task) {
   import_.out.put(interval->loc, time + ", ");
 }
 
-void ProjectReader::writeTask(const Element& task) {
-  if (!plcopen::checkName(import_, task)) return;
+void Iec10Reader::writeTask(const Element& task) {
+  if (!checkName(import_, task)) return;
   import_.out.put(task.loc, "TASK ");
-  plcopen::writeName(import_, task);
+  writeName(import_, task);
   import_.out.word("(");
   writeInterval(task);
-  if (plcopen::hasName(import_, task, "single")) {
+  if (hasName(import_, task, "single")) {
     import_.out.word("SINGLE := ");
-    plcopen::writeName(import_, task, "single");
+    writeName(import_, task, "single");
     import_.out.word(", ");
   }
   import_.out.word("PRIORITY := ");
-  if (plcopen::hasName(import_, task, "priority"))
-    plcopen::writeName(import_, task, "priority");
+  if (hasName(import_, task, "priority"))
+    writeName(import_, task, "priority");
   else
     import_.out.word("0");
   import_.out.word(");\n");
 }
 
-void ProjectReader::writeResource(const Element& resource) {
-  if (!plcopen::checkName(import_, resource)) return;
+void Iec10Reader::writeResource(const Element& resource) {
+  if (!checkName(import_, resource)) return;
   import_.out.put(resource.loc, "RESOURCE ");
-  plcopen::writeName(import_, resource);
+  writeName(import_, resource);
   import_.out.word(" ON PLC\n");
   writeVarLists(import_, resource);
   forEach(resource, "Task", [&](const Element& task) { writeTask(task); });
   const auto writeInstance = [&](const Element& instance, const Element* task) {
-    if (!plcopen::checkName(import_, instance) || !plcopen::checkName(import_, instance, "typeName")) return;
+    if (!checkName(import_, instance) || !checkName(import_, instance, "typeName")) return;
     import_.out.put(instance.loc, "PROGRAM ");
-    plcopen::writeName(import_, instance);
-    if (task != nullptr || plcopen::hasName(import_, instance, "associatedTaskName")) {
+    writeName(import_, instance);
+    if (task != nullptr || hasName(import_, instance, "associatedTaskName")) {
       import_.out.word(" WITH ");
-      plcopen::writeName(import_, task != nullptr ? *task : instance, task != nullptr ? "name" : "associatedTaskName");
+      writeName(import_, task != nullptr ? *task : instance, task != nullptr ? "name" : "associatedTaskName");
     }
     import_.out.word(" : ");
-    plcopen::writeName(import_, instance, "typeName");
+    writeName(import_, instance, "typeName");
     import_.out.word(";\n");
   };
   forEach(resource, "Task", [&](const Element& task) {
@@ -192,7 +171,7 @@ void ProjectReader::writeResource(const Element& resource) {
 }
 
 // A configuration without program instances is read as a list of globals.
-void ProjectReader::writeConfiguration(const Element& configuration) {
+void Iec10Reader::writeConfiguration(const Element& configuration) {
   bool runs = false;
   forEach(configuration, "Resource", [&](const Element& resource) {
     runs = runs || document_.child(resource, "ProgramInstance") != nullptr;
@@ -204,18 +183,18 @@ void ProjectReader::writeConfiguration(const Element& configuration) {
     forEach(configuration, "Resource", [&](const Element& resource) { writeVarLists(import_, resource); });
     return;
   }
-  if (!plcopen::checkName(import_, configuration)) return;
+  if (!checkName(import_, configuration)) return;
   import_.out.put(configuration.loc, "CONFIGURATION ");
-  plcopen::writeName(import_, configuration);
+  writeName(import_, configuration);
   import_.out.word("\n");
   writeVarLists(import_, configuration);
   forEach(configuration, "Resource", [&](const Element& resource) { writeResource(resource); });
   import_.out.put(configuration.end, "END_CONFIGURATION\n");
 }
 
-void ProjectReader::run() {
+void Iec10Reader::run() {
   const Element& root = document_.elements[0];
-  if (keywordsOf(root.name) != nullptr) return writePou(root, {});
+  if (!pouWordOf(root.name).empty()) return writePou(root, {});
   forEach(root, "Types", [&](const Element& types) { writeNamespace(types); });
   forEach(root, "Instances", [&](const Element& instances) {
     forEach(instances, "Configuration", [&](const Element& configuration) { writeConfiguration(configuration); });
@@ -228,13 +207,13 @@ bool isIec10(std::string_view text) {
   return xml::rootTag(text).find("www.iec.ch/public/TC65SC65BWG7TF10") != std::string_view::npos;
 }
 
-FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics) {
+FileId readProgram(ReadContext& context, FileId file) {
   xml::Document document;
-  if (!xml::read(sources, file, diagnostics, document)) return {};
-  xml::SourceMappedText program(sources);
-  Import import{sources, document, diagnostics, program};
-  ProjectReader(import).run();
-  return program.finish(sources, file);
+  if (!xml::read(context.sources, file, context.diagnostics, document)) return {};
+  xml::SourceMappedText program(context.sources);
+  Reading reading{context.sources, document, context.diagnostics, program};
+  Iec10Reader(reading).run();
+  return program.finish(context.sources, file);
 }
 
-}  // namespace rung::iec10
+}  // namespace rung::importer::iec10

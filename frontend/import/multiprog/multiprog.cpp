@@ -1,13 +1,15 @@
 // MULTIPROG and PC Worx: one POU, type sheet or global sheet per file. The tool's data is in comments that begin with
 // `(*@`; descriptions between them are plain text, and each worksheet names its language.
+#include "frontend/import/multiprog/multiprog.h"
+
 #include <algorithm>
 
 #include "frontend/import/diagnostics.h"
-#include "frontend/import/readers.h"
-#include "frontend/import/scanner.h"
 #include "frontend/import/source_mapped_text.h"
+#include "frontend/import/tool_comments.h"
+#include "frontend/source/scanner.h"
 
-namespace rung::vendor {
+namespace rung::importer::multiprog {
 namespace {
 
 // The value of `KEY: value` on a separate line in a comment, as a view into `source`.
@@ -22,7 +24,10 @@ std::string_view valueOf(std::string_view source, size_t comment, size_t end, st
 
 }  // namespace
 
-FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
+bool isMultiprog(std::string_view text) { return hasToolComment(text, {"@PROPERTIES_EX", "@KEY"}); }
+
+FileId readProgram(ReadContext& context, FileId file) {
+  Sources& sources = context.sources;
   const std::string_view source = sources.sourceText(file);
   const uint32_t base = sources.begin(file).offset;
   const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
@@ -48,7 +53,8 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
       if (!language.empty() && language != "ST" && language != "IL") {
         const std::string_view name = valueOf(source, p, end, "NAME:");
         const std::string how = "drawn in " + std::string(language);
-        diagnostics.report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - source.data())), {name, how})
+        context.diagnostics
+            .report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - source.data())), {name, how})
             .length(static_cast<uint32_t>(language.size()));
         p = exclude(end, "END_WORKSHEET");
         continue;
@@ -61,4 +67,4 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
   return program.finish(sources, file);
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::importer::multiprog

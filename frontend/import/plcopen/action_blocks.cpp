@@ -7,7 +7,7 @@
 #include "frontend/import/plcopen/networks.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 // The name of the variable or action; null: missing, or not an identifier.
@@ -19,10 +19,10 @@ const xml::Attribute* nameOf(const xml::Document& document, const xml::Element& 
 
 template <class Visit>
 void forEachAction(const xml::Document& document, const xml::Element& body, Visit visit) {
-  for (const xml::Element* block = document.firstChild(body); block != nullptr; block = document.next(*block)) {
-    if (block->name != "actionBlock") continue;
-    for (const xml::Element* e = document.firstChild(*block); e != nullptr; e = document.next(*e))
-      if (e->name == "action") visit(*block, *e);
+  for (const xml::Element& block : document.children(body)) {
+    if (block.name != "actionBlock") continue;
+    for (const xml::Element& e : document.children(block))
+      if (e.name == "action") visit(block, e);
   }
 }
 
@@ -30,9 +30,8 @@ bool isAction(const xml::Document& document, const xml::Element& body, std::stri
   const xml::Element* pou = &body;
   while (pou->name != "pou" && pou->parent != xml::kNone) pou = &document.elements[pou->parent];
   const xml::Element* actions = document.child(*pou, "actions");
-  for (const xml::Element* e = actions == nullptr ? nullptr : document.firstChild(*actions); e != nullptr;
-       e = document.next(*e))
-    if (sameIdentifier(document.value(*e, "name"), name)) return true;
+  for (const xml::Element& e : document.children(actions))
+    if (sameIdentifier(document.value(e, "name"), name)) return true;
   return false;
 }
 
@@ -40,16 +39,14 @@ bool isAction(const xml::Document& document, const xml::Element& body, std::stri
 template <class Visit>
 void forEachDiagram(const xml::Document& document, const xml::Element& pou, Visit visit) {
   const auto inside = [&](const xml::Element& owner) {
-    for (const xml::Element* body = document.firstChild(owner); body != nullptr; body = document.next(*body))
-      if (body->name == "body")
+    for (const xml::Element& body : document.children(owner))
+      if (body.name == "body")
         for (const char* language : {"LD", "FBD"})
-          if (const xml::Element* diagram = document.child(*body, language)) visit(*diagram);
+          if (const xml::Element* diagram = document.child(body, language)) visit(*diagram);
   };
   inside(pou);
   const xml::Element* actions = document.child(pou, "actions");
-  for (const xml::Element* e = actions == nullptr ? nullptr : document.firstChild(*actions); e != nullptr;
-       e = document.next(*e))
-    inside(*e);
+  for (const xml::Element& e : document.children(actions)) inside(e);
 }
 
 }  // namespace
@@ -112,4 +109,4 @@ void writeActionCalls(const xml::Document& document, const xml::Element& body, x
   }
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

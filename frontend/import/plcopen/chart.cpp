@@ -8,7 +8,7 @@
 #include "frontend/import/diagnostics.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
@@ -42,15 +42,15 @@ std::string Chart::nameOf(uint32_t node) const {
 // Forbids a duplicate localId in a chart. TC6 2.01.
 //   fails   <step localId="1" …/> <step localId="1" …/>          E1060
 void Chart::readNodes() {
-  for (const xml::Element* e = document_.firstChild(chart_); e != nullptr; e = document_.next(*e)) {
+  for (const xml::Element& e : document_.children(chart_)) {
     NodeKind kind = NodeKind::Other;
     for (const auto& [name, of] : kKinds)
-      if (e->name == name) kind = of;
+      if (e.name == name) kind = of;
     const auto index = static_cast<uint32_t>(nodes_.size());
-    nodes_.push_back({e, kind, 0, 0});
+    nodes_.push_back({&e, kind, 0, 0});
     const bool is_step = kind == NodeKind::Step || kind == NodeKind::MacroStep || kind == NodeKind::Jump;
-    if (is_step && !checkName(import_, *e, kind == NodeKind::Jump ? "targetName" : "name")) ok_ = false;
-    const xml::Attribute* id = document_.attribute(*e, "localId");
+    if (is_step && !checkName(import_, e, kind == NodeKind::Jump ? "targetName" : "name")) ok_ = false;
+    const xml::Attribute* id = document_.attribute(e, "localId");
     if (id == nullptr) continue;
     const auto [known, fresh] = by_id_.emplace(id->raw, index);
     if (!fresh)
@@ -143,11 +143,11 @@ std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
     }
     report(diag::ChartWireNowhere, id->loc, {id->raw}).length(static_cast<uint32_t>(id->raw.size()));
   };
-  for (const xml::Element* e = document_.firstChild(holder); e != nullptr; e = document_.next(*e)) {
-    if (e->name == "connection") add(*e);  // TC6 1.01: in a condition
-    if (e->name != "connectionPointIn") continue;
-    for (const xml::Element* c = document_.firstChild(*e); c != nullptr; c = document_.next(*c))
-      if (c->name == "connection") add(*c);
+  for (const xml::Element& e : document_.children(holder)) {
+    if (e.name == "connection") add(e);  // TC6 1.01: in a condition
+    if (e.name != "connectionPointIn") continue;
+    for (const xml::Element& c : document_.children(e))
+      if (c.name == "connection") add(c);
   }
   return out;
 }
@@ -341,4 +341,4 @@ void Chart::connect() {
     if (nodes_[i].kind == NodeKind::MacroStep) connectMacro(i);
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -14,9 +14,10 @@
 #include <unordered_set>
 #include <vector>
 
+#include "frontend/import/chart_writer.h"
 #include "frontend/import/plcopen/import.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 
 enum class NodeKind : uint8_t {
   Step,
@@ -50,7 +51,7 @@ struct ChartNode {
 class Chart {
  public:
   Chart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name)
-      : import_(import), document_(import.document), chart_(chart), pou_(pou), name_(name) {}
+      : import_(import), document_(import.document), writer_(import.out), chart_(chart), pou_(pou), name_(name) {}
 
   void write();
 
@@ -59,6 +60,7 @@ class Chart {
   Chart(Chart& outer, const xml::Element& chart, uint32_t node)
       : import_(outer.import_),
         document_(outer.document_),
+        writer_(outer.writer_),
         chart_(chart),
         pou_(outer.pou_),
         name_(outer.name_),
@@ -127,24 +129,24 @@ class Chart {
 
   // ---- steps (sfc.cpp)
   void writeStep(uint32_t node);
-  void writeStepName(uint32_t node);
-  void writeStepTimes(const xml::Element& step);
-  void writePosition(const xml::Element& element);
+  xml::Excerpt stepName(uint32_t node) const;
+  xml::Excerpt stepTime(const xml::Element& step, std::string_view guid, std::string_view attribute) const;
   void writeStepFlags();
-  void writeStepActions(uint32_t node);
-  void writeAction(const xml::Element& action);
-  void writeTime(const xml::Element& action, std::string_view qualifier);
+  void readActions(uint32_t node, ChartStep& step);
+  void readAction(const xml::Element& action, ChartStep& step);
+  void readTime(const xml::Element& action, StepAction& out);
+  xml::Excerpt actionName(const xml::Element& action, const xml::Attribute* name);
   const xml::Element* ownAttribute(const xml::Element& element, std::string_view guid) const;
 
   // ---- transitions (conditions.cpp)
   void writeTransition(uint32_t node);
-  void writeSteps(const std::vector<uint32_t>& steps);
+  std::vector<xml::Excerpt> namesOf(const std::vector<uint32_t>& steps) const;
   bool readCondition(uint32_t node, Condition& out);
   bool readBody(const xml::Element& inline_body, const std::string& name, Condition& out);
   void define(const std::string& name, const xml::Element& element);
   void writeExpression(const Condition& condition);
   bool isExpression(uint32_t node, uint32_t depth, uint32_t& budget) const;
-  void writeWires(const std::vector<uint32_t>& from);
+  void writeDisjunction(const std::vector<uint32_t>& from);
   void writeOperand(uint32_t node);
   std::vector<uint32_t> sourcesOf(uint32_t node) const;
   const xml::Element* namedTransition(std::string_view name);
@@ -152,6 +154,7 @@ class Chart {
 
   Import& import_;
   const xml::Document& document_;
+  ChartWriter writer_;
   const xml::Element& chart_;
   const xml::Element& pou_;
   const std::string& name_;
@@ -175,4 +178,4 @@ class Chart {
   std::unordered_map<std::string, std::string> own_actions_;  // by variable
 };
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

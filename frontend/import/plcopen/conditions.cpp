@@ -10,54 +10,11 @@
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagram.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 constexpr uint32_t kMaxCondition = 4096;  // contacts and variables of one condition
 constexpr uint32_t kMaxContacts = 1000;   // in a row
-
-// Finds code in ST: comments, strings and pragmas are skipped.
-class Scanner {
- public:
-  explicit Scanner(std::string_view text) : source_(text) {}
-
-  // The next non-blank character of code; '\0' at the end.
-  char next() {
-    for (; at_ < source_.size(); ++at_) {
-      const std::string_view rest = source_.substr(at_);
-      if (rest.starts_with("(*")) {
-        skipTo("*)");
-      } else if (rest.starts_with("/*")) {
-        skipTo("*/");
-      } else if (rest.starts_with("//")) {
-        skipTo("\n");
-      } else if (rest[0] == '{') {
-        skipTo("}");
-      } else if (!isBlank(rest.substr(0, 1))) {
-        break;
-      }
-    }
-    if (at_ >= source_.size()) return '\0';
-    begin_ = at_;
-    const char c = source_[at_++];
-    if (c == '\'' || c == '"') {
-      while (at_ < source_.size() && source_[at_] != c) at_ += source_[at_] == '$' ? 2 : 1;
-      at_ = std::min(at_ + 1, source_.size());
-    }
-    return c;
-  }
-  size_t begin() const { return begin_; }  // of the character or string returned by next()
-  size_t end() const { return at_; }
-
- private:
-  void skipTo(std::string_view word) {
-    const size_t found = source_.find(word, at_ + 1);
-    at_ = found == std::string_view::npos ? source_.size() : found + word.size() - 1;
-  }
-
-  std::string_view source_;
-  size_t begin_ = 0, at_ = 0;
-};
 
 enum class Form : uint8_t { Empty, Expression, Statements };
 
@@ -68,25 +25,23 @@ Form formOf(std::string_view text, size_t& begin, size_t& end) {
   uint32_t depth = 0;
   bool first = true, closed = false;
   begin = end = 0;
-  for (char c = scanner.next(); c != '\0'; before = c, c = scanner.next()) {
+  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
     if (closed) return Form::Statements;  // code after the `;`
-    if (c == '=' && before == ':' && depth == 0) {
+    const char c = unit.kind == UnitKind::Other ? text[unit.begin] : 'x', last = std::exchange(before, c);
+    if (c == '=' && last == ':' && depth == 0) {
       if (!first) return Form::Statements;
-      begin = scanner.end();
-      end = begin;
+      begin = end = unit.end;
       first = false;
       continue;
     }
     if (c == ':' && end == 0) continue;  // may be part of `:=`
     if (c == '(' || c == '[') ++depth;
     if ((c == ')' || c == ']') && depth > 0) --depth;
-    if (c == ';') {
-      closed = true;
-      continue;
-    }
-    if (first) begin = scanner.begin();
+    closed = c == ';';
+    if (closed) continue;
+    if (first) begin = unit.begin;
     first = false;
-    end = scanner.end();
+    end = unit.end;
   }
   return end == begin ? Form::Empty : Form::Expression;
 }
@@ -113,8 +68,8 @@ void writePart(Import& import, const xml::Element& element, size_t begin, size_t
 
 // The only language in a <body> or <inline>; null: missing.
 const xml::Element* languageOf(const Import& import, const xml::Element& body) {
-  for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e))
-    if (e->name != "addData" && e->name != "documentation") return e;
+  for (const xml::Element& e : import.document.children(body))
+    if (e.name != "addData" && e.name != "documentation") return &e;
   return nullptr;
 }
 
@@ -128,9 +83,8 @@ const xml::Element* bodyOf(const Import& import, const xml::Element& element) {
 const xml::Element* Chart::namedTransition(std::string_view name) {
   if (named_.empty()) {
     const xml::Element* list = document_.child(pou_, "transitions");
-    for (const xml::Element* e = list == nullptr ? nullptr : document_.firstChild(*list); e != nullptr;
-         e = document_.next(*e))
-      if (e->name == "transition") named_.emplace(upper(document_.value(*e, "name")), e);
+    for (const xml::Element& e : document_.children(list))
+      if (e.name == "transition") named_.emplace(upper(document_.value(e, "name")), &e);
     named_.emplace("", nullptr);
   }
   const auto found = named_.find(upper(name));
@@ -219,7 +173,7 @@ bool Chart::isExpression(uint32_t node, uint32_t depth, uint32_t& budget) const 
 }
 
 // (a OR b)
-void Chart::writeWires(const std::vector<uint32_t>& from) {
+void Chart::writeDisjunction(const std::vector<uint32_t>& from) {
   if (from.size() > 1) import_.out.word("(");
   for (size_t i = 0; i < from.size(); ++i) {
     if (i > 0) import_.out.word(" OR ");
@@ -232,12 +186,13 @@ void Chart::writeOperand(uint32_t node) {
   const xml::Element& e = *nodes_[node].element;
   const std::vector<uint32_t> from = sourcesOf(node);
   if (nodes_[node].kind == NodeKind::Rail) return import_.out.put(e.loc, "TRUE");
-  if (nodes_[node].kind == NodeKind::Continuation || nodes_[node].kind == NodeKind::Connector) return writeWires(from);
+  if (nodes_[node].kind == NodeKind::Continuation || nodes_[node].kind == NodeKind::Connector)
+    return writeDisjunction(from);
   const bool after_rail =
       std::all_of(from.begin(), from.end(), [&](uint32_t before) { return nodes_[before].kind == NodeKind::Rail; });
   if (!after_rail) {
     import_.out.word("(");
-    writeWires(from);
+    writeDisjunction(from);
     import_.out.word(" AND ");
   }
   import_.out.put(e.loc, isTrue(import_, e, "negated") ? "NOT (" : "(");
@@ -255,44 +210,35 @@ void Chart::writeExpression(const Condition& condition) {
   else if (condition.variable != nullptr)
     import_.out.add(document_, *condition.variable);
   else
-    writeWires(condition.wires);
+    writeDisjunction(condition.wires);
 }
 
-// a or (a, b)
-void Chart::writeSteps(const std::vector<uint32_t>& steps) {
-  if (steps.size() > 1) import_.out.word("(");
-  for (size_t i = 0; i < steps.size(); ++i) {
-    if (i > 0) import_.out.word(", ");
-    writeStepName(steps[i]);
-  }
-  if (steps.size() > 1) import_.out.word(")");
+std::vector<xml::Excerpt> Chart::namesOf(const std::vector<uint32_t>& steps) const {
+  std::vector<xml::Excerpt> names;
+  for (const uint32_t step : steps) names.push_back(stepName(step));
+  return names;
 }
 
-// TRANSITION FROM a TO b := x; END_TRANSITION for each set of steps from which it can fire.
+// A TRANSITION for each set of steps from which it can fire.
 void Chart::writeTransition(uint32_t node) {
-  const xml::Element& transition = *nodes_[node].element;
+  const xml::Element& element = *nodes_[node].element;
   Condition condition;
   if (ways_[node].sets.empty() || !readCondition(node, condition)) return;
   const std::string inverse = condition.definition + "_not";
+  ChartTransition transition;
+  transition.loc = element.loc;
+  const xml::Element* exported = dataOf(import_, element, "extension");  // by Rung
+  if (!condition.definition.empty())
+    transition.name = xml::Excerpt(condition.negated ? inverse : condition.definition);
+  else if (exported != nullptr && checkName(import_, *exported))
+    transition.name = {document_, *document_.attribute(*exported, "name")};
+  transition.area = areaOf(document_, element);
+  if (hasName(import_, element, "priority") && raw(element, "priority") != "0")
+    transition.priority = {document_, *document_.attribute(element, "priority")};
+  transition.to = namesOf(targets_[node]);
   for (const Steps& from : ways_[node].sets) {
-    import_.out.put(transition.loc, "TRANSITION ");
-    if (!condition.definition.empty()) {
-      import_.out.word((condition.negated ? inverse : condition.definition) + " ");
-    } else if (const xml::Element* named = dataOf(import_, transition, "extension")) {  // exported by Rung
-      writeName(import_, *named);
-      import_.out.word(" ");
-    }
-    if (const std::string position = positionOf(document_, transition); !position.empty())
-      import_.out.put(transition.loc, position.substr(1) + " ");
-    if (hasName(import_, transition, "priority") && raw(transition, "priority") != "0") {
-      import_.out.word("(PRIORITY := ");
-      writeName(import_, transition, "priority");
-      import_.out.word(") ");
-    }
-    import_.out.put(transition.loc, "FROM ");
-    writeSteps(from);
-    import_.out.put(transition.loc, " TO ");
-    writeSteps(targets_[node]);
+    transition.from = namesOf(from);
+    writer_.beginTransition(transition);
     if (condition.definition.empty()) {
       import_.out.word(condition.negated ? " := NOT (" : " := ");
       writeExpression(condition);
@@ -301,7 +247,7 @@ void Chart::writeTransition(uint32_t node) {
       import_.out.word(" :\n" + condition.definition + "_condition();\n" + inverse + " := NOT " + condition.definition +
                        ";\n");
     }
-    import_.out.put(transition.end, " END_TRANSITION\n");
+    writer_.endTransition(element.end);
   }
 }
 
@@ -317,7 +263,7 @@ void Chart::writeDefinition(const Definition& definition) {
     import_.out.word(" :\n");
     const xml::Element* wires = document_.child(e, "connectionPointIn");
     const DrawnBody diagram{chart_, NetworkLanguage::Ladder, wires == nullptr ? &e : wires, definition.name};
-    writeNetworks(import_.sources, document_, diagram, import_.out);
+    writeNetworks(import_, diagram);
   } else if (language == nullptr) {
     report(diag::ChartNoCondition, e.loc, {});
     import_.out.word(" := FALSE;\n");
@@ -346,4 +292,4 @@ void Chart::writeDefinition(const Definition& definition) {
   import_.out.put(e.end, "END_TRANSITION\n");
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

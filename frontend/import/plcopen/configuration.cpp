@@ -10,10 +10,8 @@
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
-
-constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; editors allow larger numbers
 
 void writeIdentifier(Import& import, const xml::Element& element, std::string_view otherwise) {
   const xml::Attribute* name = import.document.attribute(element, "name");
@@ -212,11 +210,11 @@ class BlocksInTasks {
   template <class Visit>
   static void forEach(const Import& import, const xml::Element& resource, Visit visit) {
     const xml::Document& document = import.document;
-    for (const xml::Element* e = document.firstChild(resource); e != nullptr; e = document.next(*e)) {
-      if (e->name == "pouInstance") visit(*e, nullptr);
-      if (e->name != "task" || !hasName(import, *e)) continue;
-      for (const xml::Element* p = document.firstChild(*e); p != nullptr; p = document.next(*p))
-        if (p->name == "pouInstance") visit(*p, e);
+    for (const xml::Element& e : document.children(resource)) {
+      if (e.name == "pouInstance") visit(e, nullptr);
+      if (e.name != "task" || !hasName(import, e)) continue;
+      for (const xml::Element& p : document.children(e))
+        if (p.name == "pouInstance") visit(p, &e);
     }
   }
 
@@ -250,24 +248,24 @@ void writeProgram(Import& import, const xml::Element& instance, const xml::Eleme
 // VAR_ACCESS name : path : type READ_ONLY; and VAR_CONFIG path AT address : type := value;
 void writePaths(Import& import, const xml::Element& list, bool access) {
   import.out.put(list.loc, access ? "VAR_ACCESS\n" : "VAR_CONFIG\n");
-  for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e)) {
-    if (e->name != (access ? "accessVariable" : "configVariable")) continue;
-    if (!checkName(import, *e, "instancePathAndName") || (access && !checkName(import, *e, "alias"))) continue;
+  for (const xml::Element& e : import.document.children(list)) {
+    if (e.name != (access ? "accessVariable" : "configVariable")) continue;
+    if (!checkName(import, e, "instancePathAndName") || (access && !checkName(import, e, "alias"))) continue;
     if (access) {
-      writeName(import, *e, "alias");
+      writeName(import, e, "alias");
       import.out.word(" : ");
     }
-    writeName(import, *e, "instancePathAndName");
-    if (!access && hasName(import, *e, "address")) {
+    writeName(import, e, "instancePathAndName");
+    if (!access && hasName(import, e, "address")) {
       import.out.word(" AT ");
-      writeName(import, *e, "address");
+      writeName(import, e, "address");
     }
     import.out.word(" : ");
-    writeType(import, *e);
+    writeType(import, e);
     if (access)
-      import.out.word(import.document.value(*e, "direction") == "readWrite" ? " READ_WRITE" : " READ_ONLY");
+      import.out.word(import.document.value(e, "direction") == "readWrite" ? " READ_WRITE" : " READ_ONLY");
     else
-      writeInitialValue(import, *e, import.document.child(*e, "type"));
+      writeInitialValue(import, e, import.document.child(e, "type"));
     import.out.word(";\n");
   }
   import.out.word("END_VAR\n");
@@ -288,9 +286,9 @@ void writeResource(Import& import, const xml::Element& resource) {
   import.out.put(resource.loc, "RESOURCE ");
   writeIdentifier(import, resource, "Resource");
   import.out.word(" ON PLC\n");
-  for (const xml::Element* e = import.document.firstChild(resource); e != nullptr; e = import.document.next(*e)) {
-    writePart(import, *e);
-    if (e->name == "task" && hasPrograms(import, *e) && checkName(import, *e)) TaskWriter(import, *e).write();
+  for (const xml::Element& e : import.document.children(resource)) {
+    writePart(import, e);
+    if (e.name == "task" && hasPrograms(import, e) && checkName(import, e)) TaskWriter(import, e).write();
   }
   const BlocksInTasks blocks(import, resource);
   BlocksInTasks::forEach(import, resource, [&](const xml::Element& instance, const xml::Element* task) {
@@ -311,11 +309,11 @@ void writeConfiguration(Import& import, const xml::Element& configuration) {
   import.out.put(configuration.loc, "CONFIGURATION ");
   writeIdentifier(import, configuration, "Configuration");
   import.out.word("\n");
-  for (const xml::Element* e = import.document.firstChild(configuration); e != nullptr; e = import.document.next(*e)) {
-    writePart(import, *e);
-    if (e->name == "resource" && !import.isLeftOut(*e)) writeResource(import, *e);
+  for (const xml::Element& e : import.document.children(configuration)) {
+    writePart(import, e);
+    if (e.name == "resource" && !import.isLeftOut(e)) writeResource(import, e);
   }
   import.out.put(configuration.end, "END_CONFIGURATION\n");
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -5,19 +5,8 @@
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
-
-constexpr std::pair<std::string_view, std::string_view> kSections[] = {
-    {"inputVars", "VAR_INPUT"},   {"outputVars", "VAR_OUTPUT"}, {"inOutVars", "VAR_IN_OUT"},
-    {"localVars", "VAR"},         {"tempVars", "VAR_TEMP"},     {"externalVars", "VAR_EXTERNAL"},
-    {"globalVars", "VAR_GLOBAL"}, {"staticVars", "VAR_STAT"},   {"instanceVars", "VAR_INST"}};
-
-std::string_view sectionWordOf(std::string_view list) {
-  for (const auto& [name, word] : kSections)
-    if (name == list) return word;
-  return {};
-}
 
 // The inputs of FB_Init are arguments of the declaration.
 const xml::Element* initialiserOf(const Import& import, std::string_view block) {
@@ -34,9 +23,9 @@ bool writeAssignments(Import& import, const xml::Element& type, const xml::Eleme
   const xml::Element* initialiser =
       derived == nullptr ? nullptr : initialiserOf(import, import.document.value(*derived, "name"));
   bool any = false;
-  for (const xml::Element* e = import.document.firstChild(assignments); e != nullptr; e = import.document.next(*e)) {
-    const xml::Element* name = import.document.child(*e, "Name");
-    const xml::Element* value = import.document.child(*e, "Value");
+  for (const xml::Element& e : import.document.children(assignments)) {
+    const xml::Element* name = import.document.child(e, "Name");
+    const xml::Element* value = import.document.child(e, "Value");
     if (value == nullptr) continue;
     if (name != nullptr && isBlank(import.document.text(*name, import.sources))) name = nullptr;
     const bool is_argument =
@@ -91,25 +80,20 @@ const xml::Element* plainText(const Import& import, const xml::Element& owner) {
 }
 
 void writeVariables(Import& import, const xml::Element& list, uint32_t depth) {
-  for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e))
-    if (e->name == "variable") writeVariable(import, *e, depth);
+  for (const xml::Element& e : import.document.children(list))
+    if (e.name == "variable") writeVariable(import, e, depth);
 }
 
 void writeSection(Import& import, const xml::Element& list, std::string_view word) {
   writeAttributes(import, list);
-  import.out.put(list.loc, word);
-  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {
-      {"constant", " CONSTANT"}, {"retain", " RETAIN"}, {"nonretain", " NON_RETAIN"}, {"persistent", " PERSISTENT"}};
-  for (const auto& [attribute, text] : kKeywords)
-    if (isTrue(import, list, attribute)) import.out.word(text);
-  import.out.word("\n");
+  writeSectionBegin(import, list, word);
   writeVariables(import, list);
   import.out.word("END_VAR\n");
 }
 
 void writeSections(Import& import, const xml::Element& interface) {
-  for (const xml::Element* e = import.document.firstChild(interface); e != nullptr; e = import.document.next(*e))
-    if (const std::string_view word = sectionWordOf(e->name); !word.empty()) writeSection(import, *e, word);
+  for (const xml::Element& e : import.document.children(interface))
+    if (const std::string_view word = sectionWordOf(e.name); !word.empty()) writeSection(import, e, word);
 }
 
 // A list may consist of several sections, constants and others: MixedAttrsVarList.
@@ -123,35 +107,28 @@ void writeGlobals(Import& import, const xml::Element& globals) {
   }
   const xml::Element* mixed = dataOf(import, globals, "mixedattrsvarlist");
   if (mixed == nullptr) return writeSection(import, globals, "VAR_GLOBAL");
-  for (const xml::Element* e = import.document.firstChild(*mixed); e != nullptr; e = import.document.next(*e)) {
-    if (e->name != "globalVars") continue;
+  for (const xml::Element& e : import.document.children(*mixed)) {
+    if (e.name != "globalVars") continue;
     writeAttributes(import, globals);
-    writeSection(import, *e, "VAR_GLOBAL");
+    writeSection(import, e, "VAR_GLOBAL");
   }
 }
 
 bool declares(const Import& import, const xml::Element& owner, std::string_view variable) {
   if (const xml::Element* plain = plainText(import, owner)) {
     const std::string text = import.document.text(*plain, import.sources);
-    const auto is_word = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    };
-    for (size_t begin = 0; begin < text.size();) {
-      size_t end = begin;
-      while (end < text.size() && is_word(text[end])) ++end;
-      if (sameIdentifier(std::string_view(text).substr(begin, end - begin), variable)) return true;
-      begin = end + 1;
-    }
+    Scanner scanner(text);
+    for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next())
+      if (unit.kind == UnitKind::Name && sameIdentifier(scanner.textOf(unit), variable)) return true;
     return false;
   }
   const xml::Element* interface = import.document.child(owner, "interface");
-  for (const xml::Element* list = interface == nullptr ? nullptr : import.document.firstChild(*interface);
-       list != nullptr; list = import.document.next(*list)) {
-    if (sectionWordOf(list->name).empty()) continue;
-    for (const xml::Element* e = import.document.firstChild(*list); e != nullptr; e = import.document.next(*e))
-      if (e->name == "variable" && sameIdentifier(import.document.value(*e, "name"), variable)) return true;
+  for (const xml::Element& list : import.document.children(interface)) {
+    if (sectionWordOf(list.name).empty()) continue;
+    for (const xml::Element& e : import.document.children(list))
+      if (e.name == "variable" && sameIdentifier(import.document.value(e, "name"), variable)) return true;
   }
   return false;
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -1,6 +1,5 @@
 // Shared by the parts of the import. Private to frontend/import/plcopen: plcopen.cpp (the project), types.cpp,
-// declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h. The functions for names and content (content.cpp)
-// serve frontend/import/iec10 as well.
+// declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h.
 #pragma once
 
 #include <string>
@@ -9,13 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "frontend/import/source_mapped_text.h"
-#include "frontend/source/diagnostics.h"
+#include "frontend/import/content.h"
 
-namespace rung::plcopen {
-
-// Nesting depth of elements: types in types, actions in charts, wires in a row.
-constexpr uint32_t kMaxNesting = 200;
+namespace rung::importer::plcopen {
 
 // An action whose body is in a step, or a variable that a step refers to by more than a name.
 struct OwnAction {
@@ -24,16 +19,7 @@ struct OwnAction {
   const xml::Attribute* variable;
 };
 
-// Appended to an action with the name of a step: in ST, members of a block share one name space.
-constexpr std::string_view kActionSuffix = "_action";
-
-std::string upper(std::string_view name);
-
-struct Import {
-  const Sources& sources;
-  const xml::Document& document;
-  Diagnostics& diagnostics;
-  xml::SourceMappedText& out;
+struct Import : Reading {
   bool unquoted_strings = false;  // TC6 1.01 and 2.01, in which Beremiz writes strings without quotes
   // Names of the library Beremiz that this file uses but does not declare; empty for files of other tools.
   std::vector<std::string_view> beremiz_names = {};
@@ -55,48 +41,6 @@ struct Import {
   const char* libraryOf(std::string_view type) const;
   bool isLeftOut(const xml::Element& resource) const { return left_out.count(&resource) != 0; }
 };
-
-// ---- content.cpp: reading and writing names, values and content
-
-// The <text> of Rung's addData, which replaces all other content of `owner`; null: missing.
-const xml::Element* ownTextOf(const Import& import, const xml::Element& owner);
-
-// The content of the first addData of `owner` whose name ends with this kind: "method" of
-// http://www.3s-software.com/plcopenxml/method. Null: missing.
-const xml::Element* dataOf(const Import& import, const xml::Element& owner, std::string_view kind);
-// The last part of a `data@name`.
-std::string_view kindOfData(const Import& import, const xml::Element& data);
-// Visits the `data` elements of this kind in the addData of `owner`.
-template <class Visit>
-void forEachData(const Import& import, const xml::Element& owner, std::string_view kind, Visit visit) {
-  for (const xml::Element* all = import.document.firstChild(owner); all != nullptr; all = import.document.next(*all)) {
-    if (all->name != "addData") continue;
-    for (const xml::Element* data = import.document.firstChild(*all); data != nullptr;
-         data = import.document.next(*data))
-      if (data->name == "data" && kindOfData(import, *data) == kind) visit(*data);
-  }
-}
-
-bool isTrue(const Import& import, const xml::Element& element, std::string_view attribute);
-std::string textOf(const Import& import, const xml::Element& element);  // without leading and trailing blanks
-bool isBlank(std::string_view text);
-
-// The content of the element in ST or IL, regardless of wrapper elements: a line for each paragraph.
-void writeText(Import& import, const xml::Element& element);
-// Forbids an element without this attribute, or with an empty one.
-//   fails   <pou pouType="program">          E1050
-bool checkName(Import& import, const xml::Element& element, std::string_view attribute = "name");
-// Writes the attribute, if it exists; an invalid name is reported.
-bool writeName(Import& import, const xml::Element& element, std::string_view attribute = "name");
-bool hasName(const Import& import, const xml::Element& element, std::string_view attribute = "name");
-// Writes its documentation, as comments before a declaration.
-void writeDocumentation(Import& import, const xml::Element& element);
-// {attribute 'qualified_only'} for each Attribute in its addData.
-void writeAttributes(Import& import, const xml::Element& element);
-// Converts a name to an identifier: other characters become `_`.
-std::string identifierOf(std::string_view name);
-// Whether it is an identifier already.
-bool isIdentifier(std::string_view text);
 
 // ---- types.cpp
 
@@ -147,4 +91,4 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
 // The variables for the flags that the settings of `owner` enable but its interface does not declare.
 void writeFlags(Import& import, const xml::Element& owner);
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

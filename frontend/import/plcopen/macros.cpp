@@ -2,7 +2,7 @@
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/plcopen/chart.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 
 // Forbids a macro step that has not exactly one step without predecessor (the entry) and one without successor (the
 // exit). An end that no wire needs may be missing. TC6 2.01, macroStep; TM/TP manual 5.5.2.5.
@@ -48,12 +48,12 @@ void Chart::connectMacro(uint32_t node) {
 void Chart::writeMacro(const Macro& macro) {
   const xml::Element& element = *nodes_[macro.node].element;
   import_.out.put(element.loc, "MACRO_STEP ");
-  writeStepName(macro.node);
+  import_.out.add(stepName(macro.node));
   const char* before = " (";
   for (const auto& [word, end] : {std::pair{"ENTRY := ", macro.entry}, std::pair{"EXIT := ", macro.exit}}) {
     if (end == UINT32_MAX) continue;
     import_.out.word(before + std::string(word));
-    macro.chart->writeStepName(end);
+    import_.out.add(macro.chart->stepName(end));
     before = ", ";
   }
   import_.out.word(before[0] == ',' ? "):\n" : ":\n");
@@ -62,4 +62,4 @@ void Chart::writeMacro(const Macro& macro) {
   import_.out.put(element.end, "END_MACRO_STEP\n");
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -1,95 +1,94 @@
-// Networks; see networks.h. The output is the notation of frontend/parse/network.cpp: elements keep their localId as
-// number, so that the parser resolves wires and reports errors in them, at their locations in the XML.
+// Networks; see networks.h. Elements keep their localId as number, so that the parser resolves wires and reports errors
+// in them, at their locations in the XML.
 #include "frontend/import/plcopen/networks.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
+#include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
-#include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 // Numbers for elements without a localId, larger than those of editors.
 constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
 
-bool isNameChar(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-// A name or a path of names.
-bool isPath(std::string_view text) {
-  bool at_begin = true;
-  for (const char c : text) {
-    if (c == '.' && !at_begin) {
-      at_begin = true;
-    } else if (isNameChar(c) && !(at_begin && c >= '0' && c <= '9')) {
-      at_begin = false;
-    } else {
-      return false;
-    }
-  }
-  return !at_begin;
-}
-bool isName(std::string_view text) { return isPath(text) && text.find('.') == std::string_view::npos; }
+struct Row {
+  std::string_view name;
+  ElementKind kind;
+};
+constexpr Row kRows[] = {{"leftPowerRail", ElementKind::Rail},
+                         {"rightPowerRail", ElementKind::RightRail},
+                         {"contact", ElementKind::Contact},
+                         {"coil", ElementKind::Coil},
+                         {"block", ElementKind::Box},
+                         {"inVariable", ElementKind::Input},
+                         {"outVariable", ElementKind::Output},
+                         {"inOutVariable", ElementKind::InOut},
+                         {"connector", ElementKind::Connector},
+                         {"continuation", ElementKind::Continuation},
+                         {"jump", ElementKind::Jump},
+                         {"label", ElementKind::Label},
+                         {"return", ElementKind::Return},
+                         {"comment", ElementKind::Comment},
+                         {"actionBlock", ElementKind::Output},
+                         {"step", ElementKind::Input},
+                         {"vendorElement", ElementKind::Compose}};
 
-// A string of the notation, on one line.
-std::string quoted(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'' || c == '$') out += '$';
-    out += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
-  }
-  return out + "'";
+// TON and TOF by their symbols, T---0 and 0---T. IEC 61131-3 ed. 3 table 46, 2d and 3d.
+std::string_view timerOf(std::string_view symbol) {
+  if (symbol.size() < 3 || symbol.find_first_not_of('-', 1) != symbol.size() - 1) return {};
+  if (symbol.front() == 'T' && symbol.back() == '0') return "TON";
+  return symbol.front() == '0' && symbol.back() == 'T' ? "TOF" : std::string_view{};
 }
 
-class Writer {
+bool hasWires(ElementKind kind) {
+  return kind != ElementKind::Rail && kind != ElementKind::RightRail && kind != ElementKind::Input &&
+         kind != ElementKind::Comment && kind != ElementKind::Continuation;
+}
+
+class DiagramReader {
  public:
-  Writer(const Sources& sources, const xml::Document& document, xml::SourceMappedText& out)
-      : sources_(sources), document_(document), out_(out) {}
+  explicit DiagramReader(Reading& reading)
+      : reading_(reading), document_(reading.document), out_(reading.out), writer_(reading.out) {}
 
-  void writeBody(const DrawnBody& diagram);
-  void writeCondition(const DrawnBody& diagram);
+  void readBody(const DrawnBody& diagram);
+  void readCondition(const DrawnBody& diagram);
 
  private:
-  using Element = xml::Element;
-
   void collect(const Element& body);
-  void writeElement(const Element& e);
-  void writeActions(const Element& body);
-  void writeNetworkOf(const Element& e);
-  void writeBox(const Element& e);
-  void writeBoxName(const Element& e);
-  void writePins(const Element& e);
-  void writePin(const Element& pin, std::string_view fallback, bool input, bool output);
-  void writeWires(const Element& point);
-  void writeInput(const Element& e);
-  void writeOperand(const Element& e);
-  void writePinModifiers(const Element& e, std::string_view negated = "negated");
-  void writeOrder(const Element& e);
-  void writePosition(const Element& e);
-  void writeNumber(const Element& e);
-  void writeText(const Element& e, const Element* content);
-  void writeReference(const Element& e, std::string_view attribute);
+  void read(const Element& e);
+  void readActions(const Element& body);
+  void readNetworkOf(const Element& e);
+  bool readKind(const Element& e, NetworkElement& out) const;
+  void readParts(const Element& e, NetworkElement& out) const;
+  void readBox(const Element& e, NetworkElement& out) const;
+  void readBoxName(const Element& e, NetworkElement& out) const;
+  void readPins(const Element& e, NetworkElement& out) const;
+  std::vector<WireSource> wiresOf(const Element* point) const;
+  xml::Excerpt sourcePin(const Element& connection) const;
+  xml::Excerpt operandOf(const Element& e) const;
+  xml::Excerpt valueOf(const Element& e, std::string_view attribute) const;
+  Modifiers modifiersOf(const Element& e, std::string_view negated = "negated") const;
+  uint64_t orderOf(const Element& e) const;
+  xml::Excerpt idOf(const Element& e);
 
   std::string value(const Element& e, std::string_view name) const { return document_.value(e, name); }
-  bool isSet(const Element& e, std::string_view name) const {
-    const std::string text = value(e, name);
-    return sameIdentifier(text, "true") || text == "1";
-  }
   uint64_t numberOf(const Element& e) const;
   bool negatedByVendor(const Element& e) const;
-  const Element* data(const Element& e, std::string_view kind) const;
   std::string onlyOutput(const Element& box) const;
   bool hasOutput(const Element& box, std::string_view pin) const;
 
-  const Sources& sources_;
+  Reading& reading_;
   const xml::Document& document_;
   xml::SourceMappedText& out_;
+  NetworkWriter writer_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
   uint64_t network_ = 0;  // current network, derived from element numbers (CODESYS)
@@ -97,50 +96,36 @@ class Writer {
   bool counts_from_zero_ = false;  // executionOrderId 0 is a valid number
 };
 
-bool isElement(std::string_view name) {
-  static constexpr std::string_view kNames[] = {
-      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",   "inOutVariable",
-      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement", "actionBlock"};
-  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+const Row* rowOf(const Element& e) {
+  const auto* found =
+      std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& row) { return row.name == e.name; });
+  return found == std::end(kRows) ? nullptr : found;
 }
 
-uint64_t Writer::numberOf(const Element& e) const {
+uint64_t DiagramReader::numberOf(const Element& e) const {
   const std::string text = value(e, "localId");
   uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} && end == text.data() + text.size() ? number : UINT64_MAX;
 }
 
-// The content of the first addData of this kind.
-const xml::Element* Writer::data(const Element& e, std::string_view kind) const {
-  for (const Element* all = document_.firstChild(e); all != nullptr; all = document_.next(*all)) {
-    if (all->name != "addData") continue;
-    for (const Element* d = document_.firstChild(*all); d != nullptr; d = document_.next(*d)) {
-      const std::string name = value(*d, "name");
-      if (name.size() > kind.size() && name.ends_with(kind) && name[name.size() - kind.size() - 1] == '/')
-        return document_.firstChild(*d);
-    }
-  }
-  return nullptr;
-}
-
 // Bachmann writes the negation of jumps and returns in addData.
-bool Writer::negatedByVendor(const Element& e) const {
-  const Element* negated = data(e, "negated");
-  return negated != nullptr && isSet(*negated, "value");
+bool DiagramReader::negatedByVendor(const Element& e) const {
+  const Element* negated = dataOf(reading_, e, "negated");
+  return negated != nullptr && isTrue(reading_, *negated, "value");
 }
 
-void Writer::collect(const Element& body) {
+void DiagramReader::collect(const Element& body) {
   std::vector<uint64_t> execution_orders;
-  for (const Element* e = document_.firstChild(body); e != nullptr; e = document_.next(*e)) {
-    if (e->name == "step") by_number_.emplace(numberOf(*e), e);
-    if (!isElement(e->name)) continue;
-    elements_.push_back(e);
-    by_number_.emplace(numberOf(*e), e);
-    const bool acts = e->name == "block" || e->name == "outVariable" || e->name == "jump" || e->name == "return" ||
-                      e->name == "label";
+  for (const Element& e : document_.children(body)) {
+    if (rowOf(e) == nullptr) continue;
+    by_number_.emplace(numberOf(e), &e);
+    if (e.name == "step") continue;
+    elements_.push_back(&e);
+    const bool acts =
+        e.name == "block" || e.name == "outVariable" || e.name == "jump" || e.name == "return" || e.name == "label";
     uint64_t execution_order = 0;
-    const std::string order = value(*e, "executionOrderId");
+    const std::string order = value(e, "executionOrderId");
     if (acts && std::from_chars(order.data(), order.data() + order.size(), execution_order).ec == std::errc{})
       execution_orders.push_back(execution_order);
   }
@@ -151,409 +136,294 @@ void Writer::collect(const Element& body) {
     counts_from_zero_ = counts_from_zero_ && execution_orders[k] > execution_orders[k - 1];
 }
 
-bool Writer::hasOutput(const Element& box, std::string_view pin) const {
-  for (const char* list : {"outputVariables", "inOutVariables"}) {
-    const Element* pins = document_.child(box, list);
-    for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
-         p = document_.next(*p))
-      if (sameIdentifier(value(*p, "formalParameter"), pin)) return true;
-  }
+bool DiagramReader::hasOutput(const Element& box, std::string_view pin) const {
+  for (const char* list : {"outputVariables", "inOutVariables"})
+    for (const Element& p : document_.children(document_.child(box, list)))
+      if (sameIdentifier(value(p, "formalParameter"), pin)) return true;
   return false;
 }
 
 // The only output of a box besides ENO, or empty.
-std::string Writer::onlyOutput(const Element& box) const {
-  const Element* pins = document_.child(box, "outputVariables");
+std::string DiagramReader::onlyOutput(const Element& box) const {
   std::string only;
   int count = 0;
-  for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
-       p = document_.next(*p)) {
-    const std::string name = value(*p, "formalParameter");
-    if (sameIdentifier(name, "ENO")) continue;
+  for (const Element& p : document_.children(document_.child(box, "outputVariables"))) {
+    const std::string name = value(p, "formalParameter");
+    if (isEnableOutput(name)) continue;
     only = name;
     ++count;
   }
   return count == 1 ? only : std::string();
 }
 
-void Writer::writeNumber(const Element& e) {
+xml::Excerpt DiagramReader::idOf(const Element& e) {
   const xml::Attribute* number = document_.attribute(e, "localId");
-  if (number != nullptr && numberOf(e) != UINT64_MAX)
-    out_.add(document_, *number);
-  else
-    out_.put(e.loc, std::to_string(next_own_++));
+  if (number != nullptr && numberOf(e) != UINT64_MAX) return {document_, *number};
+  return {e.loc, std::to_string(next_own_++)};
 }
 
-// The sources of the wires into `point`: number(pin) OR number(pin).
-void Writer::writeWires(const Element& point) {
-  bool first = true;
-  for (const Element* c = document_.firstChild(point); c != nullptr; c = document_.next(*c)) {
-    if (c->name != "connection") continue;
-    const xml::Attribute* from = document_.attribute(*c, "refLocalId");
-    if (from == nullptr) continue;
-    if (!first) out_.word(" OR ");
-    first = false;
-    out_.add(document_, *from);
-    uint64_t number = 0;
-    const std::string text = value(*c, "refLocalId");
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    const auto found = by_number_.find(number);
-    if (found == by_number_.end() || (found->second->name != "block" && found->second->name != "vendorElement"))
-      continue;
-    const xml::Attribute* pin = document_.attribute(*c, "formalParameter");
-    const std::string name = pin == nullptr ? std::string() : value(*c, "formalParameter");
-    if (isName(name) && hasOutput(*found->second, name)) {
-      out_.word("(");
-      out_.add(document_, *pin);
-      out_.word(")");
-    } else if (const std::string only = onlyOutput(*found->second); isName(only)) {
-      out_.word("(" + only + ")");
-    } else if (isName(name)) {  // the parser or the scheduler reports it at its location
-      out_.word("(");
-      out_.add(document_, *pin);
-      out_.word(")");
-    }
+// The output of a box that the wire comes from.
+xml::Excerpt DiagramReader::sourcePin(const Element& connection) const {
+  uint64_t number = 0;
+  const std::string text = value(connection, "refLocalId");
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto found = by_number_.find(number);
+  if (found == by_number_.end() || (found->second->name != "block" && found->second->name != "vendorElement"))
+    return {};
+  const xml::Attribute* pin = document_.attribute(connection, "formalParameter");
+  const std::string name = pin == nullptr ? std::string() : document_.decoded(*pin);
+  if (isIdentifier(name) && hasOutput(*found->second, name)) return {document_, *pin};
+  if (const std::string only = onlyOutput(*found->second); isIdentifier(only)) return xml::Excerpt(only);
+  if (isIdentifier(name)) return {document_, *pin};  // the parser or the scheduler reports it at its location
+  return {};
+}
+
+// The sources of the wires into `point`.
+std::vector<WireSource> DiagramReader::wiresOf(const Element* point) const {
+  std::vector<WireSource> wires;
+  for (const Element& c : document_.children(point)) {
+    const xml::Attribute* from = c.name == "connection" ? document_.attribute(c, "refLocalId") : nullptr;
+    if (from != nullptr) wires.push_back({{document_, *from}, sourcePin(c)});
   }
+  return wires;
 }
 
-void Writer::writeInput(const Element& e) {
-  const Element* point = document_.child(e, "connectionPointIn");
-  if (point == nullptr || document_.child(*point, "connection") == nullptr) return;
-  out_.word(" := ");
-  writeWires(*point);
+Modifiers DiagramReader::modifiersOf(const Element& e, std::string_view negated) const {
+  return {isTrue(reading_, e, negated), edgeOf(value(e, "edge")), storageOf(value(e, "storage"))};
 }
 
-void Writer::writePinModifiers(const Element& e, std::string_view negated) {
-  if (isSet(e, negated)) out_.word(" NOT");
-  const std::string edge = value(e, "edge"), storage = value(e, "storage");
-  if (edge == "rising" || edge == "falling") out_.word(edge == "rising" ? " RISING" : " FALLING");
-  if (storage == "set" || storage == "reset") out_.word(storage == "set" ? " SET" : " RESET");
-}
-
-void Writer::writeOrder(const Element& e) {
-  const xml::Attribute* order = document_.attribute(e, "executionOrderId");
-  uint64_t execution_order = 0;
+uint64_t DiagramReader::orderOf(const Element& e) const {
+  uint64_t order = 0;
   const std::string text = value(e, "executionOrderId");
-  if (order == nullptr || std::from_chars(text.data(), text.data() + text.size(), execution_order).ec != std::errc{})
-    return;
-  if (counts_from_zero_) ++execution_order;
-  if (execution_order != 0) out_.put(order->loc, " ORDER " + std::to_string(execution_order));
+  if (std::from_chars(text.data(), text.data() + text.size(), order).ec != std::errc{}) return 0;
+  return counts_from_zero_ ? order + 1 : order;
 }
 
-void Writer::writePosition(const Element& e) {
-  if (const std::string position = positionOf(document_, e); !position.empty()) out_.put(e.loc, position);
-}
-
-// ( expression )
-void Writer::writeOperand(const Element& e) {
+xml::Excerpt DiagramReader::operandOf(const Element& e) const {
   const Element* text = document_.child(e, "expression");
   if (text == nullptr) text = document_.child(e, "variable");
-  out_.word(" (");
-  if (text != nullptr) out_.add(document_, *text);
-  out_.word(")");
+  return text == nullptr ? xml::Excerpt() : xml::Excerpt(document_, *text);
 }
 
-// A string of the notation: comments and titles.
-void Writer::writeText(const Element& e, const Element* content) {
-  if (content == nullptr) return;
-  out_.put(e.loc, " " + quoted(document_.text(*content, sources_)));
+xml::Excerpt DiagramReader::valueOf(const Element& e, std::string_view attribute) const {
+  const xml::Attribute* found = document_.attribute(e, attribute);
+  return found == nullptr || found->raw.empty() ? xml::Excerpt() : xml::Excerpt(document_, *found);
 }
 
-// The name in an attribute of a label or connector.
-void Writer::writeReference(const Element& e, std::string_view attribute) {
-  const xml::Attribute* name = document_.attribute(e, attribute);
-  if (name == nullptr || value(e, attribute).empty()) return;
-  out_.word(" ");
-  if (isName(value(e, attribute))) {
-    out_.add(document_, *name);
-    return;
-  }
-  if (attribute == "name") {  // names of connectors are arbitrary
-    out_.put(name->loc, quoted(value(e, attribute)));
-    return;
-  }
-  // Creates an identifier for the name of a label.
-  std::string created = "n";
-  for (const char c : value(e, attribute)) {
-    if (isNameChar(c))
-      created += c;
-    else
-      created += std::to_string(static_cast<unsigned char>(c)) + "x";
-  }
-  out_.put(name->loc, created);
-}
-
-void Writer::writePin(const Element& pin, std::string_view fallback, bool input, bool output) {
-  const xml::Attribute* name = document_.attribute(pin, "formalParameter");
-  if (name != nullptr && isName(value(pin, "formalParameter")))
-    out_.add(document_, *name);
-  else
-    out_.put(pin.loc, fallback);
-  writePinModifiers(pin);
-  if (input) {
-    out_.word(" := ");
-    if (const Element* point = document_.child(pin, "connectionPointIn")) writeWires(*point);
-  }
-  if (output) out_.word(" =>");
-}
-
-void Writer::writePins(const Element& e) {
+void DiagramReader::readPins(const Element& e, NetworkElement& out) const {
   struct List {
     const char* name;
-    bool input, output;
+    PinDirection direction;
   };
-  out_.word(" [");
-  bool first = true;
-  for (const List list : {List{"inputVariables", true, false}, List{"inOutVariables", true, true},
-                          List{"outputVariables", false, true}}) {
-    const Element* pins = document_.child(e, list.name);
-    int count = 0;
-    for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
-         p = document_.next(*p)) {
-      if (p->name != "variable") continue;
-      if (!first) out_.word(", ");
-      first = false;
+  out.has_pins = true;
+  for (const List list : {List{"inputVariables", PinDirection::Input}, List{"inOutVariables", PinDirection::InOut},
+                          List{"outputVariables", PinDirection::Output}}) {
+    size_t count = 0;
+    for (const Element& p : document_.children(document_.child(e, list.name))) {
+      if (p.name != "variable") continue;
+      NetworkPin& pin = out.pins.emplace_back();
+      const xml::Attribute* name = document_.attribute(p, "formalParameter");
       ++count;
-      writePin(*p, (list.input ? "IN" : "OUT") + (count == 1 && !list.input ? std::string() : std::to_string(count)),
-               list.input, list.output);
+      if (name != nullptr && isIdentifier(document_.decoded(*name)))
+        pin.name = {document_, *name};
+      else
+        pin.name = {p.loc, unnamedPin(list.direction, count)};
+      pin.direction = list.direction;
+      pin.modifiers = modifiersOf(p);
+      if (list.direction != PinDirection::Output) pin.wires = wiresOf(document_.child(p, "connectionPointIn"));
     }
   }
-  out_.word("]");
-}
-
-// TON and TOF by their symbols, T---0 and 0---T. IEC 61131-3 ed. 3 table 46, 2d and 3d.
-std::string_view timerOf(std::string_view symbol) {
-  if (symbol.size() < 3 || symbol.find_first_not_of('-', 1) != symbol.size() - 1) return {};
-  if (symbol.front() == 'T' && symbol.back() == '0') return "TON";
-  return symbol.front() == '0' && symbol.back() == 'T' ? "TOF" : std::string_view{};
 }
 
 // The callee of the box, and its instance. A method is called through its instance.
-void Writer::writeBoxName(const Element& e) {
+void DiagramReader::readBoxName(const Element& e, NetworkElement& out) const {
   const xml::Attribute* type = document_.attribute(e, "typeName");
-  const xml::Attribute* instance = document_.attribute(e, "instanceName");
   const std::string type_name = value(e, "typeName"), instance_name = value(e, "instanceName");
   std::string call_type;
   for (const char* kind : {"fbdcalltype", "cfccalltype", "ldcalltype"})
-    if (const Element* call = data(e, kind)) call_type = document_.text(*call, sources_);
+    if (const Element* call = dataOf(reading_, e, kind)) call_type = document_.text(*call, reading_.sources);
   const bool member = call_type == "method" || call_type == "action";
-  if (member && !instance_name.empty() && isPath(instance_name) && isPath(type_name)) {
-    out_.word(" ");
-    const size_t dot = type_name.rfind('.');
-    out_.put(type->loc, instance_name + "." + type_name.substr(dot == std::string::npos ? 0 : dot + 1));
+  if (member && isPath(instance_name) && isPath(type_name)) {
+    out.name = {type->loc, instance_name + "." + type_name.substr(type_name.rfind('.') + 1)};
     return;
   }
-  if (const std::string_view timer = timerOf(type_name); !timer.empty()) {
-    out_.word(" ");
-    out_.put(type->loc, timer);
-  } else if (type != nullptr && !type_name.empty()) {
-    out_.word(" ");
-    out_.add(document_, *type);
-  }
-  if (!instance_name.empty()) {
-    out_.word(" (");
-    out_.add(document_, *instance);
-    out_.word(")");
-  }
+  if (const std::string_view timer = timerOf(type_name); !timer.empty())
+    out.name = {type->loc, std::string(timer)};
+  else if (!type_name.empty())
+    out.name = {document_, *type};
+  if (!instance_name.empty()) out.operand = {document_, *document_.attribute(e, "instanceName")};
 }
 
-void Writer::writeBox(const Element& e) {
-  const Element* st = data(e, "stcode");
-  const bool execute = sameIdentifier(value(e, "typeName"), "EXECUTE") && st != nullptr;
-  out_.word(execute ? "execute " : "box ");
-  writeNumber(e);
-  if (!execute) writeBoxName(e);
-  writeOrder(e);
-  writePosition(e);
-  writePins(e);
-  if (!execute) return;
-  out_.word(" {network ST}\n");
-  out_.add(document_, *st);
-  out_.word("\n{end_network}");
+void DiagramReader::readBox(const Element& e, NetworkElement& out) const {
+  const Element* st = dataOf(reading_, e, "stcode");
+  if (sameIdentifier(value(e, "typeName"), "EXECUTE") && st != nullptr) {
+    out.kind = ElementKind::Execute;
+    out.statements = {document_, *st};
+  } else {
+    readBoxName(e, out);
+  }
+  readPins(e, out);
 }
 
 // A title begins a network, and so does an element number in the next range of ten thousand million (CODESYS).
-void Writer::writeNetworkOf(const Element& e) {
+void DiagramReader::readNetworkOf(const Element& e) {
   const uint64_t number = numberOf(e);
   if (number == UINT64_MAX || number < kNumbersPerNetwork) return;
   const uint64_t network = number / kNumbersPerNetwork;
   if (network == network_ || network > UINT32_MAX) return;
   network_ = network;
-  out_.put(e.loc, "NETWORK " + std::to_string(network) + ";\n");
+  writer_.beginNetwork(e.loc, network);
 }
 
-void Writer::writeElement(const Element& e) {
-  const std::string_view kind = e.name;
-  if (kind == "vendorElement") {
-    const Element* type = data(e, "fbdelementtype");
-    if (type == nullptr) type = data(e, "cfcelementtype");
-    const std::string what = type == nullptr ? std::string() : document_.text(*type, sources_);
-    if (what != "composer" && what != "selector") return;
-    out_.word(what == "composer" ? "compose " : "select ");
-    writeNumber(e);
-    out_.word(" ");
-    if (const Element* name = document_.child(e, "alternativeText")) out_.add(document_, *name);
-    writeOrder(e);
-    writePosition(e);
-    writePins(e);
-    out_.word(";\n");
-    return;
+// Elements of CODESYS other than those of TC6. False: they are not part of the network.
+bool DiagramReader::readKind(const Element& e, NetworkElement& out) const {
+  if (e.name != "vendorElement") return true;
+  const Element* type = dataOf(reading_, e, "fbdelementtype");
+  if (type == nullptr) type = dataOf(reading_, e, "cfcelementtype");
+  const std::string what = type == nullptr ? std::string() : document_.text(*type, reading_.sources);
+  if (what == "selector") out.kind = ElementKind::Select;
+  return what == "composer" || what == "selector";
+}
+
+// The parts that depend on the kind of element.
+void DiagramReader::readParts(const Element& e, NetworkElement& out) const {
+  switch (out.kind) {
+    case ElementKind::Box: return readBox(e, out);
+    case ElementKind::Compose:
+    case ElementKind::Select:
+      if (const Element* name = document_.child(e, "alternativeText")) out.name = {document_, *name};
+      return readPins(e, out);
+    case ElementKind::Comment:
+      if (const Element* content = document_.child(e, "content"))
+        out.comment = document_.text(*content, reading_.sources);
+      return;
+    case ElementKind::Label:
+    case ElementKind::Jump: out.name = labelOf(valueOf(e, "label"), value(e, "label")); break;
+    case ElementKind::Connector:
+    case ElementKind::Continuation: out.name = connectorOf(valueOf(e, "name"), value(e, "name")); break;
+    case ElementKind::Contact:
+    case ElementKind::Coil:
+    case ElementKind::Input:
+    case ElementKind::Output:
+      out.operand = operandOf(e);
+      out.modifiers = modifiersOf(e);
+      break;
+    case ElementKind::InOut:
+      out.operand = operandOf(e);
+      out.modifiers = modifiersOf(e, "negatedIn");
+      break;
+    case ElementKind::Rail:
+    case ElementKind::RightRail:
+    case ElementKind::Return:
+    case ElementKind::Execute: break;
   }
-  writeNetworkOf(e);
-  if (kind == "actionBlock") {
-    out_.word("output ");
-    writeNumber(e);
-    out_.word(" (" + wireOf(document_, e) + ")");
-    writeOrder(e);
-    writePosition(e);
-    writeInput(e);
-    out_.word(";\n");
-    return;
+  if (out.kind == ElementKind::Jump || out.kind == ElementKind::Return)
+    out.modifiers.negated = isTrue(reading_, e, "negated") || negatedByVendor(e);
+  const Element* own = out.kind == ElementKind::Coil ? dataOf(reading_, e, "extension") : nullptr;  // exported by Rung
+  out.holding = own != nullptr && isTrue(reading_, *own, "holding");
+}
+
+void DiagramReader::read(const Element& e) {
+  NetworkElement out(rowOf(e)->kind, e.loc, {});
+  if (!readKind(e, out)) return;
+  if (e.name != "vendorElement") readNetworkOf(e);
+  out.number = idOf(e);
+  if (e.name == "step") {
+    if (const xml::Attribute* name = document_.attribute(e, "name")) out.operand = {document_, *name};
+    out.operand.text = ".X";
+    return writer_.write(out);
   }
-  if (kind == "step") {
-    out_.word("input ");
-    writeNumber(e);
-    out_.word(" (");
-    if (const xml::Attribute* name = document_.attribute(e, "name")) out_.add(document_, *name);
-    out_.word(".X);\n");
-    return;
-  }
-  if (kind == "block") {
-    writeBox(e);
-    out_.word(";\n");
-    return;
-  }
-  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {{"leftPowerRail", "rail "},
-                                                                                {"rightPowerRail", "right_rail "},
-                                                                                {"contact", "contact "},
-                                                                                {"coil", "coil "},
-                                                                                {"inVariable", "input "},
-                                                                                {"outVariable", "output "},
-                                                                                {"inOutVariable", "inout "},
-                                                                                {"connector", "connector "},
-                                                                                {"continuation", "continuation "},
-                                                                                {"jump", "jump "},
-                                                                                {"label", "label "},
-                                                                                {"return", "return "},
-                                                                                {"comment", "comment "}};
-  for (const auto& [name, word] : kKeywords)
-    if (kind == name) out_.word(word);
-  writeNumber(e);
-  if (kind == "comment") {
-    writeText(e, document_.child(e, "content"));
-  } else if (kind == "jump" || kind == "label") {
-    writeReference(e, "label");
-    if (kind == "jump" && (isSet(e, "negated") || negatedByVendor(e))) out_.word(" NOT");
-  } else if (kind == "return") {
-    if (isSet(e, "negated") || negatedByVendor(e)) out_.word(" NOT");
-  } else if (kind == "connector" || kind == "continuation") {
-    writeReference(e, "name");
-  } else if (kind == "contact" || kind == "coil" || kind == "inVariable" || kind == "outVariable") {
-    writeOperand(e);
-    writePinModifiers(e);
-    const Element* own = kind == "coil" ? data(e, "extension") : nullptr;  // exported by Rung
-    if (own != nullptr && isSet(*own, "holding")) out_.word(" HOLDING");
-  } else if (kind == "inOutVariable") {
-    writeOperand(e);
-    writePinModifiers(e, "negatedIn");
-  }
-  if (kind != "inVariable") writeOrder(e);
-  writePosition(e);
-  if (kind == "rightPowerRail") {  // end of wires, without a place in the execution order
-    out_.word(";\n");
-    return;
-  }
-  if (kind != "leftPowerRail" && kind != "inVariable" && kind != "comment" && kind != "continuation") writeInput(e);
-  out_.word(";\n");
+  if (e.name == "actionBlock")
+    out.operand = xml::Excerpt(wireOf(document_, e));
+  else
+    readParts(e, out);
+  if (out.kind != ElementKind::Input) out.order = orderOf(e);
+  out.area = areaOf(document_, e);
+  if (hasWires(out.kind) && !out.has_pins) out.input = wiresOf(document_.child(e, "connectionPointIn"));
+  writer_.write(out);
 }
 
 // After everything else: below all positions, or in a separate network.
-void Writer::writeActions(const Element& body) {
+void DiagramReader::readActions(const Element& body) {
   const auto block =
       std::find_if(elements_.begin(), elements_.end(), [](const Element* e) { return e->name == "actionBlock"; });
   if (block == elements_.end()) return;
-  if (network_ != 0) out_.put((*block)->loc, "NETWORK " + std::to_string(UINT32_MAX) + ";\n");
-  const bool placed = std::any_of(elements_.begin(), elements_.end(),
+  const Loc loc = (*block)->loc;
+  if (network_ != 0) writer_.beginNetwork(loc, UINT32_MAX);
+  NetworkElement calls(ElementKind::Execute, loc, {loc, std::to_string(kOwnNumbers - 2)});
+  calls.area.placed = std::any_of(elements_.begin(), elements_.end(),
                                   [&](const Element* e) { return document_.child(*e, "position") != nullptr; });
-  out_.put((*block)->loc,
-           "execute " + std::to_string(kOwnNumbers - 2) + (placed ? " AT 0, 1000000000" : "") + " {network ST}\n");
+  calls.area.y = 1'000'000'000;
+  writer_.beginStatements(calls);
   writeActionCalls(document_, body, out_);
-  out_.word("{end_network};\n");
+  writer_.endStatements(loc);
 }
 
-void Writer::writeBody(const DrawnBody& diagram) {
+void DiagramReader::readBody(const DrawnBody& diagram) {
   collect(diagram.body);
-  const char* word = diagram.language == NetworkLanguage::Ladder   ? "LD"
-                     : diagram.language == NetworkLanguage::Blocks ? "FBD"
-                                                                   : "CFC";
-  out_.put(diagram.body.loc, std::string("{network ") + word + "}\n");
-  for (const Element* e : elements_) writeElement(*e);
-  writeActions(diagram.body);
-  out_.put(diagram.body.end, "{end_network}\n");
+  writer_.beginBody(diagram.body.loc, diagram.language);
+  for (const Element* e : elements_) read(*e);
+  readActions(diagram.body);
+  writer_.endBody(diagram.body.end);
 }
 
 // Only the elements connected to the condition, in file order.
-void Writer::writeCondition(const DrawnBody& diagram) {
+void DiagramReader::readCondition(const DrawnBody& diagram) {
   collect(diagram.body);
   std::vector<uint64_t> wanted;
-  const auto want = [&](const Element& point) {
-    for (const Element* c = document_.firstChild(point); c != nullptr; c = document_.next(*c)) {
-      const std::string text = value(*c, "refLocalId");
+  const auto want = [&](const Element* point) {
+    for (const Element& c : document_.children(point)) {
+      const std::string text = value(c, "refLocalId");
       uint64_t number = 0;
-      if (c->name == "connection" && std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc{})
+      if (c.name == "connection" && std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc{})
         wanted.push_back(number);
     }
   };
-  if (diagram.condition != nullptr) want(*diagram.condition);
+  want(diagram.condition);
   for (const Element* end : diagram.ends) wanted.push_back(numberOf(*end));
-  std::unordered_map<uint64_t, bool> seen;
+  std::unordered_set<uint64_t> seen;
   std::vector<const Element*> used;
   for (size_t k = 0; k < wanted.size(); ++k) {
     const auto found = by_number_.find(wanted[k]);
-    if (found == by_number_.end() || !seen.emplace(wanted[k], true).second) continue;
+    if (found == by_number_.end() || !seen.insert(wanted[k]).second) continue;
     used.push_back(found->second);
     const Element& e = *found->second;
     if (e.name == "step") continue;
-    if (const Element* point = document_.child(e, "connectionPointIn")) want(*point);
-    for (const char* list : {"inputVariables", "inOutVariables"}) {
-      const Element* pins = document_.child(e, list);
-      for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
-           p = document_.next(*p))
-        if (const Element* point = document_.child(*p, "connectionPointIn")) want(*point);
-    }
+    want(document_.child(e, "connectionPointIn"));
+    for (const char* list : {"inputVariables", "inOutVariables"})
+      for (const Element& p : document_.children(document_.child(e, list)))
+        want(document_.child(p, "connectionPointIn"));
   }
   std::sort(used.begin(), used.end());
-  out_.put((diagram.condition != nullptr ? diagram.condition : diagram.ends[0])->loc, "{network LD}\n");
-  for (const Element* e : used) writeElement(*e);
-  if (diagram.condition == nullptr) return out_.word("{end_network}\n");
-  out_.put(diagram.condition->loc, "output " + std::to_string(kOwnNumbers - 1) + " (" + diagram.target + ") := ");
-  writeWires(*diagram.condition);
-  out_.put(diagram.condition->end, ";\n{end_network}\n");
+  const Element& begin = diagram.condition != nullptr ? *diagram.condition : *diagram.ends[0];
+  writer_.beginBody(begin.loc, NetworkLanguage::Ladder);
+  for (const Element* e : used) read(*e);
+  if (diagram.condition != nullptr) {
+    NetworkElement target(ElementKind::Output, begin.loc, {begin.loc, std::to_string(kOwnNumbers - 1)});
+    target.operand = {begin.loc, diagram.target};
+    target.input = wiresOf(diagram.condition);
+    writer_.write(target);
+  }
+  writer_.endBody(diagram.condition != nullptr ? begin.end : begin.loc);
 }
 
 }  // namespace
 
-std::string positionOf(const xml::Document& document, const xml::Element& e) {
+Area areaOf(const xml::Document& document, const xml::Element& e) {
   const xml::Element* position = document.child(e, "position");
   if (position == nullptr) return {};
   const auto number = [&](const xml::Element& from, std::string_view name) {
-    const std::string text = document.value(from, name);
-    double v = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
-    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
+    return coordinateOf(document.value(from, name));
   };
-  const std::string size = number(e, "width") + ", " + number(e, "height");
-  return " AT " + number(*position, "x") + ", " + number(*position, "y") +
-         (size == "0, 0" ? std::string() : ", " + size);
+  return {true, number(*position, "x"), number(*position, "y"), number(e, "width"), number(e, "height")};
 }
 
-void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram,
-                   xml::SourceMappedText& out) {
-  Writer writer(sources, document, out);
+void writeNetworks(Reading& reading, const DrawnBody& diagram) {
+  DiagramReader reader(reading);
   if (diagram.condition != nullptr || !diagram.ends.empty())
-    writer.writeCondition(diagram);
+    reader.readCondition(diagram);
   else
-    writer.writeBody(diagram);
+    reader.readBody(diagram);
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

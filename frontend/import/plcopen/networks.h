@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "frontend/import/source_mapped_text.h"
+#include "frontend/import/content.h"
+#include "frontend/import/network_writer.h"
 #include "frontend/syntax/diagram.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 
 // The localId of an element is the number of its network times this, plus a number within the network.
 constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
@@ -25,15 +26,14 @@ struct DrawnBody {
   std::vector<const xml::Element*> ends = {};
 };
 
-// ` AT 100, 40, 60, 30`; empty if the element has no position.
-std::string positionOf(const xml::Document& document, const xml::Element& element);
+// Where the file draws the element.
+Area areaOf(const xml::Document& document, const xml::Element& element);
 
 // For an action block in a network: the variable that stores its wire; and for the end of its body, the statements that
 // call all control blocks. (action_blocks.cpp)
 std::string wireOf(const xml::Document& document, const xml::Element& block);
 void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::SourceMappedText& out);
 
-void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram,
-                   xml::SourceMappedText& out);
+void writeNetworks(Reading& reading, const DrawnBody& diagram);
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

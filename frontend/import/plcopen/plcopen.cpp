@@ -8,22 +8,20 @@
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
-bool endsName(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '>' || c == '/'; }
-
 // The parts of a project besides configurations.
-enum class Part : uint8_t { None, DataType, Pou, Interface, Globals };
+enum class Content : uint8_t { None, DataType, Pou, Interface, Globals };
 
-class ProjectReader {
+class PlcopenReader {
  public:
-  ProjectReader(Import& import, std::vector<Library>& libraries) : import_(import), libraries_(libraries) {}
+  PlcopenReader(Import& import, std::vector<Library>& libraries) : import_(import), libraries_(libraries) {}
 
   void run();
 
  private:
-  Part partOf(const xml::Element& element) const;
+  Content contentOf(const xml::Element& element) const;
   const xml::Element* parentOf(const xml::Element& element) const {
     return element.parent == xml::kNone ? nullptr : &import_.document.elements[element.parent];
   }
@@ -39,33 +37,34 @@ class ProjectReader {
   std::vector<Library>& libraries_;
 };
 
-Part ProjectReader::partOf(const xml::Element& element) const {
+Content PlcopenReader::contentOf(const xml::Element& element) const {
   const xml::Element* parent = parentOf(element);
   if (element.name == "pou") {
     const bool is_pou = import_.document.attribute(element, "pouType") != nullptr ||
                         import_.document.child(element, "interface") != nullptr ||
                         import_.document.child(element, "body") != nullptr;
-    return is_pou ? Part::Pou : Part::None;
+    return is_pou ? Content::Pou : Content::None;
   }
   if (element.name == "dataType")
     return import_.document.child(element, "baseType") != nullptr || plainText(import_, element) != nullptr
-               ? Part::DataType
-               : Part::None;
-  if (element.name == "Interface") return parent != nullptr && parent->name == "data" ? Part::Interface : Part::None;
-  if (element.name != "globalVars" || parent == nullptr) return Part::None;
-  if (parent->name == "interface" || parent->name == "MixedAttrsVarList") return Part::None;
+               ? Content::DataType
+               : Content::None;
+  if (element.name == "Interface")
+    return parent != nullptr && parent->name == "data" ? Content::Interface : Content::None;
+  if (element.name != "globalVars" || parent == nullptr) return Content::None;
+  if (parent->name == "interface" || parent->name == "MixedAttrsVarList") return Content::None;
   const bool in_configuration = parent->name == "resource" || parent->name == "configuration";
-  return in_configuration && !hasName(import_, element) ? Part::None : Part::Globals;
+  return in_configuration && !hasName(import_, element) ? Content::None : Content::Globals;
 }
 
-const xml::Element* ProjectReader::resourceOf(const xml::Element& element) const {
+const xml::Element* PlcopenReader::resourceOf(const xml::Element& element) const {
   const xml::Element* e = parentOf(element);
   while (e != nullptr && e->name != "resource") e = parentOf(*e);
   return e;
 }
 
 // Beremiz and OpenPLC write TC6 1.01 and 2.01, CODESYS and TwinCAT 2.0.
-void ProjectReader::findBeremizNames() {
+void PlcopenReader::findBeremizNames() {
   static constexpr std::string_view kNames[] = {"DERIVATIVE", "HYSTERESIS", "INTEGRAL", "LOGGER",
                                                 "LOGLEVEL",   "PID",        "RAMP"};
   if (!import_.unquoted_strings) return;
@@ -78,7 +77,7 @@ void ProjectReader::findBeremizNames() {
   }
 }
 
-void ProjectReader::findInitialisers() {
+void PlcopenReader::findInitialisers() {
   for (const xml::Element& pou : import_.document.elements) {
     if (pou.name != "pou") continue;
     forEachData(import_, pou, "method", [&](const xml::Element& data) {
@@ -92,11 +91,11 @@ void ProjectReader::findInitialisers() {
 
 // A project of CODESYS may contain applications for several devices, each with its PLC_PRG: the first one is read, and
 // later ones that repeat one of its names are excluded.
-void ProjectReader::excludeApplications() {
+void PlcopenReader::excludeApplications() {
   std::unordered_map<std::string, const xml::Element*> resource_of_name;
   for (const xml::Element& element : import_.document.elements) {
-    const Part part = partOf(element);
-    if (part == Part::None) continue;
+    const Content content = contentOf(element);
+    if (content == Content::None) continue;
     const xml::Element* resource = resourceOf(element);
     if (resource == nullptr || import_.isLeftOut(*resource)) continue;
     const std::string name = upper(import_.document.value(element, "name"));
@@ -112,20 +111,20 @@ void ProjectReader::excludeApplications() {
   }
 }
 
-bool ProjectReader::holdsProgram(const xml::Element& configuration) const {
-  for (const xml::Element* e = import_.document.firstChild(configuration); e != nullptr; e = import_.document.next(*e))
-    if ((e->name == "resource" && !import_.isLeftOut(*e)) || e->name == "globalVars" || e->name == "accessVars" ||
-        e->name == "configVars")
+bool PlcopenReader::holdsProgram(const xml::Element& configuration) const {
+  for (const xml::Element& e : import_.document.children(configuration))
+    if ((e.name == "resource" && !import_.isLeftOut(e)) || e.name == "globalVars" || e.name == "accessVars" ||
+        e.name == "configVars")
       return true;
   return false;
 }
 
 // <Library Name="#Standard" …/>, <Library Name="Util, 3.5.17.0 (System)" …/>. Libraries that a system library depends
 // on are ignored.
-void ProjectReader::addLibraries(const xml::Element& libraries) {
-  for (const xml::Element* e = import_.document.firstChild(libraries); e != nullptr; e = import_.document.next(*e)) {
-    const xml::Attribute* name = e->name == "Library" ? import_.document.attribute(*e, "Name") : nullptr;
-    if (name == nullptr || isTrue(import_, *e, "SystemLibrary")) continue;
+void PlcopenReader::addLibraries(const xml::Element& libraries) {
+  for (const xml::Element& e : import_.document.children(libraries)) {
+    const xml::Attribute* name = e.name == "Library" ? import_.document.attribute(e, "Name") : nullptr;
+    if (name == nullptr || isTrue(import_, e, "SystemLibrary")) continue;
     std::string title = import_.document.decoded(*name);
     title = title.substr(0, title.find(','));
     Loc loc = name->loc;
@@ -137,14 +136,14 @@ void ProjectReader::addLibraries(const xml::Element& libraries) {
     const bool seen = std::any_of(libraries_.begin(), libraries_.end(),
                                   [&](const Library& library) { return sameIdentifier(library.name, title); });
     if (!title.empty() && !seen) {
-      const xml::Attribute* space = import_.document.attribute(*e, "Namespace");
+      const xml::Attribute* space = import_.document.attribute(e, "Namespace");
       libraries_.push_back({std::move(title), space == nullptr ? "" : import_.document.decoded(*space), loc});
     }
   }
 }
 
 // Reports each kind of extension that is not read, once; except those that the file allows to discard.
-void ProjectReader::noteExtensions() {
+void PlcopenReader::noteExtensions() {
   static constexpr std::string_view kKnown[] = {"method",
                                                 "property",
                                                 "interfaceasplaintext",
@@ -198,7 +197,7 @@ void ProjectReader::noteExtensions() {
   }
 }
 
-void ProjectReader::run() {
+void PlcopenReader::run() {
   const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
   import_.unquoted_strings = space == nullptr || !space->raw.ends_with("0200");
   findBeremizNames();
@@ -207,24 +206,22 @@ void ProjectReader::run() {
   forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {
     const xml::Element* text = import_.document.child(data, "text");  // namespaces, exported by Rung
     if (text == nullptr) return;
-    import_.out.put(text->loc, "");
-    writeText(import_, *text);
-    import_.out.word("\n");
+    writeLines(import_, *text);
   });
   for (const xml::Element& element : import_.document.elements) {
-    const Part part = partOf(element);
+    const Content content = contentOf(element);
     if (element.name == "Libraries") addLibraries(element);
-    if (part == Part::None) continue;
+    if (content == Content::None) continue;
     if (!import_.left_out.empty()) {
       const xml::Element* resource = resourceOf(element);
       if (resource != nullptr && import_.isLeftOut(*resource)) continue;
     }
-    switch (part) {
-      case Part::None: break;
-      case Part::DataType: writeDataType(import_, element); break;
-      case Part::Pou: writePou(import_, element); break;
-      case Part::Interface: writeInterface(import_, element); break;
-      case Part::Globals: writeGlobals(import_, element); break;
+    switch (content) {
+      case Content::None: break;
+      case Content::DataType: writeDataType(import_, element); break;
+      case Content::Pou: writePou(import_, element); break;
+      case Content::Interface: writeInterface(import_, element); break;
+      case Content::Globals: writeGlobals(import_, element); break;
     }
   }
   for (const xml::Element& element : import_.document.elements)
@@ -234,24 +231,24 @@ void ProjectReader::run() {
 
 }  // namespace
 
+const char* Import::libraryOf(std::string_view type) const {
+  for (const std::string_view block : beremiz_names)
+    if (sameIdentifier(block, type)) return "Beremiz.";
+  return "";
+}
+
 bool isPlcopen(std::string_view text) {
-  std::string_view tag = xml::rootTag(text);
-  if (tag.empty()) return false;
-  tag.remove_prefix(1);
-  size_t end = 0;
-  while (end < tag.size() && !endsName(tag[end])) ++end;
-  std::string_view root = tag.substr(0, end);
-  if (const size_t colon = root.find(':'); colon != std::string_view::npos) root.remove_prefix(colon + 1);
+  const std::string_view tag = xml::rootTag(text), root = xml::rootName(tag);
   return (root == "project" || root == "pou") && tag.find("www.plcopen.org/xml/tc6") != std::string_view::npos;
 }
 
-FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries) {
+FileId readProgram(ReadContext& context, FileId file) {
   xml::Document document;
-  if (!xml::read(sources, file, diagnostics, document)) return {};
-  xml::SourceMappedText program(sources);
-  Import import{sources, document, diagnostics, program};
-  ProjectReader(import, libraries).run();
-  return program.finish(sources, file);
+  if (!xml::read(context.sources, file, context.diagnostics, document)) return {};
+  xml::SourceMappedText program(context.sources);
+  Import import{{context.sources, document, context.diagnostics, program}};
+  PlcopenReader(import, context.libraries).run();
+  return program.finish(context.sources, file);
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

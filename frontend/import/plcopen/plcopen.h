@@ -8,28 +8,18 @@
 // with members before bodies, charts as textual SFC, networks between {network} and {end_network}. {list 'name'}
 // separates lists of globals, since the text has only one file name. Charts are resolved here by their wires
 // (chart.cpp), so their semantics is implemented only once, for textual SFC. docs/files.md describes the content of
-// real files. Called by the tool for each input file of this format.
+// real files. A row of the table of formats.
 #pragma once
 
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "frontend/source/diagnostics.h"
+#include "frontend/import/formats.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 
 // By content alone: the root element is a `project` or `pou` of a PLCopen namespace.
 bool isPlcopen(std::string_view text);
 
-// A library to which the project refers.
-struct Library {
-  std::string name;
-  std::string space;  // the namespace of the library in the project, or empty
-  Loc loc;
-};
+FileId readProgram(ReadContext& context, FileId file);
 
-// The program in `file`, as a separate file. No file: an error has been reported.
-FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries);
-
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -3,37 +3,28 @@
 //   declaration {ACTION | METHOD | PROPERTY} body END_…
 #include <utility>
 
+#include "frontend/import/chart_writer.h"
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/plcopen/import.h"
 #include "frontend/import/plcopen/networks.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagram.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
-
-struct PouKeywords {
-  std::string_view type, begin, end;
-};
-constexpr PouKeywords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
-                                 {"functionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
-                                 {"program", "PROGRAM ", "END_PROGRAM"},
-                                 {"class", "CLASS ", "END_CLASS"},
-                                 {"interface", "INTERFACE ", "END_INTERFACE"}};
 
 // Forbids an unknown kind of POU. TC6, pouType.
 //   fails   <pou name="P" pouType="programm">          E1052
-const PouKeywords* keywordsOf(Import& import, const xml::Element& pou) {
+std::string_view pouWord(Import& import, const xml::Element& pou) {
   const xml::Attribute* type = import.document.attribute(pou, "pouType");
   if (const xml::Element* own = dataOf(import, pou, "extension"))  // exported by Rung: class
     if (const xml::Attribute* named = import.document.attribute(*own, "pouType")) type = named;
-  for (const PouKeywords& keywords : kPous)
-    if (type != nullptr && sameIdentifier(type->raw, keywords.type)) return &keywords;
+  const std::string_view word = type == nullptr || sameIdentifier(type->raw, "method") ? "" : pouWordOf(type->raw);
   if (type == nullptr)
     import.diagnostics.report(diag::XmlNoName, pou.loc, {pou.name, "pouType"});
-  else
+  else if (word.empty())
     import.diagnostics.report(diag::XmlPouType, type->loc, {type->raw}).length(static_cast<uint32_t>(type->raw.size()));
-  return nullptr;
+  return word;
 }
 
 // `data` of the element or of its interface: editors differ in where they write it.
@@ -56,13 +47,12 @@ void writeInheritance(Import& import, const xml::Element& owner, std::string_vie
   const xml::Element* inheritance = dataOfEither(import, owner, kind);
   if (inheritance == nullptr) inheritance = import.document.child(owner, "Inheritance");  // of an interface
   if (inheritance == nullptr) return;
-  for (const auto& [name, word] : {std::pair{"Extends", "EXTENDS"}, std::pair{"Implements", "IMPLEMENTS"}}) {
-    bool first = true;
-    for (const xml::Element* e = import.document.firstChild(*inheritance); e != nullptr; e = import.document.next(*e)) {
-      if (e->name != name || isBlank(import.document.text(*e, import.sources))) continue;
-      import.out.word(first ? std::string(" ") + word + " " : ", ");
-      first = false;
-      writeText(import, *e);
+  for (const auto& [name, word] : {std::pair{"Extends", " EXTENDS "}, std::pair{"Implements", " IMPLEMENTS "}}) {
+    Separator separator(import.out, word);
+    for (const xml::Element& e : import.document.children(*inheritance)) {
+      if (e.name != name || isBlank(import.document.text(e, import.sources))) continue;
+      separator.next();
+      writeText(import, e);
     }
   }
 }
@@ -79,9 +69,7 @@ void writeResult(Import& import, const xml::Element& owner) {
 // it has no name, which was reported.
 bool writeHeader(Import& import, const xml::Element& owner, std::string_view word, std::string_view inheritance) {
   if (const xml::Element* plain = plainText(import, owner)) {
-    import.out.put(plain->loc, "");
-    writeText(import, *plain);
-    import.out.word("\n");
+    writeLines(import, *plain);
     return true;
   }
   if (!checkName(import, owner)) return false;
@@ -106,9 +94,7 @@ std::string nameOf(const Import& import, const xml::Element& element) { return i
 bool writeOwnText(Import& import, const xml::Element& owner) {
   const xml::Element* text = ownTextOf(import, owner);
   if (text == nullptr) return false;
-  import.out.put(text->loc, "");
-  writeText(import, *text);
-  import.out.word("\n");
+  writeLines(import, *text);
   return true;
 }
 
@@ -152,15 +138,14 @@ void writeMembers(Import& import, const xml::Element& owner) {
 
 void writeActions(Import& import, const xml::Element& pou) {
   const xml::Element* actions = import.document.child(pou, "actions");
-  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
-       e = import.document.next(*e)) {
-    if (e->name != "action" || writeOwnText(import, *e) || !checkName(import, *e)) continue;
-    import.out.put(e->loc, "ACTION ");
-    writeName(import, *e);
-    if (import.isRenamed(nameOf(import, *e))) import.out.word(kActionSuffix);
+  for (const xml::Element& e : import.document.children(actions)) {
+    if (e.name != "action" || writeOwnText(import, e) || !checkName(import, e)) continue;
+    import.out.put(e.loc, "ACTION ");
+    writeName(import, e);
+    if (import.isRenamed(nameOf(import, e))) import.out.word(kActionSuffix);
     import.out.word(" :\n");
-    writeBodies(import, *e, pou, nameOf(import, pou) + "." + nameOf(import, *e));
-    import.out.put(e->end, "END_ACTION\n");
+    writeBodies(import, e, pou, nameOf(import, pou) + "." + nameOf(import, e));
+    import.out.put(e.end, "END_ACTION\n");
     writeOwnActions(import, pou, nameOf(import, pou));
   }
 }
@@ -178,27 +163,23 @@ void findSteps(Import& import, const xml::Element& pou) {
   const auto find = [&](auto& self, const xml::Element& owner) -> void {
     const xml::Element* body = import.document.child(owner, "body");
     const xml::Element* chart = body == nullptr ? nullptr : import.document.child(*body, "SFC");
-    for (const xml::Element* e = chart == nullptr ? nullptr : import.document.firstChild(*chart); e != nullptr;
-         e = import.document.next(*e)) {
-      if (e->name == "step") import.step_names.insert(upper(nameOf(import, *e)));
-      if (e->name == "macroStep") self(self, *e);
+    for (const xml::Element& e : import.document.children(chart)) {
+      if (e.name == "step") import.step_names.insert(upper(nameOf(import, e)));
+      if (e.name == "macroStep") self(self, e);
     }
   };
   find(find, pou);
   const xml::Element* actions = import.document.child(pou, "actions");
-  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
-       e = import.document.next(*e))
-    find(find, *e);
-  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
-       e = import.document.next(*e))
-    if (import.isStepName(nameOf(import, *e))) import.renamed_actions.insert(upper(nameOf(import, *e)));
+  for (const xml::Element& e : import.document.children(actions)) find(find, e);
+  for (const xml::Element& e : import.document.children(actions))
+    if (import.isStepName(nameOf(import, e))) import.renamed_actions.insert(upper(nameOf(import, e)));
 }
 
 }  // namespace
 
 bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name) {
   const auto networks = [&](const xml::Element& diagram, NetworkLanguage language) {
-    writeNetworks(import.sources, import.document, {diagram, language}, import.out);
+    writeNetworks(import, {diagram, language});
   };
   if (const xml::Element* cfc = cfcOf(import, body)) {
     networks(*cfc, NetworkLanguage::Continuous);
@@ -206,21 +187,19 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
   }
   if (writeOwnText(import, body)) return true;
   bool ok = true;
-  for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
-    if (e->name == "ST" || e->name == "IL") {
-      import.out.put(e->loc, "");
-      writeText(import, *e);
-      import.out.word("\n");
-    } else if (e->name == "LD") {
-      networks(*e, NetworkLanguage::Ladder);
-    } else if (e->name == "FBD") {
-      networks(*e, NetworkLanguage::Blocks);
-    } else if (e->name == "CFC") {
-      networks(*e, NetworkLanguage::Continuous);
-    } else if (e->name == "SFC") {
-      writeChart(import, *e, pou, name);
-    } else if (e->name != "addData" && e->name != "documentation") {
-      import.diagnostics.report(diag::XmlBodyLanguage, e->loc, {name, e->name});
+  for (const xml::Element& e : import.document.children(body)) {
+    if (e.name == "ST" || e.name == "IL") {
+      writeLines(import, e);
+    } else if (e.name == "LD") {
+      networks(e, NetworkLanguage::Ladder);
+    } else if (e.name == "FBD") {
+      networks(e, NetworkLanguage::Blocks);
+    } else if (e.name == "CFC") {
+      networks(e, NetworkLanguage::Continuous);
+    } else if (e.name == "SFC") {
+      writeChart(import, e, pou, name);
+    } else if (e.name != "addData" && e.name != "documentation") {
+      import.diagnostics.report(diag::XmlBodyLanguage, e.loc, {name, e.name});
       ok = false;
     }
   }
@@ -228,14 +207,13 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
 }
 
 void writeBodies(Import& import, const xml::Element& owner, const xml::Element& pou, const std::string& name) {
-  for (const xml::Element* e = import.document.firstChild(owner); e != nullptr; e = import.document.next(*e))
-    if (e->name == "body") writeBody(import, *e, pou, name);
+  for (const xml::Element& e : import.document.children(owner))
+    if (e.name == "body") writeBody(import, e, pou, name);
 }
 
 void writePou(Import& import, const xml::Element& pou) {
-  const PouKeywords* keywords = keywordsOf(import, pou);
-  if (keywords == nullptr) return;
-  if (!writeHeader(import, pou, keywords->begin, "pouinheritance")) return;
+  const std::string word(pouWord(import, pou));
+  if (word.empty() || !writeHeader(import, pou, word + " ", "pouinheritance")) return;
   writeFlags(import, pou);
   writeControls(import, pou);
   findSteps(import, pou);
@@ -244,23 +222,21 @@ void writePou(Import& import, const xml::Element& pou) {
   writeMembers(import, pou);
   writeBodies(import, pou, pou, nameOf(import, pou));
   writeOwnActions(import, pou, nameOf(import, pou));
-  import.out.put(pou.end, keywords->end);
-  import.out.word("\n");
+  import.out.put(pou.end, "END_" + word + "\n");
 }
 
 // The 3S extension: <Interface name> with Methods and Properties.
 void writeInterface(Import& import, const xml::Element& interface) {
   if (!writeHeader(import, interface, "INTERFACE ", "pouinheritance")) return;
-  for (const xml::Element* list = import.document.firstChild(interface); list != nullptr;
-       list = import.document.next(*list)) {
-    if (list->name != "Methods" && list->name != "Properties") continue;
-    for (const xml::Element* e = import.document.firstChild(*list); e != nullptr; e = import.document.next(*e)) {
-      if (e->name == "Method") writeMethod(import, *e, interface);
-      if (e->name == "Property") writeProperty(import, *e, interface);
+  for (const xml::Element& list : import.document.children(interface)) {
+    if (list.name != "Methods" && list.name != "Properties") continue;
+    for (const xml::Element& e : import.document.children(list)) {
+      if (e.name == "Method") writeMethod(import, e, interface);
+      if (e.name == "Property") writeProperty(import, e, interface);
     }
   }
   writeMembers(import, interface);
   import.out.put(interface.end, "END_INTERFACE\n");
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -8,7 +8,7 @@
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagram.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 // Attributes of steps and actions in the addData of CODESYS, by the first digits of their GUID.
@@ -25,129 +25,105 @@ bool isTimed(std::string_view qualifier) {
 
 const xml::Element* Chart::ownAttribute(const xml::Element& element, std::string_view guid) const {
   const xml::Element* attributes = dataOf(import_, element, "element");
-  for (const xml::Element* e = attributes == nullptr ? nullptr : document_.firstChild(*attributes); e != nullptr;
-       e = document_.next(*e))
-    if (raw(*e, "guid").starts_with(guid) && !isBlank(document_.text(*e, import_.sources))) return e;
+  for (const xml::Element& e : document_.children(attributes))
+    if (raw(e, "guid").starts_with(guid) && !isBlank(document_.text(e, import_.sources))) return &e;
   return nullptr;
 }
 
-// `, T#5s`; some tools write `5s`.
-void Chart::writeTime(const xml::Element& action, std::string_view qualifier) {
-  if (!isTimed(qualifier)) return;
+// T#5s; some tools write `5s`.
+void Chart::readTime(const xml::Element& action, StepAction& out) {
   const xml::Attribute* duration = document_.attribute(action, "duration");
   if (duration == nullptr || isBlank(duration->raw)) return;  // reported by the parser
   const std::string time = document_.decoded(*duration);
-  import_.out.put(duration->loc, time[0] >= '0' && time[0] <= '9' ? ", T#" : ", ");
-  import_.out.add(document_, *duration);
+  if (time[0] >= '0' && time[0] <= '9') out.time_prefix = "T#";
+  out.time = {document_, *duration};
 }
 
-// open(L, T#5s, busy); an action with an inline body, or a variable that is not just a name, gets an ACTION.
-void Chart::writeAction(const xml::Element& action) {
-  const xml::Element* reference = document_.child(action, "reference");
-  const xml::Element* inline_body = document_.child(action, "inline");
-  if (reference == nullptr && inline_body == nullptr) return;  // drawn, but not filled in yet
-  if (reference != nullptr && !checkName(import_, *reference)) return;
-  const xml::Attribute* name = reference == nullptr ? nullptr : document_.attribute(*reference, "name");
+// The name of the action or variable. An action with an inline body, or a variable that is not just a name, gets an
+// ACTION.
+xml::Excerpt Chart::actionName(const xml::Element& action, const xml::Attribute* name) {
   if (name != nullptr && isIdentifier(name->raw)) {
-    import_.out.add(document_, *name);
-    if (import_.isRenamed(name->raw)) import_.out.word(kActionSuffix);
-  } else {
-    std::string& own =
-        own_actions_[name != nullptr ? upper(document_.decoded(*name)) : std::to_string(action.loc.offset)];
-    if (own.empty()) {
-      own = "sfc_action_" + std::to_string(++import_.own_action_count);
-      import_.own_actions.push_back({own, inline_body, name});
-    }
-    import_.out.put(action.loc, own);
+    xml::Excerpt excerpt(document_, *name);
+    if (import_.isRenamed(name->raw)) excerpt.text = kActionSuffix;
+    return excerpt;
   }
+  std::string& own =
+      own_actions_[name != nullptr ? upper(document_.decoded(*name)) : std::to_string(action.loc.offset)];
+  if (own.empty()) {
+    own = "sfc_action_" + std::to_string(++import_.own_action_count);
+    import_.own_actions.push_back({own, document_.child(action, "inline"), name});
+  }
+  return {action.loc, own};
+}
+
+// open(L, T#5s, busy);
+void Chart::readAction(const xml::Element& action, ChartStep& step) {
+  const xml::Element* reference = document_.child(action, "reference");
+  if (reference == nullptr && document_.child(action, "inline") == nullptr) return;  // drawn, but not filled in yet
+  if (reference != nullptr && !checkName(import_, *reference)) return;
+  StepAction& out = step.actions.emplace_back();
+  out.name = actionName(action, reference == nullptr ? nullptr : document_.attribute(*reference, "name"));
   const xml::Attribute* qualifier = document_.attribute(action, "qualifier");
-  import_.out.word("(");
-  if (qualifier == nullptr || isBlank(qualifier->raw)) {
-    import_.out.word("N");
-  } else {
-    import_.out.add(document_, *qualifier);
-    writeTime(action, qualifier->raw);
+  if (qualifier != nullptr && !isBlank(qualifier->raw)) {
+    out.qualifier = {document_, *qualifier};
+    if (isTimed(qualifier->raw)) readTime(action, out);
   }
   const xml::Attribute* indicator = document_.attribute(action, "indicator");
-  if (indicator != nullptr && isIdentifier(indicator->raw)) {
-    import_.out.put(indicator->loc, ", ");
-    import_.out.add(document_, *indicator);
-  }
+  if (indicator != nullptr && isIdentifier(indicator->raw)) out.indicators.push_back({document_, *indicator});
   // Exported by Rung; in other files an action has one indicator.
-  const xml::Element* own = dataOf(import_, action, "extension");
-  for (const xml::Element* e = own == nullptr ? nullptr : document_.firstChild(*own); e != nullptr;
-       e = document_.next(*e)) {
-    if (e->name != "indicator" || !hasName(import_, *e)) continue;
-    import_.out.put(e->loc, ", ");
-    writeName(import_, *e);
-  }
-  import_.out.word(");\n");
+  for (const xml::Element& e : document_.children(dataOf(import_, action, "extension")))
+    if (e.name == "indicator" && hasName(import_, e))
+      out.indicators.push_back({document_, *document_.attribute(e, "name")});
 }
 
-void Chart::writeStepActions(uint32_t node) {
+void Chart::readActions(uint32_t node, ChartStep& step) {
   static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
-      {kEntryAction, "{entry} "}, {kActiveAction, "{active} "}, {kExitAction, "{exit} "}};
+      {kEntryAction, "entry"}, {kActiveAction, "active"}, {kExitAction, "exit"}};
   for (const auto& [guid, pragma] : kOwn) {
     const xml::Element* found = ownAttribute(*nodes_[node].element, guid);
     if (found == nullptr) continue;
-    import_.out.put(found->loc, pragma);
-    import_.out.add(document_, *found);
-    if (import_.isRenamed(textOf(import_, *found))) import_.out.word(kActionSuffix);
-    import_.out.word(";\n");
+    StepAction& action = step.actions.emplace_back();
+    action.pragma = pragma;
+    action.name = {document_, *found};
+    if (import_.isRenamed(textOf(import_, *found))) action.name.text = kActionSuffix;
   }
   for (const uint32_t block : action_blocks_[node])
-    for (const xml::Element* e = document_.firstChild(*nodes_[block].element); e != nullptr; e = document_.next(*e))
-      if (e->name == "action") writeAction(*e);
+    for (const xml::Element& e : document_.children(*nodes_[block].element))
+      if (e.name == "action") readAction(e, step);
 }
 
-// (TMIN := T#1s, TMAX := limit): of CODESYS and of Rung's export.
-void Chart::writeStepTimes(const xml::Element& step) {
+// A limit of the time of a step: of CODESYS, or of Rung's export.
+xml::Excerpt Chart::stepTime(const xml::Element& step, std::string_view guid, std::string_view attribute) const {
+  if (const xml::Element* own = ownAttribute(step, guid)) return {document_, *own};
   const xml::Element* exported = dataOf(import_, step, "extension");
-  const char* before = " (";
-  struct Time {
-    const char* attribute;
-    std::string_view guid;
-    const char* word;
-  };
-  for (const auto& [attribute, guid, word] : {Time{"min", kMinimum, "TMIN := "}, Time{"max", kMaximum, "TMAX := "}}) {
-    const xml::Element* own = ownAttribute(step, guid);
-    if (own == nullptr && (exported == nullptr || !hasName(import_, *exported, attribute))) continue;
-    import_.out.put(own == nullptr ? exported->loc : own->loc, before + std::string(word));
-    if (own == nullptr)
-      import_.out.add(document_, *document_.attribute(*exported, attribute));
-    else
-      import_.out.add(document_, *own);
-    before = ", ";
-  }
-  if (before[0] == ',') import_.out.word(")");
+  if (exported == nullptr || !hasName(import_, *exported, attribute)) return {};
+  return {document_, *document_.attribute(*exported, attribute)};
 }
 
-// STEP name: actions END_STEP
 void Chart::writeStep(uint32_t node) {
-  const xml::Element& step = *nodes_[node].element;
-  const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
-  import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
-  writeStepName(node);
-  if (nodes_[node].kind == NodeKind::Step) writePosition(step);
-  writeStepTimes(step);
-  import_.out.word(":\n");
-  if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
-  import_.out.put(step.end, "END_STEP\n");
-}
-
-// The content of a macro step is a separate drawing: such charts are laid out automatically.
-void Chart::writePosition(const xml::Element& element) {
-  if (outer_ != nullptr || !macros_.empty()) return;
-  if (const std::string position = positionOf(document_, element); !position.empty())
-    import_.out.put(element.loc, position);
-}
-
-void Chart::writeStepName(uint32_t node) {
   const xml::Element& element = *nodes_[node].element;
-  if (nodes_[node].kind == NodeKind::Wait)
-    import_.out.put(element.loc, "sfc_wait_" + own_prefix_ + std::to_string(node));
-  else
-    writeName(import_, element, nodes_[node].kind == NodeKind::Jump ? "targetName" : "name");
+  ChartStep step;
+  step.loc = element.loc;
+  step.end = element.end;
+  step.name = stepName(node);
+  step.minimum = stepTime(element, kMinimum, "min");
+  step.maximum = stepTime(element, kMaximum, "max");
+  if (nodes_[node].kind == NodeKind::Step) {
+    step.initial = isTrue(import_, element, "initialStep");
+    // The content of a macro step is a separate drawing: such charts are laid out automatically.
+    if (outer_ == nullptr && macros_.empty()) step.area = areaOf(document_, element);
+    readActions(node, step);
+  }
+  writer_.write(step);
+}
+
+// A missing name was reported by readNodes().
+xml::Excerpt Chart::stepName(uint32_t node) const {
+  const xml::Element& element = *nodes_[node].element;
+  if (nodes_[node].kind == NodeKind::Wait) return {element.loc, "sfc_wait_" + own_prefix_ + std::to_string(node)};
+  const xml::Attribute* name =
+      document_.attribute(element, nodes_[node].kind == NodeKind::Jump ? "targetName" : "name");
+  return name == nullptr ? xml::Excerpt() : xml::Excerpt(document_, *name);
 }
 
 // A chart with an error in its graph is not written, to avoid follow-up errors.
@@ -181,7 +157,7 @@ void Chart::writeStepFlags() {
                                     "(N); END_STEP\nACTION sfc_action_" + number + ":\n");
   DrawnBody diagram{chart_, NetworkLanguage::Ladder};
   diagram.ends = ends;
-  writeNetworks(import_.sources, document_, diagram, import_.out);
+  writeNetworks(import_, diagram);
   import_.out.put(ends[0]->loc, "END_ACTION\n");
 }
 
@@ -208,30 +184,13 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
 
 // <SFCInit Declare="true" Use="true"/>, or <Init …/>. The chart uses the variables only if they are declared.
 void writeFlags(Import& import, const xml::Element& owner) {
-  static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
-      {"Init", "VAR_INPUT SFCInit : BOOL"},
-      {"Reset", "VAR_INPUT SFCReset : BOOL"},
-      {"QuitError", "VAR_INPUT SFCQuitError : BOOL"},
-      {"Pause", "VAR_INPUT SFCPause : BOOL"},
-      {"Tip", "VAR_INPUT SFCTip : BOOL"},
-      {"TipMode", "VAR_INPUT SFCTipMode : BOOL"},
-      {"EnableLimit", "VAR_INPUT SFCEnableLimit : BOOL"},
-      {"Error", "VAR_OUTPUT SFCError : BOOL"},
-      {"Trans", "VAR_OUTPUT SFCTrans : BOOL"},
-      {"ErrorStep", "VAR_OUTPUT SFCErrorStep : STRING"},
-      {"ErrorPOU", "VAR_OUTPUT SFCErrorPOU : STRING"},
-      {"CurrentStep", "VAR_OUTPUT SFCCurrentStep : STRING"},
-      {"ErrorAnalyzation", "VAR_OUTPUT SFCErrorAnalyzation : STRING"}};
   const xml::Element* settings = dataOf(import, owner, "sfcsettings");
   const xml::Element* flags = settings == nullptr ? nullptr : import.document.child(*settings, "Flags");
-  for (const xml::Element* e = flags == nullptr ? nullptr : import.document.firstChild(*flags); e != nullptr;
-       e = import.document.next(*e)) {
-    if (!isTrue(import, *e, "Use")) continue;
-    const std::string_view name = e->name.starts_with("SFC") ? e->name.substr(3) : e->name;
-    for (const auto& [flag, declaration] : kFlags)
-      if (name == flag && !declares(import, owner, "SFC" + std::string(flag)))
-        import.out.put(e->loc, std::string(declaration) + "; END_VAR\n");
+  for (const xml::Element& e : import.document.children(flags)) {
+    if (!isTrue(import, e, "Use")) continue;
+    const std::string_view name = e.name.starts_with("SFC") ? e.name.substr(3) : e.name;
+    if (!declares(import, owner, "SFC" + std::string(name))) import.out.put(e.loc, declarationOfFlag(name));
   }
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

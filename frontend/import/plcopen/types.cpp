@@ -3,20 +3,17 @@
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 // ARRAY [1..2, 0..9] OF …
 void writeArray(Import& import, const xml::Element& array, uint32_t depth) {
   import.out.put(array.loc, "ARRAY [");
-  bool first = true;
-  for (const xml::Element* e = import.document.firstChild(array); e != nullptr; e = import.document.next(*e)) {
-    if (e->name != "dimension") continue;
-    if (!first) import.out.word(", ");
-    first = false;
-    writeName(import, *e, "lower");
-    import.out.word("..");
-    writeName(import, *e, "upper");
+  Separator separator(import.out);
+  for (const xml::Element& e : import.document.children(array)) {
+    if (e.name != "dimension") continue;
+    separator.next();
+    writeRange(import, e);
   }
   import.out.word("] OF ");
   writeType(import, array, depth);
@@ -25,17 +22,15 @@ void writeArray(Import& import, const xml::Element& array, uint32_t depth) {
 // (red, green := 4) BYTE
 void writeEnum(Import& import, const xml::Element& type, uint32_t depth) {
   import.out.put(type.loc, "(");
-  bool first = true;
+  Separator separator(import.out);
   const xml::Element* values = import.document.child(type, "values");
-  for (const xml::Element* e = values == nullptr ? nullptr : import.document.firstChild(*values); e != nullptr;
-       e = import.document.next(*e)) {
-    if (e->name != "value") continue;
-    if (!first) import.out.word(", ");
-    first = false;
-    writeName(import, *e);
-    if (!hasName(import, *e, "value")) continue;
+  for (const xml::Element& e : import.document.children(values)) {
+    if (e.name != "value") continue;
+    separator.next();
+    writeName(import, e);
+    if (!hasName(import, e, "value")) continue;
     import.out.word(" := ");
-    writeName(import, *e, "value");
+    writeName(import, e, "value");
   }
   import.out.word(")");
   if (import.document.child(type, "baseType") == nullptr) return;
@@ -49,9 +44,7 @@ void writeSubrange(Import& import, const xml::Element& type, uint32_t depth) {
   const xml::Element* range = import.document.child(type, "range");
   if (range == nullptr) return;
   import.out.word(" (");
-  writeName(import, *range, "lower");
-  import.out.word("..");
-  writeName(import, *range, "upper");
+  writeRange(import, *range);
   import.out.word(")");
 }
 
@@ -67,38 +60,29 @@ const xml::Element* typeIn(const Import& import, const xml::Element& holder) {
   const bool is_type = holder.name == "type" || holder.name == "baseType" || holder.name == "returnType";
   const xml::Element* inner = is_type ? &holder : import.document.child(holder, "baseType");
   if (inner == nullptr) inner = import.document.child(holder, "type");
-  for (const xml::Element* e = inner == nullptr ? nullptr : import.document.firstChild(*inner); e != nullptr;
-       e = import.document.next(*e))
-    if (e->name != "addData" && e->name != "documentation") return e;
+  for (const xml::Element& e : import.document.children(inner))
+    if (e.name != "addData" && e.name != "documentation") return &e;
   return nullptr;
 }
 
 void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth);
 
-// The only child of <value>, <initialValue>.
-const xml::Element* valueIn(const Import& import, const xml::Element& holder) {
-  for (const xml::Element* e = import.document.firstChild(holder); e != nullptr; e = import.document.next(*e))
-    if (e->name == "simpleValue" || e->name == "arrayValue" || e->name == "structValue") return e;
-  return nullptr;
-}
-
 // [1, 3(0)] or (x := 1, y := 2)
 void writeValues(Import& import, const xml::Element& list, uint32_t depth) {
   const bool is_array = list.name == "arrayValue";
   import.out.put(list.loc, is_array ? "[" : "(");
-  bool first = true;
-  for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e)) {
-    const xml::Element* value = e->name == "value" ? valueIn(import, *e) : nullptr;
+  Separator separator(import.out);
+  for (const xml::Element& e : import.document.children(list)) {
+    const xml::Element* value = e.name == "value" ? valueIn(import, e) : nullptr;
     if (value == nullptr) continue;
-    if (!first) import.out.word(", ");
-    first = false;
+    separator.next();
     const bool repeated =
-        is_array && hasName(import, *e, "repetitionValue") && import.document.value(*e, "repetitionValue") != "1";
+        is_array && hasName(import, e, "repetitionValue") && import.document.value(e, "repetitionValue") != "1";
     if (!is_array) {
-      writeName(import, *e, "member");
+      writeName(import, e, "member");
       import.out.word(" := ");
     } else if (repeated) {
-      writeName(import, *e, "repetitionValue");
+      writeName(import, e, "repetitionValue");
       import.out.word("(");
     }
     writeValue(import, *value, nullptr, depth);
@@ -195,4 +179,4 @@ void writeDataType(Import& import, const xml::Element& data_type) {
   import.out.word(";\nEND_TYPE\n");
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -1,43 +1,27 @@
 // Objects, lists and values of TwinCAT's archives; see archive.h.
 #include "frontend/import/twincat/archive.h"
 
+#include "frontend/import/diagnostics.h"
 #include "frontend/source/names.h"
 
-namespace rung::vendor {
-namespace {
-
-bool isNameChar(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-}  // namespace
-
-bool isPath(std::string_view text) {
-  bool at_begin = true;
-  for (const char c : text) {
-    if (c == '.' && !at_begin) {
-      at_begin = true;
-    } else if (isNameChar(c) && !(at_begin && c >= '0' && c <= '9')) {
-      at_begin = false;
-    } else {
-      return false;
-    }
-  }
-  return !at_begin;
+namespace rung::importer::twincat {
+std::string pinName(PinDirection direction, size_t index) {
+  if (direction != PinDirection::Output) return "IN" + std::to_string(index + 1);
+  return index == 0 ? "OUT" : "OUT" + std::to_string(index);
 }
 
 const xml::Element* Archive::root(const xml::Element& body, std::string_view type) const {
   const xml::Element* archive = document_.child(body, "XmlArchive");
   const xml::Element* data = archive == nullptr ? nullptr : document_.child(*archive, "Data");
-  for (const xml::Element* e = first(data); e != nullptr; e = next(*e))
-    if (e->name == "o" && typeOf(*e) == type) return e;
+  for (const xml::Element& e : items(data))
+    if (e.name == "o" && typeOf(e) == type) return &e;
   return nullptr;
 }
 
 const xml::Element* Archive::member(const xml::Element& owner, std::string_view name) const {
-  for (const xml::Element* e = document_.firstChild(owner); e != nullptr; e = document_.next(*e)) {
-    const xml::Attribute* called = document_.attribute(*e, "n");
-    if (called != nullptr && called->raw == name) return isNothing(*e) ? nullptr : e;
+  for (const xml::Element& e : document_.children(owner)) {
+    const xml::Attribute* called = document_.attribute(e, "n");
+    if (called != nullptr && called->raw == name) return isNothing(e) ? nullptr : &e;
   }
   return nullptr;
 }
@@ -80,32 +64,23 @@ Loc Archive::locOf(const xml::Element& value) const {
   return {run.loc.offset + (quoted ? 1u : 0u)};
 }
 
-void Archive::write(const xml::Element& value, xml::SourceMappedText& out) const {
+xml::Excerpt Archive::excerptOf(const xml::Element& value) const {
+  xml::Excerpt excerpt(document_, value);
   const std::string all = document_.text(value, sources_);
-  const bool quoted = all.size() >= 2 && all.front() == '"' && all.back() == '"';
-  for (uint32_t r = value.first_run; r < value.end_run; ++r) {
-    const xml::Run& run = document_.runs[r];
-    const bool opens = quoted && r == value.first_run, closes = quoted && r + 1 == value.end_run;
-    if (run.character != 0) {  // possibly a quote written as an entity
-      if (!opens && !closes) out.addRuns(document_, r, r + 1);
-      continue;
-    }
-    const Loc begin{run.loc.offset + (opens ? 1u : 0u)}, end{run.loc.offset + run.length - (closes ? 1u : 0u)};
-    if (begin.offset < end.offset) out.add(begin, end);
-  }
+  excerpt.quoted = all.size() >= 2 && all.front() == '"' && all.back() == '"';
+  return excerpt;
 }
 
-void Archive::writeString(const xml::Element& owner, std::string_view name, xml::SourceMappedText& out) const {
-  const xml::Element* value = member(owner, name);
-  std::string text = value == nullptr ? std::string() : this->text(*value);
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-  if (text.empty()) return;
-  std::string quoted = " '";
-  for (const char c : text) {
-    if (c == '\'' || c == '$') quoted += '$';
-    quoted += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
-  }
-  out.put(value->loc, quoted + "'");
+std::string Archive::commentOf(const xml::Element& owner, std::string_view name) const {
+  std::string comment = text(owner, name);
+  while (!comment.empty() && isBlankCharacter(comment.back())) comment.pop_back();
+  return comment;
 }
 
-}  // namespace rung::vendor
+void Archive::reportObject(Diagnostics& diagnostics, const xml::Element& object, std::string_view language,
+                           std::string_view owner) const {
+  const std::string type = typeOf(object);
+  diagnostics.report(diag::ArchiveObject, document_.locOf(object, "t"), {type.empty() ? "?" : type, language, owner});
+}
+
+}  // namespace rung::importer::twincat

@@ -8,14 +8,19 @@
 
 #include "frontend/import/source_mapped_text.h"
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/scanner.h"
+#include "frontend/syntax/pin.h"
 
-namespace rung::vendor {
+namespace rung::importer::twincat {
+
+using xml::Element;
 
 class Archive {
  public:
   Archive(const Sources& sources, const xml::Document& document) : sources_(sources), document_(document) {}
 
   const xml::Document& document() const { return document_; }
+  const Sources& sources() const { return sources_; }
   // The object of this type in the archive below `body`. Null: not found.
   const xml::Element* root(const xml::Element& body, std::string_view type) const;
   // The member of `owner` with this name. Null: not found.
@@ -24,7 +29,7 @@ class Archive {
   const xml::Element* first(const xml::Element* list) const {
     return list == nullptr ? nullptr : document_.firstChild(*list);
   }
-  const xml::Element* next(const xml::Element& element) const { return document_.next(element); }
+  xml::Children items(const xml::Element* list) const { return document_.children(list); }
   // The type of an object, given by itself or by its list for all elements; empty if by neither.
   std::string typeOf(const xml::Element& object) const;
   static bool isNothing(const xml::Element& element) { return element.name == "n"; }
@@ -36,18 +41,21 @@ class Archive {
   uint64_t number(const xml::Element& owner, std::string_view name) const;  // 82 for 82L; 0 if missing
   // The location of the first character after the quote.
   Loc locOf(const xml::Element& value) const;
-  // Writes the value without its quotes, with its locations in the file.
-  void write(const xml::Element& value, xml::SourceMappedText& out) const;
-  // Writes the value as a string of the notation of networks: ` 'text'`; nothing if it is empty.
-  void writeString(const xml::Element& owner, std::string_view name, xml::SourceMappedText& out) const;
+  // The value without its quotes, with its locations in the file.
+  xml::Excerpt excerptOf(const xml::Element& value) const;
+  // The text of a comment or title, without trailing blanks.
+  std::string commentOf(const xml::Element& owner, std::string_view name) const;
+  // Reports an object that no body in `language` can have.
+  void reportObject(Diagnostics& diagnostics, const xml::Element& object, std::string_view language,
+                    std::string_view owner) const;
 
  private:
   const Sources& sources_;
   const xml::Document& document_;
 };
 
-// A name, or names separated by dots.
-bool isPath(std::string_view text);
+// The name of a pin that has none, counted from 0: IN1, IN2; OUT, OUT1.
+std::string pinName(PinDirection direction, size_t index);
 
 // Write the body below `body`, an <NWL>, <CFC> or <SFC>; messages use `name` for it. If it has an error, that is
 // reported and nothing is written, to avoid follow-up errors.
@@ -63,7 +71,4 @@ bool hasStep(const Archive& archive, const xml::Element& body, std::string_view 
 // The variables that the settings of a chart declare, in the <ObjectProperties> of `pou`.
 void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out);
 
-// Appended to an action with the name of a step: in ST, members of a block share one name space.
-constexpr std::string_view kActionSuffix = "_action";
-
-}  // namespace rung::vendor
+}  // namespace rung::importer::twincat

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "frontend/import/diagnostics.h"
+#include "frontend/import/network_writer.h"
 #include "frontend/import/twincat/archive.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/standard_names.h"
 
-namespace rung::vendor {
+namespace rung::importer::twincat {
 namespace {
 
 constexpr std::string_view kMissing = "???";  // the editor's placeholder
@@ -33,16 +35,21 @@ struct Wires {  // several wires are joined by OR
   uint64_t flags = 0;  // still to be applied to their value: kNegation, kRising, kFalling
 };
 
-class NetworkReader {
+Modifiers modifiersOf(uint64_t flags) {
+  const EdgeKind edge = (flags & kRising) != 0    ? EdgeKind::Rising
+                        : (flags & kFalling) != 0 ? EdgeKind::Falling
+                                                  : EdgeKind::None;
+  return {(flags & kNegation) != 0, edge, PinStorage::None};
+}
+
+class TreeReader {
  public:
-  NetworkReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
+  TreeReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
+      : archive_(archive), name_(name), diagnostics_(diagnostics), writer_(out) {}
 
   void run(const xml::Element& body);
 
  private:
-  using Element = xml::Element;
-
   // ---- checks
   bool check(const Element& network, uint32_t number);
   bool checkTree(const Element& tree);
@@ -57,14 +64,18 @@ class NetworkReader {
   Wires parallel(const Element& tree);
   Wires rail(Loc loc);
   Wires boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc);
-  Wires plain(const Wires& wires, Loc loc) { return wires.flags == 0 ? wires : boxOf("MOVE", {wires}, loc); }
+  Wires plain(const Wires& wires, Loc loc) { return wires.flags == 0 ? wires : boxOf(kMove, {wires}, loc); }
   void assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box = false);
-  void writeWires(const Wires& wires);
-  void writeInstance(const Element& tree);
-  uint64_t begin(std::string_view word, Loc loc) {
-    out_.put(loc, std::string(word) + " " + std::to_string(++last_));
-    return last_;
+  std::vector<WireSource> sourcesOf(const Wires& wires) const;
+  void readInstance(const Element& tree, NetworkElement& out) const;
+  void readInputs(const Element& tree, const std::vector<Wires>& inputs, NetworkElement& out) const;
+  void readOutputs(const Element& tree, size_t count, NetworkElement& out) const;
+  size_t mainOutput(const std::vector<const Element*>& targets) const;
+  // The name of the kth pin in a list; null: it has none.
+  const Element* nameIn(const std::vector<const Element*>& names, size_t k) const {
+    return k < names.size() && isPath(archive_.text(*names[k])) ? names[k] : nullptr;
   }
+  NetworkElement element(ElementKind kind, Loc loc) { return {kind, loc, {loc, std::to_string(++last_)}}; }
 
   // ---- contacts
   bool isContact(const Element& tree) const;
@@ -91,14 +102,14 @@ class NetworkReader {
   }
   std::vector<const Element*> itemsOf(const Element* list) const {
     std::vector<const Element*> items;
-    for (const Element* e = archive_.first(list); e != nullptr; e = archive_.next(*e)) items.push_back(e);
+    for (const xml::Element& e : archive_.items(list)) items.push_back(&e);
     return items;
   }
 
   const Archive& archive_;
   const std::string& name_;
   Diagnostics& diagnostics_;
-  xml::SourceMappedText& out_;
+  NetworkWriter writer_;
   bool ladder_ = false;
   bool quiet_ = false;  // in a disabled network, which causes no errors
   uint64_t last_ = 0;   // number of an element
@@ -111,7 +122,7 @@ class NetworkReader {
 
 // Forbids placeholders that the editor leaves for missing names.
 //   fails   <v n="Operand">"???"</v>          E1086
-bool NetworkReader::checkOperand(const Element* operand, bool returns) {
+bool TreeReader::checkOperand(const Element* operand, bool returns) {
   const Element* text = operand == nullptr ? nullptr : archive_.member(*operand, "Operand");
   if (text == nullptr || returns) return true;
   if (quiet_) return isPlainOrNothing(text);
@@ -123,7 +134,7 @@ bool NetworkReader::checkOperand(const Element* operand, bool returns) {
 // Forbids unknown objects, and a branch that continues an unknown line.
 //   fails   <o t="BoxTreeVoid">                                         E1087
 //   fails   a BoxTreeDemux without an input whose VarId is new          E1088
-bool NetworkReader::checkTree(const Element& tree) {
+bool TreeReader::checkTree(const Element& tree) {
   if (Archive::isNothing(tree)) return true;
   const std::string type = archive_.typeOf(tree);
   bool ok = true;
@@ -159,9 +170,7 @@ bool NetworkReader::checkTree(const Element& tree) {
     for (const Element* item : itemsOf(archive_.member(tree, "Trees"))) inner(item);
   } else {
     if (quiet_) return false;
-    const xml::Attribute* type_attribute = archive_.document().attribute(tree, "t");
-    diagnostics_.report(diag::ArchiveObject, type_attribute == nullptr ? tree.loc : type_attribute->loc,
-                        {type.empty() ? "?" : type, "FBD or LD", name_});
+    archive_.reportObject(diagnostics_, tree, "FBD or LD", name_);
     return false;
   }
   return ok;
@@ -169,7 +178,7 @@ bool NetworkReader::checkTree(const Element& tree) {
 
 // Forbids a network that exists only in IL.
 //   fails   ILActive, with ILLines and without NetworkItems          E1089
-bool NetworkReader::check(const Element& network, uint32_t number) {
+bool TreeReader::check(const Element& network, uint32_t number) {
   const Element* lines = archive_.first(archive_.member(network, "ILLines"));
   if (lines != nullptr && archive_.isTrue(network, "ILActive")) {
     if (quiet_) return false;
@@ -183,7 +192,7 @@ bool NetworkReader::check(const Element& network, uint32_t number) {
 
 // ---- writing
 
-void NetworkReader::run(const Element& body) {
+void TreeReader::run(const Element& body) {
   ladder_ = sameIdentifier(archive_.text(body, "DefaultViewMode"), "Ld");
   const std::vector<const Element*> networks = itemsOf(archive_.member(body, "NetworkList"));
   std::vector<bool> readable;
@@ -194,62 +203,47 @@ void NetworkReader::run(const Element& body) {
     ok = ok && (readable.back() || quiet_);
   }
   if (!ok) return;
-  out_.put(body.loc, ladder_ ? "{network LD}\n" : "{network FBD}\n");
+  writer_.beginBody(body.loc, ladder_ ? NetworkLanguage::Ladder : NetworkLanguage::Blocks);
   for (uint32_t k = 0; k < networks.size(); ++k) writeNetwork(*networks[k], k + 1, readable[k]);
-  out_.put(body.end, "{end_network}\n");
+  writer_.endBody(body.end);
 }
 
 // A disabled network is only drawn: if it is not readable, it is empty.
-void NetworkReader::writeNetwork(const Element& network, uint32_t number, bool readable) {
-  out_.put(network.loc, "NETWORK " + std::to_string(number));
-  if (isDisabled(network)) out_.word(" DISABLED");
-  archive_.writeString(network, "Title", out_);
-  out_.word(";\n");
+void TreeReader::writeNetwork(const Element& network, uint32_t number, bool readable) {
+  writer_.beginNetwork(network.loc, number, isDisabled(network), archive_.commentOf(network, "Title"));
   if (!readable) return;
   rail_ = 0;
   if (!archive_.text(network, "Comment").empty()) {
-    begin("comment", network.loc);
-    archive_.writeString(network, "Comment", out_);
-    out_.word(";\n");
+    NetworkElement comment = element(ElementKind::Comment, network.loc);
+    comment.comment = archive_.commentOf(network, "Comment");
+    writer_.write(comment);
   }
-  if (const Element* label = archive_.member(network, "Label"); label != nullptr && !archive_.text(*label).empty()) {
-    begin("label", label->loc);
-    out_.word(" ");
-    archive_.write(*label, out_);
-    out_.word(";\n");
+  if (const Element* text = archive_.member(network, "Label"); text != nullptr && !archive_.text(*text).empty()) {
+    NetworkElement label = element(ElementKind::Label, text->loc);
+    label.name = archive_.excerptOf(*text);
+    writer_.write(label);
   }
   for (const Element* item : itemsOf(archive_.member(network, "NetworkItems"))) value(*item);
 }
 
-Wires NetworkReader::rail(Loc loc) {
+Wires TreeReader::rail(Loc loc) {
   if (rail_ == 0) {
-    rail_ = begin("rail", loc);
-    out_.word(";\n");
+    writer_.write(element(ElementKind::Rail, loc));
+    rail_ = last_;
   }
   return {{{rail_, nullptr, loc}}, 0};
 }
 
-void NetworkReader::writeWires(const Wires& wires) {
-  bool first = true;
-  for (const Wire& wire : wires.all) {
-    if (!first) out_.word(" OR ");
-    first = false;
-    out_.put(wire.loc, std::to_string(wire.from));
-    if (wire.pin == nullptr) continue;
-    out_.word("(");
-    archive_.write(*wire.pin, out_);
-    out_.word(")");
-  }
-}
-
-void writeModifiers(uint64_t flags, xml::SourceMappedText& out) {
-  if ((flags & kNegation) != 0) out.word(" NOT");
-  if ((flags & kRising) != 0) out.word(" RISING");
-  if ((flags & kFalling) != 0) out.word(" FALLING");
+std::vector<WireSource> TreeReader::sourcesOf(const Wires& wires) const {
+  std::vector<WireSource> sources;
+  for (const Wire& wire : wires.all)
+    sources.push_back(
+        {{wire.loc, std::to_string(wire.from)}, wire.pin == nullptr ? xml::Excerpt() : archive_.excerptOf(*wire.pin)});
+  return sources;
 }
 
 // The value of a tree; none: the tree is empty.
-Wires NetworkReader::value(const Element& tree) {
+Wires TreeReader::value(const Element& tree) {
   if (Archive::isNothing(tree)) return {};
   const std::string type = archive_.typeOf(tree);
   if (ladder_ && isSeries(tree, true)) return series(tree, rail(tree.loc));
@@ -268,20 +262,20 @@ Wires NetworkReader::value(const Element& tree) {
   return wires;
 }
 
-Wires NetworkReader::operand(const Element& tree) {
+Wires TreeReader::operand(const Element& tree) {
   const Element* held = archive_.member(tree, "Operand");
   const Element* text = held == nullptr ? nullptr : archive_.member(*held, "Operand");
   if (text == nullptr || archive_.text(*text).empty()) return {};
   const uint64_t flags = flagsOf(*held) | flagsOf(tree);
-  const uint64_t number = begin("input", text->loc);
-  out_.word(" (");
-  archive_.write(*text, out_);
-  out_.word((flags & kNegation) != 0 ? ") NOT;\n" : ");\n");
-  return {{{number, nullptr, text->loc}}, flags & (kRising | kFalling)};
+  NetworkElement input = element(ElementKind::Input, text->loc);
+  input.operand = archive_.excerptOf(*text);
+  input.modifiers.negated = (flags & kNegation) != 0;
+  writer_.write(input);
+  return {{{last_, nullptr, text->loc}}, flags & (kRising | kFalling)};
 }
 
 // A coil or an output; or a jump or return, which the editor treats as coils.
-void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box) {
+void TreeReader::assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box) {
   const Element* text = archive_.member(target, "Operand");
   if (Archive::isNothing(target) || text == nullptr) return;
   const std::string spelling = archive_.text(*text);
@@ -289,134 +283,120 @@ void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& w
   if (spelling.empty() && !leaves) return;
   const bool stores = (flags & kSet) != 0;
   const bool coil = ladder_ && !of_box && sameIdentifier(archive_.text(target, "Type"), "BOOL");
-  begin(jump ? "jump" : leaves ? "return" : coil ? "coil" : "output", text->loc);
-  if (!leaves) {
-    out_.word(jump ? " " : " (");
-    archive_.write(*text, out_);
-    if (!jump) out_.word(")");
-  }
+  NetworkElement out = element(jump     ? ElementKind::Jump
+                               : leaves ? ElementKind::Return
+                               : coil   ? ElementKind::Coil
+                                        : ElementKind::Output,
+                               text->loc);
+  if (!leaves) (jump ? out.name : out.operand) = archive_.excerptOf(*text);
   const uint64_t own = stores ? 0 : flags & kNegation;
-  writeModifiers((own ^ (wires.flags & kNegation)) | ((flags | wires.flags) & (kRising | kFalling)), out_);
-  if (stores) out_.word((flags & kNegation) != 0 ? " RESET" : " SET");
-  if (!wires.all.empty()) {
-    out_.word(" := ");
-    writeWires(wires);
-  }
-  out_.word(";\n");
+  out.modifiers = modifiersOf((own ^ (wires.flags & kNegation)) | ((flags | wires.flags) & (kRising | kFalling)));
+  if (stores) out.modifiers.storage = (flags & kNegation) != 0 ? PinStorage::Reset : PinStorage::Set;
+  out.input = sourcesOf(wires);
+  writer_.write(out);
 }
 
 // TON (instance), Module.Method, or a callee that is not a path: M (SUPER^.M)
-void NetworkReader::writeInstance(const Element& tree) {
+void TreeReader::readInstance(const Element& tree, NetworkElement& out) const {
   const Element* type = archive_.member(tree, "BoxType");
   const std::string called = type == nullptr ? std::string() : archive_.text(*type);
   const Element* instance = archive_.member(tree, "Instance");
   const Element* operand = instance == nullptr ? nullptr : archive_.member(*instance, "Operand");
-  const bool has_instance = operand != nullptr && !archive_.text(*operand).empty();
-  out_.word(" ");
   if (called.empty()) {
-    out_.put(tree.loc, archive_.text(tree, "CallType"));
+    out.name = {tree.loc, archive_.text(tree, "CallType")};
   } else if (isPath(called)) {
-    archive_.write(*type, out_);
+    out.name = archive_.excerptOf(*type);
   } else {
-    out_.put(type->loc, called.substr(called.find_last_of(".^") + 1));
-    if (!has_instance) {
-      out_.word(" (");
-      archive_.write(*type, out_);
-      out_.word(")");
-    }
+    out.name = {type->loc, called.substr(called.find_last_of(".^") + 1)};
+    out.operand = archive_.excerptOf(*type);
   }
-  if (!has_instance) return;
-  out_.word(" (");
-  archive_.write(*operand, out_);
-  out_.word(")");
+  if (operand != nullptr && !archive_.text(*operand).empty()) out.operand = archive_.excerptOf(*operand);
 }
 
-Wires NetworkReader::box(const Element& tree) {
+void TreeReader::readInputs(const Element& tree, const std::vector<Wires>& inputs, NetworkElement& out) const {
   const std::vector<const Element*> items = itemsOf(archive_.member(tree, "InputItems"));
   const std::vector<const Element*> names = itemsOf(listOf(tree, "InputParam", "Names"));
+  size_t unnamed = 0;
+  for (size_t k = 0; k < inputs.size(); ++k) {
+    const Element* name = nameIn(names, k);
+    const bool enable = name != nullptr && isEnable(archive_.text(*name));
+    const size_t index = enable ? unnamed : unnamed++;
+    // EN connected to the power rail is always TRUE.
+    if (enable && rail_ != 0 && inputs[k].all.size() == 1 && inputs[k].all[0].from == rail_) continue;
+    xml::Excerpt named =
+        name == nullptr ? xml::Excerpt(items[k]->loc, pinName(PinDirection::Input, index)) : archive_.excerptOf(*name);
+    out.pins.push_back({std::move(named), PinDirection::Input, modifiersOf(inputs[k].flags), sourcesOf(inputs[k])});
+  }
+}
+
+void TreeReader::readOutputs(const Element& tree, size_t count, NetworkElement& out) const {
+  const std::vector<const Element*> results = itemsOf(listOf(tree, "OutputParam", "Names"));
+  for (size_t k = 0; k < std::max(results.size(), count); ++k) {
+    const Element* name = nameIn(results, k);
+    xml::Excerpt named =
+        name == nullptr ? xml::Excerpt(tree.loc, pinName(PinDirection::Output, k)) : archive_.excerptOf(*name);
+    out.pins.push_back({std::move(named), PinDirection::Output, {}, {}});
+  }
+}
+
+// The output that the enclosing tree reads is the one without a target.
+size_t TreeReader::mainOutput(const std::vector<const Element*>& targets) const {
+  const auto nothing =
+      std::find_if(targets.begin(), targets.end(), [](const Element* e) { return Archive::isNothing(*e); });
+  if (nothing != targets.end()) return static_cast<size_t>(nothing - targets.begin());
+  const auto open = std::find_if(targets.begin(), targets.end(),
+                                 [&](const Element* e) { return archive_.text(*e, "Operand").empty(); });
+  return open == targets.end() ? 0 : static_cast<size_t>(open - targets.begin());
+}
+
+Wires TreeReader::box(const Element& tree) {
   const std::vector<const Element*> input_flags = itemsOf(archive_.member(tree, "InputFlags"));
   const std::vector<const Element*> targets = itemsOf(listOf(tree, "OutputItems", "OutputItems"));
-  const std::vector<const Element*> results = itemsOf(listOf(tree, "OutputParam", "Names"));
-  const auto named = [&](const std::vector<const Element*>& list, size_t k) {
-    return k < list.size() && isPath(archive_.text(*list[k])) ? list[k] : nullptr;
-  };
   std::vector<Wires> inputs;
-  for (const Element* item : items) {  // only the first input may be contacts, the others are values
+  for (const Element* item : itemsOf(archive_.member(tree, "InputItems"))) {
+    // Only the first input may be contacts, the others are values.
     const bool reads = !inputs.empty() && !Archive::isNothing(*item) && archive_.typeOf(*item) == "BoxTreeOperand";
     inputs.push_back(reads ? operand(*item) : value(*item));
   }
   for (size_t k = 0; k < inputs.size() && k < input_flags.size(); ++k)
     inputs[k].flags ^= archive_.number(*input_flags[k], "Flags");
 
-  // The output that the enclosing tree reads is the one without a target.
-  size_t main = targets.size();
-  for (size_t k = targets.size(); k-- > 0;)
-    if (Archive::isNothing(*targets[k])) main = k;
-  for (size_t k = targets.size(); main == targets.size() && k-- > 0;)
-    if (archive_.text(*targets[k], "Operand").empty()) main = k;
-  if (main == targets.size()) main = 0;
-
   const Element* snippet = archive_.member(tree, "STSnippet");
   const bool executes = snippet != nullptr && archive_.isTrue(tree, "ProvidesSTSnippet");
-  const uint64_t number = begin(executes ? "execute" : "box", tree.loc);
-  if (!executes) writeInstance(tree);
-  out_.word(" [");
-  bool first = true;
-  uint32_t unnamed = 0;
-  for (size_t k = 0; k < inputs.size(); ++k) {
-    const Element* name = named(names, k);
-    const bool enable = name != nullptr && sameIdentifier(archive_.text(*name), "EN");
-    if (!enable) ++unnamed;
-    // EN connected to the power rail is always TRUE.
-    if (enable && rail_ != 0 && inputs[k].all.size() == 1 && inputs[k].all[0].from == rail_) continue;
-    if (!first) out_.word(", ");
-    first = false;
-    if (name != nullptr)
-      archive_.write(*name, out_);
-    else
-      out_.put(items[k]->loc, "IN" + std::to_string(unnamed));
-    writeModifiers(inputs[k].flags, out_);
-    out_.word(" := ");
-    writeWires(inputs[k]);
-  }
-  for (size_t k = 0; k < std::max(results.size(), targets.size()); ++k) {
-    if (!first) out_.word(", ");
-    first = false;
-    if (const Element* name = named(results, k))
-      archive_.write(*name, out_);
-    else
-      out_.put(tree.loc, k == 0 ? "OUT" : "OUT" + std::to_string(k));
-    out_.word(" =>");
-  }
-  out_.word("]");
-  if (executes) {
-    out_.word(" {network ST}\n");
-    archive_.write(*snippet, out_);
-    out_.word("\n{end_network}");
-  }
-  out_.word(";\n");
+  NetworkElement out = element(executes ? ElementKind::Execute : ElementKind::Box, tree.loc);
+  const uint64_t number = last_;
+  if (!executes) readInstance(tree, out);
+  out.has_pins = true;
+  readInputs(tree, inputs, out);
+  readOutputs(tree, targets.size(), out);
+  if (executes) out.statements = archive_.excerptOf(*snippet);
+  writer_.write(out);
+
+  const std::vector<const Element*> results = itemsOf(listOf(tree, "OutputParam", "Names"));
   for (size_t k = 0; k < targets.size(); ++k)
     if (!Archive::isNothing(*targets[k]))
-      assign(*targets[k], flagsOf(*targets[k]), {{{number, named(results, k), targets[k]->loc}}, 0}, true);
-  return {{{number, named(results, main), tree.loc}}, flagsOf(tree) & (kNegation | kRising | kFalling)};
+      assign(*targets[k], flagsOf(*targets[k]), {{{number, nameIn(results, k), targets[k]->loc}}, 0}, true);
+  const Element* main = nameIn(results, mainOutput(targets));
+  return {{{number, main, tree.loc}}, flagsOf(tree) & (kNegation | kRising | kFalling)};
 }
 
 // A box of an operator that is not in the trees.
-Wires NetworkReader::boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc) {
-  const uint64_t number = begin("box", loc);
-  out_.word(" " + std::string(type) + " [");
-  for (size_t k = 0; k < inputs.size(); ++k) {
-    out_.put(loc, (k == 0 ? "IN" : ", IN") + std::to_string(k + 1));
-    writeModifiers(inputs[k].flags, out_);
-    out_.word(" := ");
-    writeWires(inputs[k]);
-  }
-  out_.word(", OUT =>];\n");
-  return {{{number, nullptr, loc}}, 0};
+Wires TreeReader::boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc) {
+  NetworkElement out = element(ElementKind::Box, loc);
+  out.name = {loc, std::string(type)};
+  out.has_pins = true;
+  for (size_t k = 0; k < inputs.size(); ++k)
+    out.pins.push_back({{loc, pinName(PinDirection::Input, k)},
+                        PinDirection::Input,
+                        modifiersOf(inputs[k].flags),
+                        sourcesOf(inputs[k])});
+  out.pins.push_back({{loc, pinName(PinDirection::Output, 0)}, PinDirection::Output, {}, {}});
+  writer_.write(out);
+  return {{{last_, nullptr, loc}}, 0};
 }
 
 // The value of a line before it branches is fixed here: elements after it may write variables that it reads.
-Wires NetworkReader::demux(const Element& tree) {
+Wires TreeReader::demux(const Element& tree) {
   const uint64_t branch = archive_.number(tree, "VarId");
   const Element* input = archive_.member(tree, "Input");
   if (input == nullptr) {
@@ -429,12 +409,12 @@ Wires NetworkReader::demux(const Element& tree) {
   const bool resolved = wires.all.empty() || archive_.typeOf(*input) == "BoxTreeDemux" ||
                         archive_.typeOf(*input) == "BoxTreeTerminator" ||
                         (archive_.typeOf(*input) == "BoxTreeBox" && !(ladder_ && isSeries(*input, true)));
-  if (!resolved || wires.flags != 0) wires = boxOf("MOVE", {wires}, tree.loc);
+  if (!resolved || wires.flags != 0) wires = boxOf(kMove, {wires}, tree.loc);
   return branches_[branch] = wires;
 }
 
 // Parallel lines: AND of their common input with the OR of all lines.
-Wires NetworkReader::parallel(const Element& tree) {
+Wires TreeReader::parallel(const Element& tree) {
   const Element* input = archive_.member(tree, "Input");
   Wires before = input == nullptr ? Wires{} : value(*input);
   std::vector<Wires> lines;
@@ -446,14 +426,14 @@ Wires NetworkReader::parallel(const Element& tree) {
 
 // ---- contacts
 
-bool NetworkReader::isContact(const Element& tree) const {
+bool TreeReader::isContact(const Element& tree) const {
   const Element* held = archive_.member(tree, "Operand");
   return held != nullptr && sameIdentifier(archive_.text(*held, "Type"), "BOOL") &&
          !archive_.text(*held, "Operand").empty();
 }
 
 // Whether the tree can be written as contacts. Other elements are allowed only at the power rail.
-bool NetworkReader::isSeries(const Element& tree, bool at_rail) const {
+bool TreeReader::isSeries(const Element& tree, bool at_rail) const {
   if (Archive::isNothing(tree)) return false;
   const std::string type = archive_.typeOf(tree);
   if (type == "BoxTreeOperand") return isContact(tree);
@@ -482,21 +462,18 @@ bool NetworkReader::isSeries(const Element& tree, bool at_rail) const {
   return true;
 }
 
-Wires NetworkReader::series(const Element& tree, Wires from) {
+Wires TreeReader::series(const Element& tree, Wires from) {
   if (!isSeries(tree, true)) return plain(value(tree), tree.loc);
   const std::string type = archive_.typeOf(tree);
   if (type == "BoxTreeOperand") {
     const Element& held = *archive_.member(tree, "Operand");
     const Element& text = *archive_.member(held, "Operand");
-    const uint64_t number = begin("contact", text.loc);
-    out_.word(" (");
-    archive_.write(text, out_);
-    out_.word(")");
-    writeModifiers(flagsOf(held) | flagsOf(tree), out_);
-    out_.word(" := ");
-    writeWires(from);
-    out_.word(";\n");
-    return {{{number, nullptr, text.loc}}, 0};
+    NetworkElement contact = element(ElementKind::Contact, text.loc);
+    contact.operand = archive_.excerptOf(text);
+    contact.modifiers = modifiersOf(flagsOf(held) | flagsOf(tree));
+    contact.input = sourcesOf(from);
+    writer_.write(contact);
+    return {{{last_, nullptr, text.loc}}, 0};
   }
   Wires joined;
   const auto join = [&](const Element& line) {
@@ -522,12 +499,10 @@ Wires NetworkReader::series(const Element& tree, Wires from) {
 
 void writeNwl(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
               xml::SourceMappedText& out) {
-  const xml::Element* object = archive.root(body, "NWLImplementationObject");
-  if (object == nullptr) {
+  if (const xml::Element* object = archive.root(body, "NWLImplementationObject"))
+    TreeReader(archive, name, diagnostics, out).run(*object);
+  else
     diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "NWLImplementationObject"});
-    return;
-  }
-  NetworkReader(archive, name, diagnostics, out).run(*object);
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::importer::twincat

@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "frontend/import/chart_writer.h"
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/twincat/archive.h"
 #include "frontend/source/names.h"
 
-namespace rung::vendor {
+namespace rung::importer::twincat {
 namespace {
 
 // The attributes of elements, by the first digits of their GUID.
@@ -19,7 +20,6 @@ constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = 
                            kMinimum = "{cacf1a68", kMaximum = "{b693554c";
 constexpr size_t kMaxPaths = 10'000;  // sets of steps before one transition
 
-using Element = xml::Element;
 using Steps = std::vector<const Element*>;
 
 struct Transition {
@@ -35,9 +35,9 @@ struct Front {
 };
 
 const Element* attributeOf(const Archive& archive, const Element& element, std::string_view guid) {
-  for (const Element* e = archive.first(archive.member(element, "Attributes")); e != nullptr; e = archive.next(*e)) {
-    if (!archive.text(*e, "AttributeId").starts_with(guid)) continue;
-    const Element* value = archive.member(*e, "Value");
+  for (const xml::Element& e : archive.items(archive.member(element, "Attributes"))) {
+    if (!archive.text(e, "AttributeId").starts_with(guid)) continue;
+    const Element* value = archive.member(e, "Value");
     const Element* text = value == nullptr ? nullptr : archive.member(*value, "Value");
     return text != nullptr && !archive.text(*text).empty() ? text : nullptr;
   }
@@ -56,19 +56,24 @@ const Element* innerList(const Archive& archive, const Element& owner) {
 
 template <class Visit>
 void forEachStep(const Archive& archive, const Element& segment, Visit visit) {
-  for (const Element* e = archive.first(innerList(archive, segment)); e != nullptr; e = archive.next(*e)) {
-    const std::string type = archive.typeOf(*e);
+  for (const xml::Element& e : archive.items(innerList(archive, segment))) {
+    const std::string type = archive.typeOf(e);
     if (type == "SFCStep")
-      visit(*e);
+      visit(e);
     else if (type == "SFCBranch" || type == "SFCSegment")
-      forEachStep(archive, *e, visit);
+      forEachStep(archive, e, visit);
   }
+}
+
+const Element* rootOf(const Archive& archive, const Element& body) {
+  const Element* object = archive.root(body, "SFCImplementationObject");
+  return object == nullptr ? nullptr : archive.member(*object, "Root");
 }
 
 class ChartReader {
  public:
   ChartReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
+      : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out), writer_(out) {}
 
   void run(const Element& root);
 
@@ -88,8 +93,8 @@ class ChartReader {
   void branch(const Element& element, Front& front);
   void writeStep(const Element& element);
   void writeTransition(const Transition& transition);
-  void writeSteps(const Steps& steps);
-  void writeAction(const Element& name);
+  xml::Excerpt actionName(const Element& name) const;
+  std::vector<xml::Excerpt> namesOf(const Steps& steps) const;
   bool isStep(std::string_view name) const {
     return std::any_of(steps_.begin(), steps_.end(), [&](const Element* e) {
       const Element* own = attributeOf(archive_, *e, kName);
@@ -101,6 +106,7 @@ class ChartReader {
   const std::string& name_;
   Diagnostics& diagnostics_;
   xml::SourceMappedText& out_;
+  ChartWriter writer_;
   bool ok_ = true;
   Steps steps_;
   std::vector<Transition> transitions_;
@@ -163,9 +169,9 @@ void ChartReader::branch(const Element& element, Front& front) {
   const Front incoming = front;
   front = {};
   std::vector<Steps> united = {{}};
-  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr && ok_; e = archive_.next(*e)) {
+  for (const Element& e : archive_.items(innerList(archive_, element))) {
     Front line = incoming;
-    walk(*e, line);
+    walk(e, line);
     if (!ok_) return;
     if (!parallel) {
       front.steps.insert(front.steps.end(), line.steps.begin(), line.steps.end());
@@ -191,85 +197,77 @@ void ChartReader::branch(const Element& element, Front& front) {
 
 //   fails   <o t="SFCMacro">          E1087
 void ChartReader::walk(const Element& segment, Front& front) {
-  for (const Element* e = archive_.first(innerList(archive_, segment)); e != nullptr && ok_; e = archive_.next(*e)) {
-    if (Archive::isNothing(*e)) continue;
-    const std::string type = archive_.typeOf(*e);
+  for (const Element& e : archive_.items(innerList(archive_, segment))) {
+    if (!ok_) return;
+    if (Archive::isNothing(e)) continue;
+    const std::string type = archive_.typeOf(e);
     if (type == "SFCStep") {
-      step(*e, front);
+      step(e, front);
     } else if (type == "SFCTransition") {
-      transition(*e, front);
+      transition(e, front);
     } else if (type == "SFCJump") {
-      jump(*e, front);
+      jump(e, front);
     } else if (type == "SFCBranch") {
-      branch(*e, front);
+      branch(e, front);
     } else {
-      const xml::Attribute* type_attribute = archive_.document().attribute(*e, "t");
-      report(diag::ArchiveObject, type_attribute == nullptr ? e->loc : type_attribute->loc,
-             type.empty() ? std::string("?") : type, std::string("SFC"), name_);
+      archive_.reportObject(diagnostics_, e, "SFC", name_);
+      ok_ = false;
     }
   }
 }
 
-void ChartReader::writeAction(const Element& name) {
-  archive_.write(name, out_);
-  if (isStep(archive_.text(name))) out_.word(kActionSuffix);
+xml::Excerpt ChartReader::actionName(const Element& name) const {
+  xml::Excerpt excerpt = archive_.excerptOf(name);
+  if (isStep(archive_.text(name))) excerpt.text = kActionSuffix;
+  return excerpt;
 }
 
-// STEP name (TMIN := t, TMAX := u): {entry} a; {active} b; {exit} c; d(N); END_STEP
 void ChartReader::writeStep(const Element& element) {
-  out_.put(element.loc, isSet(archive_, element, kInitial) ? "INITIAL_STEP " : "STEP ");
-  archive_.write(*attributeOf(archive_, element, kName), out_);
-  const char* before = " (";
-  for (const auto& [guid, word] : {std::pair{kMinimum, "TMIN := "}, std::pair{kMaximum, "TMAX := "}}) {
-    const Element* time = attributeOf(archive_, element, guid);
-    if (time == nullptr) continue;
-    out_.put(time->loc, before + std::string(word));
-    archive_.write(*time, out_);
-    before = ", ";
-  }
-  out_.word(before[0] == ',' ? "):\n" : ":\n");
+  ChartStep step;
+  step.loc = element.loc;
+  step.end = element.end;
+  step.initial = isSet(archive_, element, kInitial);
+  step.name = archive_.excerptOf(*attributeOf(archive_, element, kName));
+  if (const Element* time = attributeOf(archive_, element, kMinimum)) step.minimum = archive_.excerptOf(*time);
+  if (const Element* time = attributeOf(archive_, element, kMaximum)) step.maximum = archive_.excerptOf(*time);
   static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
-      {kEntry, "{entry} "}, {kMain, "{active} "}, {kExit, "{exit} "}};
-  for (const auto& [guid, pragma] : kOwn) {
-    const Element* action = attributeOf(archive_, element, guid);
+      {kEntry, "entry"}, {kMain, "active"}, {kExit, "exit"}};
+  for (const auto& [guid, pragma] : kOwn)
+    if (const Element* action = attributeOf(archive_, element, guid))
+      step.actions.push_back({pragma, actionName(*action), {}, {}, {}, {}});
+  for (const Element& e : archive_.items(innerList(archive_, element))) {
+    const Element* action = attributeOf(archive_, e, kName);
+    const Element* qualifier = attributeOf(archive_, e, kQualifier);
     if (action == nullptr) continue;
-    out_.put(action->loc, pragma);
-    writeAction(*action);
-    out_.word(";\n");
+    StepAction& out = step.actions.emplace_back();
+    out.name = actionName(*action);
+    if (qualifier == nullptr) continue;
+    const std::string how = archive_.text(*qualifier);  // `D T#50ms`
+    const size_t blank = how.find(' ');
+    out.qualifier = {qualifier->loc, how.substr(0, blank)};
+    if (blank != std::string::npos) out.time = xml::Excerpt(how.substr(blank + 1));
   }
-  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr; e = archive_.next(*e)) {
-    const Element* action = attributeOf(archive_, *e, kName);
-    const Element* qualifier = attributeOf(archive_, *e, kQualifier);
-    if (action == nullptr) continue;
-    writeAction(*action);
-    // `D T#50ms`
-    std::string how = qualifier == nullptr ? "N" : archive_.text(*qualifier);
-    if (const size_t blank = how.find(' '); blank != std::string::npos) how.insert(blank, ",");
-    out_.put(qualifier == nullptr ? action->loc : qualifier->loc, "(" + how + ");\n");
-  }
-  out_.put(element.end, "END_STEP\n");
+  writer_.write(step);
 }
 
-void ChartReader::writeSteps(const Steps& steps) {
-  if (steps.size() > 1) out_.word("(");
-  for (size_t k = 0; k < steps.size(); ++k) {
-    if (k > 0) out_.word(", ");
-    archive_.write(*attributeOf(archive_, *steps[k], kName), out_);
-  }
-  if (steps.size() > 1) out_.word(")");
+std::vector<xml::Excerpt> ChartReader::namesOf(const Steps& steps) const {
+  std::vector<xml::Excerpt> names;
+  for (const Element* step : steps) names.push_back(archive_.excerptOf(*attributeOf(archive_, *step, kName)));
+  return names;
 }
 
-// TRANSITION FROM a TO b := x; END_TRANSITION for each set of steps from which it can fire.
+// A TRANSITION for each set of steps from which it can fire.
 void ChartReader::writeTransition(const Transition& transition) {
   for (const Steps& from : transition.from) {
-    out_.put(transition.element->loc, "TRANSITION FROM ");
-    writeSteps(from);
-    out_.put(transition.element->loc, " TO ");
-    writeSteps(transition.to);
+    ChartTransition out;
+    out.loc = transition.element->loc;
+    out.from = namesOf(from);
+    out.to = namesOf(transition.to);
+    writer_.beginTransition(out);
     out_.word(" := ");
-    archive_.write(*attributeOf(archive_, *transition.element, kName), out_);
+    out_.add(archive_.excerptOf(*attributeOf(archive_, *transition.element, kName)));
     out_.word("\n;");
-    out_.put(transition.element->end, " END_TRANSITION\n");
+    writer_.endTransition(transition.element->end);
   }
 }
 
@@ -294,18 +292,14 @@ void ChartReader::run(const Element& root) {
 
 void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
               xml::SourceMappedText& out) {
-  const xml::Element* object = archive.root(body, "SFCImplementationObject");
-  const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
-  if (root == nullptr) {
+  if (const xml::Element* root = rootOf(archive, body))
+    ChartReader(archive, name, diagnostics, out).run(*root);
+  else
     diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "SFCImplementationObject"});
-    return;
-  }
-  ChartReader(archive, name, diagnostics, out).run(*root);
 }
 
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name) {
-  const xml::Element* object = archive.root(body, "SFCImplementationObject");
-  const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
+  const xml::Element* root = rootOf(archive, body);
   bool found = false;
   if (root != nullptr)
     forEachStep(archive, *root, [&](const xml::Element& step) {
@@ -317,33 +311,19 @@ bool hasStep(const Archive& archive, const xml::Element& body, std::string_view 
 
 // <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart uses the variables only if they are declared.
 void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out) {
-  static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
-      {"Init", "VAR_INPUT SFCInit : BOOL"},
-      {"Reset", "VAR_INPUT SFCReset : BOOL"},
-      {"QuitError", "VAR_INPUT SFCQuitError : BOOL"},
-      {"Pause", "VAR_INPUT SFCPause : BOOL"},
-      {"Tip", "VAR_INPUT SFCTip : BOOL"},
-      {"TipMode", "VAR_INPUT SFCTipMode : BOOL"},
-      {"EnableLimit", "VAR_INPUT SFCEnableLimit : BOOL"},
-      {"Error", "VAR_OUTPUT SFCError : BOOL"},
-      {"Trans", "VAR_OUTPUT SFCTrans : BOOL"},
-      {"ErrorStep", "VAR_OUTPUT SFCErrorStep : STRING"},
-      {"ErrorPOU", "VAR_OUTPUT SFCErrorPOU : STRING"},
-      {"CurrentStep", "VAR_OUTPUT SFCCurrentStep : STRING"}};
   const xml::Element* properties = archive.document().child(pou, "ObjectProperties");
   const xml::Element* settings = properties == nullptr ? nullptr : archive.root(*properties, "SFCProperty");
   if (settings == nullptr || archive.isTrue(*settings, "UseDefaults")) return;
   const xml::Element* list = archive.member(*settings, "Flags");
   std::string key;
-  for (const xml::Element* e = archive.first(list); e != nullptr; e = archive.next(*e)) {
-    if (e->name == "v") {
-      key = archive.text(*e);
+  for (const xml::Element& e : archive.items(list)) {
+    if (e.name == "v") {
+      key = archive.text(e);
       continue;
     }
-    if (!archive.isTrue(*e, "Use") || !archive.isTrue(*e, "Declare")) continue;
-    for (const auto& [flag, declaration] : kFlags)
-      if (key == flag) out.put(e->loc, std::string(declaration) + "; END_VAR\n");
+    if (key != "ErrorAnalyzation" && archive.isTrue(e, "Use") && archive.isTrue(e, "Declare"))
+      out.put(e.loc, declarationOfFlag(key));
   }
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::importer::twincat

@@ -3,17 +3,15 @@
 // body of an unsupported kind is an error, but the declarations of its POU are read all the same.
 #include <string>
 
+#include "frontend/import/chart_writer.h"
+#include "frontend/import/content.h"
 #include "frontend/import/diagnostics.h"
-#include "frontend/import/readers.h"
-#include "frontend/import/scanner.h"
-#include "frontend/import/source_mapped_text.h"
 #include "frontend/import/twincat/archive.h"
-#include "frontend/import/vendor.h"
+#include "frontend/import/twincat/twincat.h"
+#include "frontend/source/scanner.h"
 
-namespace rung::vendor {
+namespace rung::importer::twincat {
 namespace {
-
-constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT allows larger numbers
 
 // How messages describe the elements of unsupported bodies.
 const char* languageOf(std::string_view element) {
@@ -33,13 +31,13 @@ class TwinCatReader {
         program_(sources) {}
 
   xml::SourceMappedText& run() {
-    for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
-      if (e->name == "POU" || e->name == "Itf") {
-        readPou(*e);
-      } else if (e->name == "DUT" || e->name == "GVL" || e->name == "EnumerationTextList") {
-        part(*e, "Declaration");
-      } else if (e->name == "Task") {
-        readTask(*e);
+    for (const xml::Element& e : document_.children(document_.elements[0])) {
+      if (e.name == "POU" || e.name == "Itf") {
+        readPou(e);
+      } else if (e.name == "DUT" || e.name == "GVL" || e.name == "EnumerationTextList") {
+        part(e, "Declaration");
+      } else if (e.name == "Task") {
+        readTask(e);
       }  // others are pictures and lists of strings
     }
     return program_;
@@ -62,11 +60,11 @@ class TwinCatReader {
     chart_ = body == nullptr ? nullptr : document_.child(*body, "SFC");
     part(pou, "Declaration");
     if (chart_ != nullptr) writeSfcFlags(archive_, pou, program_);
-    for (const xml::Element* e = document_.firstChild(pou); e != nullptr; e = document_.next(*e)) {
-      if (e->name == "Method") readMethod(*e, name);
-      if (e->name == "Property") readProperty(*e, name);
-      if (e->name == "Action") readAction(*e, name);
-      if (e->name == "Transition") readTransition(*e, name);
+    for (const xml::Element& e : document_.children(pou)) {
+      if (e.name == "Method") readMethod(e, name);
+      if (e.name == "Property") readProperty(e, name);
+      if (e.name == "Action") readAction(e, name);
+      if (e.name == "Transition") readTransition(e, name);
     }
     readBody(pou, name);
     closeWith(endWordOf(firstWord(document_.text(*declaration, sources_))));
@@ -80,13 +78,13 @@ class TwinCatReader {
 
   void readProperty(const xml::Element& property, const std::string& owner) {
     part(property, "Declaration");
-    for (const xml::Element* e = document_.firstChild(property); e != nullptr; e = document_.next(*e)) {
-      const bool get = e->name == "Get";
-      if (!get && e->name != "Set") continue;
+    for (const xml::Element& e : document_.children(property)) {
+      const bool get = e.name == "Get";
+      if (!get && e.name != "Set") continue;
       program_.word(get ? "GET " : "SET ");  // modifiers, as in `GET PROTECTED`, follow in the declaration
-      part(*e, "Declaration");
+      part(e, "Declaration");
       program_.word("\n");
-      readBody(*e, owner + "." + document_.value(property, "Name"));
+      readBody(e, owner + "." + document_.value(property, "Name"));
       closeWith(get ? "END_GET" : "END_SET");
     }
     closeWith("END_PROPERTY");
@@ -117,18 +115,18 @@ class TwinCatReader {
   void readBody(const xml::Element& owner, const std::string& name) {
     const xml::Element* body = document_.child(owner, "Implementation");
     if (body == nullptr) return;
-    for (const xml::Element* e = document_.firstChild(*body); e != nullptr; e = document_.next(*e)) {
-      if (e->name == "ST") {
-        program_.add(document_, *e);
+    for (const xml::Element& e : document_.children(*body)) {
+      if (e.name == "ST") {
+        program_.add(document_, e);
         program_.word("\n");
-      } else if (e->name == "NWL") {
-        writeNwl(archive_, *e, name, diagnostics_, program_);
-      } else if (e->name == "CFC") {
-        writeCfc(archive_, *e, name, diagnostics_, program_);
-      } else if (e->name == "SFC") {
-        writeSfc(archive_, *e, name, diagnostics_, program_);
-      } else if (const char* language = languageOf(e->name)) {
-        diagnostics_.report(diag::NetworkBody, e->loc, {name, language});
+      } else if (e.name == "NWL") {
+        writeNwl(archive_, e, name, diagnostics_, program_);
+      } else if (e.name == "CFC") {
+        writeCfc(archive_, e, name, diagnostics_, program_);
+      } else if (e.name == "SFC") {
+        writeSfc(archive_, e, name, diagnostics_, program_);
+      } else if (const char* language = languageOf(e.name)) {
+        diagnostics_.report(diag::NetworkBody, e.loc, {name, language});
       }
     }
   }
@@ -152,8 +150,8 @@ class TwinCatReader {
     addName();
     program_.word("(INTERVAL := T#" + document_.text(*cycle, sources_) +
                   "us, PRIORITY := " + std::to_string(priorityOf(task)) + ");\n");
-    for (const xml::Element* call = document_.firstChild(task); call != nullptr; call = document_.next(*call)) {
-      const xml::Element* called = call->name == "PouCall" ? document_.child(*call, "Name") : nullptr;
+    for (const xml::Element& call : document_.children(task)) {
+      const xml::Element* called = call.name == "PouCall" ? document_.child(call, "Name") : nullptr;
       if (called == nullptr) continue;
       program_.word("PROGRAM ");
       program_.add(document_, *called);
@@ -185,10 +183,12 @@ class TwinCatReader {
 
 }  // namespace
 
-FileId readTwinCat(Sources& sources, FileId file, Diagnostics& diagnostics) {
+bool isTwinCat(std::string_view text) { return xml::rootName(xml::rootTag(text)) == "TcPlcObject"; }
+
+FileId readProgram(ReadContext& context, FileId file) {
   xml::Document document;
-  if (!xml::read(sources, file, diagnostics, document)) return {};
-  return TwinCatReader(sources, document, diagnostics).run().finish(sources, file);
+  if (!xml::read(context.sources, file, context.diagnostics, document)) return {};
+  return TwinCatReader(context.sources, document, context.diagnostics).run().finish(context.sources, file);
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::importer::twincat

@@ -1,12 +1,12 @@
-// .plcproj: the project file of TwinCAT 3, in the form of MSBuild. See readProject() of vendor.h.
+// .plcproj: the project file of TwinCAT 3, in the form of MSBuild. See twincat.h.
 #include <algorithm>
 #include <string>
 
-#include "frontend/import/vendor.h"
+#include "frontend/import/twincat/twincat.h"
 #include "frontend/import/xml.h"
 #include "frontend/source/names.h"
 
-namespace rung::vendor {
+namespace rung::importer::twincat {
 namespace {
 
 // MSBuild writes `%28` for a bracket, and `\` between folders.
@@ -29,7 +29,7 @@ std::string pathOf(std::string_view text) {
   return out;
 }
 
-bool holdsProgram(std::string_view path) {
+bool listsProgram(std::string_view path) {
   const size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return false;
   for (const std::string_view extension : {"TcPOU", "TcDUT", "TcGVL", "TcIO", "TcTTO", "TcTLEO"})
@@ -38,6 +38,11 @@ bool holdsProgram(std::string_view path) {
 }
 
 }  // namespace
+
+bool isProject(std::string_view text) {
+  return xml::rootName(xml::rootTag(text)) == "Project" &&
+         text.find("schemas.microsoft.com/developer/msbuild") != std::string_view::npos;
+}
 
 bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, Project& out) {
   xml::Document document;
@@ -50,13 +55,13 @@ bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, 
       const xml::Element* excluded = document.child(element, "ExcludeFromBuild");
       if (excluded != nullptr && sameIdentifier(document.text(*excluded, sources), "true")) continue;
       std::string path = pathOf(name);
-      if (holdsProgram(path)) out.files.push_back({std::move(path), {}, include->loc});
+      if (listsProgram(path)) out.files.push_back({std::move(path), include->loc});
     } else if (element.name == "PlaceholderReference" || element.name == "LibraryReference") {
       // "Standard, 3.5.2.0, System"
       std::string title = name.substr(0, name.find(','));
       while (!title.empty() && (title.back() == ' ' || title.back() == '\t')) title.pop_back();
       const bool seen = std::any_of(out.libraries.begin(), out.libraries.end(),
-                                    [&](const ProjectEntry& entry) { return sameIdentifier(entry.name, title); });
+                                    [&](const Library& library) { return sameIdentifier(library.name, title); });
       const xml::Element* space = document.child(element, "Namespace");
       if (!title.empty() && !seen)
         out.libraries.push_back(
@@ -66,4 +71,4 @@ bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, 
   return true;
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::importer::twincat

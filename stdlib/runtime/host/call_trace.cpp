@@ -33,7 +33,7 @@ std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
     const rung_symbol& symbol = module_.symbols[i];
     if (symbol.storage != RUNG_IN_BLOCK) continue;
     const rung_type& type = module_.types[symbol.type];
-    const uint8_t* const begin = memory_.block(symbol.block) + symbol.offset;
+    const uint8_t* const begin = memory_.block(symbol.index) + symbol.offset;
     if (instance < begin || instance >= begin + (type.size == 0 ? 1 : type.size)) continue;
     std::string name = module_.strings + symbol.name;
     const std::string inside = pathInside(&type, static_cast<uint32_t>(instance - begin), pou);

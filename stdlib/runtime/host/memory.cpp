@@ -10,7 +10,7 @@ namespace {
 
 uint8_t* allocate(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
   if (align == 0) align = 1;
-  // Eight more bytes keep a 64-bit view at the end of an image inside.
+  // Eight more bytes keep a 64-bit view at the end of an area inside.
   storage.push_back(std::make_unique<uint8_t[]>(size + align + 8));
   const uintptr_t address = reinterpret_cast<uintptr_t>(storage.back().get());
   return storage.back().get() + ((address + align - 1) / align * align - address);
@@ -29,9 +29,9 @@ Memory::Memory(const rung_module& module) : module_(module) {
     blocks_.push_back(allocate(storage_, module.blocks[i].size, module.blocks[i].align));
     block_pointers_.push_back(blocks_.back());
   }
-  for (uint32_t area = 0; area < 3; ++area) images_[area] = allocate(storage_, module.image_bytes[area], 8);
+  for (uint32_t i = 0; i < module.area_count; ++i) areas_.push_back(allocate(storage_, module.areas[i].size, 8));
   context_.blocks = block_pointers_.data();
-  for (uint32_t area = 0; area < 3; ++area) context_.image[area] = images_[area];
+  context_.areas = areas_.data();
   context_.module = &module;
 }
 
@@ -39,13 +39,16 @@ uint8_t Memory::end() { return module_.exit == nullptr ? uint8_t{RUNG_FAULT_NONE
 
 uint8_t Memory::reset() {
   for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
-  for (uint32_t area = 0; area < 3; ++area) memset(images_[area], 0, module_.image_bytes[area]);
+  for (uint32_t i = 0; i < module_.area_count; ++i) memset(areas_[i], 0, module_.areas[i].size);
   context_.now_ns = 0;
   context_.task = context_.activation = 0;
   context_.fault = {};
   return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : guarded(&context_, module_.init);
 }
 
-void Memory::makeOutputsSafe() { memset(images_[RUNG_IN_OUTPUTS - RUNG_IN_INPUTS], 0, module_.image_bytes[1]); }
+void Memory::makeOutputsSafe() {
+  for (uint32_t i = 0; i < module_.area_count; ++i)
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memset(areas_[i], 0, module_.areas[i].size);
+}
 
 }  // namespace rung::host

@@ -1,4 +1,4 @@
-// The memory of a running module: blocks, process images and the context. In: a module. Out: memory set to its initial
+// The memory of a running module: blocks, areas and the context. In: a module. Out: memory set to its initial
 // values. One per run; a test run resets it before each test.
 #pragma once
 
@@ -17,7 +17,7 @@ class Memory {
 
   rung_context& context() { return context_; }
   uint8_t* block(uint32_t index) const { return blocks_[index]; }
-  uint8_t* image(uint32_t area) const { return images_[area]; }
+  uint8_t* area(uint32_t index) const { return areas_[index]; }
   // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised.
   uint8_t reset();
   // Ends all objects (FB_Exit); returns the same.
@@ -31,7 +31,7 @@ class Memory {
   std::vector<std::unique_ptr<uint8_t[]>> storage_;
   std::vector<uint8_t*> blocks_;
   std::vector<void*> block_pointers_;
-  uint8_t* images_[3] = {};
+  std::vector<uint8_t*> areas_;
 };
 
 // The reason why a module cannot run here (another ABI or pointer size), or nullptr.

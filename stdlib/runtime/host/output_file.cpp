@@ -45,16 +45,17 @@ void forget(const std::string& path) {
 }  // namespace
 
 OutputFile::~OutputFile() {
-  if (file_ != nullptr && file_ != stdout) fclose(file_);
+  if (file_ != nullptr && !standard_) fclose(file_);
   if (temporary_.empty()) return;
   unlink(temporary_.c_str());
   forget(temporary_);
 }
 
-bool OutputFile::open(const std::string& path, std::string& error) {
+bool OutputFile::open(const std::string& path, std::FILE* out, std::string& error) {
   path_ = path;
-  if (path == "-") {
-    file_ = stdout;
+  standard_ = path == "-";
+  if (standard_) {
+    file_ = out;
     return true;
   }
   struct stat status;
@@ -75,7 +76,7 @@ void OutputFile::write(const std::string& text) { fwrite(text.data(), 1, text.si
 
 bool OutputFile::close(std::string& error) {
   bool ok = fflush(file_) == 0 && ferror(file_) == 0;
-  if (file_ != stdout) ok = fclose(file_) == 0 && ok;
+  if (!standard_) ok = fclose(file_) == 0 && ok;
   file_ = nullptr;
   if (ok && !temporary_.empty()) ok = rename(temporary_.c_str(), path_.c_str()) == 0;
   if (!ok) {

@@ -15,8 +15,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // "-" is standard output; devices and pipes are written directly. False: `error` has the message.
-  bool open(const std::string& path, std::string& error);
+  // "-" is `out`; devices and pipes are written directly. False: `error` has the message.
+  bool open(const std::string& path, std::FILE* out, std::string& error);
   bool isOpen() const { return file_ != nullptr; }
   // Errors of the system show at close().
   void write(const std::string& text);
@@ -24,6 +24,7 @@ class OutputFile {
 
  private:
   FILE* file_ = nullptr;
+  bool standard_ = false;
   std::string path_, temporary_;
 };
 

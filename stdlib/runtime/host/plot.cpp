@@ -63,7 +63,7 @@ int heightOf(const Variable& variable) { return variable.type->kind == RUNG_BOOL
 
 }  // namespace
 
-bool Plot::open(const std::string& path, const std::vector<Variable>& variables, std::string& error) {
+bool Plot::open(const std::string& path, std::FILE* out, const std::vector<Variable>& variables, std::string& error) {
   for (const Variable& variable : variables) {
     double value;
     if (!numberOf(module_, variable, value)) continue;
@@ -74,7 +74,7 @@ bool Plot::open(const std::string& path, const std::vector<Variable>& variables,
     error = "--plot: none of the variables is a number or a BOOL";
     return false;
   }
-  return file_.open(path, error);
+  return file_.open(path, out, error);
 }
 
 void Plot::row() {

@@ -15,7 +15,7 @@ class Plot {
  public:
   explicit Plot(const rung_module& module) : module_(module) {}
   // Takes the numbers, times, enumerations and BOOLs among the variables. False: `error` has the message.
-  bool open(const std::string& path, const std::vector<Variable>& variables, std::string& error);
+  bool open(const std::string& path, std::FILE* out, const std::vector<Variable>& variables, std::string& error);
   void row();
   bool close(int64_t row_ns, std::string& error);
 

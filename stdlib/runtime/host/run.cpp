@@ -28,9 +28,9 @@ constexpr int kSuccess = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
 constexpr int64_t kLongRunNs = 3'000'000'000;  // a run that a faster engine would shorten
 
-int refuse(const std::string& what) {
-  fflush(stdout);
-  fprintf(stderr, "error: %s\n", what.c_str());
+int refuse(const RunOptions& options, const std::string& what) {
+  fflush(options.out);
+  fprintf(options.err, "error: %s\n", what.c_str());
   return kUsage;
 }
 
@@ -102,8 +102,8 @@ int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.contex
 void onMessage(void* data, uint8_t severity, const char* text) {
   static const char* const words[] = {"note", "warning", "error"};
   const int64_t ms = static_cast<Run*>(data)->memory.context().now_ns / 1'000'000;
-  fprintf(stderr, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000),
-          words[severity <= RUNG_MESSAGE_ERROR ? severity : 0], text);
+  fprintf(static_cast<Run*>(data)->options.err, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000),
+          static_cast<int>(ms % 1000), words[severity <= RUNG_MESSAGE_ERROR ? severity : 0], text);
 }
 void onCall(void* data, const char* pou, const void* instance) { static_cast<Run*>(data)->calls.called(pou, instance); }
 
@@ -117,16 +117,16 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
   run.reported.push_back(location);
   std::string message = location + ": assertion failed: expected " + expected + ", got " + actual;
   if (assertion->message != nullptr) message += std::string(" (") + assertion->message + ')';
-  fprintf(stderr, "%s\n", message.c_str());
+  fprintf(run.options.err, "%s\n", message.c_str());
 }
 
 int Run::prepare() {
   std::string error;
-  if (!schedule.prepare(error)) return refuse(error);
+  if (!schedule.prepare(error)) return refuse(options, error);
   // All input of the user is checked before anything runs or is written.
-  if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
-  if (!trace.choose(options.watch, error)) return refuse("--watch: " + error);
-  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return refuse("--stop-on: " + error);
+  if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(options, error);
+  if (!trace.choose(options.watch, error)) return refuse(options, "--watch: " + error);
+  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return refuse(options, "--stop-on: " + error);
 
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
@@ -136,7 +136,7 @@ int Run::prepare() {
   context.host = &host;
   context.host_data = this;
   if (memory.reset() != RUNG_FAULT_NONE) {
-    fprintf(stderr, "%s\n", describeFault(module, context.fault).c_str());
+    fprintf(options.err, "%s\n", describeFault(module, context.fault).c_str());
     return kFaulted;
   }
   if (!options.retain_path.empty()) {
@@ -144,14 +144,15 @@ int Run::prepare() {
     const rung_start start = options.start >= 0 ? static_cast<rung_start>(options.start)
                              : retain->exists() ? RUNG_WARM
                                                 : RUNG_COLD;
-    if (!retain->restore(start, symbols, error)) return refuse(error);
+    if (!retain->restore(start, symbols, error)) return refuse(options, error);
   }
   for (const auto& [path, value] : options.sets) {
     const std::string what = applySet(symbols, path, value);
-    if (!what.empty()) return refuse("--set " + path + "=" + value + ": " + what);
+    if (!what.empty()) return refuse(options, "--set " + path + "=" + value + ": " + what);
   }
-  if (!trace.open(options.trace_path, error)) return refuse(error);
-  if (!options.plot_path.empty() && !plot.open(options.plot_path, trace.variables(), error)) return refuse(error);
+  if (!trace.open(options.trace_path, options.out, error)) return refuse(options, error);
+  if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
+    return refuse(options, error);
 
   const int64_t row_ns = schedule.rowNs();
   if (options.cycles >= 0)
@@ -173,19 +174,19 @@ int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
   }
   if (faulted) memory.makeOutputsSafe();
   const std::string refused = saveRetained();
-  if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(error);
+  if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(options, error);
   if (options.trace_path.empty()) {
-    printf("%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
-           static_cast<long long>(rows_done), durationText(schedule.rowNs()).c_str(),
-           durationText(rows_done * schedule.rowNs()).c_str());
+    fprintf(options.out, "%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
+            static_cast<long long>(rows_done), durationText(schedule.rowNs()).c_str(),
+            durationText(rows_done * schedule.rowNs()).c_str());
   }
-  if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? stderr : stdout);
-  fflush(stdout);
+  if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? options.err : options.out);
+  fflush(options.out);
   if (faulted) {
-    fprintf(stderr, "%s\n", describeFault(module, fault).c_str());
+    fprintf(options.err, "%s\n", describeFault(module, fault).c_str());
     return kFaulted;
   }
-  return refused.empty() ? kSuccess : refuse(refused);
+  return refused.empty() ? kSuccess : refuse(options, refused);
 }
 
 int Run::runVirtual() {
@@ -196,7 +197,7 @@ int Run::runVirtual() {
   for (int64_t row = 0; row < cycles; ++row) {
     inputs.apply(row);
     const uint8_t fault = schedule.run(row, context);
-    if (options.trace_calls) fputs(calls.line(row).c_str(), stdout);
+    if (options.trace_calls) fputs(calls.line(row).c_str(), options.out);
     if (fault != RUNG_FAULT_NONE) return finish(true, context.fault, "");
     trace.row(row, row * row_ns);
     plot.row();
@@ -204,12 +205,12 @@ int Run::runVirtual() {
     if (!options.stop_on.empty() && stop_on.holds())
       return finish(false, {}, "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
     if (next_hint != INT64_MAX && processorNs() >= next_hint) {
-      fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+      fprintf(options.err, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }
     if (retain && row % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
-      if (!refused.empty()) return refuse(refused);
+      if (!refused.empty()) return refuse(options, refused);
       next_save = processorNs() + 1'000'000'000;
     }
   }
@@ -232,9 +233,9 @@ int Run::runInRealTime() {
     std::string error;
     trace.close(error);
     plot.close(row_ns, error);
-    fflush(stdout);
-    fprintf(stderr, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
-    fflush(stderr);
+    fflush(options.out);
+    fprintf(options.err, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
+    fflush(options.err);
     _exit(kFaulted);  // a thread may still be inside the program
   }
   return finish(result.faulted, result.fault, result.statistics);
@@ -243,7 +244,7 @@ int Run::runInRealTime() {
 }  // namespace
 
 int run(const rung_module& module, const RunOptions& options) {
-  if (const char* const why = refusal(module)) return refuse(why);
+  if (const char* const why = refusal(module)) return refuse(options, why);
   Run run(module, options);
   const int prepared = run.prepare();
   if (prepared != kSuccess) return prepared;

@@ -110,9 +110,7 @@ Variable Symbols::root(uint32_t index) const {
   Variable variable;
   variable.path = text(symbol.name);
   variable.type = &module_.types[symbol.type];
-  variable.base = symbol.storage == RUNG_IN_BLOCK
-                      ? memory_.block(symbol.block)
-                      : memory_.image(static_cast<uint32_t>(symbol.storage - RUNG_IN_INPUTS));
+  variable.base = symbol.storage == RUNG_IN_BLOCK ? memory_.block(symbol.index) : memory_.area(symbol.index);
   variable.offset = symbol.offset;
   variable.bit = symbol.bit;
   variable.flags = symbol.flags;
@@ -123,15 +121,18 @@ Variable Symbols::root(uint32_t index) const {
 // `%IX0.3`, `%QB4`, `%MW6`: the image itself, declared or not.
 bool Symbols::findAddress(std::string_view path, Variable& variable, std::string& error) const {
   const std::string lower = lowerCase(path);
-  size_t at = 1;
-  static const char kAreas[] = "iqm";
-  const char* const area = at < lower.size() ? strchr(kAreas, lower[at]) : nullptr;
-  if (area == nullptr) {
+  size_t at = 0;
+  uint32_t index = 0;
+  for (; index < module_.area_count; ++index) {
+    const std::string prefix = lowerCase(text(module_.areas[index].prefix));
+    if (prefix.empty() || lower.compare(0, prefix.size(), prefix) != 0) continue;
+    at = prefix.size();
+    break;
+  }
+  if (at == 0) {
     error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
     return false;
   }
-  ++at;
-  const uint32_t index = static_cast<uint32_t>(area - kAreas);
   const rung_type* type = &kBoolType;
   if (at < lower.size() && lower[at] >= 'a') {
     switch (lower[at++]) {
@@ -159,15 +160,16 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
     error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
     return false;
   }
-  if (byte + type->size > module_.image_bytes[index]) {
-    error = backquoted(path) + " is outside the image, of which the program uses " +
-            std::to_string(module_.image_bytes[index]) + " bytes";
+  const rung_area& area = module_.areas[index];
+  if (byte + type->size > area.size) {
+    error =
+        backquoted(path) + " is outside the image, of which the program uses " + std::to_string(area.size) + " bytes";
     return false;
   }
   variable = Variable{};
   variable.path = std::string(path);
   variable.type = type;
-  variable.base = memory_.image(index);
+  variable.base = memory_.area(index);
   variable.offset = static_cast<uint32_t>(byte);
   if (type == &kBoolType) variable.bit = static_cast<uint8_t>(bit);
   return true;

@@ -125,7 +125,7 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
       one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       if (results.hinted || options.hint_when_long.empty() || isatty(2) == 0) return;
       results.hinted = results.seconds + one.result.seconds >= kLongSeconds;
-      if (results.hinted) fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+      if (results.hinted) fprintf(options.err, "%s\n", options.hint_when_long.c_str());
     };
     runCase(module, test, memory, one, onCycle);
     onCycle();
@@ -133,8 +133,8 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
       one.result.messages += "and " + std::to_string(one.failures - kMaxMessages) + " more\n";
     const bool ok = one.result.kind == TestResult::Passed;
     ++(ok ? results.passed : results.failed);
-    fputs(one.result.messages.c_str(), stdout);
-    printf("%s %s\n", ok ? "pass" : "FAIL", name);
+    fputs(one.result.messages.c_str(), options.out);
+    fprintf(options.out, "%s %s\n", ok ? "pass" : "FAIL", name);
     results.seconds += one.result.seconds;
     results.tests.push_back(std::move(one.result));
   }
@@ -142,18 +142,18 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
 }
 
 int reportTests(const TestResults& results, const TestOptions& options) {
-  printf("%u passed, %u failed\n", results.passed, results.failed);
-  fflush(stdout);
+  fprintf(options.out, "%u passed, %u failed\n", results.passed, results.failed);
+  fflush(options.out);
   if (!options.junit_path.empty()) {
     OutputFile file;
     std::string error;
-    bool ok = file.open(options.junit_path, error);
+    bool ok = file.open(options.junit_path, options.out, error);
     if (ok) {
       file.write(junitXml(results));
       ok = file.close(error);
     }
     if (!ok) {
-      fprintf(stderr, "error: %s\n", error.c_str());
+      fprintf(options.err, "error: %s\n", error.c_str());
       return 2;
     }
   }
@@ -164,7 +164,7 @@ int test(const rung_module& module, const TestOptions& options) {
   TestResults results;
   const std::string problem = runTests(module, options, results);
   if (problem.empty()) return reportTests(results, options);
-  fprintf(stderr, "error: %s\n", problem.c_str());
+  fprintf(options.err, "error: %s\n", problem.c_str());
   return 2;
 }
 

@@ -32,9 +32,9 @@ bool Trace::choose(const std::string& watch, std::string& error) {
   return true;
 }
 
-bool Trace::open(const std::string& path, std::string& error) {
+bool Trace::open(const std::string& path, std::FILE* out, std::string& error) {
   if (path.empty()) return true;
-  if (!file_.open(path, error)) return false;
+  if (!file_.open(path, out, error)) return false;
   buffer_ = "cycle,time_ms";
   for (const Variable& variable : variables_) {
     buffer_ += ',';

@@ -17,7 +17,7 @@ class Trace {
   // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` has the message.
   bool choose(const std::string& watch, std::string& error);
   // `path`: --trace, "-" for standard output, empty for none.
-  bool open(const std::string& path, std::string& error);
+  bool open(const std::string& path, std::FILE* out, std::string& error);
   void row(int64_t cycle, int64_t time_ns);
   // Writes the rest and renames the file to its final path.
   bool close(std::string& error);

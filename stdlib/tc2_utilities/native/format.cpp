@@ -1,34 +1,13 @@
-// Native body of FORMAT_ARGUMENTS in format.st: formats arguments, given by their addresses, into a string.
-// Nothing is read outside of the format and of the arguments; no heap.
+// Native body of FB_FormatString in format.st. Nothing is read outside of the format and of the arguments; no heap.
 #include <stdio.h>
 
 #include "rung/code.h"
+#include "rung/native_blocks.h"
 
 namespace {
 
-enum ArgumentType : int16_t {
-  kByte = 1,
-  kWord,
-  kDWord,
-  kReal,
-  kLReal,
-  kSInt,
-  kInt,
-  kDInt,
-  kUSInt,
-  kUInt,
-  kUDInt,
-  kString,
-  kBool,
-  kLWord = 19,
-  kLInt,
-  kULInt
-};
-struct Argument {  // T_Arg
-  int16_t type;
-  uint32_t bytes;
-  const void* data;
-};
+using namespace rung_tc2_utilities;
+using Argument = T_Arg_type;
 
 enum Trouble : uint32_t { kOk, kBadFormat, kMissing, kOtherType, kTooLong };
 
@@ -48,6 +27,10 @@ struct Output {
   }
 };
 
+const void* dataOf(const Argument& argument) {
+  return reinterpret_cast<const void*>(static_cast<uintptr_t>(argument.pData_));
+}
+
 template <class Number>
 Number read(const void* at) {
   Number number;
@@ -56,28 +39,30 @@ Number read(const void* at) {
 }
 
 bool isWhole(int16_t type) {
-  return type >= kByte && type <= kULInt && type != kReal && type != kLReal && type != kString;
+  return type >= ARGTYPE_BYTE_ && type <= ARGTYPE_ULINT_ && type != ARGTYPE_REAL_ && type != ARGTYPE_LREAL_ &&
+         type != ARGTYPE_STRING_;
 }
 
 // The value of an integer; `width` is set to its bits.
 int64_t wholeOf(const Argument& argument, int& width) {
-  switch (static_cast<ArgumentType>(argument.type)) {
-    case kByte:
-    case kUSInt: width = 8; return read<uint8_t>(argument.data);
-    case kBool: width = 8; return read<uint8_t>(argument.data) != 0 ? 1 : 0;
-    case kSInt: width = 8; return read<int8_t>(argument.data);
-    case kWord:
-    case kUInt: width = 16; return read<uint16_t>(argument.data);
-    case kInt: width = 16; return read<int16_t>(argument.data);
-    case kDWord:
-    case kUDInt: width = 32; return read<uint32_t>(argument.data);
-    case kDInt: width = 32; return read<int32_t>(argument.data);
-    case kLWord:
-    case kLInt:
-    case kULInt: width = 64; return read<int64_t>(argument.data);
-    case kReal:
-    case kLReal:
-    case kString: break;
+  switch (static_cast<E_ArgType_type>(argument.eType_)) {
+    case ARGTYPE_BYTE_:
+    case ARGTYPE_USINT_: width = 8; return read<uint8_t>(dataOf(argument));
+    case ARGTYPE_BOOL_: width = 8; return read<uint8_t>(dataOf(argument)) != 0 ? 1 : 0;
+    case ARGTYPE_SINT_: width = 8; return read<int8_t>(dataOf(argument));
+    case ARGTYPE_WORD_:
+    case ARGTYPE_UINT_: width = 16; return read<uint16_t>(dataOf(argument));
+    case ARGTYPE_INT_: width = 16; return read<int16_t>(dataOf(argument));
+    case ARGTYPE_DWORD_:
+    case ARGTYPE_UDINT_: width = 32; return read<uint32_t>(dataOf(argument));
+    case ARGTYPE_DINT_: width = 32; return read<int32_t>(dataOf(argument));
+    case ARGTYPE_LWORD_:
+    case ARGTYPE_LINT_:
+    case ARGTYPE_ULINT_: width = 64; return read<int64_t>(dataOf(argument));
+    case ARGTYPE_UNKNOWN_:
+    case ARGTYPE_REAL_:
+    case ARGTYPE_LREAL_:
+    case ARGTYPE_STRING_: break;
   }
   width = 64;
   return 0;
@@ -134,7 +119,7 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
   switch (type) {
     case 'd':
     case 'i':
-      if (!isWhole(argument.type)) break;
+      if (!isWhole(argument.eType_)) break;
       specify(spec, specifier, "ll", 'd');
       count = snprintf(piece, sizeof piece, spec, width, specifier.precision,
                        static_cast<long long>(wholeOf(argument, bits_of_type)));
@@ -144,7 +129,7 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
     case 'o':
     case 'x':
     case 'X': {
-      if (!isWhole(argument.type)) break;
+      if (!isWhole(argument.eType_)) break;
       uint64_t bits = static_cast<uint64_t>(wholeOf(argument, bits_of_type));
       if (bits_of_type < 64) bits &= (uint64_t{1} << bits_of_type) - 1;
       if (type == 'b') return putBits(out, specifier, bits);
@@ -157,17 +142,17 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
     case 'E':
     case 'g':
     case 'G': {
-      if (argument.type != kReal && argument.type != kLReal) break;
-      const double number =
-          argument.type == kReal ? static_cast<double>(read<float>(argument.data)) : read<double>(argument.data);
+      if (argument.eType_ != ARGTYPE_REAL_ && argument.eType_ != ARGTYPE_LREAL_) break;
+      const double number = argument.eType_ == ARGTYPE_REAL_ ? static_cast<double>(read<float>(dataOf(argument)))
+                                                             : read<double>(dataOf(argument));
       specify(spec, specifier, "", type);
       count = snprintf(piece, sizeof piece, spec, width, specifier.precision < 0 ? 6 : specifier.precision, number);
       return out.put(piece, static_cast<size_t>(count) < sizeof piece ? static_cast<size_t>(count) : sizeof piece - 1);
     }
     case 's': {
       const char* text = nullptr;
-      if (argument.type == kString) text = static_cast<const char*>(argument.data);
-      if (argument.type == kBool) text = wholeOf(argument, bits_of_type) != 0 ? "TRUE" : "FALSE";
+      if (argument.eType_ == ARGTYPE_STRING_) text = static_cast<const char*>(dataOf(argument));
+      if (argument.eType_ == ARGTYPE_BOOL_) text = wholeOf(argument, bits_of_type) != 0 ? "TRUE" : "FALSE";
       if (text == nullptr) break;
       specify(spec, specifier, "", 's');
       count = snprintf(piece, sizeof piece, spec, width,
@@ -175,7 +160,7 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
       return out.put(piece, static_cast<size_t>(count));
     }
     case 'c': {
-      if (!isWhole(argument.type)) break;
+      if (!isWhole(argument.eType_)) break;
       const char character = static_cast<char>(wholeOf(argument, bits_of_type));
       if (character != 0) out.put(&character, 1);
       return;
@@ -187,11 +172,14 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
 
 class Arguments {
  public:
-  Arguments(const Argument* first, uint32_t count) : next_(first), end_(first + count) {}
-  const Argument* take() { return next_ == end_ || next_->data == nullptr ? nullptr : next_++; }
+  explicit Arguments(const FB_FormatString_type& block)
+      : all_{&block.arg1_, &block.arg2_, &block.arg3_, &block.arg4_, &block.arg5_,
+             &block.arg6_, &block.arg7_, &block.arg8_, &block.arg9_, &block.arg10_} {}
+  const Argument* take() { return next_ == 10 || all_[next_]->pData_ == 0 ? nullptr : all_[next_++]; }
 
  private:
-  const Argument *next_, *end_;
+  const Argument* const all_[10];
+  uint32_t next_ = 0;
 };
 
 // Reads a width or a precision: digits, or `*`, which takes an argument.
@@ -199,7 +187,7 @@ bool readNumber(const char*& at, Arguments& arguments, int most, int& number, Tr
   if (*at == '*') {
     ++at;
     const Argument* const argument = arguments.take();
-    if (argument == nullptr || !isWhole(argument->type)) {
+    if (argument == nullptr || !isWhole(argument->eType_)) {
       trouble = argument == nullptr ? kMissing : kOtherType;
       return false;
     }
@@ -263,13 +251,11 @@ void format(Output& out, const char* at, Arguments& arguments) {
 
 }  // namespace
 
-extern "C" uint32_t rung_tc2_utilities_FORMAT_ARGUMENTS(rung_context*, const char* format_text, void* arguments,
-                                                        uint16_t count, void* error, char* text, uint32_t capacity) {
-  Output out{text, capacity < kMax ? capacity : kMax, 0, kOk};
-  Arguments list(static_cast<const Argument*>(arguments), count);
-  format(out, format_text, list);
+void rung_tc2_utilities_FB_FormatString(rung_context*, FB_FormatString_type* self) {
+  Output out{self->sOut_, kMax, 0, kOk};
+  Arguments arguments(*self);
+  format(out, self->sFormat_, arguments);
   out.text[out.length] = 0;
-  const uint32_t trouble = out.trouble;
-  if (error != nullptr) memcpy(error, &trouble, sizeof trouble);
-  return static_cast<uint32_t>(out.length);
+  self->nErrId_ = out.trouble;
+  self->bError_ = out.trouble != kOk;
 }

@@ -21,7 +21,7 @@ int32_t* field(const rung_module& m, rung_context& ctx, const std::string& progr
     const rung_type& type = m.types[symbol.type];
     for (uint32_t f = type.first; f < type.first + type.count; ++f)
       if (strcasecmp(m.text + m.fields[f].name, name) == 0)
-        return reinterpret_cast<int32_t*>(static_cast<char*>(ctx.blocks[symbol.block]) + symbol.offset +
+        return reinterpret_cast<int32_t*>(static_cast<char*>(ctx.blocks[symbol.index]) + symbol.offset +
                                           m.fields[f].offset);
   }
   return nullptr;
@@ -34,13 +34,15 @@ int main(int argc, char** argv) {
   std::vector<void*> blocks;
   for (uint32_t i = 0; i < m.block_count; ++i)
     blocks.push_back(aligned_alloc(64, (m.blocks[i].size + 63) / 64 * 64 + 64));
-  std::vector<uint8_t> images[3];
+  std::vector<std::vector<uint8_t>> memory(m.area_count);
+  std::vector<uint8_t*> areas;
   rung_context ctx = {};
   ctx.blocks = blocks.data();
-  for (int i = 0; i < 3; ++i) {
-    images[i].resize(m.image_bytes[i] + 8);
-    ctx.image[i] = images[i].data();
+  for (uint32_t i = 0; i < m.area_count; ++i) {
+    memory[i].resize(m.areas[i].size + 8);
+    areas.push_back(memory[i].data());
   }
+  ctx.areas = areas.data();
   rung_host host = {};
   ctx.module = &m;
   ctx.host = &host;

@@ -17,7 +17,7 @@ void* field(const rung_module& module, rung_context& context, const char* name) 
     const rung_type& type = module.types[symbol.type];
     for (uint32_t f = type.first; f < type.first + type.count; ++f)
       if (strcmp(module.strings + module.fields[f].name, name) == 0)
-        return static_cast<char*>(context.blocks[symbol.block]) + symbol.offset + module.fields[f].offset;
+        return static_cast<char*>(context.blocks[symbol.index]) + symbol.offset + module.fields[f].offset;
   }
   return nullptr;
 }

@@ -1,4 +1,4 @@
-/* Two compiled projects in one firmware: each has its own prefix, blocks and images. */
+/* Two compiled projects in one firmware: each has its own prefix, blocks and areas. */
 #include <stdio.h>
 
 #include "rung/module.h"
@@ -9,6 +9,7 @@ const rung_module *cooler_module(void);
 typedef struct unit {
   _Alignas(8) unsigned char memory[4096];
   unsigned char images[3][16];
+  uint8_t *areas[3];
   void *blocks[8];
   rung_context context;
 } unit;
@@ -21,10 +22,11 @@ static int start(unit *u, const rung_module *module) {
     u->blocks[i] = u->memory + next;
     next += module->blocks[i].size;
   }
-  for (int area = 0; area < 3; ++area) {
-    if (module->image_bytes[area] > sizeof u->images[area]) return 0;
-    u->context.image[area] = u->images[area];
+  for (uint32_t area = 0; area < module->area_count; ++area) {
+    if (area >= 3 || module->areas[area].size > sizeof u->images[area]) return 0;
+    u->areas[area] = u->images[area];
   }
+  u->context.areas = u->areas;
   u->context.blocks = u->blocks;
   u->context.module = module;
   if (next > sizeof u->memory) return 0;

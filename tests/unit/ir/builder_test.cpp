@@ -52,7 +52,7 @@ TEST_F(BuilderTest, CopyIsATreeOfItsOwn) {
 TEST_F(BuilderTest, NegationTakesADoubleOneAway) {
   const uint32_t x = b.local(names.intern("x"), types::kBool, LocalKind::Variable);
   ExprId once = b.negation(b.localPlace(x));
-  EXPECT_EQ(body.expr(once).op, Op::Not);
+  EXPECT_EQ(body.expr(once).op(), Op::Not);
   EXPECT_EQ(body.expr(b.negation(once)).kind, ExprKind::Local);
 }
 
@@ -69,10 +69,10 @@ TEST(Walk, VisitsOperandsBeforeNodesLeftToRight) {
   Body& body = *m.find("f");
   std::string order;
   forEachStmt(body, body.first, [&](StmtId id) {
-    forEachRoot(m.module, body, body.stmt(id), [&](uint32_t& slot, Use use) {
+    forEachRoot(m.module, body, body.stmt(id), [&](ExprId root, Use use) {
       order += use == Use::Write ? "w" : "r";
-      forEachExpr(body, ExprId{slot}, [&](ExprId e) {
-        order += body.expr(e).kind == ExprKind::Binary ? types::word(body.expr(e).op) : ".";
+      forEachExpr(body, root, [&](ExprId e) {
+        order += body.expr(e).kind == ExprKind::Binary ? types::word(body.expr(e).op()) : ".";
       });
     });
   });

@@ -41,7 +41,8 @@ class Machine {
       if (flow == Flow::Jump) {
         StmtId target;
         for (StmtId at = first; at; at = b_.stmt(at).next)
-          if (b_.stmt(at).kind == StmtKind::Label && b_.stmt(at).a == jump_) target = at;
+          if (const auto* label = b_.stmt(at).tryAs<LabelStmt>(); label != nullptr && label->label == jump_)
+            target = at;
         if (!target) return flow;
         id = target;
         continue;
@@ -64,12 +65,14 @@ class Machine {
 
   Value* place(ExprId id) {
     const Expr& e = b_.expr(id);
-    if (e.kind == ExprKind::Local) return &memory_[e.a][0];
-    if (e.kind == ExprKind::Index && b_.expr(ExprId{e.a}).kind == ExprKind::Local) {
-      const TypeInfo& array = t_.info(b_.expr(ExprId{e.a}).type);
+    if (const uint32_t* local = localOf(e)) return &memory_[*local][0];
+    const auto* element = e.tryAs<IndexExpr>();
+    const uint32_t* of = element == nullptr ? nullptr : localOf(b_.expr(element->base));
+    if (of != nullptr) {
+      const TypeInfo& array = t_.info(b_.expr(element->base).type);
       size_t at = 0;
-      for (uint32_t i = 0; i < e.c; ++i) {
-        const int64_t index = value(b_.operands[e.b + i]).asSigned();
+      for (uint32_t i = 0; i < element->indices.count; ++i) {
+        const int64_t index = value(b_.list(element->indices)[i]).asSigned();
         const auto& d = array.dimensions[i];
         if (index < d.low || index > d.high) {
           if ((e.checks & kCheckIndex) != 0)
@@ -80,7 +83,7 @@ class Machine {
         }
         at = at * d.count() + static_cast<size_t>(index - d.low);
       }
-      return stopped() ? nullptr : &memory_[b_.expr(ExprId{e.a}).a][at];
+      return stopped() ? nullptr : &memory_[*of][at];
     }
     stop("a place that is not a local");
     return nullptr;
@@ -96,37 +99,41 @@ class Machine {
       return Value{e.type, outcome.value.bits};
     };
     switch (e.kind) {
-      case ExprKind::Const: return {e.type, e.bits()};
+      case ExprKind::Const: return {e.type, bitsOf(e)};
       case ExprKind::Local:
       case ExprKind::Index: {
         const Value* at = place(id);
         return at == nullptr ? Value{} : *at;
       }
       case ExprKind::Unary: {
-        const Value a = value(ExprId{e.a});
-        return stopped() ? Value{} : checked(types::apply(t_, m_.names, e.op, a));
+        const auto [operand, op] = e.as<UnaryExpr>();
+        const Value a = value(operand);
+        return stopped() ? Value{} : checked(types::apply(t_, m_.names, op, a));
       }
       case ExprKind::Binary: {
-        const Value a = value(ExprId{e.a});
-        const Value b = value(ExprId{e.b});
-        return stopped() ? Value{} : checked(types::apply(t_, m_.names, e.op, a, b));
+        const auto [left, right, op] = e.as<BinaryExpr>();
+        const Value a = value(left);
+        const Value b = value(right);
+        return stopped() ? Value{} : checked(types::apply(t_, m_.names, op, a, b));
       }
       case ExprKind::Convert: {
-        const Value a = value(ExprId{e.a});
+        const Value a = value(e.as<ConvertExpr>().operand);
         return stopped() ? Value{} : checked(types::convert(t_, a, e.type));
       }
       case ExprKind::Select: {
-        const Value condition = value(ExprId{e.a});
-        const Value yes = value(ExprId{e.b});
-        const Value no = value(ExprId{e.c});
+        const SelectExpr& node = e.as<SelectExpr>();
+        const Value condition = value(node.condition);
+        const Value yes = value(node.when_true);
+        const Value no = value(node.when_false);
         return condition.bits != 0 ? yes : no;
       }
       case ExprKind::Bits: {
-        const Value base = value(ExprId{e.a});
+        const auto [place, position] = e.as<BitsExpr>();
+        const Value base = value(place);
         const uint32_t width = types::TypeTable::bitWidth(t_.plainKind(e.type));
-        return {e.type, base.bits >> (e.b * width) & ((uint64_t{1} << width) - 1)};
+        return {e.type, base.bits >> (position * width) & ((uint64_t{1} << width) - 1)};
       }
-      case ExprKind::Call: return call(m_.body(BodyId{e.a}), e.b, e.c);
+      case ExprKind::Call: return call(m_.body(e.as<CallExpr>().callee), e.as<CallExpr>().operands);
       case ExprKind::None:
       case ExprKind::String:
       case ExprKind::Data:
@@ -143,7 +150,7 @@ class Machine {
     return {};
   }
 
-  Value call(const Body& callee, uint32_t first, uint32_t count) {
+  Value call(const Body& callee, Slice<ExprId> operands) {
     if (depth_ > 50) {
       stop("calls too deep");
       return {};
@@ -153,12 +160,11 @@ class Machine {
     uint32_t i = 0;
     Value given{};
     for (size_t k = 0; k < callee.locals.size(); ++k) {
-      const LocalKind kind = callee.locals[k].kind;
-      if (kind != LocalKind::Input && kind != LocalKind::Output && kind != LocalKind::InOut) continue;
-      if (i == count) break;
-      const ExprId operand = b_.operands[first + i++];
+      if (!isParameter(callee.locals[k])) continue;
+      if (i == operands.count) break;
+      const ExprId operand = b_.list(operands)[i++];
       if (!operand) continue;
-      if (kind == LocalKind::Input) {
+      if (callee.locals[k].kind == LocalKind::Input) {
         inner.memory_[k][0].bits = value(operand).bits;
       } else if (Value* at = place(operand)) {
         inner.memory_[k][0].bits = at->bits;
@@ -193,68 +199,71 @@ class Machine {
   Flow step(const Stmt& s) {
     switch (s.kind) {
       case StmtKind::Assign: {
-        const Expr& target = b_.expr(ExprId{s.a});
-        if (target.kind == ExprKind::Bits) {
-          Value* at = place(ExprId{target.a});
-          const Value v = value(ExprId{s.b});
+        const auto [to, from] = s.as<AssignStmt>();
+        const Expr& target = b_.expr(to);
+        if (const auto* bits = target.tryAs<BitsExpr>()) {
+          Value* at = place(bits->base);
+          const Value v = value(from);
           if (at == nullptr || stopped()) return Flow::Stop;
           const uint32_t width = types::TypeTable::bitWidth(t_.plainKind(target.type));
-          const uint64_t mask = ((uint64_t{1} << width) - 1) << (target.b * width);
-          at->bits = (at->bits & ~mask) | (v.bits << (target.b * width) & mask);
+          const uint64_t mask = ((uint64_t{1} << width) - 1) << (bits->position * width);
+          at->bits = (at->bits & ~mask) | (v.bits << (bits->position * width) & mask);
           return Flow::Next;
         }
-        Value* at = place(ExprId{s.a});
-        const Value v = value(ExprId{s.b});
+        Value* at = place(to);
+        const Value v = value(from);
         if (at == nullptr || stopped()) return Flow::Stop;
         at->bits = v.bits;
         return Flow::Next;
       }
       case StmtKind::Call: {
-        const Value v = call(m_.body(BodyId{s.a}), s.c, s.d);
-        if (stopped() || s.e == 0) return Flow::Next;
-        if (Value* at = place(ExprId{s.e})) at->bits = v.bits;
+        const CallStmt& node = s.as<CallStmt>();
+        const Value v = call(m_.body(node.callee), node.operands);
+        if (stopped() || !node.result) return Flow::Next;
+        if (Value* at = place(node.result)) at->bits = v.bits;
         return Flow::Next;
       }
       case StmtKind::If: {
-        const Value condition = value(ExprId{s.a});
-        return stopped() ? Flow::Stop : block(StmtId{condition.bits != 0 ? s.b : s.c});
+        const IfStmt& node = s.as<IfStmt>();
+        const Value condition = value(node.condition);
+        return stopped() ? Flow::Stop : block(condition.bits != 0 ? node.then_block : node.else_block);
       }
       case StmtKind::Switch: {
-        const Value selector = value(ExprId{s.a});
+        const SwitchStmt& node = s.as<SwitchStmt>();
+        const Value selector = value(node.selector);
         if (stopped()) return Flow::Stop;
         const bool is_signed = t_.isSigned(t_.plainKind(selector.type));
         auto notAbove = [&](uint64_t a, uint64_t b) {
           return is_signed ? static_cast<int64_t>(a) <= static_cast<int64_t>(b) : a <= b;
         };
-        for (uint32_t i = 0; i < s.c; ++i) {
-          const Case& one = b_.cases[s.b + i];
-          for (uint32_t k = 0; k < one.range_count; ++k) {
-            const CaseRange& r = b_.ranges[one.first_range + k];
+        for (const Case& one : b_.list(node.cases)) {
+          for (const CaseRange& r : b_.list(one.ranges)) {
             if (notAbove(static_cast<uint64_t>(r.low), selector.bits) &&
                 notAbove(selector.bits, static_cast<uint64_t>(r.high)))
               return block(one.block);
           }
         }
-        return block(StmtId{s.d});
+        return block(node.else_block);
       }
       case StmtKind::Loop:
         for (bool leave = false;;) {
           if (++steps_ > kMaxSteps) return stop("the run does not end");
-          Flow flow = iterate(StmtId{s.a}, leave);
+          Flow flow = iterate(s.as<LoopStmt>().body_block, leave);
           if (flow != Flow::Next || leave) return flow;
-          flow = block(StmtId{s.b});
+          flow = block(s.as<LoopStmt>().next_block);
           if (flow != Flow::Next) return flow == Flow::Break ? Flow::Next : flow;
         }
       case StmtKind::For: {
-        Value* control = place(ExprId{s.a});
-        const Value from = value(ExprId{s.b});
-        const Value to = value(ExprId{s.c});
-        const int64_t by = value(ExprId{s.d}).asSigned();
+        const ForStmt& node = s.as<ForStmt>();
+        Value* control = place(node.control);
+        const Value from = value(node.from);
+        const Value to = value(node.to);
+        const int64_t by = value(node.step).asSigned();
         if (control == nullptr || stopped()) return Flow::Stop;
         control->bits = from.bits;
         while (by > 0 ? control->asSigned() <= to.asSigned() : control->asSigned() >= to.asSigned()) {
           bool leave = false;
-          const Flow flow = iterate(StmtId{s.e}, leave);
+          const Flow flow = iterate(node.body_block, leave);
           if (flow != Flow::Next || leave) return flow;
           const types::Outcome next =
               types::apply(t_, m_.names, types::Op::Add, *control, Value{control->type, static_cast<uint64_t>(by)});
@@ -270,27 +279,28 @@ class Machine {
       case StmtKind::Break: return Flow::Break;
       case StmtKind::Continue: return Flow::Continue;
       case StmtKind::Return: return Flow::Return;
-      case StmtKind::Jump: jump_ = s.a; return Flow::Jump;
+      case StmtKind::Jump: jump_ = s.as<JumpStmt>().label; return Flow::Jump;
       case StmtKind::Label: return Flow::Next;
       case StmtKind::Try: {
-        Flow flow = block(StmtId{s.a});
+        const TryStmt& node = s.as<TryStmt>();
+        Flow flow = block(node.body_block);
         if (result.fault != Fault::None) {
           const auto number = static_cast<uint64_t>(result.fault);
           result.fault = Fault::None;
-          if (s.d != 0) {
-            if (Value* at = place(ExprId{s.d})) at->bits = number;
+          if (node.number) {
+            if (Value* at = place(node.number)) at->bits = number;
           }
-          flow = block(StmtId{s.b});
+          flow = block(node.catch_block);
         }
         const RunResult outer = result;
         result = {};
-        const Flow last = block(StmtId{s.c});
+        const Flow last = block(node.finally_block);
         if (last != Flow::Next) return last;
         result = outer;
         return flow;
       }
-      case StmtKind::Fault: raise(static_cast<Fault>(s.op)); return Flow::Stop;
-      case StmtKind::Evaluate: value(ExprId{s.a}); return Flow::Next;
+      case StmtKind::Fault: raise(s.as<FaultStmt>().fault); return Flow::Stop;
+      case StmtKind::Evaluate: value(s.as<EvaluateStmt>().value); return Flow::Next;
       case StmtKind::None:
       case StmtKind::Bind:
       case StmtKind::Assert: break;

@@ -200,8 +200,8 @@ class Golden {
       }
       std::vector<types::Value> arguments;
       size_t next = 0;
-      for (const Local& local : body->locals)
-        if ((local.kind == LocalKind::Input || local.kind == LocalKind::InOut) && next < one.arguments.size())
+      for (const Local& local : parameters(*body))
+        if (local.kind != LocalKind::Output && next < one.arguments.size())
           arguments.push_back(literal(one.arguments[next++], local.type, m.types));
       const RunResult result = run(m.module, *body, arguments);
       compare(m, when, one, result.trouble, result.fault, result.value);

@@ -73,9 +73,12 @@ TEST(Verify, Rule2Instances) { expectBroken(2, "instance $m: int\n"); }
 TEST(Verify, Rule3RecordOrder) { expectBroken(3, "struct @A { b: array[0..1] of @B }\nstruct @B { x: int }\n"); }
 TEST(Verify, Rule4Data) { expectBroken(4, "data 0: array[0..1] of int \"010203\"\n"); }
 TEST(Verify, Rule5Trees) {
-  expectBrokenBy(5, "  i = 1\n  i = 2",
-                 [](TestModule&, Body& body) { body.stmt(body.stmt(body.first).next).b = body.stmt(body.first).b; });
-  expectBrokenBy(5, "  i = 1", [](TestModule&, Body& body) { body.stmt(body.first).b = 1000; });
+  expectBrokenBy(5, "  i = 1\n  i = 2", [](TestModule&, Body& body) {
+    AssignStmt& second = body.stmt(body.stmt(body.first).next).as<AssignStmt>();
+    second.value = body.stmt(body.first).as<AssignStmt>().value;
+  });
+  expectBrokenBy(5, "  i = 1",
+                 [](TestModule&, Body& body) { body.stmt(body.first).as<AssignStmt>().value = ExprId{1000}; });
   expectBrokenBy(5, "  i = 1\n  i = 2",
                  [](TestModule&, Body& body) { body.stmt(body.stmt(body.first).next).next = body.first; });
 }
@@ -93,14 +96,18 @@ TEST(Verify, Rule8Self) {
   });
 }
 TEST(Verify, Rule9Constants) {
-  expectBrokenBy(9, "  i = 1", [](TestModule&, Body& body) { firstOf(body, ExprKind::Const).a = 70000; });
-  expectBrokenBy(9, "  r = 1.0", [](TestModule&, Body& body) { firstOf(body, ExprKind::Const).a = 1; });
+  expectBrokenBy(9, "  i = 1",
+                 [](TestModule&, Body& body) { firstOf(body, ExprKind::Const).set(ConstExpr{.bits = 70000}); });
+  expectBrokenBy(9, "  r = 1.0", [](TestModule&, Body& body) {
+    firstOf(body, ExprKind::Const).set(ConstExpr{.bits = 0x3ff0000000000001});
+  });
   expectStatementBroken(9, "  evaluate int#zero");
 }
 TEST(Verify, Rule10Variables) {
   expectStatementBroken(10, "  i = int%I2");
-  expectBroken(10, "image I 4 Q 0 M 0\nfunction @f { in i: int }\nbody @f { i = int%I2.3 }\n");
-  expectBrokenBy(10, "  i = 1", [](TestModule&, Body& body) { firstOf(body, ExprKind::Local).a = 99; });
+  expectBroken(10, "area I input 4\nfunction @f { in i: int }\nbody @f { i = int%I2.3 }\n");
+  expectBrokenBy(10, "  i = 1",
+                 [](TestModule&, Body& body) { firstOf(body, ExprKind::Local).set(LocalExpr{.local = 99}); });
 }
 TEST(Verify, Rule11Fields) { expectStatementBroken(11, "  pt.x! = 1.0"); }
 TEST(Verify, Rule12Indices) {
@@ -166,7 +173,9 @@ TEST(Verify, Rule27Labels) {
 }
 TEST(Verify, Rule28Faults) {
   expectStatementBroken(28, "  try { } catch r { }");
-  expectBrokenBy(28, "  fault div", [](TestModule&, Body& body) { body.stmt(body.first).op = 99; });
+  expectBrokenBy(28, "  fault div", [](TestModule&, Body& body) {
+    body.stmt(body.first).set(FaultStmt{.fault = static_cast<types::Fault>(99)});
+  });
 }
 TEST(Verify, Rule29Purity) {
   expectBroken(29, withStatements("  i = div! int i, i", ""));

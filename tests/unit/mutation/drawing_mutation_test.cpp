@@ -58,14 +58,15 @@ Outcome outcomeOf(const std::string& program) {
   Diagnostics diagnostics(sources);
   Tree tree;
   FileId file = sources.add("mutant", program);
-  std::vector<plcopen::Library> libraries;
-  if (plcopen::isPlcopen(program)) file = plcopen::readProject(sources, file, diagnostics, libraries);
+  std::vector<importer::Library> libraries;
+  importer::ReadContext context{sources, diagnostics, libraries};
+  if (importer::plcopen::isPlcopen(program)) file = importer::plcopen::readProgram(context, file);
   Outcome out;
   if (file) {
     const FileUnit unit = text::parseFile(tree, names, sources, file, Dialect::Codesys, diagnostics);
     if (diagnostics.errorCount() == 0) {
       drawMembers(tree, names, unit.decls, program, out);
-      const std::string written = plcopen::writeProject({tree, names, sources, {&unit, 1}}, "p", diagnostics);
+      const std::string written = exporter::writeProject({tree, names, sources, {&unit, 1}}, "p", diagnostics);
       if (diagnostics.errorCount() == 0) {
         out.written = true;
         EXPECT_TRUE(isWellFormed(written)) << program;
@@ -131,7 +132,7 @@ TEST(DrawingMutation, corrupted_drawings_give_well_formed_files) {
   uint32_t wrong = 0, pictures = 0, written = 0;
   for (uint32_t k = 0; k < count; ++k) {
     std::string text = all[below(all.size())];
-    const bool xml = plcopen::isPlcopen(text);
+    const bool xml = importer::plcopen::isPlcopen(text);
     for (size_t n = 1 + below(3); n > 0; --n) {
       size_t at = below(text.size());
       if (below(2) == 0) at = std::min(text.find_first_of("0123456789", at), text.size() - 1);  // a wire or a position

@@ -46,8 +46,9 @@ uint32_t errorsIn(const std::string& program, bool xml) {
   sema::Options options;
   options.libraries = libraryFiles();
   FileId file = sources.add(xml ? "mutant.xml" : "mutant.st", program);
-  std::vector<plcopen::Library> libraries;
-  if (xml) file = plcopen::readProject(sources, file, diagnostics, libraries);
+  std::vector<importer::Library> libraries;
+  importer::ReadContext context{sources, diagnostics, libraries};
+  if (xml) file = importer::plcopen::readProgram(context, file);
   if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   sema::Project project(sources, names, diagnostics, tree, options);
   sema::check(project);

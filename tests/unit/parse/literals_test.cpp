@@ -107,7 +107,7 @@ TEST(Literals, Addresses) {
   EXPECT_EQ(body("%QX0.1 := %IW4;"), "    assign := (address %QX0.1) (address %IW4)\n");
   EXPECT_EQ(body("x := %I5;"), "    assign := (name x) (address %I5)\n");
   EXPECT_EQ(body("x := %MB*;"), "    assign := (name x) (address %MB*)\n");
-  EXPECT_EQ(body("x := %ZX1;"), "2:6 E0131");
+  EXPECT_EQ(body("x := %XX1;"), "2:6 E0131");
   EXPECT_EQ(body("x := %IX;"), "2:6 E0131");
 }
 

@@ -46,7 +46,7 @@ void fast(rung_context* ctx) {
   m.elapsed = static_cast<uint32_t>(ctx->now_ns / 1'000'000);
   m.kept += 1;
   m.kept_always += 1;
-  ctx->image[1][0] = static_cast<uint8_t>(ctx->image[0][0] | 4);  // %QX0.2
+  ctx->areas[1][0] = static_cast<uint8_t>(ctx->areas[0][0] | 4);  // %QX0.2
 }
 void slow(rung_context* ctx) {
   ran += 's';
@@ -131,8 +131,8 @@ struct Tables {
         {RUNG_RECORD, 0, t("Main"), sizeof(Main), RUNG_NONE, 0, first, static_cast<uint32_t>(fields.size()) - first});
 
     symbols.push_back({t("Main"), MainT, RUNG_IN_BLOCK, 255, 1, 0, 0, 0, t("Plant.Cpu.")});
-    symbols.push_back({t("Main.valve"), Bool, RUNG_IN_OUTPUTS, 2, 0, 0, 0, 0, t("Plant.Cpu.")});
-    symbols.push_back({t("speed"), Word, RUNG_IN_INPUTS, 255, 0, 0, 2, 0, 0});
+    symbols.push_back({t("Main.valve"), Bool, RUNG_IN_AREA, 2, 0, 1, 0, 0, t("Plant.Cpu.")});
+    symbols.push_back({t("speed"), Word, RUNG_IN_AREA, 255, 0, 0, 2, 0, 0});
 
     tasks.push_back({t("Slow"), RUNG_CYCLIC, 1, 30'000'000, 0, 0, 0, 0, slow});
     tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, fast});
@@ -155,8 +155,9 @@ struct Tables {
     module.layout_hash = 1;
     module.blocks = &block;
     module.block_count = 1;
-    module.image_bytes[0] = 4;
-    module.image_bytes[1] = 1;
+    static const rung_area areas[] = {{t("I"), t("%I"), 4, RUNG_AREA_INPUT}, {t("Q"), t("%Q"), 1, RUNG_AREA_OUTPUT}};
+    module.areas = areas;
+    module.area_count = 2;
     module.tasks = tasks.data();
     module.task_count = static_cast<uint32_t>(tasks.size());
     module.symbols = symbols.data();

@@ -61,7 +61,7 @@ TEST_F(Paths, SetValues) {
   EXPECT_EQ(set("Main.bits.%X12", "1"), "");
   EXPECT_EQ(value("Main.bits"), "4104");
   EXPECT_EQ(set("Main.valve", "TRUE"), "");
-  EXPECT_EQ(memory.image(1)[0], 4);
+  EXPECT_EQ(memory.area(1)[0], 4);
   EXPECT_EQ(set("Main.color", "Color#Blue"), "");
   EXPECT_EQ(value("Main.color"), "Blue");
   EXPECT_EQ(set("Main.color", "red"), "");
@@ -69,7 +69,7 @@ TEST_F(Paths, SetValues) {
   EXPECT_EQ(set("Main.other.x", "-3"), "");
   EXPECT_EQ(value("Main.point.x"), "-3");
   EXPECT_EQ(set("speed", "16#1234"), "");
-  EXPECT_EQ(memory.image(0)[2], 0x34);
+  EXPECT_EQ(memory.area(0)[2], 0x34);
   EXPECT_EQ(set("Main.color", "Gren"), "`Gren` is not an item of Color; did you mean `Green`?");
   EXPECT_EQ(set("Main.count", "x"), "`x` is not a value of type DINT");
   EXPECT_EQ(set("Main.table", "1"), "`Main.table` is an array; set its elements one by one");

@@ -92,7 +92,7 @@ TEST(Variables, addresses) {
   EXPECT_EQ(checked.var("e").image.byte, 192u);
   EXPECT_EQ(checked.var("i").image.byte, 216u);  // allocated after all others
   EXPECT_EQ(checked.var("j").image.byte, 218u);  // and this one after them, aligned
-  EXPECT_EQ(checked.project.image_bytes[0], 220u);
+  EXPECT_EQ(checked.project.area_bytes[0], 220u);
 }
 
 TEST(Variables, edge_inputs_have_a_memory) {

@@ -1,5 +1,5 @@
 // The cache of compiled C++: entries, limits, abandoned folders, concurrent writers.
-#include "tools/rung/cache.h"
+#include "tools/driver/cache.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 #include "tests/unit/tools/temporary_folder.h"
 
-namespace rung::tool {
+namespace rung::driver {
 namespace {
 
 std::string hashOf(const std::vector<std::string>& parts) {
@@ -134,4 +134,4 @@ TEST(CacheLimit, FromTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace rung::tool
+}  // namespace rung::driver

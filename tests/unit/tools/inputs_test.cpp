@@ -1,17 +1,17 @@
 // Inputs: folders and their order, missing and unreadable files, project files, pairs of files, kinds of files.
-#include "tools/rung/inputs.h"
+#include "tools/driver/inputs.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
-#include "tools/rung/diagnostics.h"
+#include "tools/driver/diagnostics.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/unit/tools/temporary_folder.h"
-#include "tools/rung/libraries.h"
+#include "tools/driver/libraries.h"
 
-namespace rung::tool {
+namespace rung::driver {
 namespace {
 
 constexpr const char* kProgram = "PROGRAM p\nEND_PROGRAM\n";
@@ -189,15 +189,16 @@ TEST_F(InputsTest, PairsOfFilesAreOnePou) {
 }
 
 TEST(KindOf, ContentThenExtension) {
-  EXPECT_EQ(kindOf("a.st", kProgram), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "(* head *) // x\n{attribute 'a'}\nfunction_block b"), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "just text"), FileKind::Unknown);
-  EXPECT_EQ(kindOf("a.exp", "\xef\xbb\xbf<?xml version='1.0'?>"), FileKind::Xml);
-  EXPECT_EQ(kindOf("a.st", ""), FileKind::St);
-  EXPECT_EQ(kindOf("a.st", std::string("\0\0", 2)), FileKind::Binary);
-  EXPECT_EQ(kindOf("a.st", "(* \xe4\xf6\xfc in Latin-1, as editors of the nineties wrote it *)"), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "(* never closed"), FileKind::Unknown);
+  EXPECT_EQ(importer::kindOf("a.st", kProgram), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "(* head *) // x\n{attribute 'a'}\nfunction_block b"), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "just text"), FileKind::Unknown);
+  EXPECT_EQ(importer::kindOf("a.exp", "\xef\xbb\xbf<?xml version='1.0'?>"), FileKind::Xml);
+  EXPECT_EQ(importer::kindOf("a.st", ""), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.st", std::string("\0\0", 2)), FileKind::Binary);
+  EXPECT_EQ(importer::kindOf("a.st", "(* \xe4\xf6\xfc in Latin-1, as editors of the nineties wrote it *)"),
+            FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "(* never closed"), FileKind::Unknown);
 }
 
 }  // namespace
-}  // namespace rung::tool
+}  // namespace rung::driver

@@ -1,10 +1,10 @@
 // rung.project: all sections, mistakes with their location, tasks as a CONFIGURATION.
-#include "tools/rung/project_file.h"
+#include "tools/driver/project_file.h"
 #include "frontend/source/dialect.h"
 
 #include <gtest/gtest.h>
 
-namespace rung::tool {
+namespace rung::driver {
 namespace {
 
 class ProjectFileTest : public testing::Test {
@@ -91,4 +91,4 @@ TEST_F(ProjectFileTest, ValuesCannotBreakOutOfTheirPlace) {
 }
 
 }  // namespace
-}  // namespace rung::tool
+}  // namespace rung::driver

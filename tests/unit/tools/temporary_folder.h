@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace rung::tool {
+namespace rung {
 
 class TemporaryFolder {
  public:
@@ -33,4 +33,4 @@ class TemporaryFolder {
   std::string path_;
 };
 
-}  // namespace rung::tool
+}  // namespace rung

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <csignal>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ struct RunOptions {
   bool realtime = false;
   bool color = false;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
+  std::FILE* out = stdout;     // for results, traces to `-` and traced calls
+  std::FILE* err = stderr;     // for faults and other messages
 };
 
 // Runs and prints like `rung run`.
@@ -39,6 +42,8 @@ struct TestOptions {
   std::string filter;          // --filter GLOB
   std::string junit_path;      // --junit
   std::string hint_when_long;  // as in RunOptions
+  std::FILE* out = stdout;
+  std::FILE* err = stderr;
 };
 int test(const rung_module& module, const TestOptions& options);
 

@@ -1,5 +1,5 @@
 /* The module interface: how a compiled project looks to the product that runs it (docs/embedding.md).
- * A module is code without writable statics. The host owns all memory: it allocates the blocks and images, calls init,
+ * A module is code without writable statics. The host owns all memory: it allocates the blocks and areas, calls init,
  * then runs tasks; it may read and force every variable through the symbols. Plain C, no heap, no locks.
  * The bundled host (rung/host.h) is one user of this header. */
 #ifndef RUNG_MODULE_H
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 4u
+#define RUNG_MODULE_ABI 5u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -89,15 +89,15 @@ typedef struct rung_dimension {
 } rung_dimension;
 
 /* A root of the symbol map: a program instance, a global variable or a located variable. */
-enum rung_storage { RUNG_IN_BLOCK = 0, RUNG_IN_INPUTS = 1, RUNG_IN_OUTPUTS = 2, RUNG_IN_MEMORY = 3 };
+enum rung_storage { RUNG_IN_BLOCK = 0, RUNG_IN_AREA = 1 };
 typedef struct rung_symbol {
   uint32_t name; /* `Main`, `level`, `Main.valve` for a located variable of a program */
   uint32_t type;
   uint8_t storage; /* rung_storage */
-  uint8_t bit;     /* of a BOOL in an image (0..7), else 255 */
+  uint8_t bit;     /* of a BOOL in an area (0..7), else 255 */
   uint8_t is_program;
-  uint32_t block;  /* RUNG_IN_BLOCK */
-  uint32_t offset; /* bytes in the block or image */
+  uint32_t index;  /* of the block or area */
+  uint32_t offset; /* bytes in it */
   uint32_t flags;  /* rung_field_flags */
   uint32_t path;   /* `Config.Resource.` or '' that may precede it: offset in strings */
 } rung_symbol;
@@ -110,6 +110,20 @@ typedef struct rung_range {
 typedef struct rung_block {
   uint32_t name, size, align;
 } rung_block;
+
+/* A memory area that addresses name, little-endian. The first three are I, Q and M of IEC 61131-3; a product may have
+ * further ones (`[area ...]` in rung.project). */
+enum rung_area_owner {
+  RUNG_AREA_INPUT,  /* the host writes it before a cycle */
+  RUNG_AREA_OUTPUT, /* the host takes it after a cycle, and sets it to safe values after a fault */
+  RUNG_AREA_MEMORY  /* neither: memory of the program, or what the product defines */
+};
+typedef struct rung_area {
+  uint32_t name;   /* `I` */
+  uint32_t prefix; /* with which its addresses begin: `%I` */
+  uint32_t size;   /* bytes */
+  uint8_t owner;   /* rung_area_owner */
+} rung_area;
 
 /* ---- tasks */
 typedef enum rung_task_kind { RUNG_CYCLIC, RUNG_FREEWHEELING, RUNG_EVENT, RUNG_STATUS, RUNG_EXTERNAL } rung_task_kind;
@@ -234,9 +248,9 @@ typedef struct rung_host {
 } rung_host;
 
 struct rung_context {
-  void** blocks;     /* one per module block */
-  uint8_t* image[3]; /* I, Q, M */
-  int64_t now_ns;    /* time of this activation, from 0 at the start */
+  void** blocks;   /* one per module block */
+  uint8_t** areas; /* one per module area; they stay where they are while a function of the module runs */
+  int64_t now_ns;  /* time of this activation, from 0 at the start */
   const struct rung_module* module;
   const rung_host* host;
   void* host_data;
@@ -260,7 +274,8 @@ typedef struct rung_module {
   uint64_t layout_hash; /* of blocks, offsets and types: retained data of another hash does not fit */
   const rung_block* blocks;
   uint32_t block_count;
-  uint32_t image_bytes[3];
+  const rung_area* areas;
+  uint32_t area_count;
   const rung_task* tasks;
   uint32_t task_count;
   const rung_symbol* symbols;

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "frontend/import/iec10/iec10.h"
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::iec10 {
+namespace rung::importer::iec10 {
 namespace {
 
 const std::string kFile =
@@ -28,18 +28,15 @@ const std::string kFile =
 </p:GlobalNamespace></p:Types><p:Instances><p:Configuration name="C"><p:Resource name="R"><p:GlobalVars retain="true"/><p:Task name="T" interval="PT0.02S"/><p:ProgramInstance name="I" typeName="P" associatedTaskName="T"/></p:Resource></p:Configuration></p:Instances></p:Project>)";
 
 uint32_t readAndParse(const std::string& text) {
-  Sources sources;
-  Diagnostics diagnostics(sources);
-  const FileId file = sources.add("spoilt", text);
-  const FileId program = readProject(sources, file, diagnostics);
+  ImportedFile read("spoilt", text, FileKind::Iec10);
   Names names;
   Tree tree;
-  const uint32_t errors = diagnostics.errorCount();
-  if (program) text::parseFile(tree, names, sources, program, Dialect::Codesys, diagnostics);
-  diagnostics.sort();
-  for (const Diagnostic& diagnostic : diagnostics.all()) {
+  const uint32_t errors = read.diagnostics.errorCount();
+  if (read.program) text::parseFile(tree, names, read.sources, read.program, Dialect::Codesys, read.diagnostics);
+  read.diagnostics.sort();
+  for (const Diagnostic& diagnostic : read.diagnostics.all()) {
     if (!diagnostic.loc) continue;
-    EXPECT_EQ(sources.location(diagnostic.loc).file, file) << diagnostic.message << "\n" << text;
+    EXPECT_EQ(read.sources.location(diagnostic.loc).file, read.file) << diagnostic.message << "\n" << text;
   }
   return errors;
 }
@@ -60,4 +57,4 @@ TEST(Spoilt, BytesChanged) {
 }
 
 }  // namespace
-}  // namespace rung::iec10
+}  // namespace rung::importer::iec10

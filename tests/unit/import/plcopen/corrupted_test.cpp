@@ -8,9 +8,9 @@
 
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "tests/unit/import/plcopen/read_helper.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 const std::string kFiles[] = {
@@ -38,7 +38,7 @@ const std::string kFiles[] = {
 };
 
 void readAndParse(const std::string& text) {
-  Reading reading(text);
+  ImportedFile reading("p.xml", text, FileKind::Plcopen);
   Names names;
   Tree tree;
   if (reading.program)
@@ -54,7 +54,7 @@ void readAndParse(const std::string& text) {
 TEST(SpoiltProject, CutAtEveryByte) {
   for (const std::string& file : kFiles)
     for (size_t n = 0; n <= file.size(); ++n) {
-      Reading reading(file.substr(0, n));
+      ImportedFile reading("p.xml", file.substr(0, n), FileKind::Plcopen);
       EXPECT_EQ(reading.diagnostics.errorCount(), n == file.size() ? 0u : 1u) << file.substr(0, n);
     }
 }
@@ -123,4 +123,4 @@ TEST(SpoiltProject, ElementsAndBytesChanged) {
 }
 
 }  // namespace
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -1,16 +1,17 @@
 // PLCopen projects are recognized by their content, and become one ST source whose locations are those of the XML.
 #include <gtest/gtest.h>
 
-#include "tests/unit/import/plcopen/read_helper.h"
+#include "frontend/import/plcopen/plcopen.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::plcopen {
+namespace rung::importer::plcopen {
 namespace {
 
 constexpr std::string_view kBegin = "<project xmlns='http://www.plcopen.org/xml/tc6_0200'><types>";
 constexpr std::string_view kEnd = "</types></project>";
 
 std::string project(std::string_view inner) { return std::string(kBegin) + std::string(inner) + std::string(kEnd); }
-std::string textOf(std::string_view inner) { return Reading(project(inner)).text(); }
+std::string textOf(std::string_view inner) { return ImportedFile("p.xml", project(inner)).text(); }
 
 TEST(Plcopen, KnownByContent) {
   EXPECT_TRUE(isPlcopen("<?xml version='1.0'?><!-- <a> -->\n<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\">"));
@@ -60,7 +61,7 @@ TEST(Plcopen, StringsWithoutQuotes) {
   const std::string inner =
       "<pou name='P' pouType='program'><interface><localVars><variable name='s'><type><string/></type><initialValue>"
       "<simpleValue value='two words'/></initialValue></variable></localVars></interface></pou>";
-  EXPECT_NE(Reading("<project xmlns='http://www.plcopen.org/xml/tc6_0201'>" + inner + "</project>")
+  EXPECT_NE(ImportedFile("p.xml", "<project xmlns='http://www.plcopen.org/xml/tc6_0201'>" + inner + "</project>")
                 .text()
                 .find("s : STRING := 'two words';"),
             std::string::npos);
@@ -85,7 +86,8 @@ TEST(Plcopen, PlainTextWins) {
 }
 
 TEST(Plcopen, LocationsAreThoseOfTheXml) {
-  const Reading reading(
+  const ImportedFile reading(
+      "p.xml",
       "<project xmlns='http://www.plcopen.org/xml/tc6_0200'>\n <pou name='P' pouType='program'>\n"
       "  <body><ST><p><![CDATA[one := 1;\n  two := 2;]]></p>three := 1 &lt;\n 2;</ST></body>\n </pou>\n</project>");
   EXPECT_EQ(reading.locationOf("P"), "2:3");  // of PROGRAM
@@ -99,19 +101,18 @@ TEST(Plcopen, LocationsAreThoseOfTheXml) {
 }
 
 TEST(Plcopen, BodyOfCfcHidesItsPlaceholder) {
-  const Reading reading(
-      project("<pou name='P' pouType='program'><body><ST><xhtml/></ST><addData><data "
-              "name='http://www.3s-software.com/plcopenxml/cfc'>"
-              "<CFC/></data></addData></body></pou>"));
+  const ImportedFile reading("p.xml", project("<pou name='P' pouType='program'><body><ST><xhtml/></ST><addData><data "
+                                              "name='http://www.3s-software.com/plcopenxml/cfc'>"
+                                              "<CFC/></data></addData></body></pou>"));
   EXPECT_EQ(reading.errors(), "");
   EXPECT_NE(reading.text().find("{network CFC}"), std::string::npos);
 }
 
 TEST(Plcopen, LibrariesOfTheProject) {
-  const Reading reading(
-      project("<x><Libraries><Library Name='#Standard' Namespace='Std'/><Library Name='Util, 3.5.17.0 "
-              "(System)'/><Library Name='UTIL, *'/>"
-              "<Library Name='#IoStandard' SystemLibrary='true'/></Libraries></x>"));
+  const ImportedFile reading(
+      "p.xml", project("<x><Libraries><Library Name='#Standard' Namespace='Std'/><Library Name='Util, 3.5.17.0 "
+                       "(System)'/><Library Name='UTIL, *'/>"
+                       "<Library Name='#IoStandard' SystemLibrary='true'/></Libraries></x>"));
   ASSERT_EQ(reading.libraries.size(), 2u);
   EXPECT_EQ(reading.libraries[0].name, "Standard");
   EXPECT_EQ(reading.libraries[0].space, "Std");
@@ -120,7 +121,8 @@ TEST(Plcopen, LibrariesOfTheProject) {
 
 TEST(Plcopen, ExtensionsAreMentionedOncePerKind) {
   EXPECT_EQ(
-      Reading(
+      ImportedFile(
+          "p.xml",
           "<project xmlns='http://www.plcopen.org/xml/tc6_0200'>\n<addData><data name='urn:a'/><data name='urn:a'/>\n"
           "<data name='urn:b'/><data name='urn:c' handleUnknown='discard'/></addData></project>")
           .errors(),
@@ -144,22 +146,25 @@ TEST(Plcopen, ChartsWithoutEndAreRefused) {
   }
   chart += "<transition localId='" + std::to_string(id) + "'><connectionPointIn>" + wire(last) +
            "</connectionPointIn><condition><inline><ST>TRUE</ST></inline></condition></transition>";
-  const Reading reading(project("<pou name='P' pouType='program'><body><SFC>" + chart + "</SFC></body></pou>"));
+  const ImportedFile reading("p.xml",
+                             project("<pou name='P' pouType='program'><body><SFC>" + chart + "</SFC></body></pou>"));
   ASSERT_EQ(reading.diagnostics.all().size(), 1u);
   EXPECT_EQ(reading.diagnostics.all()[0].message, "too many paths through one chart; the limit is 1000000");
 }
 
 // Found by corrupted_test: a variable has no inputs, whatever is wired to it.
 TEST(Plcopen, VariableWiredToItself) {
-  const Reading reading(project(
-      "<pou name='P' pouType='program'><body><SFC><step localId='1' name='A' initialStep='true'/><inVariable "
-      "localId='2'>"
-      "<connectionPointIn><connection refLocalId='2'/></connectionPointIn><expression>x</expression></inVariable>"
-      "<transition localId='3'><connectionPointIn><connection refLocalId='1'/></connectionPointIn><condition>"
-      "<connectionPointIn><connection refLocalId='2'/></connectionPointIn></condition></transition>"
-      "<jumpStep localId='4' targetName='A'><connectionPointIn><connection "
-      "refLocalId='3'/></connectionPointIn></jumpStep>"
-      "</SFC></body></pou>"));
+  const ImportedFile reading(
+      "p.xml",
+      project(
+          "<pou name='P' pouType='program'><body><SFC><step localId='1' name='A' initialStep='true'/><inVariable "
+          "localId='2'>"
+          "<connectionPointIn><connection refLocalId='2'/></connectionPointIn><expression>x</expression></inVariable>"
+          "<transition localId='3'><connectionPointIn><connection refLocalId='1'/></connectionPointIn><condition>"
+          "<connectionPointIn><connection refLocalId='2'/></connectionPointIn></condition></transition>"
+          "<jumpStep localId='4' targetName='A'><connectionPointIn><connection "
+          "refLocalId='3'/></connectionPointIn></jumpStep>"
+          "</SFC></body></pou>"));
   EXPECT_NE(reading.text().find("TRANSITION FROM A TO A := (x)"), std::string::npos) << reading.text();
 }
 
@@ -168,10 +173,10 @@ TEST(Plcopen, TypesWithoutEndAreRefused) {
   for (int i = 0; i < 300; ++i) type += "<pointer><baseType>";
   type += "<INT/>";
   for (int i = 0; i < 300; ++i) type += "</baseType></pointer>";
-  const Reading reading(project("<dataType name='T'><baseType>" + type + "</baseType></dataType>"));
+  const ImportedFile reading("p.xml", project("<dataType name='T'><baseType>" + type + "</baseType></dataType>"));
   ASSERT_EQ(reading.diagnostics.all().size(), 1u);
   EXPECT_EQ(reading.diagnostics.all()[0].message, "too many nested types; the limit is 200");
 }
 
 }  // namespace
-}  // namespace rung::plcopen
+}  // namespace rung::importer::plcopen

@@ -5,11 +5,12 @@
 #include <cstdlib>
 #include <random>
 
+#include "frontend/import/twincat/twincat.h"
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "tests/unit/import/vendor/read_helper.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::vendor {
+namespace rung::importer {
 namespace {
 
 const std::string kFiles[] = {
@@ -57,10 +58,10 @@ VAR_INPUT a : ARRAY[1..3] OF INT; END_VAR]]></Declaration><Implementation><ST>IF
 };
 
 void readAndParse(const std::string& text) {
-  Reading reading("spoilt", text);
-  Project project;
-  if (formatOf(text) == Format::TwinCatProject)
-    (void)readProject(reading.sources, reading.file, reading.diagnostics, project);
+  ImportedFile reading("spoilt", text);
+  twincat::Project project;
+  if (kindOf("spoilt", text) == FileKind::PlcProject)
+    (void)twincat::readProject(reading.sources, reading.file, reading.diagnostics, project);
   Names names;
   Tree tree;
   if (reading.program)
@@ -101,4 +102,4 @@ TEST(Spoilt, BytesChanged) {
 }
 
 }  // namespace
-}  // namespace rung::vendor
+}  // namespace rung::importer

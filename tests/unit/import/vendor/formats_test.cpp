@@ -1,29 +1,25 @@
 // Vendors' files are recognized by their content, and become one ST source in one order.
 #include <gtest/gtest.h>
 
-#include "tests/unit/import/vendor/read_helper.h"
+#include "frontend/import/pairs.h"
+#include "frontend/import/twincat/twincat.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::vendor {
+namespace rung::importer {
 namespace {
 
-TEST(Formats, KnownByContent) {
-  EXPECT_EQ(formatOf("\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <x> --><TcPlcObject Version=\"1\">"), Format::TwinCat);
-  EXPECT_EQ(formatOf("<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">"),
-            Format::TwinCatProject);
-  EXPECT_EQ(formatOf("<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\">"), Format::None);
-  EXPECT_EQ(formatOf("\r\n\r\n(* @NESTEDCOMMENTS := 'Yes' *)\r\n"), Format::Codesys2);
-  EXPECT_EQ(formatOf("(* by hand *)\n(* @PATH := '' *)"), Format::Codesys2);
-  EXPECT_EQ(formatOf("(*@PROPERTIES_EX@\nTYPE: POU\n*)"), Format::Multiprog);
-  EXPECT_EQ(formatOf("(* @author me *) PROGRAM p"), Format::None);
-  for (const char* text : {"", " ", "<", "<!--", "(*", "(* @", "PROGRAM p", "<?"})
-    EXPECT_EQ(formatOf(text), Format::None);
-}
+FileKind kindOf(std::string_view text) { return importer::kindOf("file", text); }
 
-TEST(Formats, FirstWord) {
-  EXPECT_EQ(firstWord("\xef\xbb\xbf (* a (* b *) *) // c\n{d 'e}'} function_block x"), "FUNCTION_BLOCK");
-  EXPECT_EQ(firstWord("; PROGRAM"), "");
-  EXPECT_EQ(firstWord("(* PROGRAM"), "");
-  EXPECT_EQ(firstWord("12 PROGRAM"), "");
+TEST(Formats, KnownByContent) {
+  EXPECT_EQ(kindOf("\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <x> --><TcPlcObject Version=\"1\">"), FileKind::TwinCat);
+  EXPECT_EQ(kindOf("<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">"), FileKind::PlcProject);
+  EXPECT_EQ(kindOf("<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\">"), FileKind::Plcopen);
+  EXPECT_EQ(kindOf("\r\n\r\n(* @NESTEDCOMMENTS := 'Yes' *)\r\n"), FileKind::Codesys2);
+  EXPECT_EQ(kindOf("(* by hand *)\n(* @PATH := '' *)"), FileKind::Codesys2);
+  EXPECT_EQ(kindOf("(*@PROPERTIES_EX@\nTYPE: POU\n*)"), FileKind::Multiprog);
+  EXPECT_EQ(kindOf("(* @author me *) PROGRAM p"), FileKind::St);
+  for (const char* text : {"", " ", "(*", "(* @", "p"}) EXPECT_EQ(kindOf(text), FileKind::Unknown);
+  for (const char* text : {"<", "<!--", "<?"}) EXPECT_EQ(kindOf(text), FileKind::Xml);
 }
 
 TEST(Pairs, Names) {
@@ -36,7 +32,7 @@ TEST(Pairs, Names) {
 }
 
 TEST(TwinCat, MembersStandBetweenDeclarationAndBody) {
-  const Reading reading("FB.TcPOU", R"(<TcPlcObject><POU Name="FB">
+  const ImportedFile reading("FB.TcPOU", R"(<TcPlcObject><POU Name="FB">
 <Declaration><![CDATA[FUNCTION_BLOCK FB]]></Declaration>
 <Implementation><ST><![CDATA[run();]]></ST></Implementation>
 <Folder Name="f" />
@@ -57,20 +53,20 @@ TEST(TwinCat, MembersStandBetweenDeclarationAndBody) {
 }
 
 TEST(TwinCat, InterfaceTypeAndGlobals) {
-  EXPECT_EQ(Reading("I.TcIO",
-                    "<TcPlcObject><Itf Name='I'><Declaration>INTERFACE I</Declaration><Method Name='M'>"
-                    "<Declaration>METHOD M</Declaration></Method></Itf></TcPlcObject>")
+  EXPECT_EQ(ImportedFile("I.TcIO",
+                         "<TcPlcObject><Itf Name='I'><Declaration>INTERFACE I</Declaration><Method Name='M'>"
+                         "<Declaration>METHOD M</Declaration></Method></Itf></TcPlcObject>")
                 .text(),
             "INTERFACE I\nMETHOD M\nEND_METHOD\nEND_INTERFACE\n");
-  EXPECT_EQ(
-      Reading("G.TcGVL", "<TcPlcObject><GVL Name='G'><Declaration>VAR_GLOBAL END_VAR</Declaration></GVL></TcPlcObject>")
-          .text(),
-      "VAR_GLOBAL END_VAR\n");
-  EXPECT_EQ(Reading("V.TcVIS", "<TcPlcObject><Visu Name='V'>x</Visu></TcPlcObject>").text(), "");
+  EXPECT_EQ(ImportedFile("G.TcGVL",
+                         "<TcPlcObject><GVL Name='G'><Declaration>VAR_GLOBAL END_VAR</Declaration></GVL></TcPlcObject>")
+                .text(),
+            "VAR_GLOBAL END_VAR\n");
+  EXPECT_EQ(ImportedFile("V.TcVIS", "<TcPlcObject><Visu Name='V'>x</Visu></TcPlcObject>").text(), "");
 }
 
 TEST(TwinCat, DrawnBodiesAreNamedAndDeclarationsCount) {
-  const Reading reading(
+  const ImportedFile reading(
       "P.TcPOU",
       "<TcPlcObject><POU Name='P'><Declaration>PROGRAM P</Declaration>\n"
       "<Implementation><LADDER><XmlArchive>x := 1;</XmlArchive></LADDER></Implementation>\n"
@@ -82,9 +78,9 @@ TEST(TwinCat, DrawnBodiesAreNamedAndDeclarationsCount) {
 }
 
 TEST(TwinCat, TaskBecomesConfiguration) {
-  EXPECT_EQ(Reading("T.TcTTO",
-                    "<TcPlcObject><Task Name='Fast'><CycleTime>1000</CycleTime><Priority>7</Priority>"
-                    "<PouCall><Name>A</Name></PouCall><PouCall><Name>B</Name></PouCall></Task></TcPlcObject>")
+  EXPECT_EQ(ImportedFile("T.TcTTO",
+                         "<TcPlcObject><Task Name='Fast'><CycleTime>1000</CycleTime><Priority>7</Priority>"
+                         "<PouCall><Name>A</Name></PouCall><PouCall><Name>B</Name></PouCall></Task></TcPlcObject>")
                 .text(),
             "CONFIGURATION Fast_configuration\nRESOURCE Fast_resource ON PLC\nTASK Fast(INTERVAL := T#1000us, PRIORITY "
             ":= 7);\n"
@@ -98,10 +94,10 @@ TEST(TwinCat, ProjectListsFilesAndLibraries) {
 <Compile Include="V.TcVIS" /><Compile Include="Off.tcpou"><ExcludeFromBuild>true</ExcludeFromBuild></Compile>
 <Folder Include="POUs" /></ItemGroup><PlaceholderReference Include="Tc2_Standard"><Namespace>Std</Namespace></PlaceholderReference>
 <LibraryReference Include="Util, 3.5.1.0, System" /><LibraryReference Include="util,newest,System" /></Project>)");
-  Project project;
-  ASSERT_TRUE(readProject(sources, file, diagnostics, project));
+  twincat::Project project;
+  ASSERT_TRUE(twincat::readProject(sources, file, diagnostics, project));
   ASSERT_EQ(project.files.size(), 1u);
-  EXPECT_EQ(project.files[0].name, "POUs/A b.TcPOU");
+  EXPECT_EQ(project.files[0].path, "POUs/A b.TcPOU");
   EXPECT_EQ(sources.location(project.files[0].loc).column, 39u);
   ASSERT_EQ(project.libraries.size(), 2u);
   EXPECT_EQ(project.libraries[0].name, "Tc2_Standard");
@@ -111,21 +107,22 @@ TEST(TwinCat, ProjectListsFilesAndLibraries) {
 }
 
 TEST(Codesys2, TextThatNeedsNothingIsParsedAsItStands) {
-  const Reading reading("a.EXP",
-                        "(* @PATH := '' *)\nPROGRAM P\nVAR END_VAR\n(* @END_DECLARATION := '0' *)\n;\nEND_PROGRAM\n"
-                        "ACTION A:\nx := 1;\nEND_ACTION\n");
+  const ImportedFile reading(
+      "a.EXP",
+      "(* @PATH := '' *)\nPROGRAM P\nVAR END_VAR\n(* @END_DECLARATION := '0' *)\n;\nEND_PROGRAM\n"
+      "ACTION A:\nx := 1;\nEND_ACTION\n");
   EXPECT_EQ(reading.program, reading.file);
 }
 
 TEST(Codesys2, FunctionBlockInOneWord) {
-  const Reading reading("a.EXP", "(* @PATH := '' *)\nFUNCTIONBLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
+  const ImportedFile reading("a.EXP", "(* @PATH := '' *)\nFUNCTIONBLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
   EXPECT_EQ(reading.text(), "(* @PATH := '' *)\nFUNCTION_BLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
   EXPECT_EQ(reading.locationOf("FUNCTION_BLOCK f"), "2:1");
   EXPECT_EQ(reading.locationOf(" f"), "2:14");
 }
 
 TEST(Codesys2, DrawnBodiesAndForeignObjectsAreLeftOut) {
-  const Reading reading(
+  const ImportedFile reading(
       "a.EXP",
       "(* @PATH := '' *)\nPROGRAM P\nVAR x : INT; END_VAR\n_FBD_BODY\n_NETWORKS : 1\n_COMMENT\n"
       "'it's\n_END_COMMENT\nEND_PROGRAM\n\n(* @NESTEDCOMMENTS := 'Yes' *)\nVISUALISATION v\nPROGRAM no\n"
@@ -137,7 +134,7 @@ TEST(Codesys2, DrawnBodiesAndForeignObjectsAreLeftOut) {
 }
 
 TEST(Multiprog, DescriptionsAndDrawnSheetsAreLeftOut) {
-  const Reading reading(
+  const ImportedFile reading(
       "a.ST",
       "(*@PROPERTIES_EX@\n*)\n(*@KEY@:DESCRIPTION*)\nit's (* bare\n(*@KEY@:END_DESCRIPTION*)\n"
       "PROGRAM P\n(*@KEY@: WORKSHEET\nNAME: P1\nIEC_LANGUAGE: LD\n*)\n[1](0,0)\n(*@KEY@: END_WORKSHEET *)\n"
@@ -149,4 +146,4 @@ TEST(Multiprog, DescriptionsAndDrawnSheetsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace rung::vendor
+}  // namespace rung::importer

@@ -1,13 +1,14 @@
 // Locations in source-mapped text: the line and column of the file on disk.
 #include <gtest/gtest.h>
 
-#include "tests/unit/import/vendor/read_helper.h"
+#include "frontend/import/pairs.h"
+#include "tests/unit/import/imported_file.h"
 
-namespace rung::vendor {
+namespace rung::importer {
 namespace {
 
 TEST(Places, PartsEntitiesAndAddedKeywords) {
-  const Reading reading(
+  const ImportedFile reading(
       "P.TcPOU",
       "<TcPlcObject>\n <POU Name=\"P\">\n  <Declaration><![CDATA[PROGRAM P\nVAR x : INT; END_VAR]]></Declaration>\n"
       "  <Implementation><ST>x := ä &lt; 1;\r\n  y;</ST></Implementation>\n </POU>\n</TcPlcObject>");
@@ -24,7 +25,10 @@ TEST(Places, PartsEntitiesAndAddedKeywords) {
 TEST(Places, PairsOfFiles) {
   Sources sources;
   const FileId a = sources.add("M.pou", "FUNCTION_BLOCK M\n"), b = sources.add("M.st", "\n  x := 1;");
-  const FileId program = joinPair(sources, a, b);
+  std::vector<PairCandidate> files = {{"M.pou", a}, {"M.st", b}};
+  joinPairs(sources, files);
+  EXPECT_FALSE(files[1].file);
+  const FileId program = files[0].file;
   EXPECT_EQ(sources.sourceText(program), "FUNCTION_BLOCK M\n\n\n  x := 1;\nEND_FUNCTION_BLOCK");
   const SourceLocation location = sources.location({sources.begin(program).offset + 21});
   EXPECT_EQ(sources.path(location.file), "M.st");
@@ -33,4 +37,4 @@ TEST(Places, PairsOfFiles) {
 }
 
 }  // namespace
-}  // namespace rung::vendor
+}  // namespace rung::importer

@@ -1,0 +1,104 @@
+// Header for native blocks: see native_header.h.
+#include "codegen/native_header.h"
+
+#include <vector>
+
+#include "codegen/body.h"
+#include "codegen/names.h"
+#include "codegen/types.h"
+
+namespace rung::codegen {
+
+using types::Field;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+class Declarations {
+ public:
+  explicit Declarations(const ir::Module& module)
+      : module_(module), types_(module.types), is_declared_(module.types.count()) {}
+
+  // The types that a type holds or points to come first.
+  void declare(TypeId type) {
+    type = elementOf(types_, type);
+    while (types_.kind(type) == TypeKind::Pointer || types_.kind(type) == TypeKind::Reference)
+      type = elementOf(types_, types_.info(type).base);
+    if (is_declared_[type.index]) return;
+    const TypeKind kind = types_.kind(type);
+    if (kind != TypeKind::Record && kind != TypeKind::Enum) return;
+    is_declared_[type.index] = true;
+    if (kind == TypeKind::Enum) return enumeration(type);
+    for (const Field& field : types_.info(type).fields) declare(field.type);
+    appendRecordDefinition(structs_, types_, type, false);
+    appendLayoutAssert(structs_, types_, type);
+    structs_ += '\n';
+  }
+
+  void prototype(const ir::Body& body, std::string_view name_space) {
+    std::string self;
+    if (body.self) {
+      declare(body.self);
+      self = std::string(name_space) + "::" + recordName(types_, body.self);
+    }
+    for (const ir::Local& local : body.locals)
+      if (isParameter(local)) declare(local.type);
+    prototypes_ += "extern \"C\" ";
+    BodyWriter::appendSignature(prototypes_, module_, body, {}, self);
+    prototypes_ += ";\n";
+  }
+
+  std::string text(std::string_view name_space) const {
+    if (structs_.empty()) return prototypes_;
+    std::string out = "namespace ";
+    out += name_space;
+    out += " {\n\n" + structs_ + "}  // namespace ";
+    out += name_space;
+    return out += "\n\n" + prototypes_;
+  }
+
+ private:
+  void enumeration(TypeId type) {
+    const TypeInfo& info = types_.info(type);
+    structs_ += "enum ";
+    appendMangled(structs_, types_.names().string(info.name));
+    structs_ += "type : ";
+    structs_ += scalarType(types_, type);
+    structs_ += " {\n";
+    for (const auto& [name, value] : info.items) {
+      structs_ += "  ";
+      appendMangled(structs_, types_.names().string(name));
+      structs_ += " = ";
+      appendConstant(structs_, types_, info.base, static_cast<uint64_t>(value));
+      structs_ += ",\n";
+    }
+    structs_ += "};\n\n";
+  }
+
+  const ir::Module& module_;
+  const TypeTable& types_;
+  std::vector<bool> is_declared_;  // by type
+  std::string structs_, prototypes_;
+};
+
+}  // namespace
+
+std::string nativeDeclarations(const ir::Module& module, std::span<const ir::BodyId> bodies,
+                               std::string_view name_space) {
+  Declarations declarations(module);
+  for (const ir::BodyId id : bodies) declarations.prototype(module.body(id), name_space);
+  return declarations.text(name_space);
+}
+
+std::string nativeHeader(std::string_view declarations) {
+  std::string out =
+      "// Native blocks: a C++ file includes this and defines the functions below. Made by rung from the "
+      "declarations.\n"
+      "#pragma once\n\n#include <stddef.h>\n#include <stdint.h>\n\n#include \"rung/module.h\"\n\n";
+  out += declarations;
+  return out;
+}
+
+}  // namespace rung::codegen

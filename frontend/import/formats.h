@@ -1,0 +1,69 @@
+// The table of file formats: how the kind of a file is recognised, and how its program is read. In: the path and text
+// of a file. Out: its kind; its program as source-mapped text (frontend/import/source_mapped_text.h) that the parser
+// reads, with locations in that file. A new format is a row of formats.cpp. Called by the driver for each input file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::importer {
+
+enum class FileKind : uint8_t {
+  Unknown,
+  St,
+  Il,
+  Xml,         // of an unknown kind
+  Nct,         // machine-tool ladder
+  Cam,         // cam tables
+  TwinCat,     // .TcPOU .TcDUT .TcGVL .TcIO .TcTTO
+  PlcProject,  // .plcproj of TwinCAT
+  Plcopen,     // TC6 XML
+  Iec10,       // XML of IEC 61131-10
+  Codesys2,    // exports of CODESYS 2.3
+  Multiprog,   // MULTIPROG and PC Worx
+  Project,     // rung.project
+  Binary
+};
+
+// A library to which a project of another tool refers.
+struct Library {
+  std::string name;   // its title
+  std::string space;  // its namespace in the project, or empty
+  Loc loc;
+};
+
+struct ReadContext {
+  Sources& sources;
+  Diagnostics& diagnostics;
+  std::vector<Library>& libraries;  // those that the files ask for are added
+};
+
+struct Format {
+  FileKind kind;
+  std::string_view name;                  // in messages, for kinds that are not read
+  std::string_view extensions;            // separated by blanks; those of several rows belong to the first
+  bool (*detect)(std::string_view text);  // by content; null: by extension only
+  // The program in the file, as a separate file; the file itself if it can be parsed unchanged. No file: an error has
+  // been reported. Null: the parser reads it unchanged, or nothing reads it.
+  FileId (*read)(ReadContext& context, FileId file);
+};
+
+const Format& formatOf(FileKind kind);
+
+// By content, then extension. `text` may be only the beginning.
+FileKind kindOf(std::string_view path, std::string_view text);
+FileKind kindOfExtension(std::string_view path);
+
+// Whether sources of this kind end in the parser.
+bool holdsProgram(FileKind kind);
+
+bool hasExtension(std::string_view path, std::string_view extension);  // in lower case, with its dot
+
+// The beginning of a file is not source in any encoding that editors of PLC code write.
+bool isBinary(std::string_view text);
+
+}  // namespace rung::importer

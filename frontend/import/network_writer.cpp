@@ -1,0 +1,162 @@
+#include "frontend/import/network_writer.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "frontend/source/scanner.h"
+
+namespace rung::importer {
+namespace {
+
+// A string of the notation, on one line.
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '$') out += '$';
+    out += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+// `n` and the characters of the name, those that identifiers cannot have by their codes.
+std::string createdLabel(std::string_view spelling) {
+  std::string created = "n";
+  for (const char c : spelling)
+    created += isNameCharacter(c) ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
+  return created;
+}
+
+std::string_view wordOf(NetworkLanguage language) {
+  switch (language) {
+    case NetworkLanguage::Ladder: return "LD";
+    case NetworkLanguage::Blocks: return "FBD";
+    case NetworkLanguage::Continuous: return "CFC";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string clauseOf(const Area& area) {
+  if (!area.placed) return {};
+  const std::string position = " AT " + std::to_string(area.x) + ", " + std::to_string(area.y);
+  if (area.width == 0 && area.height == 0) return position;
+  return position + ", " + std::to_string(area.width) + ", " + std::to_string(area.height);
+}
+
+void NetworkWriter::beginBody(Loc loc, NetworkLanguage language) {
+  out_.put(loc, "{network " + std::string(wordOf(language)) + "}\n");
+}
+
+void NetworkWriter::beginNetwork(Loc loc, uint64_t number, bool disabled, std::string_view title) {
+  out_.put(loc, "NETWORK " + std::to_string(number) + (disabled ? " DISABLED" : ""));
+  if (!title.empty()) out_.word(" " + quoted(title));
+  out_.word(";\n");
+}
+
+void NetworkWriter::write(const NetworkElement& element) {
+  writeParts(element);
+  if (!element.statements.empty()) {
+    out_.word(" {network ST}\n");
+    out_.add(element.statements);
+    out_.word("\n{end_network}");
+  }
+  out_.word(";\n");
+}
+
+void NetworkWriter::beginStatements(const NetworkElement& element) {
+  writeParts(element);
+  out_.word(" {network ST}\n");
+}
+
+void NetworkWriter::writeParts(const NetworkElement& e) {
+  out_.put(e.loc, std::string(kElementWords[static_cast<size_t>(e.kind)]) + " ");
+  out_.add(e.number);
+  if (!e.name.empty()) {
+    out_.word(" ");
+    out_.add(e.name);
+  }
+  if (!e.operand.empty()) {
+    out_.word(" (");
+    out_.add(e.operand);
+    out_.word(")");
+  }
+  if (!e.comment.empty()) out_.put(e.loc, " " + quoted(e.comment));
+  writeModifiers(e.modifiers);
+  if (e.holding) out_.word(" HOLDING");
+  if (e.order != 0) out_.word(" ORDER " + std::to_string(e.order));
+  out_.word(clauseOf(e.area));
+  if (e.has_pins) writePins(e.pins);
+  if (e.input.empty()) return;
+  out_.word(" := ");
+  writeWires(e.input);
+}
+
+void NetworkWriter::writeModifiers(const Modifiers& modifiers) {
+  if (modifiers.negated) out_.word(" NOT");
+  if (modifiers.edge != EdgeKind::None) out_.word(modifiers.edge == EdgeKind::Rising ? " RISING" : " FALLING");
+  if (modifiers.storage != PinStorage::None) out_.word(modifiers.storage == PinStorage::Set ? " SET" : " RESET");
+}
+
+void NetworkWriter::writePins(const std::vector<NetworkPin>& pins) {
+  const char* before = " [";
+  for (const NetworkPin& pin : pins) {
+    out_.word(before);
+    before = ", ";
+    out_.add(pin.name);
+    writeModifiers(pin.modifiers);
+    if (pin.direction != PinDirection::Output) {
+      out_.word(" := ");
+      writeWires(pin.wires);
+    }
+    if (pin.direction != PinDirection::Input) out_.word(" =>");
+  }
+  out_.word(pins.empty() ? " []" : "]");
+}
+
+void NetworkWriter::writeWires(const std::vector<WireSource>& wires) {
+  bool first = true;
+  for (const WireSource& wire : wires) {
+    if (!first) out_.word(" OR ");
+    first = false;
+    out_.add(wire.element);
+    if (wire.pin.empty()) continue;
+    out_.word("(");
+    out_.add(wire.pin);
+    out_.word(")");
+  }
+}
+
+xml::Excerpt labelOf(xml::Excerpt name, std::string_view spelling) {
+  if (spelling.empty() || isIdentifier(spelling)) return name;
+  return {name.begin(), createdLabel(spelling)};
+}
+
+xml::Excerpt connectorOf(xml::Excerpt name, std::string_view spelling) {
+  if (spelling.empty() || isIdentifier(spelling)) return name;
+  return {name.begin(), quoted(spelling)};
+}
+
+std::string unnamedPin(PinDirection direction, size_t nth) {
+  if (direction != PinDirection::Output) return "IN" + std::to_string(nth);
+  return nth == 1 ? "OUT" : "OUT" + std::to_string(nth);
+}
+
+int32_t coordinateOf(std::string_view text) {
+  double v = 0;
+  if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) return 0;
+  return static_cast<int32_t>(std::lround(std::clamp(v, -1e9, 1e9)));
+}
+
+EdgeKind edgeOf(std::string_view word) {
+  if (sameIdentifier(word, "rising")) return EdgeKind::Rising;
+  return sameIdentifier(word, "falling") ? EdgeKind::Falling : EdgeKind::None;
+}
+
+PinStorage storageOf(std::string_view word) {
+  if (sameIdentifier(word, "set")) return PinStorage::Set;
+  return sameIdentifier(word, "reset") ? PinStorage::Reset : PinStorage::None;
+}
+
+}  // namespace rung::importer

@@ -1,0 +1,45 @@
+// `rung build`: emit, compile and link to an executable with the bundled host, a shared or a static library.
+#include <sys/stat.h>
+
+#include <cstdio>
+
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/native.h"
+
+namespace rung::driver {
+
+int runBuild(const Options& options, Sink& sink) {
+  struct stat info;
+  if (stat(options.output.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
+    return usageError(sink, "`" + options.output + "` is a folder; `-o` needs the name of a file");
+
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  NativeRequest request;
+  request.parts.resize(1);
+  const bool ok = compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasCppBodies();
+  int exit = later ? compilation.exitCode() : compilation.finish();
+  if (ok && exit == kSuccess) {
+    times.begin("c++");
+    Cache cache;
+    request.level = 2;
+    request.jobs = options.jobs;
+    request.keep = options.keep;
+    NativeResult result =
+        makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output, sink);
+    times.end();
+    exit = result.exit;
+    if (later)
+      exit = compilation.finish(result);
+    else if (exit == kInternal)
+      sink.internalError(result.message);
+    else if (exit != kSuccess)
+      usageError(sink, result.message);
+  }
+  if (options.time_phases) sink.message(times.table());
+  return exit;
+}
+
+}  // namespace rung::driver

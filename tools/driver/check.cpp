@@ -1,0 +1,23 @@
+// `rung check`: parses and checks, writes nothing but diagnostics.
+#include <cstdio>
+
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+
+namespace rung::driver {
+
+int runCheck(const Options& options, Sink& sink) {
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  // A dump or the verifier needs the IR.
+  const bool need_ir = options.verify || (!options.dump_after.empty() && options.dump_after != "parse");
+  if (need_ir)
+    compilation.lower();
+  else
+    compilation.check();
+  int exit = compilation.finish();
+  if (options.time_phases) sink.message(times.table());
+  return exit;
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,351 @@
+#include "tools/driver/compile.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include "frontend/parse/parse.h"
+#include "frontend/schedule/network_elements.h"
+#include "frontend/source/invariant.h"
+#include "frontend/source/render.h"
+#include "ir/interpreter/constant_call.h"
+#include "ir/lower.h"
+#include "ir/passes/passes.h"
+#include "ir/text.h"
+#include "ir/verify.h"
+#include "native_table.h"
+#include "sema/project.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/diagnostics.h"
+
+namespace rung::driver {
+namespace {
+
+uint64_t clockNs(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return static_cast<uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(t.tv_nsec);
+}
+
+}  // namespace
+
+void PhaseTimes::begin(const char* phase) {
+  end();
+  setPhase(phase);
+  running_ = phase;
+  cpu_begin_ = clockNs(CLOCK_PROCESS_CPUTIME_ID);
+  wall_begin_ = clockNs(CLOCK_MONOTONIC);
+}
+
+void PhaseTimes::end() {
+  if (running_ == nullptr) return;
+  uint64_t cpu = clockNs(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin_, wall = clockNs(CLOCK_MONOTONIC) - wall_begin_;
+  for (Row& row : rows_) {
+    if (strcmp(row.phase, running_) != 0) continue;
+    row.cpu_ns += cpu;
+    row.wall_ns += wall;
+    running_ = nullptr;
+    return;
+  }
+  rows_.push_back({running_, cpu, wall});
+  running_ = nullptr;
+}
+
+std::string PhaseTimes::table() const {
+  char line[160];
+  std::string out = "phase          CPU s     wall s      lines/s\n";
+  uint64_t cpu = 0, wall = 0;
+  auto add = [&](const char* name, uint64_t cpu_ns, uint64_t wall_ns) {
+    double seconds = static_cast<double>(cpu_ns) * 1e-9;
+    snprintf(line, sizeof line, "%-10s %9.4f  %9.4f %12.0f\n", name, seconds, static_cast<double>(wall_ns) * 1e-9,
+             seconds > 0 ? static_cast<double>(lines) / seconds : 0.0);
+    out += line;
+  };
+  for (const Row& row : rows_) {
+    add(row.phase, row.cpu_ns, row.wall_ns);
+    cpu += row.cpu_ns;
+    wall += row.wall_ns;
+  }
+  add("total", cpu, wall);
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  snprintf(line, sizeof line, "%llu lines, %llu bytes, peak memory %.1f MiB\n", static_cast<unsigned long long>(lines),
+           static_cast<unsigned long long>(bytes), static_cast<double>(usage.ru_maxrss) / 1024.0);
+  return out + line;
+}
+
+Compilation::~Compilation() = default;
+
+Compilation::Compilation(const Options& given, PhaseTimes& times, Sink& sink)
+    : options(given), diagnostics(sources), times_(times), sink_(sink) {
+  diagnostics.max_errors = options.max_errors;
+  diagnostics.warnings_are_errors = options.werror;
+}
+
+bool Compilation::read() {
+  times_.begin("read");
+  readInputs(options, sources, diagnostics, inputs);
+  if (inputs.project.file) applyProjectFile(inputs.project, options);
+  for (const WarningSwitch& warning : options.warnings)
+    if (!diagnostics.setWarning(warning.name, warning.on) && usage_error_.empty())
+      usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung list warnings` lists all";
+  if (usage_error_.empty()) usage_error_ = libraries.load(options);
+  for (const InputFile& file : inputs.files) {
+    std::string_view text = sources.sourceText(file.file);
+    times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
+    times_.bytes += text.size();
+  }
+  const bool ok = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+  if (ok) readPrograms(sources, diagnostics, inputs);
+  noteLibraries();
+  times_.end();
+  return ok;
+}
+
+// Reports the libraries that a project of another tool asks for and Rung does not have, and adds the project's names
+// for the others.
+void Compilation::noteLibraries() {
+  for (const importer::Library& wanted : inputs.libraries) {
+    if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
+      const bool of_project = std::any_of(inputs.project_names.begin(), inputs.project_names.end(),
+                                          [&](std::string_view name) { return sameIdentifier(name, wanted.name); });
+      if (of_project)
+        inputs.project_names.push_back(wanted.space);
+      else
+        libraries.addAlias(wanted.space, wanted.name);
+    }
+    const auto called = [&](std::string_view name) { return sameIdentifier(name, wanted.name); };
+    const bool known = std::any_of(inputs.project_names.begin(), inputs.project_names.end(), called) ||
+                       std::any_of(libraries.files().begin(), libraries.files().end(),
+                                   [&](const sema::LibraryFile& file) { return called(file.library); }) ||
+                       std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
+                                   [&](const sema::LibraryAlias& alias) { return called(alias.alias); });
+    if (!known)
+      diagnostics.report(diag::UnknownLibrary, wanted.loc, {wanted.name})
+          .length(static_cast<uint32_t>(wanted.name.size()));
+  }
+}
+
+bool Compilation::parse() {
+  if (!read()) return false;
+  times_.begin("parse");
+  tree.lost_names = inputs.unread;
+  std::vector<FileId> files;
+  for (const InputFile& file : inputs.files) files.push_back(file.file);
+  text::applyConditions(sources, files, options.defines, options.dialect, diagnostics);
+  for (const InputFile& file : inputs.files) {
+    if (diagnostics.full()) break;
+    setPhaseSubject(file.below.data(), file.below.size());
+    text::parseFile(tree, names, sources, file.file, options.dialect, diagnostics);
+  }
+  if (!inputs.project.configuration.empty()) {
+    FileId file = sources.add("rung.project", inputs.project.configuration);
+    sources.setDisplayPath(file, inputs.project.folder + "/rung.project");
+    if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
+  }
+  setPhaseSubject("", 0);
+  times_.end();
+  if (options.dump_after == "parse")
+    for (const FileUnit& unit : tree.files) dump(printTree(tree, names, unit));
+  return true;
+}
+
+bool Compilation::check() {
+  if (!parse()) return false;
+  if (parsed && !diagnostics.hasErrors()) parsed();
+  times_.begin("check");
+  // Checking follows even after errors of the parser: one run reports as much as it can.
+  if (!diagnostics.full()) {
+    sema::Options sema_options;
+    sema_options.dialect = options.dialect;
+    if (!options.name.empty()) sema_options.name = options.name;
+    sema_options.libraries = libraries.files();
+    sema_options.library_aliases = libraries.aliases();
+    sema_options.project_names = inputs.project_names;
+    sema_options.free_subranges = !inputs.project_names.empty();
+    sema_options.pool_bytes = inputs.project.pool_bytes;
+    sema_options.areas = inputs.project.areas;
+    sema_options.default_interval_ns = options.default_interval_ns;
+    sema_options.with_tests = options.with_tests;
+    sema_options.mocks = options.mocks;
+    sema_options.pointer_size = options.pointer_size;
+    sema_options.scheduled = scheduled;
+    sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
+                                    FunctionRef<bool(sema::PouId)> ready) {
+      return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);
+    };
+    project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
+    sema::check(*project);
+  }
+  setPhaseSubject("", 0);
+  times_.end();
+  return !diagnostics.hasErrors();
+}
+
+bool Compilation::lower() {
+  if (!check()) return false;
+  times_.begin("lower");
+  module = std::make_unique<ir::Module>(project->types, names, sources);
+  ir::LowerOptions lower_options;
+  lower_options.checks = options.checks;
+  ir::lower(*project, lower_options, *module);
+  setPhaseSubject("", 0);
+  times_.end();
+  if (options.dump_after == "lower") dump(ir::print(*module));
+  if (options.verify && !verified("lower")) return false;
+
+  times_.begin("optimize");
+  ir::optimize(*module, options.level, [this](const ir::Pass& pass, ir::Body& body) {
+    if (options.dump_after == pass.name) dump(ir::print(*module, body));
+    if (!options.verify || !internal_error_.empty()) return;
+    for (const std::string& problem : ir::verify(*module, body)) {
+      internal_error_ = "the IR of `" + std::string(names.string(body.spelling)) + "` is broken after pass " +
+                        pass.name + ": " + problem;
+      break;
+    }
+  });
+  setPhaseSubject("", 0);
+  times_.end();
+  return internal_error_.empty();
+}
+
+bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files) {
+  if (!module && !lower()) return false;
+  times_.begin("emit");
+  codegen::EmitOptions emit_options;
+  emit_options.module_name = options.moduleName();
+  emit_options.with_tests = with_tests;
+  emit_options.optimize_all = options.level >= 2;
+  files = codegen::emitCpp(*module, emit_options);
+  setPhaseSubject("", 0);
+  times_.end();
+  return true;
+}
+
+bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
+  if (!lower()) return false;
+  if (options.engine == Engine::Native || (options.engine == Engine::Auto && options.keep)) return true;
+  times_.begin("translate");
+  ir::interpreter::ProgramOptions program_options;
+  const std::string name = options.moduleName();
+  program_options.module_name = name;
+  program_options.with_tests = with_tests;
+  program_options.natives = {natives::table, natives::count};
+  program_options.coverage = options.counts();
+  program_options.trace_calls = options.trace_calls;
+  program = std::make_unique<ir::interpreter::Program>(*module, program_options);
+  times_.end();
+  if (program->refusal().empty()) return true;
+  why = program->refusal();
+  program.reset();
+  return true;
+}
+
+bool Compilation::verified(const char* after) {
+  std::vector<std::string> problems = ir::verify(*module);
+  if (problems.empty()) return true;
+  internal_error_ = std::string("the IR is broken after ") + after + ": " + problems[0];
+  return false;
+}
+
+void Compilation::dump(const std::string& text) const { sink_.message(text); }
+
+int Compilation::exitCode() const {
+  if (!internal_error_.empty()) return kInternal;
+  if (!usage_error_.empty() || inputs.io_error) return kUsage;
+  return diagnostics.hasErrors() ? kInputErrors : kSuccess;
+}
+
+std::string Compilation::diagnosticsText() { return textOf(diagnostics); }
+
+// Sorted, with the names of the elements of diagrams.
+void Compilation::prepare(Diagnostics& own) const {
+  if (own.all().empty()) return;
+  const diagram::ElementLocator elements(tree, names);
+  if (!elements.empty()) own.nameElements([&](Loc loc) { return elements.at(loc); });
+  own.sort();
+}
+
+RenderOptions Compilation::renderOptions() const {
+  RenderOptions render_options;
+  render_options.format = options.format;
+  render_options.color = options.color;
+  render_options.page = errorPage;
+  return render_options;
+}
+
+std::string Compilation::textOf(Diagnostics& own) const {
+  if (own.all().empty() && options.format == DiagnosticFormat::Text) return {};
+  prepare(own);
+  return render(own, sources, renderOptions());
+}
+
+int Compilation::finish() {
+  if (!usage_error_.empty()) {
+    sink_.error(usage_error_);
+    return kUsage;
+  }
+  prepare(diagnostics);
+  if (!diagnostics.all().empty() || options.format != DiagnosticFormat::Text)
+    sink_.diagnostics(diagnostics, sources, renderOptions());
+  if (!internal_error_.empty()) sink_.internalError(internal_error_);
+  return exitCode();
+}
+
+// Columns of g++ count bytes: it cannot open the user's file.
+static Loc locationIn(const Sources& sources, FileId file, const Refusal& refusal) {
+  const std::string_view line = sources.line(file, refusal.line);
+  if (line.data() == nullptr) return sources.begin(file);
+  const size_t at = std::min<size_t>(refusal.column == 0 ? 0 : refusal.column - 1, line.size());
+  return {sources.begin(file).offset + static_cast<uint32_t>(line.data() - sources.original(file).data() + at)};
+}
+
+bool Compilation::addRefusals(const NativeResult& native, Diagnostics& to) const {
+  bool any = false;
+  for (const Refusal& refusal : native.refusals) {
+    for (uint32_t i = 1; i <= sources.fileCount(); ++i) {
+      if (sources.path({i}) != refusal.path) continue;
+      to.report(diag::CppRefused, locationIn(sources, {i}, refusal), {refusal.message});
+      any = true;
+      break;
+    }
+  }
+  return any;
+}
+
+int Compilation::finish(const NativeResult& native) {
+  if (native.exit == kInputErrors && !addRefusals(native, diagnostics)) sink_.message(native.message + "\n");
+  const int exit = finish();
+  if (native.exit == kInternal) sink_.internalError(native.message);
+  if (native.exit == kUsage) sink_.error(native.message);
+  return exit != kSuccess ? exit : native.exit;
+}
+
+bool Compilation::printRefusals(const NativeResult& native) const {
+  Diagnostics own(sources);
+  if (!addRefusals(native, own)) return false;
+  sink_.message(textOf(own));
+  return true;
+}
+
+std::string checkDumpName(const std::string& name) {
+  if (name.empty()) return {};
+  std::vector<std::string_view> known = {"parse", "lower"};
+  for (const ir::Pass& pass : ir::bodyPasses(2)) known.push_back(pass.name);
+  for (std::string_view candidate : known)
+    if (candidate == name) return {};
+  std::string message = "unknown `" + name + "` in `--dump-after`";
+  std::string_view near = nearest(name, known);
+  if (!near.empty()) return message + "; did you mean `" + std::string(near) + "`?";
+  const char* separator = "; it takes ";
+  for (std::string_view candidate : known) {
+    message += separator + std::string(candidate);
+    separator = ", ";
+  }
+  return message;
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,99 @@
+// The driver: read → parse → check → lower → optimize → emit, with timings, dumps and the verifier between phases.
+// In: Options. Out: the tree, the project, the IR module, generated files; diagnostics go to the sink at the end of the
+// run. Called by the commands, one Compilation for each project; several may exist at a time, also in several threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "codegen/emit.h"
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+#include "ir/interpreter/program.h"
+#include "ir/ir.h"
+#include "sema/options.h"
+#include "tools/driver/inputs.h"
+#include "tools/driver/libraries.h"
+#include "tools/driver/native.h"
+#include "tools/driver/options.h"
+#include "tools/driver/sink.h"
+
+namespace rung::driver {
+
+// CPU seconds of each phase of a run, for --time-phases. One object for all compilations of `rung test --separate`.
+class PhaseTimes {
+ public:
+  void begin(const char* phase);  // ends the previous phase
+  void end();
+  uint64_t lines = 0, bytes = 0;
+  std::string table() const;
+
+ private:
+  struct Row {
+    const char* phase;
+    uint64_t cpu_ns, wall_ns;
+  };
+  std::vector<Row> rows_;
+  const char* running_ = nullptr;
+  uint64_t cpu_begin_ = 0, wall_begin_ = 0;
+};
+
+class Compilation {
+ public:
+  // Options are copied: rung.project may change them.
+  Compilation(const Options& options, PhaseTimes& times, Sink& sink);
+  ~Compilation();
+
+  // Each runs the phases before it. False: stop; finish() returns the exit code.
+  bool read();
+  bool parse();
+  bool check();
+  bool lower();  // and optimize
+  bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
+  // Makes the program that `rung run` and `rung test` interpret; none when it cannot be interpreted (the reason is in
+  // `why`) or native code is requested. False: stop.
+  bool translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
+
+  // Passes the diagnostics to the sink and returns the exit code: 0, 1, 2 or 70.
+  int finish();
+  // The same after the C++ compiler, which may have rejected bodies in C++.
+  bool hasCppBodies() const { return module && !module->cpp_bodies.empty(); }
+  int finish(const NativeResult& native);
+  // Prints only the errors of the C++ compiler that belong to these files.
+  bool printRefusals(const NativeResult& native) const;
+  // The diagnostics as a string, for `rung test --separate`.
+  std::string diagnosticsText();
+  int exitCode() const;
+
+  sema::Scheduled scheduled;     // set before check() by `rung convert`
+  std::function<void()> parsed;  // likewise: called while the tree is as parsed, and has no errors
+  Options options;
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics;
+  Tree tree;
+  Inputs inputs;
+  LibrarySet libraries;
+  std::unique_ptr<sema::Project> project;
+  std::unique_ptr<ir::Module> module;
+
+ private:
+  void noteLibraries();
+  bool addRefusals(const NativeResult& native, Diagnostics& to) const;
+  void prepare(Diagnostics& own) const;
+  RenderOptions renderOptions() const;
+  std::string textOf(Diagnostics& own) const;
+  void dump(const std::string& text) const;
+  bool verified(const char* after);
+
+  PhaseTimes& times_;
+  Sink& sink_;
+  std::string usage_error_, internal_error_;
+};
+
+// Empty for `parse`, `lower` and the names of passes; else a message with a suggestion.
+[[nodiscard]] std::string checkDumpName(const std::string& name);
+
+}  // namespace rung::driver

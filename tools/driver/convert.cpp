@@ -1,0 +1,419 @@
+// `rung convert`: the program as Structured Text. Bodies in ST and all declarations stay as written; bodies that a
+// scheduler turned into statements are printed, with their comments and the temporaries that they need. Files of other
+// tools become the ST that Rung reads from them. `--to xml`: the whole program as one PLCopen XML file. Printing
+// happens between scheduling and checking (sema::Options::scheduled), because sema inserts nodes that ST cannot
+// express; only the types of temporaries are asked for afterwards. Nothing is written when there are errors.
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <unordered_set>
+
+#include "frontend/export/plcopen.h"
+#include "frontend/syntax/sfc.h"
+#include "frontend/syntax/st_printer.h"
+#include "sema/project.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/output_files.h"
+
+namespace rung::driver {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Body {
+  sema::PouId pou;
+  Loc begin, end;    // the part that it replaces
+  Loc declarations;  // where the temporaries are declared: before the first member or the body
+  bool own_line;
+  std::string text;
+  std::string sections = {};         // of a chart: its variables
+  std::vector<DeclId> actions = {};  // … and the actions inside it
+};
+struct Edit {
+  Loc begin, end;
+  std::string text;
+  bool begins_line = false;
+};
+
+// The end of the comment or string that begins at `p`; `p` itself when none begins.
+size_t endOfUnit(std::string_view text, size_t p) {
+  const std::string_view rest = text.substr(p);
+  if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", p), text.size());
+  if (rest.starts_with("(*") || rest.starts_with("/*")) {
+    const char mark = rest[0];
+    size_t depth = 1, at = p + 2;
+    for (; at < text.size() && depth > 0; ++at) {
+      if (text[at] == mark && text.substr(at + 1).starts_with("*")) {
+        ++depth;
+        ++at;
+      } else if (text[at] == '*' && text.substr(at + 1).starts_with(mark == '(' ? ")" : "/")) {
+        --depth;
+        ++at;
+      }
+    }
+    return at;
+  }
+  if (rest[0] != '\'' && rest[0] != '"') return p;
+  size_t at = p + 1;
+  while (at < text.size() && text[at] != rest[0]) at += text[at] == '$' ? 2 : 1;
+  return std::min(at + 1, text.size());
+}
+
+// The comments of a body, each at the beginning of its line, so it goes in front of the statement of that line.
+std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t end, uint32_t base) {
+  std::vector<StComment> comments;
+  size_t line = begin;
+  for (size_t p = begin; p < end;) {
+    const size_t next = endOfUnit(text, p);
+    if (next == p) {
+      if (text[p++] == '\n') line = p;
+      continue;
+    }
+    if (text[p] != '\'' && text[p] != '"')
+      comments.push_back({{base + static_cast<uint32_t>(line)}, text.substr(p, next - p)});
+    for (; p < next; ++p)
+      if (text[p] == '\n') line = p + 1;
+  }
+  return comments;
+}
+
+size_t lineOf(std::string_view text, size_t at) {
+  while (at > 0 && text[at - 1] != '\n') --at;
+  return at;
+}
+
+class Converter {
+ public:
+  explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
+    compilation.scheduled = [this](sema::Project&, sema::PouId pou) { print(pou); };
+  }
+
+  std::vector<TextFile> outputs();
+
+ private:
+  void print(sema::PouId pou);
+  void printChart(sema::PouId id, const PouDecl& decl);
+  void printConditions(const PouDecl& decl);
+  std::vector<StComment> chartComments(const PouDecl& decl) const;
+  std::string withComments(FileId created, std::span<const StComment> comments) const;
+  std::string temporaries(const Body& body) const;
+  void printHidden(sema::PouId id);
+  std::string convert(FileId file) const;
+  std::string convert(Loc begin, Loc end) const;
+  std::string action(DeclId id) const;
+
+  Compilation& compilation_;
+  const Sources& sources_;
+  std::vector<Body> bodies_;
+  std::vector<Edit> hidden_;                      // the variables that networks need
+  std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
+};
+
+// Called while sema is running, before it changes the statements of the scheduler.
+void Converter::print(sema::PouId id) {
+  const sema::Project& project = *compilation_.project;
+  const sema::Pou& pou = project.pou(id);
+  if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
+  const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
+  printHidden(pou.kind == PouKind::Action ? pou.owner : id);
+  if (decl.chart_body) return printChart(id, decl);
+  const std::string_view text = sources_.original(pou.file);
+  const uint32_t base = sources_.begin(pou.file).offset;
+  const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
+  const size_t line = lineOf(text, begin);
+  const bool own_line = text.substr(line, begin - line).find_first_not_of(" \t") == std::string_view::npos;
+  const size_t from = own_line ? line : begin;
+  const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - from, 8));
+  const std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  Body body{id, {base + static_cast<uint32_t>(from)}, decl.body_end, {}, own_line, own_line ? "" : "\n"};
+  body.declarations = body.begin;
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    const size_t at = lineOf(text, compilation_.tree.loc(member).offset - base);
+    body.declarations = std::min(body.declarations, Loc{base + static_cast<uint32_t>(at)});
+  }
+  body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
+  if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
+  bodies_.push_back(std::move(body));
+}
+
+// Declares the variables that the networks of a POU and its actions need, before its first member or its body.
+void Converter::printHidden(sema::PouId id) {
+  const Tree& tree = compilation_.tree;
+  const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
+  std::string lines;
+  for (const DeclId s : tree.list(decl.hidden)) {
+    const SectionDecl& section = tree.as<SectionDecl>(s);
+    if ((section.h.bits & kHidden) == 0) continue;
+    for (const DeclId v : tree.list(section.vars)) {
+      const VarDecl& var = tree.as<VarDecl>(v);
+      std::string type;
+      for (const Ident& part : tree.list(tree.as<NamedTypeExpr>(var.type).path))
+        type += (type.empty() ? "" : ".") + std::string(compilation_.names.string(part.name));
+      lines += "  " + std::string(compilation_.names.string(tree.list(var.names)[0].name)) + " : " + type + ";\n";
+    }
+  }
+  if (lines.empty()) return;
+  const std::string_view text = sources_.original(sources_.fileOf(decl.h.begin));
+  const uint32_t base = sources_.begin(sources_.fileOf(decl.h.begin)).offset;
+  size_t at = lineOf(text, decl.body_begin.offset - base);
+  for (const DeclId member : tree.list(decl.members)) at = std::min(at, lineOf(text, tree.loc(member).offset - base));
+  const Loc loc{base + static_cast<uint32_t>(at)};
+  if (std::any_of(hidden_.begin(), hidden_.end(), [&](const Edit& edit) { return edit.begin == loc; })) return;
+  hidden_.push_back({loc, loc, (decl.pou_kind == PouKind::Method ? "VAR_INST\n" : "VAR\n") + lines + "END_VAR\n"});
+}
+
+// The comments outside of actions and conditions: quoted code brings its own.
+std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
+  const FileId file = sources_.fileOf(decl.body_begin);
+  const std::string_view text = sources_.original(file);
+  const uint32_t base = sources_.begin(file).offset;
+  std::vector<std::pair<Loc, Loc>> quoted;
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
+    const PouDecl& action = compilation_.tree.as<PouDecl>(member);
+    quoted.push_back({action.h.begin, action.h.end});
+  }
+  for (const SfcTransition& t : compilation_.tree.list(decl.transitions))
+    quoted.push_back({t.condition.begin, t.condition.end});
+  std::vector<StComment> comments = commentsOf(text, decl.body_begin.offset - base, decl.body_end.offset - base, base);
+  std::erase_if(comments, [&](const StComment& comment) {
+    const Loc at{base + static_cast<uint32_t>(comment.text.data() - text.data())};
+    return std::any_of(quoted.begin(), quoted.end(), [&](const auto& q) { return q.first <= at && at < q.second; });
+  });
+  return comments;
+}
+
+// Puts each comment in front of the first line made from its location or a later one; for a step that is where its
+// active cycles begin.
+std::string Converter::withComments(FileId created, std::span<const StComment> comments) const {
+  const std::string_view text = sources_.original(created);
+  std::vector<std::pair<Loc, size_t>> lines;  // the origin of each line
+  const size_t first = std::min(text.find("sfc_set := sfc_steps"), text.size());
+  for (size_t p = first; p < text.size(); p = std::min(text.find('\n', p), text.size() - 1) + 1)
+    lines.push_back({sources_.originalLocation({sources_.begin(created).offset + static_cast<uint32_t>(p)}), p});
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::pair<size_t, std::string_view>> places;
+  for (const StComment& comment : comments) {
+    const auto line =
+        std::lower_bound(lines.begin(), lines.end(), comment.at, [](const auto& a, Loc at) { return a.first < at; });
+    places.push_back({line == lines.end() ? text.size() : line->second, comment.text});
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string out;
+  size_t done = 0;
+  for (const auto& [place, comment] : places) {
+    out += text.substr(done, place - done);
+    done = place;
+    out.append(std::min(text.find_first_not_of(' ', place), text.size()) - place, ' ');
+    out += comment;
+    out += '\n';
+  }
+  return out + std::string(text.substr(done));
+}
+
+// The ST of a chart; its actions go between the variables and the statements.
+void Converter::printChart(sema::PouId id, const PouDecl& decl) {
+  Body body{
+      id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
+  body.sections = sources_.original(decl.chart_sections);
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
+    const PouDecl& action = compilation_.tree.as<PouDecl>(member);
+    if (decl.body_begin <= action.h.begin && action.h.begin < decl.body_end) body.actions.push_back(member);
+  }
+  if (body.text.ends_with('\n')) body.text.pop_back();
+  bodies_.push_back(std::move(body));
+  if (const sema::PouId owner = compilation_.project->pou(id).owner)
+    printConditions(compilation_.tree.as<PouDecl>(compilation_.project->pou(owner).decl));
+}
+
+// Conditions in the actions of a POU without a chart: a variable and an action each.
+void Converter::printConditions(const PouDecl& decl) {
+  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.h.begin.offset).second) return;
+  Body variables{{}, decl.body_begin, {}, {}, true, {}};
+  for (const DeclId member : compilation_.tree.list(decl.members))
+    if (compilation_.tree.kind(member) == DeclKind::Pou)
+      variables.begin = std::min(variables.begin, compilation_.tree.decl(member).begin);
+  for (const SfcTransition& t : compilation_.tree.list(decl.transitions)) {
+    variables.begin = std::min(variables.begin, t.begin);
+    Body body{{}, t.begin, t.end, t.begin, true, {}};
+    body.actions.push_back(t.body);
+    bodies_.push_back(std::move(body));
+  }
+  variables.end = variables.declarations = variables.begin;
+  variables.text = sources_.original(decl.chart_sections);
+  bodies_.push_back(std::move(variables));
+}
+
+// An action that the parser made of a transition has only a body: instructions, statements, or the expression to
+// assign.
+std::string Converter::action(DeclId id) const {
+  const Tree& tree = compilation_.tree;
+  const PouDecl& decl = tree.as<PouDecl>(id);
+  if (decl.h.begin != decl.body_begin) return convert(decl.h.begin, decl.h.end) + "\n";
+  std::string text = "ACTION " + std::string(compilation_.names.string(decl.name)) + ":\n";
+  std::string body = convert(decl.body_begin, decl.body_end);
+  for (const Body& converted : bodies_)
+    if (compilation_.project->pou(converted.pou).decl == id) body = temporaries(converted) + converted.text;
+  const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
+  if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
+    text += std::string(compilation_.names.string(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
+            " := " + body + ";";
+  else
+    text += body;
+  return text + "\nEND_ACTION\n";
+}
+
+std::string Converter::temporaries(const Body& body) const {
+  const sema::Project& project = *compilation_.project;
+  const sema::Pou& pou = project.pou(body.pou);
+  std::string lines;
+  for (const sema::VarId id : pou.vars) {
+    const sema::Var& var = project.var(id);
+    if (var.temporary == 0) continue;
+    lines += "  " + std::string(compilation_.names.string(var.name)) + " : " + project.types.toString(var.type) + ";\n";
+  }
+  if (lines.empty()) return {};
+  const bool function = pou.kind == PouKind::Function || pou.kind == PouKind::Method;
+  return std::string(function ? "VAR\n" : "VAR_TEMP\n") + lines + "END_VAR\n";
+}
+
+std::string Converter::convert(FileId file) const {
+  const Loc begin = sources_.begin(file);
+  return convert(begin, {begin.offset + static_cast<uint32_t>(sources_.original(file).size())});
+}
+
+// A part of a file, with its bodies converted.
+std::string Converter::convert(Loc begin, Loc end) const {
+  const FileId file = sources_.fileOf(begin);
+  const std::string_view text = sources_.original(file).substr(0, end.offset - sources_.begin(file).offset);
+  const uint32_t base = sources_.begin(file).offset;
+  std::vector<const Body*> bodies;
+  for (const Body& body : bodies_)
+    if (!(body.begin < begin) && !(end < body.end)) bodies.push_back(&body);
+  std::stable_sort(bodies.begin(), bodies.end(), [](const Body* a, const Body* b) {
+    return a->begin != b->begin ? a->begin < b->begin : a->end < b->end;
+  });
+  std::vector<Edit> edits;
+  for (const Edit& edit : hidden_)
+    if (!(edit.begin < begin) && edit.begin < end) edits.push_back(edit);
+  Loc done_to = begin;
+  for (const Body* body : bodies) {
+    if (body->begin < done_to) continue;  // of an action in a chart, converted with it
+    done_to = body->end;
+    std::string declared = temporaries(*body);
+    if (!body->sections.empty() || !body->actions.empty()) {
+      std::string chart = body->sections;
+      for (const DeclId member : body->actions) chart += action(member);
+      edits.push_back({body->begin, body->end, chart + declared + body->text, true});
+      continue;
+    }
+    if (!declared.empty() && body->declarations == body->begin && !body->own_line) {
+      declared.insert(0, 1, '\n');
+      declared.pop_back();
+    }
+    edits.push_back({body->declarations, body->declarations, std::move(declared)});
+    edits.push_back({body->begin, body->end, body->text});
+  }
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+  std::string out;
+  size_t done = begin.offset - base;
+  for (const Edit& edit : edits) {
+    out += text.substr(done, edit.begin.offset - base - done);
+    if (edit.begins_line) {
+      while (out.ends_with(' ')) out.pop_back();
+      if (!out.empty() && !out.ends_with('\n')) out += '\n';
+    }
+    out += edit.text;
+    done = edit.end.offset - base;
+  }
+  return out + std::string(text.substr(done));
+}
+
+// rung.project without the list of its sources: the folder has no others.
+std::string projectContent(std::string_view text) {
+  std::string out;
+  for (size_t p = 0; p < text.size();) {
+    const size_t end = std::min(text.find('\n', p), text.size() - 1) + 1;
+    const std::string_view line = text.substr(p, end - p);
+    const size_t word = std::min(line.find_first_not_of(" \t"), line.size());
+    const size_t after = line.find_first_of(" \t=", word);
+    if (line.substr(word, after - word) != "sources") out += line;
+    p = end;
+  }
+  return out;
+}
+
+std::vector<TextFile> Converter::outputs() {
+  std::vector<TextFile> out;
+  std::unordered_set<std::string> taken;
+  for (const InputFile& input : compilation_.inputs.files)
+    if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
+  for (const InputFile& input : compilation_.inputs.files) {
+    std::string path = input.below;
+    if (fs::path(path).extension() != ".st") {
+      const std::string stem = fs::path(path).replace_extension().generic_string();
+      path = stem + ".st";
+      for (uint32_t n = 2; !taken.insert(path).second; ++n) path = stem + "_" + std::to_string(n) + ".st";
+    }
+    out.push_back({path, convert(input.file)});
+  }
+  return out;
+}
+
+// The name of the single file: that of the project's folder, or of its only file.
+std::string projectName(const Compilation& compilation) {
+  const std::vector<InputFile>& files = compilation.inputs.files;
+  const fs::path path =
+      files.size() == 1 ? fs::path(files[0].below).stem() : fs::path(compilation.inputs.root).filename();
+  return path.empty() ? "project" : path.generic_string();
+}
+
+std::string projectXml(Compilation& compilation) {
+  std::vector<FileUnit> units;  // rung.project keeps its own settings
+  for (const FileUnit& unit : compilation.tree.files)
+    if (std::any_of(compilation.inputs.files.begin(), compilation.inputs.files.end(),
+                    [&](const InputFile& input) { return input.file == unit.file; }))
+      units.push_back(unit);
+  return exporter::writeProject({compilation.tree, compilation.names, compilation.sources, units},
+                                projectName(compilation), compilation.diagnostics);
+}
+
+// The output folder must differ from that of the sources, or the next run would read both.
+std::string refusal(const Compilation& compilation) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(compilation.options.output, error);
+  const fs::path root = fs::weakly_canonical(compilation.inputs.root, error);
+  if (folder != root) return {};
+  return "`-o " + compilation.options.output + "` is the folder of the sources; use another one";
+}
+
+}  // namespace
+
+int runConvert(const Options& options, Sink& sink) {
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  std::optional<Converter> converter;
+  std::vector<TextFile> outputs;
+  if (options.to == ConvertTo::St)
+    converter.emplace(compilation);
+  else
+    compilation.parsed = [&] { outputs.push_back({projectName(compilation) + ".xml", projectXml(compilation)}); };
+  if (compilation.check()) {
+    times.begin("print");
+    if (converter) outputs = converter->outputs();
+    if (const ProjectFile& project = compilation.inputs.project; project.file)
+      outputs.push_back({"rung.project", projectContent(compilation.sources.original(project.file))});
+    times.end();
+  }
+  int exit = compilation.finish();
+  if (exit == kSuccess)
+    if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(sink, problem);
+  if (exit == kSuccess) exit = writeFiles(options.output, outputs, sink);
+  if (options.time_phases) sink.message(times.table());
+  return exit;
+}
+
+}  // namespace rung::driver

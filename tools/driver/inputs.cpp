@@ -1,0 +1,345 @@
+// The inputs of a run; see inputs.h.
+#include "tools/driver/inputs.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "frontend/import/pairs.h"
+#include "frontend/import/twincat/twincat.h"
+#include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
+#include "frontend/syntax/diagnostics.h"
+#include "tools/driver/diagnostics.h"
+#include "tools/driver/file_provider.h"
+
+namespace rung::driver {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folderOf(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+class Collector {
+ public:
+  Collector(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs)
+      : options_(options), files_(options.unsaved), sources_(sources), diagnostics_(diagnostics), inputs_(inputs) {}
+
+  void collect() {
+    for (const std::string& word : options_.inputs) addInput(word);
+    for (const std::string& library : options_.library_paths)
+      if (importer::kindOfExtension(library) == FileKind::PlcProject) addPlcProject(library, true);
+    if (inputs_.io_error) return;
+    findRoot();
+    for (Candidate& candidate : candidates_)
+      candidate.below = fs::path(candidate.absolute).lexically_relative(inputs_.root).generic_string();
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.below != b.below ? a.below < b.below : a.named > b.named;
+    });
+    const Candidate* last = nullptr;
+    for (const Candidate& candidate : candidates_) {
+      if (last == nullptr || last->below != candidate.below) addFile(candidate);
+      last = &candidate;
+    }
+    if (inputs_.files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() && !options_.inputs.empty())
+      fail(diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
+  }
+
+ private:
+  struct Candidate {
+    std::string absolute, path, below;
+    bool named;  // on the command line or in rung.project, not found in a folder
+  };
+
+  void fail(Diag diag, const std::string& path, std::initializer_list<std::string_view> args,
+            std::string_view suggestion = {}) {
+    diagnostics_.report(diag, {}, args).path(path).didYouMean(suggestion);
+    inputs_.io_error = true;
+  }
+
+  // A name in the same folder similar to the missing one.
+  std::string similar(const std::string& path) const {
+    size_t slash = path.rfind('/');
+    std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    std::vector<std::string> names;
+    if (DIR* dir = opendir(folder.c_str())) {
+      while (const dirent* entry = readdir(dir))
+        if (entry->d_name[0] != '.') names.push_back(entry->d_name);
+      closedir(dir);
+    }
+    std::sort(names.begin(), names.end());
+    std::vector<std::string_view> views(names.begin(), names.end());
+    std::string_view near = nearest(std::string_view(path).substr(slash == std::string::npos ? 0 : slash + 1), views);
+    if (near.empty()) return {};
+    return (slash == std::string::npos ? "" : path.substr(0, slash + 1)) + std::string(near);
+  }
+
+  void addInput(const std::string& word) {
+    struct stat info;
+    if (files_.isUnsaved(word)) {
+      bases_.push_back(absolutePath(folderOf(word)));
+      addNamedFile(word);
+    } else if (stat(word.c_str(), &info) != 0) {
+      const char* why = strerror(errno);
+      fail(diag::CannotRead, word, {word, why}, similar(word));
+    } else if (S_ISDIR(info.st_mode)) {
+      bases_.push_back(absolutePath(word));
+      addProjectFolder(word);
+    } else if (!S_ISREG(info.st_mode)) {
+      fail(diag::CannotRead, word, {word, "not a file or folder"});
+    } else if (importer::kindOfExtension(word) == FileKind::Project) {
+      const std::string folder = folderOf(word);
+      bases_.push_back(absolutePath(folder));
+      addProjectFolder(folder);
+    } else {
+      bases_.push_back(absolutePath(folderOf(word)));
+      addNamedFile(word);
+    }
+  }
+
+  void addNamedFile(const std::string& path) {
+    if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path);
+    candidates_.push_back({absolutePath(path), path, {}, true});
+  }
+
+  // A PROGRAM of a library is there for trying it out.
+  bool holdsProgram(const std::string& path) const {
+    if (!importer::hasExtension(path, ".tcpou")) return false;
+    const std::string text = files_.read(path).content;
+    const size_t begin = text.find("<![CDATA[");
+    return begin != std::string::npos && firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
+  }
+
+  // The files listed by a TwinCAT project, relative to its folder. Tasks and programs of a library are left out.
+  void addPlcProject(const std::string& path, bool is_library = false) {
+    ReadResult read = files_.read(path);
+    if (!read.error.empty()) return fail(diag::CannotRead, path, {path, read.error});
+    inputs_.read.push_back(path);
+    const FileId file = sources_.add(path, std::move(read.content));
+    if (!file) return fail(diag::TooMuchInput, path, {path});
+    importer::twincat::Project project;
+    if (!importer::twincat::readProject(sources_, file, diagnostics_, project)) return;
+    const size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
+    for (const importer::twincat::ProjectEntry& entry : project.files) {
+      const std::string listed = sameFile(folder, entry.path);
+      if (is_library && (importer::hasExtension(entry.path, ".tctto") || holdsProgram(listed))) continue;
+      struct stat info;
+      if (files_.isUnsaved(listed) || stat(listed.c_str(), &info) == 0) {
+        candidates_.push_back({absolutePath(listed), listed, {}, true});
+        continue;
+      }
+      const char* why = strerror(errno);
+      diagnostics_.report(diag::CannotRead, entry.loc, {entry.path, why})
+          .length(static_cast<uint32_t>(entry.path.size()));
+      inputs_.io_error = true;
+    }
+    for (importer::Library& library : project.libraries) inputs_.libraries.push_back(std::move(library));
+  }
+
+  // `path` below the folder, in the letter case on disk: project files may come from case-insensitive systems.
+  static std::string sameFile(const std::string& folder, const std::string& path) {
+    struct stat info;
+    if (stat((folder + path).c_str(), &info) == 0) return folder + path;
+    std::string found = folder;
+    for (size_t begin = 0; begin <= path.size();) {
+      const size_t slash = std::min(path.find('/', begin), path.size());
+      const std::string part = path.substr(begin, slash - begin);
+      std::string match = part;
+      if (DIR* dir = opendir(found.empty() ? "." : found.c_str())) {
+        while (const dirent* entry = readdir(dir))
+          if (sameIdentifier(entry->d_name, part)) match = entry->d_name;
+        closedir(dir);
+      }
+      found += match;
+      if (slash < path.size()) found += '/';
+      begin = slash + 1;
+    }
+    return found;
+  }
+
+  void addProjectFolder(const std::string& folder) {
+    const std::string file = (folder.back() == '/' ? folder : folder + "/") + "rung.project";
+    struct stat info;
+    const bool on_disk = stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
+    if (!on_disk && !files_.isUnsaved(file)) return addFolder(folder);
+    if (inputs_.project.file) {
+      fail(diag::CannotRead, file, {file, "another folder of this run already has a rung.project"});
+      return;
+    }
+    ReadResult read = files_.read(file);
+    if (!read.error.empty()) return fail(diag::CannotRead, file, {file, read.error});
+    inputs_.read.push_back(file);
+    if (importer::isBinary(read.content)) return fail(diag::BinaryFile, file, {file});
+    FileId id = sources_.add("rung.project", std::move(read.content));
+    if (!id) return fail(diag::TooMuchInput, file, {file});
+    inputs_.project.folder = folder;
+    sources_.setDisplayPath(id, folder + "/rung.project");
+    project_shown_ = file;
+    parseProjectFile(sources_, id, diagnostics_, inputs_.project);
+    if (inputs_.project.sources.empty()) return addFolder(folder);
+    for (const std::string& source : inputs_.project.sources) {
+      std::string path = source[0] == '/' ? source : (folder.back() == '/' ? folder : folder + "/") + source;
+      struct stat entry;
+      if (files_.isUnsaved(path)) {
+        addNamedFile(path);
+      } else if (stat(path.c_str(), &entry) != 0) {
+        const char* why = strerror(errno);
+        fail(diag::CannotRead, path, {path, why}, similar(path));
+      } else if (S_ISDIR(entry.st_mode)) {
+        addFolder(path);
+      } else {
+        addNamedFile(path);
+      }
+    }
+  }
+
+  // Hidden entries and links to folders are skipped: loops and `.git` do not belong to a project.
+  void addFolder(const std::string& folder) {
+    const size_t before = candidates_.size();
+    inputs_.read.push_back(folder);
+    scan(folder, 0);
+    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
+    for (const std::string& below : files_.newFilesIn(folder))
+      if (importer::holdsProgram(importer::kindOfExtension(below)))
+        candidates_.push_back({absolutePath(prefix + below), prefix + below, {}, false});
+    if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(diag::EmptyFolder, folder, {folder});
+  }
+
+  // A folder with a .plcproj takes the files that it lists.
+  void scan(const std::string& folder, int depth) {
+    DIR* dir = opendir(folder.c_str());
+    if (dir == nullptr) {
+      const char* why = strerror(errno);
+      return fail(diag::CannotRead, folder, {folder, why});
+    }
+    const size_t before = candidates_.size();
+    std::vector<std::string> folders, projects;
+    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
+    while (const dirent* entry = readdir(dir)) {
+      if (entry->d_name[0] == '.') continue;
+      std::string path = prefix + entry->d_name;
+      unsigned char type = entry->d_type;
+      if (type == DT_UNKNOWN || type == DT_LNK) {
+        struct stat info;
+        if (stat(path.c_str(), &info) != 0) continue;  // a dangling link
+        if (S_ISREG(info.st_mode))
+          type = DT_REG;
+        else if (S_ISDIR(info.st_mode) && type == DT_UNKNOWN)
+          type = DT_DIR;
+      }
+      if (type == DT_DIR) {
+        folders.push_back(std::move(path));
+      } else if (type == DT_REG) {
+        const FileKind kind = importer::kindOfExtension(path);
+        if (kind == FileKind::Unknown || kind == FileKind::Project) continue;
+        if (kind == FileKind::PlcProject) {
+          projects.push_back(std::move(path));
+          continue;
+        }
+        candidates_.push_back({absolutePath(path), std::move(path), {}, false});
+      }
+    }
+    closedir(dir);
+    if (!projects.empty()) {
+      candidates_.resize(before);
+      std::sort(projects.begin(), projects.end());
+      for (const std::string& project : projects) addPlcProject(project);
+      return;
+    }
+    for (const std::string& inner : folders) {
+      if (depth > 100) continue;
+      inputs_.read.push_back(inner);
+      scan(inner, depth + 1);
+    }
+  }
+
+  void findRoot() {
+    if (!options_.root.empty()) {
+      inputs_.root = absolutePath(options_.root);
+      struct stat info;
+      if (stat(inputs_.root.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+        fail(diag::CannotRead, options_.root, {options_.root, "`--root` needs a folder"});
+      return;
+    }
+    if (bases_.empty()) return;
+    std::string root = bases_[0];
+    for (const std::string& base : bases_) {
+      while (base != root && !base.starts_with(root == "/" ? root : root + "/")) {
+        size_t slash = root.rfind('/');
+        root = slash == 0 || slash == std::string::npos ? "/" : root.substr(0, slash);
+      }
+    }
+    inputs_.root = root;
+  }
+
+  void addFile(const Candidate& candidate) {
+    // Checked before reading: such a file would not fit the memory either.
+    struct stat info;
+    if (stat(candidate.path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
+      return fail(diag::TooMuchInput, candidate.path, {candidate.path});
+    ReadResult read = files_.read(candidate.path);
+    if (!read.error.empty()) return fail(diag::CannotRead, candidate.path, {candidate.path, read.error});
+    inputs_.read.push_back(candidate.path);
+    if (!decodeUtf16(read.content)) return fail(diag::Utf16File, candidate.path, {candidate.path});
+    const FileKind kind = importer::kindOf(candidate.path, read.content);
+    if (kind == FileKind::Binary) return fail(diag::BinaryFile, candidate.path, {candidate.path});
+    if (kind == FileKind::Unknown) return fail(diag::UnknownFileKind, candidate.path, {candidate.path});
+    if (kind == FileKind::PlcProject || kind == FileKind::Project) return;
+    if (!importer::holdsProgram(kind)) {
+      const std::string_view name = importer::formatOf(kind).name;
+      if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, name});
+      diagnostics_.report(diag::KindIgnored, {}, {candidate.path, name}).path(candidate.path);
+      return;
+    }
+    FileId file = sources_.add(candidate.below, std::move(read.content));
+    if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
+    sources_.setDisplayPath(file, candidate.path);
+    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
+  }
+
+  const Options& options_;
+  const FileProvider files_;
+  Sources& sources_;
+  Diagnostics& diagnostics_;
+  Inputs& inputs_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::string> bases_;  // folders of the inputs, absolute
+  std::string project_shown_;
+};
+
+}  // namespace
+
+void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+  Collector(options, sources, diagnostics, inputs).collect();
+}
+
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+  std::vector<importer::PairCandidate> halves;
+  for (const InputFile& input : inputs.files)
+    if (input.kind == FileKind::St) halves.push_back({input.below, input.file});
+  importer::joinPairs(sources, halves);
+  auto half = halves.begin();
+  for (InputFile& input : inputs.files)
+    if (input.kind == FileKind::St) input.file = (half++)->file;
+  std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
+
+  importer::ReadContext context{sources, diagnostics, inputs.libraries};
+  for (InputFile& input : inputs.files) {
+    const importer::Format& format = importer::formatOf(input.kind);
+    if (format.read == nullptr) continue;
+    input.file = format.read(context, input.file);
+    if (!input.file) inputs.unread = true;
+  }
+  std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,44 @@
+// The inputs of a run: files and folders named on the command line, and the rung.project that a folder may contain.
+// In: arguments of the command line. Out: source files with their kind, sorted by path from the project's root, so the
+// output does not depend on the order of arguments or directory entries. Mistakes become diagnostics. Called by
+// compile.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/import/formats.h"
+#include "frontend/source/diagnostics.h"
+#include "tools/driver/options.h"
+#include "tools/driver/project_file.h"
+
+namespace rung::driver {
+
+using importer::FileKind;
+
+struct InputFile {
+  std::string path;   // to open it
+  std::string shown;  // the display path: what the user wrote, for files of a folder with their path below it
+  std::string below;  // relative to the root: the path in generated code and the symbol map
+  FileKind kind = FileKind::Unknown;
+  FileId file;
+};
+
+struct Inputs {
+  std::string root;               // absolute
+  std::vector<InputFile> files;   // the ones to compile, sorted by `below`
+  std::vector<std::string> read;  // every file and folder looked at, for depfiles
+  ProjectFile project;
+  std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
+  std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
+  bool unread = false;                       // a vendor's file could not be understood: its declarations are missing
+  bool io_error = false;                     // something could not be read: exit 2
+};
+
+void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
+
+// Replaces each vendor's file by its program in ST, and the two files of one POU by one source.
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
+
+}  // namespace rung::driver

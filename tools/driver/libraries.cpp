@@ -1,0 +1,82 @@
+// The libraries that a program may use; see libraries.h.
+#include "tools/driver/libraries.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "frontend/source/files.h"
+#include "library_sources.h"
+#include "tools/driver/namespaces.h"
+
+namespace rung::driver {
+
+std::string LibrarySet::load(const Options& options) {
+  for (size_t i = 0; i < embedded::library_sources_count; i++) {
+    const embedded::File& file = embedded::library_sources[i];
+    contents_.push_back(namespaceOf(file.name.substr(0, file.name.find('/'))));
+    const char* library = contents_.back().c_str();
+    contents_.emplace_back(file.name);
+    files_.push_back({library, contents_.back().c_str(), file.text});
+  }
+  for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
+  for (const std::string& path : options.library_paths) {
+    if (path.ends_with(".plcproj")) continue;  // read with the inputs
+    const LibraryPath library = libraryPath(path);
+    if (std::string error = addFolder(library.folder, library.called, true); !error.empty()) return error;
+  }
+  return {};
+}
+
+LibraryPath libraryPath(const std::string& written) {
+  const size_t equal = written.find('=');
+  const std::string_view name = std::string_view(written).substr(0, equal);
+  if (equal == std::string::npos || !isModuleName(name)) return {{}, written};
+  return {std::string(name), written.substr(equal + 1)};
+}
+
+void LibrarySet::addAlias(const std::string& alias, const std::string& library) {
+  contents_.push_back(alias);
+  const char* shown = contents_.back().c_str();
+  contents_.push_back(library);
+  aliases_.push_back({shown, contents_.back().c_str()});
+}
+
+// Files of the folder are one library of its name; so is each folder inside.
+std::string LibrarySet::addFolder(const std::string& folder, std::string_view called, bool with_folders) {
+  DIR* dir = opendir(folder.c_str());
+  if (dir == nullptr) return "cannot read the library folder `" + folder + "`: " + strerror(errno);
+  std::vector<std::string> names;
+  while (const dirent* entry = readdir(dir))
+    if (entry->d_name[0] != '.') names.emplace_back(entry->d_name);
+  closedir(dir);
+  std::sort(names.begin(), names.end());
+  read_.push_back(folder);
+
+  std::string_view name = folder;
+  while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
+  contents_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
+  const char* library = contents_.back().c_str();
+  for (const std::string& entry : names) {
+    const std::string path = folder + "/" + entry;
+    struct stat info;
+    if (stat(path.c_str(), &info) != 0) continue;
+    if (S_ISDIR(info.st_mode) && with_folders) {
+      if (std::string error = addFolder(path, {}, false); !error.empty()) return error;
+    } else if (S_ISREG(info.st_mode) && (entry.ends_with(".st") || entry.ends_with(".iecst"))) {
+      ReadResult read = readFile(path);
+      if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;
+      read_.push_back(path);
+      contents_.push_back(path);
+      const char* shown = contents_.back().c_str();
+      contents_.push_back(std::move(read.content));
+      files_.push_back({library, shown, contents_.back()});
+    }
+  }
+  return {};
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,159 @@
+// `rung list`: the libraries, the POUs of a project, the warnings, or the declaration of a library block.
+#include <algorithm>
+#include <cstdio>
+
+#include "sema/declarations/libraries.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/libraries.h"
+
+namespace rung::driver {
+namespace {
+
+const char* word(PouKind kind) {
+  switch (kind) {
+    case PouKind::Function: return "FUNCTION";
+    case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
+    case PouKind::Program: return "PROGRAM";
+    case PouKind::Class: return "CLASS";
+    case PouKind::Interface: return "INTERFACE";
+    case PouKind::Method: return "METHOD";
+    case PouKind::Action: return "ACTION";
+  }
+  return "";
+}
+
+int listPous(const Options& options, Sink& sink) {
+  if (options.inputs.size() < 2) return usageError(sink, "`rung list pous` needs files or folders to read");
+  Options reading = options;
+  reading.inputs.erase(reading.inputs.begin());
+  PhaseTimes times;
+  Compilation compilation(reading, times, sink);
+  if (!compilation.parse() || compilation.diagnostics.hasErrors()) return compilation.finish();
+  const Tree& tree = compilation.tree;
+  std::string out;
+  for (const FileUnit& unit : tree.files) {
+    for (DeclId id : tree.list(unit.decls)) {
+      if (tree.kind(id) != DeclKind::Pou) continue;
+      const PouDecl& pou = tree.as<PouDecl>(id);
+      std::string name(compilation.names.string(pou.name)), shown(compilation.sources.displayPath(unit.file));
+      out += std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" +
+             std::to_string(compilation.sources.location(pou.h.loc).line) + "\n";
+    }
+  }
+  int exit = compilation.finish();
+  return exit == kSuccess ? printResult(sink, out) : exit;
+}
+
+// One line each: the code, the name for `-W` and the message, with A, B, ... for its arguments.
+int listWarnings(Sink& sink) {
+  std::string out;
+  for (const DiagInfo& info : allDiags()) {
+    if (info.severity == Severity::Error) continue;
+    std::string name = switchName(info);
+    name.resize(std::max<size_t>(name.size(), 30), ' ');
+    const std::string message = formatMessage(info.text, {"A", "B", "C", "D", "E", "F"});
+    out += std::string(info.code) + "  " + name + "  " + message + "\n";
+  }
+  return printResult(sink, out);
+}
+
+// Visits every name that the libraries declare, with the range of its source.
+template <class Visit>
+void eachBlock(const LibrarySet& libraries, Visit visit) {
+  for (const sema::LibraryFile& file : libraries.files())
+    for (const sema::IndexedBlock& block : sema::indexLibrary(file.source)) visit(file, block);
+}
+
+int listLibraries(const Options& options, Sink& sink) {
+  LibrarySet libraries;
+  std::string error = libraries.load(options);
+  if (!error.empty()) return usageError(sink, error);
+  std::string out, library;
+  std::vector<std::string> names;
+  auto flush = [&] {
+    if (library.empty()) return;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    out += library + ":\n";
+    std::string line = " ";
+    for (const std::string& name : names) {
+      if (line.size() + name.size() > 100) {
+        out += line + "\n";
+        line = " ";
+      }
+      line += " " + name;
+    }
+    out += line + "\n";
+    names.clear();
+  };
+  eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
+    if (library != file.library) flush();
+    library = file.library;
+    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) == 0) return;
+    for (std::string_view name : block.names) names.emplace_back(name);
+  });
+  flush();
+  return printResult(sink, out);
+}
+
+// The header of a declaration: everything up to the body, with the doc comment above it.
+std::string header(std::string_view text, const sema::IndexedBlock& block) {
+  size_t begin = block.begin;
+  for (;;) {  // `///` lines above
+    size_t line_end = text.rfind('\n', begin == 0 ? 0 : begin - 1);
+    if (line_end == std::string_view::npos || line_end == 0) break;
+    size_t line_begin = text.rfind('\n', line_end - 1);
+    line_begin = line_begin == std::string_view::npos ? 0 : line_begin + 1;
+    if (!text.substr(line_begin).starts_with("///")) break;
+    begin = line_begin;
+  }
+  std::string_view declaration = text.substr(block.begin, block.end - block.begin);
+  size_t end = declaration.rfind("END_VAR");
+  end = end == std::string_view::npos || declaration.starts_with("TYPE") ? declaration.size() : end + 7;
+  return std::string(text.substr(begin, block.begin - begin)) + std::string(declaration.substr(0, end)) + "\n";
+}
+
+int listSignature(const Options& options, Sink& sink) {
+  LibrarySet libraries;
+  std::string error = libraries.load(options);
+  if (!error.empty()) return usageError(sink, error);
+  std::string out;
+  std::vector<std::string_view> known;
+  auto add = [&](std::string_view where, std::string_view text, const sema::IndexedBlock& block) {
+    for (std::string_view name : block.names) {
+      known.push_back(name);
+      if (sameIdentifier(name, options.signature)) out += "// " + std::string(where) + "\n" + header(text, block);
+    }
+  };
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  if (!options.inputs.empty()) {
+    if (!compilation.read()) return compilation.finish();
+    for (const InputFile& file : compilation.inputs.files) {
+      std::string_view text = compilation.sources.sourceText(file.file);
+      for (const sema::IndexedBlock& block : sema::indexLibrary(text)) add(file.shown, text, block);
+    }
+  }
+  eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
+    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.source, block);
+  });
+  if (!out.empty()) return printResult(sink, out);
+  std::string_view near = nearest(options.signature, known);
+  return usageError(sink, "unknown function, block or type `" + options.signature + "`" +
+                              (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
+}
+
+}  // namespace
+
+int runList(const Options& options, Sink& sink) {
+  if (!options.signature.empty()) return listSignature(options, sink);
+  if (options.inputs[0] == "pous") return listPous(options, sink);
+  if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options, sink);
+  if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(sink);
+  return usageError(
+      sink, "unknown argument `" + options.inputs[0] +
+                "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`");
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,38 @@
+// Namespaces of the libraries: see namespaces.h.
+#include "tools/driver/namespaces.h"
+
+namespace rung::driver {
+namespace {
+
+// Namespaces that are not the folder's name with a capital letter.
+struct Namespace {
+  std::string_view folder;
+  const char* name;
+};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
+                                     {"util", "Util"},
+                                     {"iecsfc", "IecSfc"},
+                                     {"cmperrors", "CmpErrors"},
+                                     {"sysdir", "SysDir"},
+                                     {"sysfile", "SysFile"},
+                                     {"systypes", "SysTypes"},
+                                     {"tc2_system", "Tc2_System"},
+                                     {"tc2_utilities", "Tc2_Utilities"},
+                                     {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
+
+constexpr NamespaceAlias kAliases[] = {
+    {"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}, {"IBaseLibrary", "__system"}};
+
+}  // namespace
+
+std::span<const NamespaceAlias> namespaceAliases() { return kAliases; }
+
+std::string namespaceOf(std::string_view folder) {
+  for (const Namespace& row : kNamespaces)
+    if (folder == row.folder) return row.name;
+  std::string name(folder);
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
+  return name;
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,331 @@
+// rung.project; see project_file.h.
+#include "tools/driver/project_file.h"
+
+#include <charconv>
+
+#include "tools/driver/diagnostics.h"
+#include "tools/driver/libraries.h"
+
+namespace rung::driver {
+namespace {
+
+// The sections, whether they have a name, and their keys; null: any key (paths, parameters).
+struct Schema {
+  const char* kind;
+  bool named;
+  const char* keys;  // separated by blanks
+};
+constexpr Schema kSchemas[] = {
+    {"project", false, "name sources std libraries checks optimize warnings defines"},
+    {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
+    {"module", true, "type slot inputs outputs address station parameters"},
+    {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
+    {"area", true, "owner bytes"},
+    {"safe", false, nullptr},  // PATH = VALUE
+    {"nc", false, nullptr},
+    {"pool", true, nullptr},  // `new`: bytes
+};
+
+const Schema* findSchema(std::string_view kind) {
+  for (const Schema& schema : kSchemas)
+    if (kind == schema.kind) return &schema;
+  return nullptr;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+char upperCase(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string> list(std::string_view value) {
+  std::vector<std::string> items;
+  for (std::string_view part : split(value, ','))
+    if (std::string_view item = trim(part); !item.empty()) items.emplace_back(item);
+  return items;
+}
+
+class Reader {
+ public:
+  Reader(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project)
+      : source_(sources.sourceText(file)), base_(sources.begin(file)), diagnostics_(diagnostics), project_(project) {}
+
+  void read() {
+    for (size_t begin = 0; begin < source_.size();) {
+      size_t end = source_.find('\n', begin);
+      if (end == std::string_view::npos) end = source_.size();
+      readLine(trim(source_.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+  }
+
+ private:
+  Loc loc(std::string_view part) const { return {base_.offset + static_cast<uint32_t>(part.data() - source_.data())}; }
+
+  void readLine(std::string_view line) {
+    if (line.empty() || line[0] == '#' || line[0] == ';') return;
+    if (line[0] == '[') return readHeader(line);
+
+    size_t equals = line.find('=');
+    if (equals == std::string_view::npos) {
+      diagnostics_.report(diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
+      return;
+    }
+    std::string_view key = trim(line.substr(0, equals)), value = trim(line.substr(equals + 1));
+    if (project_.sections.empty()) {
+      diagnostics_.report(diag::ProjectNoSection, loc(line), {key}).length(static_cast<uint32_t>(key.size()));
+      return;
+    }
+    if (schema_ == nullptr) return;  // the section was reported
+    if (schema_->keys != nullptr && !known(key)) return;
+    for (const ProjectEntry& entry : project_.sections.back().entries) {
+      if (entry.key != key) continue;
+      diagnostics_.report(diag::DuplicateKey, loc(key), {key})
+          .length(static_cast<uint32_t>(key.size()))
+          .declaredHere(entry.key_loc);
+      return;
+    }
+    // An empty value still has a location: one past the sign.
+    Loc value_loc = value.empty() ? loc(line.substr(equals)) : loc(value);
+    project_.sections.back().entries.push_back({std::string(key), std::string(value), loc(key), value_loc});
+  }
+
+  void readHeader(std::string_view line) {
+    size_t close = line.find(']');
+    std::string_view inner = trim(line.substr(1, close == std::string_view::npos ? close : close - 1));
+    size_t blank = inner.find_first_of(" \t");
+    std::string_view kind = inner.substr(0, blank);
+    std::string_view name = blank == std::string_view::npos ? std::string_view() : trim(inner.substr(blank));
+    schema_ = findSchema(kind);
+    if (close == std::string_view::npos || inner.empty()) {
+      diagnostics_.report(diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
+    } else if (schema_ == nullptr) {
+      std::vector<std::string_view> kinds;
+      for (const Schema& schema : kSchemas) kinds.push_back(schema.kind);
+      diagnostics_.report(diag::ProjectUnknownSection, loc(kind), {kind})
+          .length(static_cast<uint32_t>(kind.size()))
+          .didYouMean(nearest(kind, kinds));
+    } else if (schema_->named != !name.empty()) {
+      diagnostics_.report(schema_->named ? diag::ProjectSectionName : diag::ProjectSectionNoName, loc(kind), {kind})
+          .length(static_cast<uint32_t>(inner.size()));
+    }
+    project_.sections.push_back({std::string(kind), std::string(name), loc(line), {}});
+  }
+
+  bool known(std::string_view key) {
+    std::vector<std::string_view> keys = split(schema_->keys, ' ');
+    for (std::string_view k : keys)
+      if (k == key) return true;
+    diagnostics_.report(diag::ProjectUnknownKey, loc(key), {key, schema_->kind})
+        .length(static_cast<uint32_t>(key.size()))
+        .didYouMean(nearest(key, keys));
+    return false;
+  }
+
+  std::string_view source_;
+  Loc base_;
+  Diagnostics& diagnostics_;
+  ProjectFile& project_;
+  const Schema* schema_ = nullptr;
+};
+
+void badValue(Diagnostics& diagnostics, const ProjectEntry& entry, std::string_view why) {
+  diagnostics.report(diag::ProjectValue, entry.value_loc, {entry.key, why})
+      .length(static_cast<uint32_t>(entry.value.size()));
+}
+
+void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  for (const ProjectEntry& entry : section.entries) {
+    std::string error;
+    if (entry.key == "name") {
+      project.name = entry.value;
+      if (!isModuleName(entry.value)) error = "it takes letters, digits and `_`";
+    } else if (entry.key == "sources") {
+      project.sources = list(entry.value);
+      if (project.sources.empty()) error = "it takes paths, separated by commas";
+    } else if (entry.key == "libraries") {
+      project.libraries = list(entry.value);
+    } else if (entry.key == "std") {
+      project.has_dialect = true;
+      error = parseDialect(entry.value, project.dialect);
+    } else if (entry.key == "checks") {
+      project.has_checks = true;
+      std::string checks;
+      for (const std::string& item : list(entry.value)) checks += (checks.empty() ? "" : ",") + item;
+      error = parseChecks(checks, project.checks);
+    } else if (entry.key == "optimize") {
+      project.has_level = true;
+      if (entry.value.size() != 1 || entry.value[0] < '0' || entry.value[0] > '2')
+        error = "it takes 0, 1 or 2";
+      else
+        project.level = entry.value[0] - '0';
+    } else if (entry.key == "defines") {
+      for (const std::string& item : list(entry.value))
+        if (error.empty()) error = parseDefine(item, project.defines);
+    } else if (entry.key == "warnings") {
+      for (const std::string& item : list(entry.value)) {
+        bool on = !item.starts_with("no-");
+        project.warnings.push_back({on ? item : item.substr(3), on});
+      }
+    }
+    if (!error.empty()) badValue(diagnostics, entry, error);
+  }
+}
+
+bool readNumber(std::string_view text, uint64_t low, uint64_t high, uint32_t& out) {
+  uint64_t number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || number < low || number > high) return false;
+  out = static_cast<uint32_t>(number);
+  return true;
+}
+
+// [pool new]: the memory for __NEW.
+void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  constexpr uint64_t kMax = uint64_t{1} << 30;
+  if (section.name != "new") return;
+  for (const ProjectEntry& entry : section.entries) {
+    if (entry.key != "bytes") {
+      diagnostics.report(diag::ProjectUnknownKey, entry.key_loc, {entry.key, "pool new"})
+          .length(static_cast<uint32_t>(entry.key.size()))
+          .didYouMean("bytes");
+      continue;
+    }
+    if (!readNumber(entry.value, 16, kMax, project.pool_bytes))
+      badValue(diagnostics, entry, "it takes a number of bytes from 16 to 1073741824");
+  }
+}
+
+// [area R]: a memory area of the product, whose addresses are %RW4 and the like.
+void readAreaSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  const char letter = section.name.size() == 1 ? upperCase(section.name[0]) : '\0';
+  types::MemoryArea area{.letter = letter, .owner = types::AreaOwner::Memory};
+  const bool is_known = types::findArea(project.areas, letter).has_value();
+  if (!types::isAreaLetter(letter) || is_known) {
+    diagnostics.report(diag::AreaName, section.loc,
+                       {section.name, is_known ? "an area has this letter already"
+                                               : "use a letter other than the sizes X, B, W, D and L"});
+    return;
+  }
+  const ProjectEntry* const bytes = section.find("bytes");
+  if (bytes == nullptr) {
+    diagnostics.report(diag::AreaNoBytes, section.loc, {section.name});
+  } else if (!readNumber(bytes->value, 1, types::kMaxAreaBytes, area.bytes)) {
+    badValue(diagnostics, *bytes, "it takes a number of bytes from 1 to 16777216");
+  }
+  if (const ProjectEntry* const owner = section.find("owner")) {
+    if (const auto known = types::ownerCalled(owner->value))
+      area.owner = *known;
+    else
+      badValue(diagnostics, *owner, "it takes input, output or memory");
+  }
+  project.areas.push_back(area);
+}
+
+// `10ms` and `T#10ms` are the same time.
+std::string duration(const std::string& value) {
+  if (value.find('#') != std::string::npos) return value;
+  return "T#" + value;
+}
+
+// Everything that goes into the generated ST must be a word, number or path of ST, so that no value can inject other
+// code.
+bool isPlain(std::string_view value) {
+  if (value.empty()) return false;
+  for (char c : value)
+    if (!((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '.' ||
+          c == '#' || c == '%'))
+      return false;
+  return true;
+}
+
+void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& project) {
+  std::string text, programs;
+  uint32_t line = 1;
+  for (const ProjectSection& section : project.sections) {
+    if (section.kind != "task" || !isModuleName(section.name)) continue;
+    if (text.empty()) text = "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC ";
+    for (uint32_t at = sources.location(section.loc).line; line < at; line++) text += '\n';
+    text += "TASK " + section.name + "(";
+    const char* separator = "";
+    for (const ProjectEntry& entry : section.entries) {
+      if (entry.key == "programs") continue;
+      if (!isPlain(entry.value)) {
+        badValue(diagnostics, entry, "it takes one number, time or name");
+        continue;
+      }
+      std::string key = entry.key, value = entry.value;
+      for (char& c : key) c = static_cast<char>(c - 32);
+      if (entry.key == "kind")
+        for (char& c : value) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+      if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
+      text += separator + key + " := " + value;
+      separator = ", ";
+    }
+    text += ");";
+    if (const ProjectEntry* entry = section.find("programs")) {
+      for (const std::string& item : list(entry->value)) {
+        // `Type` or `instance : Type`
+        size_t colon = item.find(':');
+        std::string type(trim(std::string_view(item).substr(colon == std::string::npos ? 0 : colon + 1)));
+        std::string name(trim(std::string_view(item).substr(0, colon)));
+        if (!isModuleName(name) || !isModuleName(type)) {
+          badValue(diagnostics, *entry, "it takes `Program` or `instance : Program`, separated by commas");
+          continue;
+        }
+        programs += " PROGRAM " + name + " WITH " + section.name + " : " + type + ";";
+      }
+    }
+  }
+  if (!text.empty()) project.configuration = text + programs + " END_RESOURCE END_CONFIGURATION\n";
+}
+
+}  // namespace
+
+const ProjectEntry* ProjectSection::find(std::string_view key) const {
+  for (const ProjectEntry& entry : entries)
+    if (entry.key == key) return &entry;
+  return nullptr;
+}
+
+void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project) {
+  project.file = file;
+  Reader(sources, file, diagnostics, project).read();
+  for (const ProjectSection& section : project.sections)
+    if (section.kind == "project")
+      readProjectSection(section, diagnostics, project);
+    else if (section.kind == "pool" && !section.name.empty())
+      readPoolSection(section, diagnostics, project);
+    else if (section.kind == "area" && !section.name.empty())
+      readAreaSection(section, diagnostics, project);
+  writeTasks(sources, diagnostics, project);
+}
+
+void applyProjectFile(const ProjectFile& project, Options& options) {
+  if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
+  if (project.has_checks && !options.checks_given) options.checks = project.checks;
+  if (project.has_level && !options.level_given) options.level = project.level;
+  if (options.name.empty()) options.name = project.name;
+  options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
+  // The last of two defines with one name counts: the command line's.
+  options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
+  for (const std::string& written : project.libraries) {
+    const LibraryPath library = libraryPath(written);
+    const std::string called = library.called.empty() ? std::string() : library.called + "=";
+    options.library_paths.push_back(called + project.folder + "/" + library.folder);
+  }
+}
+
+}  // namespace rung::driver

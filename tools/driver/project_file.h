@@ -1,0 +1,54 @@
+// rung.project: the INI file that a project folder may have (docs/cli.md lists its sections and keys). In: its content.
+// Out: settings, which the command line overrides, and one generated CONFIGURATION for the tasks. Unknown sections and
+// keys are errors at their location. Called by inputs.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
+#include "sema/types/areas.h"
+#include "tools/driver/options.h"
+
+namespace rung::driver {
+
+struct ProjectEntry {
+  std::string key, value;
+  Loc key_loc, value_loc;
+};
+struct ProjectSection {
+  std::string kind, name;  // [axis conveyor]: "axis", "conveyor"
+  Loc loc;
+  std::vector<ProjectEntry> entries;
+
+  const ProjectEntry* find(std::string_view key) const;
+};
+
+struct ProjectFile {
+  FileId file;  // none: the project has no rung.project
+  std::string folder;
+  std::vector<ProjectSection> sections;  // all, in order: later layers read module, axis, safe, nc, pool
+
+  std::vector<std::string> sources, libraries;  // paths relative to `folder`
+  std::string name;
+  bool has_dialect = false, has_checks = false, has_level = false;
+  Dialect dialect = Dialect::Codesys;
+  uint8_t checks = 0;
+  int level = 1;
+  uint32_t pool_bytes = 0;  // 0: not given
+  types::MemoryAreas areas = types::standardAreas();
+  std::vector<WarningSwitch> warnings;
+  std::vector<text::Define> defines;
+
+  // The tasks as a CONFIGURATION in ST, each on the line of its section; empty: no [task] section.
+  std::string configuration;
+};
+
+void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
+
+// Applies the settings of the file that the command line does not have.
+void applyProjectFile(const ProjectFile& project, Options& options);
+
+}  // namespace rung::driver

@@ -1,0 +1,82 @@
+// `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host.
+#include <cstdio>
+
+#include "ir/ir.h"
+#include "rung/host.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/module_library.h"
+#include "tools/driver/native.h"
+
+namespace rung::driver {
+
+int runRun(const Options& options, Sink& sink) {
+  host::RunOptions run_options;
+  std::vector<std::string> rest;
+  std::string error = host::parseRunOptions(options.host_arguments, run_options, rest);
+  if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "` of `rung run`";
+  if (!error.empty()) return usageError(sink, error);
+  run_options.color = options.color;
+  run_options.out = sink.programOutput();
+  run_options.err = sink.programErrors();
+
+  PhaseTimes times;
+  Options compiling = options;
+  compiling.default_interval_ns = run_options.interval_ns;
+  compiling.trace_calls = run_options.trace_calls;
+  Compilation compilation(compiling, times, sink);
+  NativeRequest request;
+  request.parts.resize(1);
+  std::unique_ptr<ir::interpreter::Program> program;
+  std::string why;
+  bool ok = compilation.translate(false, program, why);
+  if (ok && !program) ok = compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasCppBodies() && compilation.exitCode() == kSuccess;
+  int exit = later ? kSuccess : compilation.finish();
+  if (!ok || exit != kSuccess) {
+    if (options.time_phases) sink.message(times.table());
+    return exit;
+  }
+  if (!why.empty()) {
+    if (options.engine == Engine::Interpreter || run_options.trace_calls)
+      return usageError(sink, "this program cannot be interpreted: " + why);
+    sink.message("rung: this program runs as compiled C++: " + why + "\n");
+  }
+
+  Cache cache;
+  ModuleLibrary library;
+  const rung_module* module = program ? &program->description() : nullptr;
+  if (!program) {
+    times.begin("c++");
+    request.level = compilation.options.level;
+    request.jobs = options.jobs;
+    request.keep = options.keep;
+    NativeResult result = makeShared(cache, request, sink);
+    if (later) {
+      compilation.finish(result);
+    } else {
+      if (result.exit == kInternal) sink.internalError(result.message);
+      if (result.exit == kUsage) usageError(sink, result.message);
+    }
+    if (result.exit != kSuccess) return result.exit;
+    error = library.open(result.path);
+    module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
+    if (module == nullptr) {
+      sink.internalError(error);
+      return kInternal;
+    }
+  } else if (options.engine == Engine::Auto) {
+    run_options.hint_when_long = "rung: a long run is faster with --engine=native";
+  }
+
+  times.begin("run");
+  constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+  sink.programRuns(true, (compilation.options.checks & kMemoryChecks) == kMemoryChecks);
+  exit = host::run(*module, run_options);
+  sink.programRuns(false, false);
+  times.end();
+  if (options.time_phases) sink.message(times.table());
+  return exit;
+}
+
+}  // namespace rung::driver

@@ -1,0 +1,243 @@
+// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests with the
+// same mocks are one module. With --separate each file is a separate project, so names of different files never
+// clash; a few C++ units include the code of many.
+#include <algorithm>
+#include <cstdio>
+
+#include "ir/ir.h"
+#include "rung/host.h"
+#include "sema/project.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/coverage.h"
+#include "tools/driver/module_library.h"
+#include "tools/driver/native.h"
+#include "tools/driver/output_files.h"
+
+namespace rung::driver {
+namespace {
+
+// Modules in one C++ unit: a compromise between the starts of g++ and the cost of one changed file.
+constexpr size_t kModulesPerUnit = 16;
+
+struct Module {
+  std::string name, shown, below;
+  bool ok = false;
+  std::string messages;
+  std::unique_ptr<ir::interpreter::Program> program;  // none: compiled C++
+};
+
+constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+
+// A power of two, so that an added file seldom moves the others to other units.
+uint32_t batchCount(size_t modules) {
+  uint32_t count = 1;
+  while (count * kModulesPerUnit < modules) count *= 2;
+  return count;
+}
+
+using MockSets = std::vector<std::vector<std::string>>;
+
+// The sets of mocks that the chosen tests name; the empty set comes first, with or without such tests.
+MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
+  MockSets sets{{}};
+  for (const sema::Pou& pou : project.pous) {
+    if (!pou.pragmas.test || pou.pragmas.mocks.empty() ||
+        !isChosen(options, std::string(project.names.string(pou.name))))
+      continue;
+    std::vector<std::string> set;
+    for (NameId mock : pou.pragmas.mocks) set.emplace_back(project.names.string(mock));
+    if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+std::string headingOf(const std::vector<std::string>& mocks) {
+  std::string text;
+  for (const std::string& mock : mocks) text += (text.empty() ? "rung: in the tests with `" : ", `") + mock + '`';
+  return text.empty() ? text : text + ":\n";
+}
+
+class Tester {
+ public:
+  Tester(const Options& options, Sink& sink) : options_(options), sink_(sink) {
+    test_options_.filter = options.filter;
+    test_options_.out = sink.programOutput();
+    test_options_.err = sink.programErrors();
+  }
+
+  int run() {
+    int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
+    if (exit == kSuccess) exit = buildAndRun();
+    times_.end();
+    if (options_.time_phases) sink_.message(times_.table());
+    return exit;
+  }
+
+ private:
+  // Compiles the modules of one project: the tests without mocks, then each set of mocks. `file`: the only file of a
+  // project whose errors count as a failed test.
+  int compileProject(const Options& options, const InputFile* file) {
+    MockSets sets{{}};
+    std::string name;
+    for (size_t i = 0; i < sets.size(); i++) {
+      Options one = options;
+      one.mocks = sets[i];
+      if (i > 0) one.name = name + "_mocks_" + std::to_string(i);
+      if (options.counts()) {  // counts each statement as written
+        one.level = 0;
+        one.level_given = true;
+      }
+      auto owned = std::make_unique<Compilation>(one, times_, sink_);
+      Compilation& compilation = *owned;
+      Module module;
+      NativePart part;
+      module.ok = makeModule(compilation, module, part);
+      module.name = compilation.options.moduleName();
+      if (i == 0) {
+        name = module.name;
+        checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
+        if (module.ok) sets = mockSets(*compilation.project, test_options_);
+      }
+      if (file != nullptr && compilation.exitCode() != kInternal) {
+        module.shown = file->shown;
+        module.below = file->below;
+        if (i == 0 || compilation.exitCode() != kSuccess)
+          module.messages = headingOf(sets[i]) + compilation.diagnosticsText();
+        module.ok = module.ok && compilation.exitCode() == kSuccess;
+      } else if (i == 0 || !module.ok) {
+        sink_.message(headingOf(sets[i]));
+        const int exit = compilation.finish();
+        if (exit != kSuccess || !module.ok) return exit;
+      }
+      if (!why_.empty()) return usageError(sink_, why_);
+      for (const InputFile& input : compilation.inputs.files) coverage_.nameFile(input.below, input.shown);
+      if (module.ok && i == 0 && sets.size() > 1 && compilation.module->tests.empty()) continue;
+      if (file != nullptr || i > 0) part.folder = module.name;
+      if (module.ok && !module.program) request_.parts.push_back(std::move(part));
+      modules_.push_back(std::move(module));
+      if (compilation.hasCppBodies()) with_cpp_.push_back(std::move(owned));
+    }
+    return kSuccess;
+  }
+
+  // Interpreted when possible, else as C++ files.
+  bool makeModule(Compilation& compilation, Module& module, NativePart& part) {
+    std::string why;
+    if (!compilation.translate(true, module.program, why)) return false;
+    if (module.program) return true;
+    const bool must = options_.engine == Engine::Interpreter || options_.counts();
+    if (!why.empty() && must) why_ = "this program cannot be interpreted: " + why;
+    if (!why.empty() && why_.empty()) sink_.message("rung: this program runs as compiled C++: " + why + "\n");
+    return compilation.emit(true, part.files);
+  }
+
+  int compileSeparately() {
+    // The files are found once, as one project; their sources are read again for each.
+    Compilation all(options_, times_, sink_);
+    if (!all.read()) return all.finish();
+    std::string root = options_.root.empty() ? all.inputs.root : options_.root;
+    for (size_t i = 0; i < all.inputs.files.size(); i++) {
+      const InputFile& file = all.inputs.files[i];
+      Options one = options_;
+      one.inputs = {file.path};
+      one.root = root;
+      one.name = all.options.moduleName() + "_" + std::to_string(i);
+      const int exit = compileProject(one, &file);
+      if (exit != kSuccess) return exit;
+    }
+    request_.batches = batchCount(request_.parts.size());
+    return kSuccess;
+  }
+
+  int buildAndRun() {
+    Cache cache;
+    ModuleLibrary library;
+    if (!request_.parts.empty()) {
+      times_.begin("c++");
+      request_.level = options_.level;
+      request_.jobs = options_.jobs;
+      request_.keep = options_.keep;
+      NativeResult result = makeShared(cache, request_, sink_);
+      if (result.exit == kInternal) sink_.internalError(result.message);
+      if (result.exit == kUsage) usageError(sink_, result.message);
+      if (result.exit == kInputErrors) refuse(result);
+      if (result.exit != kSuccess) return result.exit;
+      std::string error = library.open(result.path);
+      if (!error.empty()) {
+        sink_.internalError(error);
+        return kInternal;
+      }
+    }
+    times_.begin("run");
+    host::TestResults results;
+    test_options_.junit_path = options_.junit;
+    if (options_.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
+      test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
+    for (const Module& module : modules_) {
+      const int exit = runModule(module, library, results);
+      if (exit != kSuccess) return exit;
+      if (module.program) coverage_.add(*module.program);
+    }
+    if (options_.coverage)
+      if (const std::string error = sink_.output(coverage_.text()); !error.empty()) return usageError(sink_, error);
+    const int exit = host::reportTests(results, test_options_);
+    const std::string error = options_.lcov.empty() ? "" : writeFile(options_.lcov, coverage_.lcov());
+    return error.empty() ? exit : usageError(sink_, error);
+  }
+
+  // Prints the messages of g++ about a body, with the source of its file; the other messages were printed before.
+  void refuse(const NativeResult& result) const {
+    for (const std::unique_ptr<Compilation>& compilation : with_cpp_)
+      if (compilation->printRefusals(result)) return;
+    sink_.message(result.message + "\n");
+  }
+
+  int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
+    if (!module.messages.empty()) sink_.message(module.messages);
+    if (!module.ok) {
+      if (const std::string error = sink_.output("FAIL " + module.shown + ": does not compile\n"); !error.empty())
+        return usageError(sink_, error);
+      results.failed++;
+      results.tests.push_back({"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages});
+      return kSuccess;  // the other files count; the exit code reports a failed test
+    }
+    std::string error;
+    const rung_module* description = module.program ? &module.program->description() : library.find(module.name, error);
+    if (description == nullptr) {
+      sink_.internalError(error);
+      return kInternal;
+    }
+    const uint32_t passed = results.passed, failed = results.failed;
+    sink_.programRuns(true, checked_);
+    error = host::runTests(*description, test_options_, results);
+    sink_.programRuns(false, false);
+    if (!error.empty()) return usageError(sink_, error);
+    if (options_.separate)
+      return printResult(sink_, std::string(results.failed == failed ? "ok  " : "FAIL") + " " + module.shown + ": " +
+                                    std::to_string(results.passed - passed) + " passed, " +
+                                    std::to_string(results.failed - failed) + " failed\n");
+    return kSuccess;
+  }
+
+  const Options& options_;
+  Sink& sink_;
+  host::TestOptions test_options_;
+  PhaseTimes times_;
+  NativeRequest request_;
+  std::vector<Module> modules_;
+  std::vector<std::unique_ptr<Compilation>> with_cpp_;  // those with bodies in C++
+  Coverage coverage_;
+  bool checked_ = true;
+  std::string why_;  // a usage error
+};
+
+}  // namespace
+
+int runTest(const Options& options, Sink& sink) {
+  Options testing = options;
+  testing.with_tests = true;
+  return Tester(testing, sink).run();
+}
+
+}  // namespace rung::driver
