@@ -31,7 +31,7 @@ class Trivia {
   // The comments before a node that begins at `node`, with nothing but white space between them and it; without one
   // that follows a token on its own line.
   std::span<const Comment> before(const Sources& sources, Loc node) const;
-  // The comments after a node that ends at `node`, on the same line; a `;` or `,` may stand between.
+  // The comments after a node that ends at `node`, on the same line, directly or after a `;` or `,`.
   std::span<const Comment> after(const Sources& sources, Loc node) const;
 
  private:
