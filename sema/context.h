@@ -133,8 +133,6 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
 // Checks, then converts implicitly to `to` if the dialect allows it (wraps in ConvertExpr), else reports. `what`
 // describes the use, for the message: "assigned to `x`".
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
-// An lvalue that may be written: reports constants, inputs, literals.
-TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what);
 // Makes an lvalue the target of a reference of this type; reports when the reference cannot be bound to it.
 bool bindReference(Context& context, ExprId& lvalue, TypeId reference);
 // Gives a new node its type (synthesized_nodes.cpp).

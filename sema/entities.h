@@ -43,36 +43,45 @@ struct Var {
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
   bool constant = false, retain = false, persistent = false;
-  bool has_value = false;  // constant scalar or string with a known value: see `value`
-  bool required = false, lazy = false,
-       extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
-  bool hierarchical = false;           // AT %QW0.1.2: placed after all others when these are known
-  bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
-  bool instance_path = false;          // {attribute 'instance-path'}: holds the path of its instance
-  bool read = false, written = false;  // by any body: for the warnings
-  PouId pou;                           // owner, or none
-  ListId list;                         // owner when global
-  uint32_t field = 0;  // Storage::Field and Global: index in the record; Local: position among the POU's vars
-  ExprId init;         // none: the type's default; checked and converted to `type`
+  bool has_value = false;     // constant scalar or string with a known value: see `value`
+  bool hierarchical = false;  // AT %QW0.1.2: placed after all others when these are known
+  bool open_address = false;  // AT %I*: the number comes from VAR_CONFIG or from the system
+  PouId pou;                  // owner, or none
+  ListId list;                // owner when global
+  uint32_t field = 0;         // Storage::Field and Global: index in the record; Local: position among the POU's vars
+  ExprId init;                // none: the type's default; checked and converted to `type`
   DeclId decl;
   ImageView image;
   types::Value value;  // when has_value
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
-  CallId constructor;                 // of a block whose FB_Init has parameters: the arguments in the declaration
-  bool late = false;                  // its initial value reads other variables: Project::late, Pou::late
-  uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
-  TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
-  VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool of_chart = false;              // a step, or other state of a chart
-  bool hidden_input = false;          // of a function: such a bound, passed after the pins
-  uint32_t temporary = 0;             // created by the compiler, without declared type: its number in the body; 0: none
-  VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
-  uint8_t bit = 0;
-  bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
-  VarId edge_memory;                        // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  std::vector<NameId> aliases;              // {alias 'R'}
+  TypeId any;              // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
+  bool of_chart = false;   // a step, or other state of a chart
+  uint32_t temporary = 0;  // created by the compiler, without declared type: its number in the body; 0: none
+  VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
+  struct Pragmas {         // of the declaration
+    bool required = false, lazy = false, extensible = false;  // pins of library declarations
+    bool instance_path = false;   // {attribute 'instance-path'}: holds the path of its instance
+    std::vector<NameId> aliases;  // {alias 'R'}
+  } pragmas;
+  struct Start {                        // how it gets its first value, when its initial value is checked
+    bool late = false;                  // the initial value reads other variables: Project::late, Pou::late
+    CallId constructor;                 // of a block whose FB_Init has parameters: the arguments in the declaration
+    uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
+  } start;
+  struct Use {  // by any body, for the warnings
+    bool read = false, written = false;
+  } use;
+  struct Bits {    // members of type BIT, when the type is laid out
+    VarId holder;  // the hidden byte whose `bit` it is; `field` is that byte's
+    uint8_t bit = 0;
+    bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
+  } bits;
+  struct OpenArray {            // ARRAY[*], when the POU is resolved
+    VarId bounds;               // the first of the hidden variables with its bounds, two a dimension
+    bool hidden_input = false;  // of a function: such a bound, passed after the pins
+  } open_array;
 };
 
 struct Property {
@@ -82,6 +91,8 @@ struct Property {
   PouId get, set;  // none: not declared
 };
 
+enum class OperatorKind : uint8_t { None, Op, Select, Mux, Convert, Move };
+enum class AccessorKind : uint8_t { None, Get, Set };
 struct Pou {
   NameId name;
   Loc loc;
@@ -93,60 +104,62 @@ struct Pou {
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
   std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among `vars`; filled by bodies/ at the first call
-  bool pins_ready = false;
-  bool library = false, native = false, pure = false, test = false;
-  bool test_only = false;        // {test_only}, {replaces …}: only tests use it
+  bool library = false;
   bool excluded = false;         // a test, or only for tests, and not part of this program: checked, not lowered
   bool cpp = false;              // its body is in C++
   std::vector<PouId> cpp_calls;  // functions that such a body names
   bool extensible = false;       // has an {extensible} pin
-  bool sized = false;            // {sized}: has a second native form that takes and returns lengths of strings
-  bool slice = false;            // {slice}: and a third that only returns which part of the first input the result is
-  bool prefix = false;   // {prefix}: the first n characters of the result depend only on the first n of the first input
-  bool faults = false;   // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
-  bool no_copy = false;  // {no_copy}: an instance cannot be copied
-  bool bytes = false;    // {bytes}: its generic type is ARRAY OF BYTE
-  bool checked = false;  // its body was checked (library bodies: when used)
-  bool checking = false;  // its body is being checked
-  bool broken = false;    // it has errors
-  bool used = false;
   bool may_fault = false;
-  types::Op op = types::Op::Add;
-  enum class Operator : uint8_t {
-    None,
-    Op,
-    Select,
-    Mux,
-    Convert,
-    Move
-  } operator_kind = Operator::None;  // {operator '…'}
-  NameId library_name;               // `Standard`
+  // The pragmas of its declaration (collect.cpp).
+  struct Pragmas {
+    bool native = false, pure = false, test = false;
+    bool test_only = false;  // {test_only}, {replaces …}: only tests use it
+    bool sized = false;      // {sized}: has a second native form that takes and returns lengths of strings
+    bool slice = false;      // {slice}: and a third that only returns which part of the first input the result is
+    bool prefix =
+        false;  // {prefix}: the first n characters of the result depend only on the first n of the first input
+    bool faults = false;   // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
+    bool no_copy = false;  // {no_copy}: an instance cannot be copied
+    bool bytes = false;    // {bytes}: its generic type is ARRAY OF BYTE
+    types::Op op = types::Op::Add;
+    OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
+    NameId replaces;                                  // {replaces 'X'}: a mock of X
+    std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
+  } pragmas;
+  // How far it has been checked.
+  struct Progress {
+    enum class Header : uint8_t { New, Busy, Done } header = Header::New;       // base and interfaces are known
+    enum class Body : uint8_t { New, Busy, Correct, Broken } body = Body::New;  // library bodies: when used
+    bool pins_ready = false;
+    bool used = false;
+    bool checked() const { return body != Body::New; }
+  } progress;
+  NameId library_name;  // `Standard`
   // A generic function is never lowered itself: each tuple of types creates an instance, named as in C++ and the IR
   // (`LIMIT__REAL`).
   bool generic = false;
   PouId generic_of;
-  NameId replaces;            // {replaces 'X'}: a mock of X
-  std::vector<NameId> mocks;  // {mock 'M'} of a test: name keys, sorted
   NameId
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
-  PouId owner;                    // of a method or action
-  PouId chart;                    // the action or method whose chart contains this action
-  PouId base;                     // EXTENDS
-  uint32_t base_depth = 0;        // bases of bases
-  std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
-  std::vector<PouId> members;     // methods, actions and accessors, in order
-  std::vector<uint32_t> properties;
-  VarId base_var;       // the hidden field that holds the base
-  VarId id_var;         // the hidden type id, where this object is the first of its line to have one
-  PouId overloads;      // of functions and methods of one name: the first of them
-  PouId next_overload;  // the next overload, in order of declaration
+  PouId owner;                 // of a method or action
+  PouId chart;                 // the action or method whose chart contains this action
+  PouId base;                  // EXTENDS
+  std::vector<PouId> members;  // methods, actions and accessors, in order
+  PouId overloads;             // of functions and methods of one name: the first of them
+  PouId next_overload;         // the next overload, in order of declaration
   AccessLevel access = AccessLevel::None;
-  uint8_t modifiers = 0;                                                       // Modifier
-  enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
-  bool extended = false;    // another block of the project extends it
-  bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
-  enum class Header : uint8_t { New, Busy, Done } header = Header::New;  // base and interfaces are known
+  struct Object {                   // filled when the header is resolved
+    uint32_t base_depth = 0;        // bases of bases
+    std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
+    std::vector<uint32_t> properties;
+    VarId base_var;         // the hidden field that holds the base
+    VarId id_var;           // the hidden type id, where this object is the first of its line to have one
+    uint8_t modifiers = 0;  // Modifier
+    AccessorKind accessor = AccessorKind::None;  // of a property
+    bool extended = false;                       // another block of the project extends it
+    bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
+  } object;
   FileId file;
 };
 

@@ -25,22 +25,26 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
 }
 
 bool ensureBody(Context& context, PouId id) {
+  using Body = Pou::Progress::Body;
   Project& project = context.project;
-  if (project.pou(id).checking) return false;
-  if (project.pou(id).checked) return !project.pou(id).broken;
-  project.pou(id).checked = true;
-  if (project.pou(id).native || (project.pou(id).owner && (project.pou(id).modifiers & kAbstract) != 0)) return true;
-  const std::string_view name = project.names.string(project.pou(id).name);
+  Body& state = project.pou(id).progress.body;
+  if (state != Body::New) return state == Body::Correct;
+  const Pou& pou = project.pou(id);
+  if (pou.pragmas.native || (pou.owner && (pou.object.modifiers & kAbstract) != 0)) {
+    state = Body::Correct;
+    return true;
+  }
+  const std::string_view name = project.names.string(pou.name);
   setPhaseSubject(name.data(), name.size());
   const uint32_t errors = project.diagnostics.errorCount();
-  project.pou(id).checking = true;
+  state = Body::Busy;
   resolvePou(context, id);
   Context there = atPou(context, id);
   checkBody(there, id);
-  project.pou(id).checking = false;
   declareLiteralStorage(context, id);
-  project.pou(id).broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
-  return !project.pou(id).broken;
+  const bool broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
+  state = broken ? Body::Broken : Body::Correct;
+  return !broken;
 }
 
 namespace {
@@ -61,7 +65,7 @@ void checkProgramsRun(Context& context) {
   for (const ProgramInstance& instance : project.instances) runs[instance.program.index] = true;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.kind != PouKind::Program || pou.library || pou.test || pou.used || runs[i]) continue;
+    if (pou.kind != PouKind::Program || pou.library || pou.pragmas.test || pou.progress.used || runs[i]) continue;
     context.report(diag::ProgramNeverRuns, pou.loc, {project.names.string(pou.name)});
   }
 }

@@ -17,7 +17,8 @@ Cursor::Cursor(Tree& tree, Names& names, const Sources& sources, FileId file, Di
       base_(sources.begin(file).offset),
       source_(sources.sourceText(file)) {}
 
-void Cursor::read(uint32_t begin, uint32_t end) {
+void Cursor::read(uint32_t begin, uint32_t end, std::vector<Comment>* comments) {
+  stream_.comments = comments;
   lex(stream_, names_, sources_, file_, begin, end, dialect_, diagnostics_);
   resolveObjectKeywords(stream_);
   balanceBlocks(stream_, names_, sources_, file_, dialect_, diagnostics_);

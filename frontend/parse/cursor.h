@@ -25,7 +25,7 @@ class Cursor {
   Cursor(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics);
 
   // Lexes [begin, end) of the file and balances its blocks.
-  void read(uint32_t begin, uint32_t end);
+  void read(uint32_t begin, uint32_t end, std::vector<Comment>* comments = nullptr);
 
  protected:
   // ---- tokens

@@ -175,6 +175,10 @@ class Lexer {
   const char* punct(const char* p);
   const char* blockComment(const char* p, bool slash);
   const char* lineComment(const char* p);
+  static bool isDoc(const char* p) { return p[2] == '/' && p[3] != '/'; }
+  void keep(const char* begin, const char* end, CommentKind kind) {
+    if (out_.comments != nullptr) out_.comments->push_back({{loc(begin), loc(end)}, kind});
+  }
   const char* pragma(const char* p);
   bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
   const char* cppBody(const char* p);
@@ -242,11 +246,15 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     }
     if (cls == kPunct) {
       if (*p == '/' && p[1] == '/') {
+        const char* const start = p;
         p = lineComment(p);
+        keep(start, p > start && p[-1] == '\r' ? p - 1 : p, isDoc(start) ? CommentKind::Doc : CommentKind::Line);
         continue;
       }
       if ((*p == '(' || *p == '/') && p[1] == '*') {
+        const char* const start = p;
         p = blockComment(p, *p == '/');
+        keep(start, p, CommentKind::Block);
         continue;
       }
       if (*p == '{' && !atCppBody(p)) {
@@ -443,7 +451,7 @@ const char* Lexer::punct(const char* p) {
 }
 
 const char* Lexer::lineComment(const char* p) {
-  if (p[2] == '/' && p[3] != '/') {
+  if (isDoc(p)) {
     const bool after = (flags_ & kLineStart) == 0 && !out_.tokens.empty();
     if (after) {
       out_.tokens.back().flags |= kDocAfter;

@@ -13,6 +13,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/trivia.h"
 
 namespace rung::text {
 
@@ -49,7 +50,8 @@ struct TokenStream {
   std::vector<PragmaRange> pragmas;
   std::vector<DocRange> docs;
   std::vector<DocRange> docs_after;
-  std::vector<uint32_t> blocks;  // indices of the keywords that open or close blocks, for recover.h
+  std::vector<Comment>* comments = nullptr;  // gets all comments; none: they are not kept
+  std::vector<uint32_t> blocks;              // indices of the keywords that open or close blocks, for recover.h
 };
 
 // Reads [begin, end) of the file's source.

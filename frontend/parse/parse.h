@@ -7,11 +7,15 @@
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
 
+namespace rung {
+class Trivia;
+}
+
 namespace rung::text {
 
-// Parses a whole file and appends it to tree.files.
+// Parses a whole file and appends it to tree.files. With `comments` it keeps the comments of the file there.
 FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                   Diagnostics& diagnostics);
+                   Diagnostics& diagnostics, Trivia* comments = nullptr);
 
 // Parses the one declaration (POU or TYPE entry block) in [begin, end) of its file: a library declaration on first use,
 // or a fresh copy of a generic function. Not appended to tree.files.

@@ -253,9 +253,11 @@ void Parser::parseBody(PouDecl& d) {
 // ---- the interface
 
 FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                   Diagnostics& diagnostics) {
+                   Diagnostics& diagnostics, Trivia* comments) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
+  std::vector<Comment> kept;
+  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()), comments != nullptr ? &kept : nullptr);
+  if (comments != nullptr) comments->add(kept);
   const FileUnit unit{file, parser.parseDecls()};
   tree.files.push_back(unit);
   return unit;

@@ -105,7 +105,7 @@ IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Si
     chain.pop_back();
     for (; k < list.count && !flow.reached[k]; ++k) {
       flow.reached[k] = true;
-      const IlInstruction i = tree.list(list)[k];
+      const IlInstruction& i = tree.list(list)[k];
       const uint32_t target = i.kind == IlKind::Jump ? flow.labelOf(names, i.target) : kNoInstruction;
       if (target != kNoInstruction) {
         ++flow.jumps[target];
@@ -115,7 +115,7 @@ IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Si
     }
   }
   for (uint32_t k = 0; k < list.count; ++k) {
-    const IlInstruction i = tree.list(list)[k];
+    const IlInstruction& i = tree.list(list)[k];
     const uint32_t target = i.kind == IlKind::Jump ? flow.labelOf(names, i.target) : kNoInstruction;
     switch (effectOf(tree, names, signatures, i)) {
       case Effect::Reads: flow.reader[k] = k; break;

@@ -291,7 +291,7 @@ IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) 
   const Value outer_acc = std::exchange(acc_, {});
   bool reported = false;
   for (at_ = 0; at_ < list.count; ++at_) {
-    const IlInstruction i = tree_.list(list)[at_];
+    const IlInstruction& i = tree_.list(list)[at_];
     if (!flow.reached[at_]) {
       skip(i, reported);
       continue;
@@ -302,7 +302,7 @@ IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) 
   }
   for (size_t k = 0; !nested && k < empty_ways_.size(); ++k) {
     const EmptyWay& way = empty_ways_[k];
-    const IlInstruction reader = tree_.list(list)[flow.reader[way.label]];
+    const IlInstruction& reader = tree_.list(list)[flow.reader[way.label]];
     diagnostics_
         .report(diag::AccumulatorEmpty, reader.loc, {reader.word ? names_.string(reader.word) : std::string_view(")")})
         .note(way.from, diag::WayWithoutValue);
@@ -445,8 +445,7 @@ IlScheduler::Value IlScheduler::called(ExprId callee, std::vector<Argument>& arg
 void IlScheduler::fillNested(const IlInstruction& i, std::vector<Argument>& arguments) {
   const size_t first = arguments.size();
   for (uint32_t k = 0; k < i.operands.count; ++k) arguments.push_back(operand(i, k));
-  for (uint32_t k = 0; k < i.nested.count; ++k) {
-    const IlNested nested = tree_.list(i.nested)[k];
+  for (const IlNested& nested : tree_.list(i.nested)) {
     Value value = runList(nested.list, true);
     IlInstruction reader = i;
     reader.loc = arguments[first + nested.operand].loc;

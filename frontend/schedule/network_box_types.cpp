@@ -57,8 +57,7 @@ TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
 // The common type of the inputs; if their types are unknown, the type of the readers.
 TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) {
   const Slice<DiagramPin> pins = graph_.elements[element].pins;
-  for (uint32_t p = 0; p < pins.count; ++p) {
-    const DiagramPin pin = tree_.list(pins)[p];
+  for (const DiagramPin& pin : tree_.list(pins)) {
     if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {kEnable})) continue;
     if (std::exchange(selects, false) || pin.wires.empty()) continue;
     if (pin.edge != EdgeKind::None) return named("BOOL", pin.name.loc);

@@ -83,7 +83,7 @@ bool Scheduler::hasPin(const Signature& signature, const Ident& pin) const {
 
 //   fails   a pin that the block does not have        E1004
 bool Scheduler::fillArguments(uint32_t element, Call& call) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   const SignatureKind kind = call.signature.kind;
   const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
                      kind == SignatureKind::Method || kind == SignatureKind::Program;
@@ -99,8 +99,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
     named = !(any && all_unknown && !call.signature.pins.empty());
   }
   bool ok = true;
-  for (uint32_t p = 0; p < e.pins.count; ++p) {
-    const DiagramPin pin = tree_.list(e.pins)[p];
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     if (isControl(names_, pin.name.name) && call.signature.find(names_, pin.name.name) == nullptr) {
       call.en = pin;
@@ -200,7 +199,7 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
 
 //   fails   an unconnected input                  E1007
 void Scheduler::resolveOperator(uint32_t element, Call& call) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   const size_t least = call.op->form == Form::Chain || call.op->form == Form::Pair ? 2 : 1;
   const bool fits = call.op->form == Form::Chain ? call.arguments.size() >= 2 : call.arguments.size() == least;
   bool open = false;
@@ -253,7 +252,7 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
 
 // The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   if (call.has_en) {
     const Loc loc = call.en.name.loc;
@@ -303,7 +302,7 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
 }
 
 void Scheduler::resolveBox(uint32_t element) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   Call call;
   if (!e.path && !e.operand) return;
   if (isOperator(e)) {

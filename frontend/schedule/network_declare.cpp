@@ -42,7 +42,7 @@ class Declarer {
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
     BoxTypes types(tree_, names_, signatures_, pou, graph);
     for (const uint32_t k : readBeforeExecution(graph)) {
-      const DiagramElement e = graph.elements[k];
+      const DiagramElement& e = graph.elements[k];
       const TypeExprId type = types.of(k);
       if (!type) continue;
       const NameId name = declare(std::string(names_.string(e.name.name)) + "_" + number(e), type, e.loc);

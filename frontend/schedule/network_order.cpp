@@ -75,7 +75,7 @@ Graph::End Graph::endOf(uint32_t link) {
       diagnostics_->report(diag::NotWired, e.loc, {nameOf(e)});
       end.element = kNone;
     } else {
-      const DiagramWire wire = tree_->list(tree_->list(e.pins)[0].wires)[0];
+      const DiagramWire& wire = tree_->list(tree_->list(e.pins)[0].wires)[0];
       end = {wire.from, wire.pin};
     }
   }
@@ -161,7 +161,7 @@ bool Graph::connect() {
     const bool ends = elements[k].kind == ElementKind::RightRail;
     for (const DiagramPin& pin : tree_->list(elements[k].pins))
       for (uint32_t w = 0; w < pin.wires.count; ++w) {
-        const DiagramWire wire = tree_->list(pin.wires)[w];
+        const DiagramWire& wire = tree_->list(pin.wires)[w];
         // The pin of a wire through connectors is that of the wire into the first of them.
         const End origin = isLink(wire.from) ? endOf(wire.from) : End{wire.from, wire.pin};
         if (origin.element == kNone) {

@@ -158,15 +158,14 @@ ExprId Scheduler::read(uint32_t source) {
       if (e.negated) value = inverted(value, e.loc);
       const DiagramPin* pin = firstInput(e);
       if (pin == nullptr || pin->wires.empty() || isTrue(*pin)) return value;
-      const DiagramPin copy = *pin;
-      const ExprId left = valueOf(e, copy);
+      const ExprId left = valueOf(e, *pin);
       return build_.binary(BinaryOp::And, left, value, e.loc);
     }
     case ElementKind::Box:
     case ElementKind::Execute: return readBox(source);
     case ElementKind::Compose: return build_.name(e.hidden, e.loc);
     case ElementKind::Connector: {
-      const DiagramPin pin = *firstInput(e);
+      const DiagramPin& pin = *firstInput(e);
       return valueOf(e, pin);
     }
     case ElementKind::Coil:
@@ -279,7 +278,7 @@ bool Scheduler::readable(uint32_t element) {
 
 //   fails   an unconnected contact        E1007
 void Scheduler::resolveContact(uint32_t element) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty()) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
   const uint32_t source = graph_.first_source[element];
@@ -289,8 +288,7 @@ void Scheduler::resolveContact(uint32_t element) {
     value = sensed(e.hidden, value, e.loc);
     if (source == kNone) return;
     if (pin != nullptr && !pin->wires.empty() && !isTrue(*pin)) {
-      const DiagramPin copy = *pin;
-      const ExprId left = valueOf(e, copy);
+      const ExprId left = valueOf(e, *pin);
       value = build_.binary(BinaryOp::And, left, value, e.loc);
     }
     graph_.sources[source].pending = value;
@@ -335,17 +333,16 @@ void Scheduler::resolveAssignment(uint32_t element) {
     diagnostics_.report(diag::NotWiredIdle, e.loc, {describe(tree_, names_, e)});
     return;
   }
-  const DiagramPin copy = *pin;
   const uint32_t own = graph_.first_source[element];
-  ExprId value = valueOf(e, copy);
+  ExprId value = valueOf(e, *pin);
   if (own != kNone && graph_.sources[own].uses > 0 && e.kind != ElementKind::InOut) {  // the wire continues after it
     graph_.sources[own].pending = value;
     keep(own, wireName(element));
     value = read(own);
   }
   // A set or negated output of a box applies to the variable connected to it.
-  if (copy.wires.count == 1) {
-    const Source& s = graph_.sources[graph_.sourceOf(copy, 0)];
+  if (pin->wires.count == 1) {
+    const Source& s = graph_.sources[graph_.sourceOf(*pin, 0)];
     const DiagramElement& from = graph_.elements[s.element];
     if (from.kind == ElementKind::Box) {
       const DiagramPin* out = outputNamed(from, s.pin);
@@ -360,9 +357,8 @@ void Scheduler::resolveAssignment(uint32_t element) {
 
 // A composer fills its structure; a selector reads the members of its input.
 void Scheduler::resolveComposer(uint32_t element) {
-  const DiagramElement e = graph_.elements[element];
-  for (uint32_t p = 0; p < e.pins.count; ++p) {
-    const DiagramPin pin = tree_.list(e.pins)[p];
+  const DiagramElement& e = graph_.elements[element];
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     const ExprId value = valueOf(e, pin);
     if (e.kind == ElementKind::Compose) {
@@ -381,15 +377,13 @@ void Scheduler::resolveComposer(uint32_t element) {
 }
 
 void Scheduler::resolveExecute(uint32_t element) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   const DiagramPin* en = pinNamed(e, kEnable, PinDirection::Input);
   ExprId condition;
   if (en != nullptr && !en->wires.empty()) {
-    const DiagramPin copy = *en;
-    condition = valueOf(e, copy);
+    condition = valueOf(e, *en);
   } else if (en == nullptr && !e.pins.empty() && tree_.list(e.pins)[0].direction == PinDirection::Input) {
-    const DiagramPin copy = tree_.list(e.pins)[0];
-    condition = valueOf(e, copy);
+    condition = valueOf(e, tree_.list(e.pins)[0]);
   }
   const uint32_t eno = graph_.first_source[element];
   if (eno != kNone) {
@@ -405,7 +399,7 @@ void Scheduler::resolveExecute(uint32_t element) {
 }
 
 void Scheduler::resolveJump(uint32_t element) {
-  const DiagramElement e = graph_.elements[element];
+  const DiagramElement& e = graph_.elements[element];
   if (e.kind == ElementKind::Label) {
     emit(build_.label(e.name));
     return;
@@ -413,8 +407,7 @@ void Scheduler::resolveJump(uint32_t element) {
   const StmtId leave = e.kind == ElementKind::Jump ? build_.jump(e.name, e.name.loc) : build_.returnStatement(e.loc);
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty() || (isTrue(*pin) && !e.negated)) return emit(leave);
-  const DiagramPin copy = *pin;
-  const ExprId condition = valueOf(e, copy);
+  const ExprId condition = valueOf(e, *pin);
   conditional(e.negated ? inverted(condition, e.loc) : condition, e.loc, leave);
 }
 

@@ -60,6 +60,10 @@ void forEachField(T& tree, DeclId id, Visit&& visit) {
   }
 }
 
+template <class Id>
+concept NodeId = std::is_same_v<std::remove_const_t<Id>, ExprId> || std::is_same_v<std::remove_const_t<Id>, StmtId> ||
+    std::is_same_v<std::remove_const_t<Id>, TypeExprId> || std::is_same_v<std::remove_const_t<Id>, DeclId>;
+
 // Visits the ids in the elements of lists. `visit` takes an id of each kind, by reference.
 template <class T, class Visit>
 class ChildWalk {
@@ -73,8 +77,7 @@ class ChildWalk {
   }
 
  private:
-  template <class Id>
-  requires requires(Id id) { id.word; }
+  template <NodeId Id>
   void in(Id& id) const {
     if (id) visit_(id);
   }
@@ -84,9 +87,10 @@ class ChildWalk {
   }
   void in(const Diagram& diagram) const { in(diagram.elements); }
 
-  template <class Id>
-  requires requires(Id id) { id.word; }
-  void of(Id& id) const { in(id); }
+  template <NodeId Id>
+  void of(Id& id) const {
+    in(id);
+  }
   template <class E>
   requires std::is_same_v<std::remove_const_t<E>, Argument> || std::is_same_v<std::remove_const_t<E>, FieldInit> ||
       std::is_same_v<std::remove_const_t<E>, EnumItem>

@@ -169,6 +169,11 @@ Loc Tree::begin(ExprId id) const {
   return loc(id);
 }
 
+ExprId Tree::base(ExprId step) const {
+  RUNG_INVARIANT(shape(kind(step)) == ExprShape::Step, "only a step of a path has a base");
+  return firstOperand(*this, step);
+}
+
 Range Tree::range(ExprId id) const {
   id = written(id);
   if (!id) return {};
@@ -187,18 +192,29 @@ Range Tree::range(ExprId id) const {
     if (!first) range.begin = loc(at);
     at = first;
   }
+  if (range.end < range.begin) range.end = range.begin;
   return range;
 }
 
+// A node without an end is not written: it has a location, and an empty range there.
+static Range rangeFrom(Loc begin, Loc end) { return {begin, end < begin ? begin : end}; }
+
 Range Tree::range(StmtId id) const {
   const StmtHeader& h = stmt(id);
-  if (h.kind == StmtKind::Assign) return {range(as<AssignStmt>(id).target).begin, h.end};
-  if (h.kind == StmtKind::Call) return {range(as<CallStmt>(id).call).begin, h.end};
-  return {h.loc, h.end};
+  Loc begin = h.loc;
+  if (h.kind == StmtKind::Assign) begin = range(as<AssignStmt>(id).target).begin;
+  if (h.kind == StmtKind::Call) begin = range(as<CallStmt>(id).call).begin;
+  return rangeFrom(begin, h.end);
 }
 
-Range Tree::range(TypeExprId id) const { return {typeExpr(id).loc, typeExpr(id).end}; }
+Range Tree::range(TypeExprId id) const {
+  const TypeExprHeader& h = typeExpr(id);
+  Loc begin = h.loc;
+  if (h.kind == TypeExprKind::Enum)  // INT (a, b), but not (a, b) INT
+    if (const TypeExprId base = as<EnumTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
+  return rangeFrom(begin, h.end);
+}
 
-Range Tree::range(DeclId id) const { return {decl(id).begin, decl(id).end}; }
+Range Tree::range(DeclId id) const { return rangeFrom(decl(id).begin, decl(id).end); }
 
 }  // namespace rung

@@ -37,6 +37,7 @@ class Printer : public TreeExprPrinter {
   using TreeExprPrinter::TreeExprPrinter;
 
   void decl(DeclId id, int depth);
+  void expression(ExprId id) { expr(id); }
 
  private:
   void pragmas(const DeclHeader& h);
@@ -590,6 +591,12 @@ void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth
 }
 
 }  // namespace
+
+std::string printExpression(const Tree& tree, const Names& names, ExprId expr) {
+  Printer printer(tree, names);
+  printer.expression(expr);
+  return std::move(printer.out);
+}
 
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit) {
   Printer printer(tree, names);

@@ -25,7 +25,7 @@ void ModuleLowering::addActivations() {
     if (program_of_instance_[i] != 0)
       addActivation(program_of_instance_[i] - 1, &project.instances[i], pathsOf(i, project.instances[i].program));
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && !project.pous[i].excluded && project.pous[i].record)
+    if (project.pous[i].pragmas.test && !project.pous[i].excluded && project.pous[i].record)
       addActivation(instanceOf({i}), nullptr, pathsOf(Path::kNone, {i}));
 }
 

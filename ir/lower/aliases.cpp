@@ -77,7 +77,7 @@ bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
       const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
       if (call.kind != sema::CallKind::Function) return false;
       const sema::Pou& pou = project_.pou(call.pou);
-      if (!pou.pure || !pou.native) return false;
+      if (!pou.pragmas.pure || !pou.pragmas.native) return false;
       for (const sema::Binding& binding : call.bindings)
         if (binding.value && !isApart(binding.value, variable)) return false;
       return true;

@@ -76,7 +76,7 @@ ExprId BodyPart::asBase(ExprId place, sema::PouId base, Loc loc) {
     const sema::PouId object = in_.pouOfRecord(typeOf(place));
     if (object == base || !object || !project_.pou(object).base) return place;
     const sema::Pou& pou = project_.pou(object);
-    place = field(place, project_.var(pou.base_var).field, project_.pou(pou.base).record, loc);
+    place = field(place, project_.var(pou.object.base_var).field, project_.pou(pou.base).record, loc);
   }
 }
 

@@ -121,7 +121,7 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
       OpenArray array = places().passOpenArray(binding.value, type, false);
       assign(field(asBase(copy(instance), pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
-        const sema::Var& bound = project_.var({pin.bounds.index + i});
+        const sema::Var& bound = project_.var({pin.open_array.bounds.index + i});
         assign(field(asBase(copy(instance), pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
       }
       continue;

@@ -74,7 +74,7 @@ void ValueLowering::lowerDelete(const sema::Call& call, Loc loc) {
   };
   const StmtId then = block([&] {
     const sema::PouId object = in_.pouOfRecord(type);
-    if (in_.hasExit(type) || (object && project_.pou(object).dispatched)) {
+    if (in_.hasExit(type) || (object && project_.pou(object).object.dispatched)) {
       const ExprId owned = callPool(call.owns, {memory()}, loc);
       require(copy(owned));
       const StmtId ends = block([&] {

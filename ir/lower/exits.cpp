@@ -134,7 +134,7 @@ void ObjectLowering::exitElement(ExprId place, TypeId type) {
 
 void ObjectLowering::callExit(ExprId place, bool exact, Loc loc) {
   const sema::PouId object = in_.pouOfRecord(typeOf(place));
-  const bool is_virtual = object && !exact && project_.pou(object).dispatched;
+  const bool is_virtual = object && !exact && project_.pou(object).object.dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
   if (!end) return;
   append(

@@ -74,9 +74,9 @@ CallLowering::FunctionCall CallLowering::planFunctionCall(const sema::Call& call
     const SectionKind section = project_.var(binding.pin).section;
     if (section == SectionKind::InOut || section == SectionKind::Output) has_reference_outputs = true;
   }
-  plan.may_alias = !plan.is_pure && (!pou.native || has_reference_outputs);
+  plan.may_alias = !plan.is_pure && (!pou.pragmas.native || has_reference_outputs);
   if (pou.result) plan.result_type = strip(pou.result);
-  plan.makes_string = plan.result_type && pou.native && TypeTable::isString(types_.kind(plan.result_type));
+  plan.makes_string = plan.result_type && pou.pragmas.native && TypeTable::isString(types_.kind(plan.result_type));
   if (target != nullptr && plan.makes_string) {
     const TypeId type = target->place ? typeOf(target->place) : strip(tree_.expr(target->expr).type);
     if (types_.kind(type) == types_.kind(plan.result_type)) plan.wanted = target;
@@ -120,7 +120,8 @@ void CallLowering::planPins(FunctionCall& plan) {
 bool CallLowering::mayChain(const sema::Call& call, const Target& target) const {
   const sema::Pou& pou = project_.pou(call.pou);
   if (!target.early) return false;
-  if (!pou.prefix && types_.info(typeOf(target.place)).length < types_.info(strip(pou.result)).length) return false;
+  if (!pou.pragmas.prefix && types_.info(typeOf(target.place)).length < types_.info(strip(pou.result)).length)
+    return false;
   if (isTemp(target.place)) return true;
   for (size_t i = 1; i < call.bindings.size(); ++i)
     if (call.bindings[i].value && !places().isApart(call.bindings[i].value, places().rootVar(target.expr)))
@@ -178,7 +179,7 @@ ExprId CallLowering::passAggregate(FunctionCall& plan, TypeId type, rung::ExprId
     value = values().lowerValue(given);
   }
   // A body in ST sees no more of a string than its pin takes; the library's C functions take any length.
-  const bool is_cut = !plan.pou.native && TypeTable::isString(types_.kind(type)) &&
+  const bool is_cut = !plan.pou.pragmas.native && TypeTable::isString(types_.kind(type)) &&
                       types_.info(typeOf(value)).length > types_.info(type).length;
   if (!is_cut) return argumentPlace(value, type, plan.may_alias, loc);
   const ExprId own = temp(type, loc);
@@ -275,7 +276,7 @@ ExprId CallLowering::emitFunctionCall(FunctionCall& plan, ExprId object, ExprId 
                             .is_checked = plan.call.is_virtual && in_.checksCasts()});
   for (const FunctionCall::Output& output : plan.outputs)
     storeOutput(output.target, output.value, output.negated, plan.loc);
-  if (plan.pou.faults && !(pou_ && project_.pou(pou_).library)) faultUnlessZero(result, plan.loc);
+  if (plan.pou.pragmas.faults && !(pou_ && project_.pou(pou_).library)) faultUnlessZero(result, plan.loc);
   return result && plan.wanted == nullptr ? copy(result) : ExprId{};
 }
 

@@ -198,7 +198,8 @@ const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
   if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage == sema::Storage::Local && state_.local_of[var.field] == *index + 1 && var.constructor.index != 0)
+    if (var.storage == sema::Storage::Local && state_.local_of[var.field] == *index + 1 &&
+        var.start.constructor.index != 0)
       return &var;
   }
   return nullptr;
@@ -215,15 +216,16 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
   const Expr at = body_.expr(whole);
   if (const auto* part = at.tryAs<FieldExpr>()) {
     const sema::PouId derived = in_.pouOfRecord(typeOf(part->base));
-    if (derived && project_.pou(derived).base_var && project_.var(project_.pou(derived).base_var).field == part->field)
+    if (derived && project_.pou(derived).object.base_var &&
+        project_.var(project_.pou(derived).object.base_var).field == part->field)
       return;  // the whole is not made yet
   }
   CallId given;
   if (at.kind == ExprKind::Deref) {
     given = state_.given;
   } else if (const sema::Var* var = constructedVar(place)) {
-    given = var->constructor;
-    if (var->element_constructors != 0) given.index += state_.element;
+    given = var->start.constructor;
+    if (var->start.element_constructors != 0) given.index += state_.element;
   }
   rung::CallExpr node{};
   node.h.loc = at.loc;
@@ -299,7 +301,7 @@ void ObjectLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId i
     return;
   }
   // Elements that need code: FB instances, and types that hold them.
-  if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
+  if (const sema::Var* var = constructedVar(place); var != nullptr && var->start.element_constructors != 0) {
     const bool whole = body_.expr(place).kind != ExprKind::Index;
     if (whole) state_.element = 0;
     for (uint64_t i = 0; i < elementCount(info); ++i) {

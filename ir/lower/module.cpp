@@ -27,7 +27,7 @@ ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& wi
 
 void ModuleLowering::run() {
   for (const sema::Var& var : project.vars) {
-    if (!var.constructor.index || var.storage == sema::Storage::Local) continue;
+    if (!var.start.constructor.index || var.storage == sema::Storage::Local) continue;
     const TypeId record = var.list  ? project.global_lists[var.list.index].record
                           : var.pou ? project.pou(var.pou).record
                                     : var.record;
@@ -37,9 +37,10 @@ void ModuleLowering::run() {
   addPrograms();
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
-    if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
+    if (pou.generic || pou.pragmas.operator_kind != sema::OperatorKind::None) continue;
     if (pou.kind == PouKind::Interface) continue;
-    if (pou.excluded || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
+    if (pou.excluded || (pou.library && !(options.used_of_libraries && pou.progress.used)))
+      continue;  // follows when called
     bodyOf({i});
   }
   std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // in source order
@@ -73,8 +74,8 @@ sema::PouId ModuleLowering::lowerBodies() {
   while (next_to_lower_ < to_lower_.size()) {
     const sema::PouId id = to_lower_[next_to_lower_++];
     const sema::Pou& pou = project.pou(id);
-    if (pou.native || (pou.owner && (pou.modifiers & kAbstract) != 0)) continue;
-    if (!pou.checked) return id;
+    if (pou.pragmas.native || (pou.owner && (pou.object.modifiers & kAbstract) != 0)) continue;
+    if (!pou.progress.checked()) return id;
     if (pou.cpp) {
       lowerCpp(id);
       continue;
@@ -113,16 +114,16 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
     std::string spelling(project.names.string(project.pou(pou.owner).name));
     spelling.append(".").append(project.names.string(pou.name));
     body.spelling = module.names.intern(spelling);
-    body.abstract = (pou.modifiers & kAbstract) != 0;
+    body.abstract = (pou.object.modifiers & kAbstract) != 0;
   }
-  body.native = pou.native;
-  body.pure = pou.pure;
-  body.sized = pou.sized;
-  body.slice = pou.slice;
+  body.native = pou.pragmas.native;
+  body.pure = pou.pragmas.pure;
+  body.sized = pou.pragmas.sized;
+  body.slice = pou.pragmas.slice;
   body.library = pou.library;
   body.library_name = pou.library_name;
-  body.test = pou.test;
-  body.counted = !pou.library && !pou.test && !pou.test_only && !pou.replaces;
+  body.test = pou.pragmas.test;
+  body.counted = !pou.library && !pou.pragmas.test && !pou.pragmas.test_only && !pou.pragmas.replaces;
   body.self = pou.owner ? project.pou(pou.owner).record : pou.record;
   body.loc = pou.loc;
   body.file = pou.file;
@@ -135,7 +136,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
       if (var.section == SectionKind::Output) kind = LocalKind::Output;
       if (var.section == SectionKind::InOut) kind = LocalKind::InOut;
-      if (var.hidden_input) kind = LocalKind::Input;
+      if (var.open_array.hidden_input) kind = LocalKind::Input;
     }
     TypeId type = types.resolve(var.type);
     if (types.isOpenArray(type)) {  // the address of the first element
@@ -157,7 +158,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
     for (Record& record : module.records)
       if (record.type == pou.record) record.body = known;
   }
-  if (pou.test && !pou.excluded) module.tests.push_back(known);
+  if (pou.pragmas.test && !pou.excluded) module.tests.push_back(known);
   return known;
 }
 
@@ -238,7 +239,7 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::Record: {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
           if (project.pou(pou).kind == PouKind::Interface) return true;
-          if (project.pou(pou).dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
+          if (project.pou(pou).object.dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;
@@ -361,19 +362,19 @@ BodyId ModuleLowering::initOf(TypeId type) {
       return;
     }
     if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
-    if (var.section == SectionKind::InOut || var.is_bit) return;
+    if (var.section == SectionKind::InOut || var.bits.is_bit) return;
     if (!var.init && isZero(var.type)) return;
     lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
                                   var.type, var.init, true);
   };
   if (pou) {
     for (sema::VarId var : project.pou(pou).vars)
-      if (!project.var(var).late) storeVar(var);
+      if (!project.var(var).start.late) storeVar(var);
     for (sema::VarId var : project.pou(pou).late) storeVar(var);
-    if (project.pou(pou).dispatched) {
+    if (project.pou(pou).object.dispatched) {
       sema::PouId first = pou;
-      while (!project.pou(first).id_var) first = project.pou(first).base;
-      const uint32_t field = project.var(project.pou(first).id_var).field;
+      while (!project.pou(first).object.id_var) first = project.pou(first).base;
+      const uint32_t field = project.var(project.pou(first).object.id_var).field;
       ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = type});
       ExprId place =
           lowering.code.field(lowering.code.asBase(lowering.code.self(loc), first, loc), field, types::kUDInt, loc);
@@ -381,7 +382,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
     }
   } else if (list) {
     for (sema::VarId var : project.global_lists[list.index].vars)
-      if (!project.var(var).late) storeVar(var);
+      if (!project.var(var).start.late) storeVar(var);
     // Values that read other lists are set when all lists have theirs, and before those of programs.
     for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
       const sema::Var& var = project.var(project.late[i]);
@@ -452,7 +453,7 @@ void ModuleLowering::addPrograms() {
     module.programs.back().body = bodyOf(instance.program);
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && !project.pous[i].excluded && project.pous[i].record) instanceOf({i});
+    if (project.pous[i].pragmas.test && !project.pous[i].excluded && project.pous[i].record) instanceOf({i});
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {
@@ -467,7 +468,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   module.programs.push_back(created);
   BodyId body = bodyOf(program);
   module.programs[index].body = body;
-  module.programs[index].is_test = pou.test;
+  module.programs[index].is_test = pou.pragmas.test;
   return index;
 }
 

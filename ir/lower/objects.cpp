@@ -18,7 +18,7 @@ std::vector<sema::PouId> ModuleLowering::lifeMethodsOf(sema::PouId object, std::
   for (sema::PouId at = object; at; at = project.pou(at).base)
     for (sema::PouId member : project.pou(at).members)
       if (sameIdentifier(project.names.string(project.pou(member).name), name) &&
-          (project.pou(member).modifiers & kAbstract) == 0)
+          (project.pou(member).object.modifiers & kAbstract) == 0)
         out.insert(out.begin(), member);
   return out;
 }
@@ -33,13 +33,13 @@ void ModuleLowering::addClasses() {
   std::vector<std::pair<std::string, sema::PouId>> order;
   for (const Record& record : module.records)
     if (sema::PouId pou = pou_of_record_[record.type.index])
-      if (project.pou(pou).dispatched && project.pou(pou).kind != PouKind::Interface)
+      if (project.pou(pou).object.dispatched && project.pou(pou).kind != PouKind::Interface)
         order.push_back({foldedIdentifier(project.names.string(project.pou(pou).unique_name)), pou});
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<uint32_t> number_of(types.count());
   auto baseOf = [&](sema::PouId pou) {
     sema::PouId base = project.pou(pou).base;
-    return base && project.pou(base).dispatched ? base : sema::PouId{};
+    return base && project.pou(base).object.dispatched ? base : sema::PouId{};
   };
   std::vector<sema::PouId> open;
   auto visit = [&](sema::PouId pou, TypeId base) {
@@ -69,7 +69,7 @@ void ModuleLowering::addClasses() {
 sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
   for (sema::PouId at = object; at; at = project.pou(at).base)
     if (const sema::PouId found = methodLike(project, at, method))
-      return (project.pou(found).modifiers & kAbstract) != 0 ? sema::PouId{} : found;
+      return (project.pou(found).object.modifiers & kAbstract) != 0 ? sema::PouId{} : found;
   return {};
 }
 
@@ -114,7 +114,7 @@ void ModuleLowering::addDispatches() {
 bool ModuleLowering::isKindOf(sema::PouId object, sema::PouId base) const {
   for (; object; object = project.pou(object).base) {
     if (object == base) return true;
-    for (sema::PouId interface : project.pou(object).interfaces)
+    for (sema::PouId interface : project.pou(object).object.interfaces)
       if (isKindOf(interface, base)) return true;
   }
   return false;
@@ -193,19 +193,19 @@ void ModuleLowering::fillKindTests() {
 
 // Whether the object at a pointer that is not null is of a kind.
 ExprId ValueLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
-  if (!project_.pou(given).dispatched) return constantBool(in_.isKindOf(given, wanted), loc);
+  if (!project_.pou(given).object.dispatched) return constantBool(in_.isKindOf(given, wanted), loc);
   const TypeId record = strip(types_.info(typeOf(pointer)).base);
   sema::PouId first = given;
-  while (!project_.pou(first).id_var) first = project_.pou(first).base;
+  while (!project_.pou(first).object.id_var) first = project_.pou(first).base;
   ExprId object = add(loc, record, DerefExpr{.pointer = pointer});
   object = asBase(object, first, loc);
-  const ExprId id = field(object, project_.var(project_.pou(first).id_var).field, types::kUDInt, loc);
+  const ExprId id = field(object, project_.var(project_.pou(first).object.id_var).field, types::kUDInt, loc);
   return add(loc, types::kBool, CallExpr{.callee = in_.kindTestOf(wanted), .operands = list({&id, 1})});
 }
 
 // Converts a pointer to a base to one to an object that extends it; fault[cast] when the object is of another kind.
 ExprId ValueLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
-  if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
+  if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).object.dispatched) return pointer;
   pointer = toTemp(pointer, loc);
   const ExprId is_set = binary(Op::Ne, types::kBool, copy(pointer), constant(typeOf(pointer), 0, loc), loc);
   const StmtId test = block([&] {

@@ -27,7 +27,7 @@ ExprId PlaceLowering::openArrayPointer(rung::ExprId array, Loc loc) {
 }
 
 ExprId PlaceLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc) {
-  return openArrayPart(array, {project_.var(rootVar(array)).bounds.index + index}, loc);
+  return openArrayPart(array, {project_.var(rootVar(array)).open_array.bounds.index + index}, loc);
 }
 
 ExprId PlaceLowering::openArrayElement(const rung::IndexExpr& node) {

@@ -11,20 +11,20 @@ ExprId CallLowering::operandOr0(const sema::Binding& binding, TypeId type, Loc l
 
 ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr& node) {
   const sema::Pou& pou = project_.pou(call.pou);
-  switch (pou.operator_kind) {
-    case sema::Pou::Operator::Op: return lowerArithmeticOperator(call, node);
-    case sema::Pou::Operator::Select: return lowerSelect(call, node);
-    case sema::Pou::Operator::Mux: return lowerMux(call, node);
-    case sema::Pou::Operator::Move:
-    case sema::Pou::Operator::Convert:
-    case sema::Pou::Operator::None:
+  switch (pou.pragmas.operator_kind) {
+    case sema::OperatorKind::Op: return lowerArithmeticOperator(call, node);
+    case sema::OperatorKind::Select: return lowerSelect(call, node);
+    case sema::OperatorKind::Mux: return lowerMux(call, node);
+    case sema::OperatorKind::Move:
+    case sema::OperatorKind::Convert:
+    case sema::OperatorKind::None:
       return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc);
   }
   return {};
 }
 
 ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node) {
-  Op op = project_.pou(call.pou).op;
+  Op op = project_.pou(call.pou).pragmas.op;
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
   TypeId operand_type = type;

@@ -55,12 +55,12 @@ ExprId PlaceLowering::memberPlace(rung::ExprId id) {
   return field(base, var.field, fieldType(var), node.h.loc);
 }
 
-TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.is_bit ? types::kByte : strip(var.type); }
+TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }
 
 ExprId PlaceLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
-  if (!pin.is_bit) return place;
-  return add(loc, types::kBool, BitsExpr{.base = place, .position = pin.bit});
+  if (!pin.bits.is_bit) return place;
+  return add(loc, types::kBool, BitsExpr{.base = place, .position = pin.bits.bit});
 }
 
 // A string as the array of its bytes or words, including the final zero where it is only read; or of its characters,

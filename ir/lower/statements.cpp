@@ -10,12 +10,13 @@ void StatementLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::InOut || var.hidden_input || var.temporary != 0 || types_.isOpenArray(var.type))
+    if (var.section == SectionKind::InOut || var.open_array.hidden_input || var.temporary != 0 ||
+        types_.isOpenArray(var.type))
       continue;
     if (var.section == SectionKind::Input) {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = state_.local_of[var.field];
-      if (!var.written || !body_.locals[index - 1].by_reference) continue;
+      if (!var.use.written || !body_.locals[index - 1].by_reference) continue;
       const ExprId own = temp(strip(var.type), var.loc);
       assign(own, local(index - 1, var.loc), var.loc);
       index = *localOf(body_.expr(own)) + 1;
@@ -195,8 +196,7 @@ void StatementLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<ru
 void StatementLowering::lowerCase(const CaseStmt& stmt) {
   ExprId selector = values().lowerValue(stmt.selector);
   std::vector<Case> cases;
-  for (uint32_t i = 0; i < stmt.branches.count; ++i) {
-    const CaseBranch branch = tree_.list(stmt.branches)[i];
+  for (const CaseBranch& branch : tree_.list(stmt.branches)) {
     StmtId body = block([&] { lowerStatements(branch.body); });
     Case created{{static_cast<uint32_t>(body_.ranges.size()), 0}, body};
     for (rung::ExprId label : tree_.list(branch.labels)) {

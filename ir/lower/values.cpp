@@ -181,7 +181,7 @@ bool ValueLowering::callsFunction(rung::ExprId id) const {
     }
     case rung::ExprKind::Call: {
       const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
-      if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pure) return true;
+      if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pragmas.pure) return true;
       for (const sema::Binding& binding : call.bindings)
         if (binding.value && callsFunction(binding.value)) return true;
       return call.en && callsFunction(call.en);
@@ -317,7 +317,8 @@ ExprId ValueLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
   if (in_.isKindOf(wanted, object)) pointer = checkedDowncast(pointer, object, wanted, loc);
   const sema::Pou& pou = project_.pou(object);
   // The pointer changes only where the base lies after the type id of the derived object.
-  if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)
+  if (project_.pou(wanted).kind == PouKind::Interface || !pou.object.dispatched ||
+      project_.pou(wanted).object.dispatched)
     return add(loc, to, ConvertExpr{.operand = pointer});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);
   const ExprId result = temp(to, loc);

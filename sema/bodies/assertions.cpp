@@ -1,26 +1,17 @@
 // ASSERT(cond [, 'text']), ASSERT_EQ(expected, actual [, 'text']), ASSERT_NEAR(expected, actual, tolerance [, 'text'])
 // of tests. In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
 // with the operands in order, both sides brought to one type.
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pseudo_functions.h"
 
 namespace rung::sema {
 
-std::optional<Assertion> assertionOf(const Names& names, NameId name) {
-  const std::string_view spelling = names.string(name);
-  if (sameIdentifier(spelling, "ASSERT")) return Assertion::Assert;
-  if (sameIdentifier(spelling, "ASSERT_EQ")) return Assertion::AssertEq;
-  if (sameIdentifier(spelling, "ASSERT_NEAR")) return Assertion::AssertNear;
-  return std::nullopt;
-}
-
-TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
+static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const uint32_t needed = assertion == Assertion::Assert ? 1 : assertion == Assertion::AssertEq ? 2 : 3;
   const std::string_view name = string(context, context.tree().as<NameExpr>(node.callee).name);
   std::vector<ExprId> operands;
-  for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument argument = context.tree().list(node.arguments)[i];
+  for (const Argument& argument : context.tree().list(node.arguments)) {
     if (argument.value && !argument.pin.name) operands.push_back(argument.value);
   }
   if (operands.size() != node.arguments.count || operands.size() < needed || operands.size() > needed + 1) {
@@ -32,7 +23,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   }
   bool ok = true;
   if (assertion == Assertion::Assert) {
-    ok = checkAs(context, operands[0], types::kBool, Purpose{"used as the condition of ASSERT", {}, {}});
+    ok = checkAs(context, operands[0], types::kBool, Purpose{Use::AssertCondition, {}, {}});
   } else {
     const TypeId first = check(context, operands[0], {}, Access::Read);
     const TypeId hint = isUntyped(context, first) ? TypeId{} : first;
@@ -61,7 +52,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
       }
       if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
       for (uint32_t i = 0; ok && i < 3; ++i)
-        ok = convert(context, operands[i], common, Purpose{"compared by ASSERT_NEAR", {}, {}});
+        ok = convert(context, operands[i], common, Purpose{Use::ComparedByAssert, {}, {}});
     } else {
       ok = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
     }
@@ -90,6 +81,18 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   }
   node.call = addCall(context, std::move(call));
   return node.h.type = {};
+}
+
+TypeId checkAssert(Context& context, ExprId& expr, const PseudoCall&) {
+  return checkAssertion(context, expr, Assertion::Assert);
+}
+
+TypeId checkAssertEq(Context& context, ExprId& expr, const PseudoCall&) {
+  return checkAssertion(context, expr, Assertion::AssertEq);
+}
+
+TypeId checkAssertNear(Context& context, ExprId& expr, const PseudoCall&) {
+  return checkAssertion(context, expr, Assertion::AssertNear);
 }
 
 }  // namespace rung::sema

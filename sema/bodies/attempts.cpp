@@ -1,8 +1,8 @@
 // Assignment attempts: an object as a type that it may have, tested when the program runs. `target ?= source` of
 // edition 3, __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/dangling_address.h"
 #include "sema/checks/writable.h"
 
@@ -43,7 +43,7 @@ TypeId checkTaker(Context& context, ExprId& target) {
     const ExprId reference = context.tree().as<DerefExpr>(target).base;
     if (context.types().kind(context.tree().expr(reference).type) == TypeKind::Reference) target = reference;
   }
-  return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? context.tree().expr(target).type
+  return checkWritable(context, target, Purpose{Use::Assigned, {}, {}}) ? context.tree().expr(target).type
                                                                         : types::kError;
 }
 
@@ -85,30 +85,29 @@ void checkAttempt(Context& context, AssignStmt& node) {
   context.replace(node.target, call);
 }
 
-TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
-  const bool to_pointer = isNamed(context, name, "__QUERYPOINTER");
-  if (!to_pointer && !isNamed(context, name, "__QUERYINTERFACE")) return {};
-  const CallExpr node = context.tree().as<CallExpr>(expr);
-  const std::span<const Argument> arguments = context.tree().list(node.arguments);
-  if (arguments.size() != 2 || !arguments[0].value || !arguments[1].value) {
-    context.report(diag::WrongArgumentCount, node.h.loc,
-                   {string(context, name), "2", std::to_string(arguments.size())});
-    checkLooseArguments(context, node);
-    return context.tree().expr(expr).type = types::kError;
-  }
-  ExprId source = arguments[0].value, target = arguments[1].value;
-  const PouId given = checkSource(context, source, string(context, name));
+static TypeId checkQuery(Context& context, ExprId& expr, const PseudoCall& call, bool to_pointer) {
+  const Loc loc = context.tree().loc(expr);
+  ExprId source = call.arguments[0].value, target = call.arguments[1].value;
+  const PouId given = checkSource(context, source, string(context, call.name));
   const TypeId type = checkTaker(context, target);
   const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
   const bool is_interface = wanted && context.symbols.pou(wanted).kind == PouKind::Interface;
   const bool is_pointer = type != types::kError && context.types().kind(type) == TypeKind::Pointer;
   if (to_pointer ? is_interface || !is_pointer : !is_interface) {
-    refuseTaker(context, target, type, string(context, name), to_pointer ? "a pointer" : "an interface variable");
-    return context.tree().expr(expr).type = types::kError;
+    refuseTaker(context, target, type, string(context, call.name), to_pointer ? "a pointer" : "an interface variable");
+    return types::kError;
   }
-  if (!given) return context.tree().expr(expr).type = types::kError;
-  context.replace(expr, makeAttempt(context, source, given, target, wanted, node.h.loc));
+  if (!given) return types::kError;
+  context.replace(expr, makeAttempt(context, source, given, target, wanted, loc));
   return types::kBool;
+}
+
+TypeId checkQueryInterface(Context& context, ExprId& expr, const PseudoCall& call) {
+  return checkQuery(context, expr, call, false);
+}
+
+TypeId checkQueryPointer(Context& context, ExprId& expr, const PseudoCall& call) {
+  return checkQuery(context, expr, call, true);
 }
 
 }  // namespace rung::sema

@@ -23,11 +23,38 @@ enum class Access : uint8_t {
   Address,    // ADR, SIZEOF: neither read nor written here
 };
 
-// The use of a value, formatted only for a message: "assigned to `x`".
+// What a value is used for. The words are made for a message only: "assigned to `x`".
+enum class Use : uint8_t {
+  Other,  // Purpose::words
+  Assigned,
+  Condition,
+  IfCondition,
+  ElsifCondition,
+  WhileCondition,
+  UntilCondition,
+  AssertCondition,
+  ComparedByAssert,
+  Set,
+  CaseLabel,
+  LoopControl,
+  LoopLimit,
+  LoopStep,
+  PassedToInput,
+  Passed,
+  PassedToEn,
+  CopiedFromOutput,
+  CopiedFromEno,
+  BoundToOutput,
+  BoundToEno,
+  BoundToInOut,
+  Deleted,
+  OtherOperand,
+};
 struct Purpose {
-  std::string_view phrase;  // "assigned to", "used as the condition of IF"
-  NameId name;              // `x`
-  NameId of;                // of `TON`
+  Use use = Use::Other;
+  NameId name = {};  // `x`
+  NameId of = {};    // of `TON`
+  std::string_view words = {};
   std::string toString(const Context& context) const;
 };
 
@@ -119,7 +146,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 void wrapConvert(Context& context, ExprId& expr, TypeId to);
 // The BOOL of IF, WHILE, UNTIL.
-void checkCondition(Context& context, ExprId& expr, std::string_view phrase);
+void checkCondition(Context& context, ExprId& expr, Use use);
 // The common type of both sides; none when they do not combine.
 TypeId commonNumber(const Context& context, TypeId a, TypeId b);
 // An error or warning, depending on the fit; false for an error.
@@ -192,12 +219,8 @@ bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, L
 // ---- attempts.cpp
 // target ?= source
 void checkAttempt(Context& context, AssignStmt& node);
-// __QUERYINTERFACE(source, target), __QUERYPOINTER(source, target). None for another name.
-TypeId checkQueryCall(Context& context, ExprId& expr, NameId name);
 
 // ---- pointers.cpp
-// ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None for another name.
-TypeId checkAddressCall(Context& context, ExprId& expr, NameId name);
 // p[i]: the i-th element after the target of p.
 TypeId checkPointerIndex(Context& context, ExprId& expr);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine this way.
@@ -213,10 +236,6 @@ ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);
 // An integer of either sign.
 ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
 
-// ---- open_arrays.cpp
-// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None for another name.
-TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
-
 // ---- any_inputs.cpp
 // The item of __SYSTEM.TYPE_CLASS for a type.
 uint32_t typeClassOf(const Context& context, TypeId type);
@@ -225,20 +244,11 @@ void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
 
 // ---- dynamic_memory.cpp
 TypeId checkNew(Context& context, ExprId& expr);
-// __DELETE(pointer). None for another call; so in the next function.
-TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement);
-// ---- var_info.cpp: __VARINFO, __POUNAME, __POSITION
-TypeId checkKnownCall(Context& context, ExprId& expr, NameId name);
-
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp
 // `INT_TO_REAL(x)`, `TO_INT(x)`, `REAL_TRUNC_INT(x)`, `MUX_INT(…)`: names that follow a rule. None for another name.
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected);
-// ---- assertions.cpp
-TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion);
-std::optional<Assertion> assertionOf(const Names& names, NameId name);
-
 // ---- statements.cpp
 // Checks a list of statements; true when the end of the list can be reached.
 bool checkStatements(Context& context, Slice<StmtId> list);

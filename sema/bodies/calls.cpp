@@ -7,6 +7,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/required_pins.h"
 #include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
@@ -37,7 +38,7 @@ int extensibleSlot(Context& context, PouId pou, NameId written) {
   const std::span<const VarId> pins = pinsOf(context, pou);
   for (size_t i = 0; i < pins.size(); ++i) {
     const Var& pin = context.symbols.var(pins[i]);
-    if (!pin.extensible) continue;
+    if (!pin.pragmas.extensible) continue;
     const std::string_view own = string(context, pin.name), other = string(context, written);
     size_t stem = own.size();
     while (stem > 0 && own[stem - 1] >= '0' && own[stem - 1] <= '9') --stem;
@@ -91,7 +92,7 @@ bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
 }
 
 void checkLoose(Context& context, const CallExpr& node, uint32_t index) {
-  const Argument argument = context.tree().list(node.arguments)[index];
+  const Argument& argument = context.tree().list(node.arguments)[index];
   if (!argument.value) return;
   ExprId value = argument.value;
   if (isUntyped(context, check(context, value, {}, argument.is_output ? Access::Write : Access::Read))) {
@@ -133,7 +134,7 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
                 bool checked) {
   binding.is_output = true;
   binding.negated = argument.negated;
-  const Purpose purpose{"bound to output", pin.name, pou.name};
+  const Purpose purpose{Use::BoundToOutput, pin.name, pou.name};
   const TypeId actual =
       checkArgument(context, binding.value, pin.type, Access::Write, checked);  // temporaries take its type
   if (actual == types::kError || !checkWritable(context, binding.value, purpose)) return;
@@ -147,11 +148,11 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
   }
   // The value flows from the pin to the lvalue; lowering converts it there.
   reportFit(context, fit(context, pin.type, actual), binding.value, pin.type, actual,
-            Purpose{"copied from output", pin.name, pou.name});
+            Purpose{Use::CopiedFromOutput, pin.name, pou.name});
 }
 
 void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& binding, bool checked) {
-  const Purpose purpose{"bound to in-out", pin.name, pou.name};
+  const Purpose purpose{Use::BoundToInOut, pin.name, pou.name};
   const TypeId actual = checkArgument(context, binding.value, pin.type, Access::ReadWrite, checked);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) finalizeUntyped(context, binding.value);
@@ -183,10 +184,10 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   if (pin.any) return bindAny(context, pou, pin, binding.value);
   if (context.types().isOpenArray(pin.type)) {
     const TypeId actual = checkArgument(context, binding.value, {}, Access::Read, checked);
-    if (actual) checkOpenArgument(context, pin, binding.value, actual, Purpose{"passed to", pin.name, pou.name});
+    if (actual) checkOpenArgument(context, pin, binding.value, actual, Purpose{Use::Passed, pin.name, pou.name});
     return;
   }
-  const Purpose purpose{"passed to", pin.name, pou.name};
+  const Purpose purpose{Use::Passed, pin.name, pou.name};
   if (binding.value && checkArgument(context, binding.value, pin.type, Access::Read, checked) != types::kError)
     convert(context, binding.value, pin.type, purpose);
 }
@@ -200,7 +201,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   const Pou& callee = context.symbols.pou(pou);
   noteCall(context, pou, node.h.loc);
   checkTestOnly(context, pou, node.h.loc);
-  if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
+  if (callee.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
   Arguments arguments = matchArguments(context, node, pou);
   arguments.checked = checked;
@@ -235,7 +236,8 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   if (kind == CallKind::Instance) {
     call.instance = node.callee;
     const Pou& block = context.symbols.pou(pou);
-    call.is_virtual = block.dispatched && (block.modifiers & kFinal) == 0 && !isExact(context, node.callee);
+    call.is_virtual =
+        block.object.dispatched && (block.object.modifiers & kFinal) == 0 && !isExact(context, node.callee);
   }
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
@@ -271,7 +273,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
-        context.symbols.pou(pou).used = true;  // after this error, the program is not reported as never called
+        context.symbols.pou(pou).progress.used = true;  // after this error, the program is not reported as never called
         context.report(diag::CallOfProgram, node.h.loc, {string(context, callee.name)});
         return refuse(context, node);
       }
@@ -297,64 +299,10 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   return refuse(context, node);
 }
 
-// SIZEOF(x): a number of bytes, known at compile time.
-TypeId sizeOf(Context& context, ExprId& expr) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  if (node.arguments.count != 1) {
-    context.report(diag::WrongArgumentCount, node.h.loc,
-                   {string(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
-    return refuse(context, node);
-  }
-  ExprId operand = context.tree().list(node.arguments)[0].value;
-  TypeId type;
-  if (operand && context.tree().kind(operand) == ExprKind::Name) {
-    type = context.types().elementary(context.tree().as<NameExpr>(operand).name);
-  }
-  if (!type) type = check(context, operand, {}, Access::Address);
-  if (isUntyped(context, type)) type = finalizeUntyped(context, operand);
-  if (!type || type == types::kError) return node.h.type = types::kError;
-  if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
-  if (!context.types().layout(type)) return node.h.type = types::kError;
-  const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
-  const auto size = static_cast<int64_t>(context.types().info(context.types().resolve(type)).size);
-  context.replace(expr, makeLiteral(context, LiteralKind::Integer, untyped, size, node.h.loc));
-  return untyped;
-}
-
-// LEN_MAX(s): the declared capacity of the string, in bytes or 16-bit units. Edition 4.
-TypeId lengthLimit(Context& context, ExprId& expr) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  const NameId name = nameOf(context, node.callee);
-  if (node.arguments.count != 1) {
-    context.report(diag::WrongArgumentCount, node.h.loc,
-                   {string(context, name), "1", std::to_string(node.arguments.count)});
-    return refuse(context, node);
-  }
-  ExprId operand = context.tree().list(node.arguments)[0].value;
-  const TypeId type = check(context, operand, {}, Access::Address);
-  if (!type || type == types::kError) return node.h.type = types::kError;
-  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  if (!types::TypeTable::isString(info.kind)) {
-    context.report(diag::NotOfGeneric, context.tree().loc(operand),
-                   {context.types().toString(type), string(context, name), "ANY_STRING"});
-    return node.h.type = types::kError;
-  }
-  const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
-  context.replace(expr, makeLiteral(context, LiteralKind::Integer, untyped, int64_t{info.length}, node.h.loc));
-  return untyped;
-}
-
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
-  if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
-  if (isNamed(context, name, "LEN_MAX")) return lengthLimit(context, expr);
+  if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (const TypeId type = checkAddressCall(context, expr, name)) return type;
-  if (const TypeId type = checkBoundCall(context, expr, name)) return type;
-  if (const TypeId type = checkQueryCall(context, expr, name)) return type;
-  if (const TypeId type = checkDeleteCall(context, expr, name, as_statement)) return type;
-  if (const TypeId type = checkKnownCall(context, expr, name)) return type;
   if (isFirstReport(context, name))
     context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
@@ -370,7 +318,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
   for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
     if (arguments.slots[i] == 0) continue;
     const uint32_t index = arguments.slots[i] - 1;
-    const Argument argument = context.tree().list(node.arguments)[index];
+    const Argument& argument = context.tree().list(node.arguments)[index];
     if (!argument.value) continue;
     Binding binding;
     binding.pin = pins[i];
@@ -396,7 +344,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
 
 std::span<const VarId> pinsOf(Context& context, PouId id) {
   Pou& pou = context.symbols.pou(id);
-  if (!pou.pins_ready) {
+  if (!pou.progress.pins_ready) {
     resolvePou(context, id);
     pou.pins.clear();
     if (pou.base) {  // those of the base come first
@@ -406,14 +354,14 @@ std::span<const VarId> pinsOf(Context& context, PouId id) {
     for (const VarId var : pou.vars) {
       if (isPin(context.symbols.var(var).section)) pou.pins.push_back(var);
     }
-    pou.pins_ready = true;
+    pou.progress.pins_ready = true;
   }
   return pou.pins;
 }
 
 void noteCall(Context& context, PouId callee, Loc loc) {
   Pou& pou = context.symbols.pou(callee);
-  pou.used = true;
+  pou.progress.used = true;
   if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
 
@@ -443,7 +391,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
   };
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument argument = context.tree().list(node.arguments)[i];
+    const Argument& argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
       if (isMistypedBinding(context, pou, argument.value)) {
         out.ok = false;
@@ -523,7 +471,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call) {
   if (arguments.en != 0) {
     ExprId en = context.tree().list(node.arguments)[arguments.en - 1].value;
-    if (en) checkAs(context, en, types::kBool, Purpose{"passed to `EN`", {}, {}});
+    if (en) checkAs(context, en, types::kBool, Purpose{Use::PassedToEn, {}, {}});
     context.tree().list(node.arguments)[arguments.en - 1].value = en;
     call.en = en;
   }
@@ -531,10 +479,10 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
     ExprId eno = context.tree().list(node.arguments)[arguments.eno - 1].value;
     if (eno) {
       const TypeId type = check(context, eno, types::kBool, Access::Write);
-      const Purpose purpose{"bound to output `ENO`", {}, {}};
+      const Purpose purpose{Use::BoundToEno, {}, {}};
       if (type != types::kError && checkWritable(context, eno, purpose)) {
         reportFit(context, fit(context, types::kBool, type), eno, types::kBool, type,
-                  Purpose{"copied from output `ENO`", {}, {}});
+                  Purpose{Use::CopiedFromEno, {}, {}});
       }
     }
     context.tree().list(node.arguments)[arguments.eno - 1].value = eno;

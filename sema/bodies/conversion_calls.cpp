@@ -66,7 +66,7 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   OneInput out;
   uint32_t inputs = 0;
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument argument = context.tree().list(node.arguments)[i];
+    const Argument& argument = context.tree().list(node.arguments)[i];
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
     if (isEnable(pin) && !argument.is_output) {
       out.en = argument.value;
@@ -102,7 +102,7 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
 
 // The operand as a value of `type`; a typed operand is not typed again.
 bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
-  if (!checkAs(context, value, type, Purpose{"passed to the input of", function, {}})) return false;
+  if (!checkAs(context, value, type, Purpose{Use::PassedToInput, function, {}})) return false;
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   return true;
 }
@@ -129,8 +129,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   ExprId value = input.value;
   TypeId from;
   if (rule.from) {
-    if (!checkAs(context, value, rule.from, Purpose{"passed to the input of", name, {}}))
-      return node.h.type = types::kError;
+    if (!checkAs(context, value, rule.from, Purpose{Use::PassedToInput, name, {}})) return node.h.type = types::kError;
     from = rule.from;
   } else {
     from = check(context, value, {}, Access::Read);
@@ -226,7 +225,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
   if (entity.entityKind() != EntityKind::Pou || operand_types.empty()) return {};
   const PouId id{entity.index};
   const Pou& pou = context.symbols.pou(id);
-  if (pou.kind != PouKind::Function || (pou.operator_kind == Pou::Operator::None && !pou.generic)) return {};
+  if (pou.kind != PouKind::Function || (pou.pragmas.operator_kind == OperatorKind::None && !pou.generic)) return {};
   pinsOf(context, id);
   noteCall(context, id, node.h.loc);
   context.tree().as<NameExpr>(node.callee).entity = entity;
@@ -241,7 +240,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
       if (!ok) return node.h.type = types::kError;
     }
   }
-  if (pou.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, id, expected, forced);
+  if (pou.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, id, expected, forced);
   return checkGenericCall(context, expr, id, expected, forced);
 }
 

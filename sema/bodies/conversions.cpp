@@ -51,8 +51,38 @@ std::string conversionName(const Context& context, TypeId from, TypeId to) {
 
 }  // namespace
 
+static std::string_view wordsOf(Use use) {
+  switch (use) {
+    case Use::Other: break;
+    case Use::Assigned: return "assigned to";
+    case Use::Condition: return "used as a condition";
+    case Use::IfCondition: return "used as the condition of IF";
+    case Use::ElsifCondition: return "used as the condition of ELSIF";
+    case Use::WhileCondition: return "used as the condition of WHILE";
+    case Use::UntilCondition: return "used as the condition of UNTIL";
+    case Use::AssertCondition: return "used as the condition of ASSERT";
+    case Use::ComparedByAssert: return "compared by ASSERT_NEAR";
+    case Use::Set: return "used to set or reset a variable";
+    case Use::CaseLabel: return "used as a CASE label";
+    case Use::LoopControl: return "used as the control variable of FOR";
+    case Use::LoopLimit: return "used as the limit of";
+    case Use::LoopStep: return "added to";
+    case Use::PassedToInput: return "passed to the input of";
+    case Use::Passed: return "passed to";
+    case Use::PassedToEn: return "passed to `EN`";
+    case Use::CopiedFromOutput: return "copied from output";
+    case Use::CopiedFromEno: return "copied from output `ENO`";
+    case Use::BoundToOutput: return "bound to output";
+    case Use::BoundToEno: return "bound to output `ENO`";
+    case Use::BoundToInOut: return "bound to in-out";
+    case Use::Deleted: return "deleted";
+    case Use::OtherOperand: return "converted to the type of the other operand";
+  }
+  return {};
+}
+
 std::string Purpose::toString(const Context& context) const {
-  std::string out(phrase);
+  std::string out(use == Use::Other ? words : wordsOf(use));
   if (name) out.append(" `").append(string(context, name)).append("`");
   if (of) out.append(" of `").append(string(context, of)).append("`");
   return out;
@@ -370,11 +400,11 @@ bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
 }
 
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what) {
-  return checkAs(context, expr, to, Purpose{what, {}, {}});
+  return checkAs(context, expr, to, Purpose{Use::Other, {}, {}, what});
 }
 
-void checkCondition(Context& context, ExprId& expr, std::string_view phrase) {
-  checkAs(context, expr, types::kBool, Purpose{phrase, {}, {}});
+void checkCondition(Context& context, ExprId& expr, Use use) {
+  checkAs(context, expr, types::kBool, Purpose{use, {}, {}});
 }
 
 }  // namespace rung::sema

@@ -57,7 +57,7 @@ bool noteMember(Context& context, std::string_view word, Loc loc) {
   if (found.entityKind() != EntityKind::Pou || found.index == context.pou.index) return false;
   const PouId member{found.index};
   if (string(context, context.symbols.pou(member).name) != word) return false;
-  if ((context.symbols.pou(member).modifiers & kAbstract) == 0) noteUse(context, member, loc);
+  if ((context.symbols.pou(member).object.modifiers & kAbstract) == 0) noteUse(context, member, loc);
   return true;
 }
 
@@ -77,7 +77,8 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
     if (found.entityKind() != EntityKind::Pou || found.index == context.pou.index) continue;
     const PouId function{found.index};
     const Pou& callee = context.symbols.pou(function);
-    if (callee.kind != PouKind::Function || callee.generic || callee.operator_kind != Pou::Operator::None) continue;
+    if (callee.kind != PouKind::Function || callee.generic || callee.pragmas.operator_kind != OperatorKind::None)
+      continue;
     noteUse(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
   }
 }

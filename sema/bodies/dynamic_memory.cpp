@@ -1,8 +1,8 @@
 // __NEW and __DELETE: memory from the bounded pool of the program (stdlib/__system/dynamic_memory.st). codesys.
 // In: a NewExpr, a call of __DELETE. Out: the same with the types, the functions of the pool and the arguments of
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/writable.h"
 #include "sema/declarations/declarations.h"
@@ -81,14 +81,13 @@ TypeId checkNew(Context& context, ExprId& expr) {
 
 // Forbids __DELETE of anything but a pointer, and of a pointer that cannot be set to 0.
 //   fails   __DELETE(count) where count : INT                       E0593
-TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement) {
-  if (!isNamed(context, name, "__DELETE")) return {};
+TypeId checkDelete(Context& context, ExprId& expr, const PseudoCall& pseudo) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
   if (context.iec()) return fail();  // reported by the lexer
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
     context.report(diag::WrongArgumentCount, node.h.loc,
-                   {string(context, name), "1", std::to_string(node.arguments.count)});
+                   {string(context, pseudo.name), "1", std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return fail();
   }
@@ -100,9 +99,9 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
     return fail();
   }
   const bool is_this = context.tree().kind(pointer) == ExprKind::This;
-  if (!is_this && !checkWritable(context, pointer, Purpose{"deleted", {}, {}})) return fail();
-  if (!as_statement) {
-    context.report(diag::NoResult, node.h.loc, {string(context, name)});
+  if (!is_this && !checkWritable(context, pointer, Purpose{Use::Deleted, {}, {}})) return fail();
+  if (!pseudo.as_statement) {
+    context.report(diag::NoResult, node.h.loc, {string(context, pseudo.name)});
     return fail();
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;

@@ -210,12 +210,6 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected) {
   return isUntyped(context, type) ? finalizeUntyped(context, expr, expected) : type;
 }
 
-TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what) {
-  const TypeId type = check(context, expr, {}, Access::Write);
-  if (type == types::kError || !type) return types::kError;
-  return checkWritable(context, expr, Purpose{what, {}, {}}) ? type : types::kError;
-}
-
 std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
   const Tree& tree = context.tree();
   if (!tree.expr(expr).is_constant) return std::nullopt;

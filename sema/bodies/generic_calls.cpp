@@ -53,11 +53,12 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
       }
     }
     for (ExprId& operand : operands) {
-      if (!convert(context, operand, real, Purpose{"passed to", pou.name, {}})) return types::kError;
+      if (!convert(context, operand, real, Purpose{Use::Passed, pou.name, {}})) return types::kError;
     }
     return real;
   }
-  const bool equality = pou.operator_kind == Pou::Operator::Op && (pou.op == types::Op::Eq || pou.op == types::Op::Ne);
+  const bool equality = pou.pragmas.operator_kind == OperatorKind::Op &&
+                        (pou.pragmas.op == types::Op::Eq || pou.pragmas.op == types::Op::Ne);
   const TypeId common = unify(context, operands, equality ? Operands::Equatable : classOf(generic), expected,
                               string(context, pou.name), loc);
   if (common == types::kError) return common;
@@ -135,7 +136,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
   out.pin_types.resize(arguments.slots.size());
   TypeId extensible_type;
   for (const VarId pin : pins) {
-    if (context.symbols.var(pin).extensible) extensible_type = context.symbols.var(pin).type;
+    if (context.symbols.var(pin).pragmas.extensible) extensible_type = context.symbols.var(pin).type;
   }
   const bool result_is_generic = pou.result && TypeTable::isGeneric(context.types().info(pou.result).kind);
   for (size_t i = 0; i < arguments.slots.size(); ++i) {
@@ -143,10 +144,10 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
     out.pin_types[i] = declared;
     if (arguments.slots[i] == 0) continue;
     const uint32_t index = arguments.slots[i] - 1;
-    const Argument argument = context.tree().list(node.arguments)[index];
+    const Argument& argument = context.tree().list(node.arguments)[index];
     if (!argument.value) continue;
     ExprId value = argument.value;
-    const Purpose purpose{"passed to", i < pins.size() ? context.symbols.var(pins[i]).name : argument.pin.name,
+    const Purpose purpose{Use::Passed, i < pins.size() ? context.symbols.var(pins[i]).name : argument.pin.name,
                           pou.name};
     const SectionKind section = i < pins.size() ? context.symbols.var(pins[i]).section : SectionKind::Input;
     if (section == SectionKind::Output) {
@@ -218,7 +219,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.ok) return node.h.type = types::kError;
   // A string has the largest capacity inside: one instance serves every length. C functions know no named types.
-  const bool native = context.symbols.pou(pou).native;
+  const bool native = context.symbols.pou(pou).pragmas.native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
     if (TypeTable::isString(kind)) return context.types().string(kind, 255);
@@ -231,7 +232,8 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     const TypeId type = operands.typeFor(context, pin);
     types_by_pin.push_back(type ? normal(type) : types::kInt);
   }
-  if (generic.bytes && !checkBytes(context, node, generic, types_by_pin, expected)) return node.h.type = types::kError;
+  if (generic.pragmas.bytes && !checkBytes(context, node, generic, types_by_pin, expected))
+    return node.h.type = types::kError;
   TypeId result = generic.result ? operands.typeFor(context, generic.result) : TypeId{};
   if (generic.result && !result) {  // TRUNC: the result is any integer that is wanted
     result = forced ? forced : types::kDInt;
@@ -242,9 +244,9 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (result) result = normal(result);
   call.pou = generic.generic ? instantiate(context, pou, types_by_pin, result) : pou;
   if (!call.pou) return node.h.type = types::kError;
-  context.symbols.pou(call.pou).used = true;
+  context.symbols.pou(call.pou).progress.used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
-  node.h.is_constant = generic.library && generic.pure && !native && !call.en && !call.eno;
+  node.h.is_constant = generic.library && generic.pragmas.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
     if (!operands.values[i]) continue;
     node.h.is_constant = node.h.is_constant && context.tree().expr(operands.values[i]).is_constant;

@@ -28,7 +28,7 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     var.type = wide ? context.types().wstring(length) : context.types().string(length);
     var.section = SectionKind::Global;
     var.storage = Storage::Global;
-    var.constant = var.read = var.written = true;
+    var.constant = var.use.read = var.use.written = true;
     var.init = literal;
     symbols.vars.push_back(var);
     literal_storage.undeclared.push_back({context.pou, storage});

@@ -51,7 +51,7 @@ TypeId typeOf(const Context& context, VarId id) {
 TypeId useBit(Context& context, ExprId& expr, const Var& var) {
   ExprHeader& byte = context.tree().expr(expr);
   byte.type = types::kByte;
-  const ExprId created = context.build().bitAccess(expr, var.bit, 1, byte.loc);
+  const ExprId created = context.build().bitAccess(expr, var.bits.bit, 1, byte.loc);
   ExprHeader& bit = context.tree().expr(created);
   bit.in_parens = byte.in_parens;
   bit.is_constant = byte.is_constant;
@@ -69,7 +69,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   header.is_constant = var.constant && var.has_value;
   header.writable = !var.constant;
   const TypeId type = typeOf(context, id);
-  if (var.is_bit && !header.is_constant) return useBit(context, expr, var);
+  if (var.bits.is_bit && !header.is_constant) return useBit(context, expr, var);
   return header.type = type;
 }
 
@@ -224,9 +224,9 @@ void markAccess(Context& context, VarId id, Access access) {
   if (access == Access::Qualifier) return;
   for (VarId at = id; at; at = context.symbols.var(at).external) {
     Var& var = context.symbols.var(at);
-    if (access != Access::Write) var.read = true;
+    if (access != Access::Write) var.use.read = true;
     if (access == Access::Read) continue;
-    var.written = true;
+    var.use.written = true;
     if (access == Access::Address || !context.body || !var.name || var.external) continue;
     const bool outside = var.storage == Storage::Global || var.storage == Storage::Image;
     auto& writes = context.project.global_writes;
@@ -237,31 +237,10 @@ void markAccess(Context& context, VarId id, Access access) {
 
 Entity entityOf(const Context& context, ExprId expr) {
   const Tree& tree = context.tree();
-  switch (tree.kind(expr)) {
-    case ExprKind::Name: return tree.as<NameExpr>(expr).entity;
-    case ExprKind::TypedName: return tree.as<TypedNameExpr>(expr).entity;
-    case ExprKind::Member: return tree.as<MemberExpr>(expr).entity;
-    case ExprKind::Error:
-    case ExprKind::Literal:
-    case ExprKind::Index:
-    case ExprKind::This:
-    case ExprKind::Super:
-    case ExprKind::Deref:
-    case ExprKind::BitAccess:
-    case ExprKind::Address:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Call:
-    case ExprKind::Range:
-    case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
-    case ExprKind::Convert:
-    case ExprKind::Bound:
-    case ExprKind::New:
-    case ExprKind::AnyValue:
-    case ExprKind::AddressOf: return {};
-  }
+  const ExprKind kind = tree.kind(expr);
+  if (kind == ExprKind::Name) return tree.as<NameExpr>(expr).entity;
+  if (kind == ExprKind::TypedName) return tree.as<TypedNameExpr>(expr).entity;
+  if (kind == ExprKind::Member) return tree.as<MemberExpr>(expr).entity;
   return {};
 }
 

@@ -47,10 +47,7 @@ void markObject(Context& context, ExprId at) {
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
     const ExprKind kind = tree.kind(at);
     if (kind == ExprKind::Deref) access = Access::Read;
-    at = kind == ExprKind::Member  ? tree.as<MemberExpr>(at).base
-         : kind == ExprKind::Index ? tree.as<IndexExpr>(at).base
-         : kind == ExprKind::Deref ? tree.as<DerefExpr>(at).base
-                                   : ExprId{};
+    at = shape(kind) == ExprShape::Step && kind != ExprKind::BitAccess ? tree.base(at) : ExprId{};
   }
 }
 
@@ -62,8 +59,9 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
   call.pou = method;
   call.instance = instanceFor(context, instance, method);
   call.bindings = std::move(bindings);
-  const bool fixed = callee.kind == PouKind::Action || !owner.dispatched || callee.access == AccessLevel::Private ||
-                     ((callee.modifiers | owner.modifiers) & kFinal) != 0;
+  const bool fixed = callee.kind == PouKind::Action || !owner.object.dispatched ||
+                     callee.access == AccessLevel::Private ||
+                     ((callee.object.modifiers | owner.object.modifiers) & kFinal) != 0;
   call.is_virtual = !fixed && !(instance && isExact(context, instance));
   return addCall(context, std::move(call));
 }
@@ -140,41 +138,12 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type) {
 
 bool isExact(const Context& context, ExprId instance) {
   const Tree& tree = context.tree();
-  for (;;) {
-    switch (tree.kind(instance)) {
-      case ExprKind::Name: {
-        const Entity entity = tree.as<NameExpr>(instance).entity;
-        return entity.entityKind() != EntityKind::Var ||
-               context.symbols.vars[entity.index].section != SectionKind::InOut;
-      }
-      case ExprKind::Member: {
-        const Entity entity = tree.as<MemberExpr>(instance).entity;
-        return entity.entityKind() != EntityKind::Var ||
-               context.symbols.vars[entity.index].section != SectionKind::InOut;
-      }
-      case ExprKind::Index: instance = tree.as<IndexExpr>(instance).base; break;
-      case ExprKind::Deref: return tree.kind(tree.as<DerefExpr>(instance).base) == ExprKind::Super;
-      case ExprKind::Error:
-      case ExprKind::Literal:
-      case ExprKind::TypedName:
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::BitAccess:
-      case ExprKind::Address:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Call:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::Repeat:
-      case ExprKind::StructInit:
-      case ExprKind::Bound:
-      case ExprKind::New:
-      case ExprKind::AnyValue:
-      case ExprKind::AddressOf:
-      case ExprKind::Convert: return false;
-    }
-  }
+  while (tree.kind(instance) == ExprKind::Index) instance = tree.base(instance);
+  const ExprKind kind = tree.kind(instance);
+  if (kind == ExprKind::Deref) return tree.kind(tree.base(instance)) == ExprKind::Super;
+  if (kind != ExprKind::Name && kind != ExprKind::Member) return false;
+  const Entity entity = entityOf(context, instance);
+  return entity.entityKind() != EntityKind::Var || context.symbols.vars[entity.index].section != SectionKind::InOut;
 }
 
 namespace {
@@ -193,7 +162,7 @@ Property accessorsOf(Context& context, uint32_t index) {
   if (property.get && property.set) return property;
   if (owner.base) inherit(owner.base);
   if (owner.kind == PouKind::Interface)
-    for (const PouId base : std::vector<PouId>(owner.interfaces)) inherit(base);
+    for (const PouId base : std::vector<PouId>(owner.object.interfaces)) inherit(base);
   return property;
 }
 
@@ -277,9 +246,9 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
     const TypeId type = context.symbols.var(pin).type;
     check(context, context.tree().as<BinaryExpr>(node.value).right, type, Access::Read);
     if (combine(context, node.value, type) == types::kError) return true;
-    convert(context, node.value, type, Purpose{"assigned to", property.name, {}});
+    convert(context, node.value, type, Purpose{Use::Assigned, property.name, {}});
   } else {
-    checkAs(context, node.value, context.symbols.var(pin).type, Purpose{"assigned to", property.name, {}});
+    checkAs(context, node.value, context.symbols.var(pin).type, Purpose{Use::Assigned, property.name, {}});
   }
   if (!ok) return true;
   noteCall(context, property.set, loc);

@@ -67,7 +67,7 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
     if (type == types::kError) return type;
     const bool first_only = op == BinaryOp::Multiply || op == BinaryOp::Divide;
     if (forced && isTime(context, forced) && (operands.empty() || !first_only)) {
-      if (!convert(context, value, forced, Purpose{"passed to", context.tree().as<NameExpr>(node.callee).name, {}})) {
+      if (!convert(context, value, forced, Purpose{Use::Passed, context.tree().as<NameExpr>(node.callee).name, {}})) {
         return types::kError;
       }
     }
@@ -102,7 +102,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
   BinaryOp infix;
   bool checked = false;
-  if (pou.operator_kind == Pou::Operator::Op && infixOf(pou.op, infix) && infix != BinaryOp::Power) {
+  if (pou.pragmas.operator_kind == OperatorKind::Op && infixOf(pou.pragmas.op, infix) && infix != BinaryOp::Power) {
     ExprId value = expr;
     if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
@@ -115,17 +115,18 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   if (!operands.ok) return node.h.type = types::kError;
   TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
   if (!result) result = expected ? expected : types::kDInt;
-  if (pou.operator_kind == Pou::Operator::Op) {
-    if (pou.op == types::Op::Power && operands.values.size() == 2 && operands.values[0] && operands.values[1]) {
+  if (pou.pragmas.operator_kind == OperatorKind::Op) {
+    if (pou.pragmas.op == types::Op::Power && operands.values.size() == 2 && operands.values[0] && operands.values[1]) {
       result = power(context, operands.values[0], operands.values[1], expected, node.h.loc);
       if (result == types::kError) return node.h.type = result;
     }
-    if ((pou.op == types::Op::Div || pou.op == types::Op::Mod) && operands.values.size() > 1 && operands.values[1]) {
-      const BinaryOp op = pou.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
+    if ((pou.pragmas.op == types::Op::Div || pou.pragmas.op == types::Op::Mod) && operands.values.size() > 1 &&
+        operands.values[1]) {
+      const BinaryOp op = pou.pragmas.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
       if (!checkDivisor(context, operands.values[1], op)) return node.h.type = types::kError;
     }
   }
-  if (pou.operator_kind == Pou::Operator::Convert && arguments.en == 0 && arguments.eno == 0) {
+  if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
     if (!value) return node.h.type = types::kError;
     wrapConvert(context, value, forced ? forced : result);

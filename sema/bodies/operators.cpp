@@ -14,7 +14,7 @@ namespace {
 
 using types::TypeTable;
 
-constexpr Purpose kOperand{"converted to the type of the other operand", {}, {}};
+constexpr Purpose kOperand{Use::OtherOperand, {}, {}};
 
 bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDate(k); }
 

@@ -39,7 +39,7 @@ void addInherited(Context& context, PouId method, std::vector<Candidate>& out) {
   for (PouId at = owner ? context.symbols.pou(owner).base : PouId{}; at; at = context.symbols.pou(at).base)
     for (const PouId member : context.symbols.pou(at).members) {
       const Pou& pou = context.symbols.pou(member);
-      if (pou.kind != PouKind::Method || pou.accessor != Pou::Accessor::None ||
+      if (pou.kind != PouKind::Method || pou.object.accessor != AccessorKind::None ||
           !context.names().same(pou.name, context.symbols.pou(method).name))
         continue;
       resolvePou(context, member);
@@ -53,8 +53,7 @@ bool match(Context& context, const CallExpr& node, Candidate& candidate) {
   std::vector<bool> taken(pins.size());
   const auto isOutput = [&](size_t i) { return context.symbols.var(pins[i]).section == SectionKind::Output; };
   size_t input = 0, output = 0;
-  for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument argument = context.tree().list(node.arguments)[i];
+  for (const Argument& argument : context.tree().list(node.arguments)) {
     size_t slot = 0;
     if (argument.pin.name) {
       while (slot < pins.size() && !context.names().same(context.symbols.var(pins[slot]).name, argument.pin.name))
@@ -113,7 +112,7 @@ int rankOf(Context& context, const Var& pin, ExprId value) {
 // Each argument once, with the access that the pins need.
 void checkArguments(Context& context, const CallExpr& node, std::span<const Candidate> candidates) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument argument = context.tree().list(node.arguments)[i];
+    const Argument& argument = context.tree().list(node.arguments)[i];
     if (!argument.value) continue;
     Access access = argument.is_output ? Access::Write : Access::Read;
     for (const Candidate& candidate : candidates) {

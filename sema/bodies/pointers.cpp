@@ -3,15 +3,15 @@
 // TM/TP manual 5.2, 5.3 (ADR, BITADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
 
-namespace {
-
 // ADR(x), REF(x): the type is that of the operand, so that the target of the assignment decides whether it fits.
-TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
+TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
+  ExprId lvalue = call.arguments[0].value;
   const Loc loc = context.tree().loc(expr);
   TypeId type = check(context, lvalue, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
@@ -31,7 +31,8 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
 }
 
 // BITADR(x) of a located BOOL: its bit offset, with the area in the two highest bits: %M 2#01, %I 2#10, %Q 2#11.
-TypeId checkBitAddress(Context& context, ExprId& expr, ExprId lvalue) {
+TypeId checkBitAdr(Context& context, ExprId& expr, const PseudoCall& call) {
+  ExprId lvalue = call.arguments[0].value;
   const Loc loc = context.tree().loc(expr);
   if (check(context, lvalue, {}, Access::Address) == types::kError) return types::kError;
   std::optional<ImageView> view;
@@ -52,13 +53,14 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId lvalue) {
 }
 
 // VAL(p) is p^. IEC syntax manual 5.3.1.3.2.
-TypeId checkVal(Context& context, ExprId& expr, ExprId pointer) {
-  context.replace(expr, context.build().deref(pointer, context.tree().loc(expr)));
+TypeId checkVal(Context& context, ExprId& expr, const PseudoCall& call) {
+  context.replace(expr, context.build().deref(call.arguments[0].value, context.tree().loc(expr)));
   return check(context, expr, {}, Access::Read);
 }
 
 // The reference or pointer itself, when the operand is its target.
-TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
+TypeId checkIsValid(Context& context, ExprId& expr, const PseudoCall& call) {
+  ExprId operand = call.arguments[0].value;
   const Loc loc = context.tree().loc(expr);
   const TypeId type = check(context, operand, {}, Access::Read);
   if (!type || type == types::kError) return types::kError;
@@ -89,6 +91,8 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   return types::kBool;
 }
 
+namespace {
+
 // A pointer as the signed number of its first byte, so that negative steps do not overflow.
 void toNumber(Context& context, ExprId& expr) { wrapConvert(context, expr, types::kLInt); }
 
@@ -99,24 +103,6 @@ bool isWhole(const Context& context, TypeId type) {
 }
 
 }  // namespace
-
-TypeId checkAddressCall(Context& context, ExprId& expr, NameId name) {
-  TypeId (*of)(Context&, ExprId&, ExprId) = nullptr;
-  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) of = checkAddress;
-  if (isNamed(context, name, "VAL")) of = checkVal;
-  if (isNamed(context, name, "BITADR")) of = checkBitAddress;
-  if (isNamed(context, name, "__ISVALIDREF")) of = checkIsValid;
-  if (of == nullptr) return {};
-  const CallExpr node = context.tree().as<CallExpr>(expr);
-  const Slice<Argument> arguments = node.arguments;
-  if (arguments.count != 1 || !context.tree().list(arguments)[0].value) {
-    context.report(diag::WrongArgumentCount, node.h.loc, {string(context, name), "1", std::to_string(arguments.count)});
-    checkLooseArguments(context, node);
-    return context.tree().expr(expr).type = types::kError;
-  }
-  const TypeId type = of(context, expr, context.tree().list(arguments)[0].value);
-  return context.tree().expr(expr).type = type;
-}
 
 bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
   const TypeId wanted = context.types().info(context.types().resolve(reference)).base;

@@ -102,7 +102,8 @@ Signature ProjectSignatures::signatureOf(PouId id, SignatureKind kind) {
                                      : var.section == SectionKind::InOut ? PinDirection::InOut
                                                                          : PinDirection::Input;
       const bool is_bool = var.type && context_.types().kind(var.type) == TypeKind::Bool;
-      pins.push_back({var.name, var.aliases, direction, is_bool, var.required, var.lazy, var.extensible, var.init});
+      pins.push_back({var.name, var.pragmas.aliases, direction, is_bool, var.pragmas.required, var.pragmas.lazy,
+                      var.pragmas.extensible, var.init});
     }
   }
   return {kind, static_cast<bool>(pou.result), pins};

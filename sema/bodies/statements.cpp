@@ -47,7 +47,7 @@ TypeId checkTarget(Context& context, ExprId& target, Access access) {
   if (entityOf(context, target).entityKind() == EntityKind::Property) return type;  // checkPropertyAssign
   if (!type || type == types::kError) return types::kError;
   if (isUntyped(context, type)) finalizeUntyped(context, target);
-  return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? type : types::kError;
+  return checkWritable(context, target, Purpose{Use::Assigned, {}, {}}) ? type : types::kError;
 }
 
 // x REF= y: the reference itself is the target.
@@ -70,7 +70,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     context.report(diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().toString(own)});
     return;
   }
-  if (!checkWritable(context, node.target, Purpose{"assigned to", {}, {}})) return;
+  if (!checkWritable(context, node.target, Purpose{Use::Assigned, {}, {}})) return;
   if (bindReference(context, node.value, own)) checkDanglingAddress(context, node.target, node.value);
 }
 
@@ -113,7 +113,7 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
   }
   context.replace(node.value, value);
   node.setEffect(AssignOp::Assign);
-  convert(context, node.value, type, Purpose{"assigned to", lvalueName(context, node.target), {}});
+  convert(context, node.value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
 }
 
 void checkAssign(Context& context, AssignStmt& node) {
@@ -126,14 +126,14 @@ void checkAssign(Context& context, AssignStmt& node) {
         return;
       }
       if (checkPropertyAssign(context, node)) return;
-      checkAs(context, node.value, type, Purpose{"assigned to", lvalueName(context, node.target), {}});
+      checkAs(context, node.value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
       checkDanglingAddress(context, node.target, node.value);
       return;
     }
     case AssignOp::Set:
     case AssignOp::Reset: {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
-      checkAs(context, node.value, types::kBool, Purpose{"used to set or reset a variable", {}, {}});
+      checkAs(context, node.value, types::kBool, Purpose{Use::Set, {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
         context.report(diag::SetNeedsBool, context.tree().loc(node.target), {context.types().toString(type)});
       }
@@ -171,9 +171,9 @@ bool checkIf(Context& context, const IfStmt& node) {
       break;
     }
     checkCondition(context, branch.condition,
-                   node.h.op == kConditionalOp ? "used as a condition"
-                   : i == 0                    ? "used as the condition of IF"
-                                               : "used as the condition of ELSIF");
+                   node.h.op == kConditionalOp ? Use::Condition
+                   : i == 0                    ? Use::IfCondition
+                                               : Use::ElsifCondition);
     checkConstantCondition(context, branch.condition);
     falls |= checkStatements(context, branch.body);
   }
@@ -191,7 +191,7 @@ void checkLabel(Context& context, ExprId& label, TypeId selector, CaseLabels& la
       !context.types().info(context.types().resolve(selector)).strict) {
     wanted = context.types().plain(selector);
   }
-  if (!convert(context, label, wanted, Purpose{"used as a CASE label", {}, {}})) return;
+  if (!convert(context, label, wanted, Purpose{Use::CaseLabel, {}, {}})) return;
   const std::optional<int64_t> known = constantInteger(context, label);
   if (!known) {
     context.report(diag::LabelNotConstant, context.tree().begin(label));
@@ -215,8 +215,7 @@ bool checkCase(Context& context, CaseStmt& node) {
   }
   CaseLabels labels;
   bool falls = false;
-  for (uint32_t b = 0; b < node.branches.count; ++b) {
-    const CaseBranch& branch = context.tree().list(node.branches)[b];
+  for (const CaseBranch& branch : context.tree().list(node.branches)) {
     for (ExprId& label : context.tree().list(branch.labels)) {
       const Loc loc = context.tree().begin(label);
       if (selector == types::kError) {
@@ -267,23 +266,23 @@ TypeId stepType(Context& context, ExprId step, TypeId control) {
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
   const NameId name = lvalueName(context, node.control);
-  const auto bound = [&](ExprId& expr, TypeId wanted, std::string_view phrase) {
+  const auto bound = [&](ExprId& expr, TypeId wanted, Use use) {
     if (!expr) return;
     if (wanted == types::kError) {
       checkExpr(context, expr);
     } else {
-      checkAs(context, expr, wanted, Purpose{phrase, name, {}});
+      checkAs(context, expr, wanted, Purpose{use, name, {}});
     }
   };
-  bound(node.from, type, "assigned to");
-  bound(node.to, type, "used as the limit of");
+  bound(node.from, type, Use::Assigned);
+  bound(node.to, type, Use::LoopLimit);
   if (node.step && type != types::kError) {
     const TypeId step = check(context, node.step, type, Access::Read);
     if (step != types::kError) {
-      convert(context, node.step, stepType(context, node.step, type), Purpose{"added to", name, {}});
+      convert(context, node.step, stepType(context, node.step, type), Purpose{Use::LoopStep, name, {}});
     }
   } else {
-    bound(node.step, type, "added to");
+    bound(node.step, type, Use::LoopStep);
   }
   if (type != types::kError) checkForBounds(context, node);
   VarId control;
@@ -339,7 +338,7 @@ bool checkStatement(Context& context, StmtId id) {
     case StmtKind::While: {
       WhileStmt& node = tree.as<WhileStmt>(id);
       const uint32_t before = body.ways_out;
-      checkCondition(context, node.condition, "used as the condition of WHILE");
+      checkCondition(context, node.condition, Use::WhileCondition);
       ++context.loop_depth;
       checkStatements(context, node.body);
       --context.loop_depth;
@@ -352,7 +351,7 @@ bool checkStatement(Context& context, StmtId id) {
       ++context.loop_depth;
       const bool falls = checkStatements(context, node.body);
       --context.loop_depth;
-      checkCondition(context, node.until, "used as the condition of UNTIL");
+      checkCondition(context, node.until, Use::UntilCondition);
       return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
     case StmtKind::Try: return checkTry(context, tree.as<TryStmt>(id));
@@ -390,8 +389,7 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   body.block_parents.push_back(outer);
   body.block = static_cast<uint32_t>(body.block_parents.size());  // 0 is above all
   bool reachable = true, reported = false;
-  for (uint32_t i = 0; i < list.count; ++i) {
-    const StmtId id = context.tree().list(list)[i];
+  for (const StmtId id : context.tree().list(list)) {
     const StmtKind kind = context.tree().kind(id);
     if (kind == StmtKind::Label) reachable = true;
     if (!reachable && !reported && kind != StmtKind::Empty && kind != StmtKind::Error) {
@@ -433,7 +431,6 @@ static void schedule(Context& context, PouDecl& decl) {
 
 void checkBody(Context& context, PouId id) {
   Pou& pou = context.symbols.pou(id);
-  pou.checked = true;
   if (!pou.decl) return;
   resolvePou(context, id);
   PouDecl& decl = context.tree().as<PouDecl>(pou.decl);

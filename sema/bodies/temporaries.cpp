@@ -62,7 +62,7 @@ void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
   const TypeId type = context.tree().expr(node.value).type;
   if (!type || type == types::kError || state.type == types::kError) return;
   if (shares(context, state.type, node.value)) {
-    convert(context, node.value, state.type, Purpose{"assigned to", target.name, {}});
+    convert(context, node.value, state.type, Purpose{Use::Assigned, target.name, {}});
     return;
   }
   const TypeId own = isUntyped(context, type) ? defaultType(context, node.value) : type;
@@ -91,8 +91,7 @@ void checkValue(Context& context, Temporary& state, AssignStmt& node) {
 
 // The body's assignments to its temporaries: needed when a reader comes before a value with a type.
 void collectAssigns(Context& context, Slice<StmtId> list) {
-  for (uint32_t k = 0; k < list.count; ++k) {
-    const StmtId id = context.tree().list(list)[k];
+  for (const StmtId id : context.tree().list(list)) {
     if (context.tree().kind(id) == StmtKind::Assign) {
       AssignStmt& node = context.tree().as<AssignStmt>(id);
       if (const VarId var = temporaryOf(context, node.target)) stateOf(context, var).assigns.push_back(&node);
@@ -145,7 +144,7 @@ void declareTemporaries(Context& context, DeclId section) {
     var.loc = ident.loc;
     var.section = SectionKind::Temp;
     var.storage = Storage::Local;
-    var.read = var.written = true;
+    var.use.read = var.use.written = true;
     var.pou = context.pou;
     var.field = static_cast<uint32_t>(pou.vars.size());
     context.body->temporaries.push_back({.var = id});

@@ -1,7 +1,7 @@
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 #include "sema/project.h"
@@ -111,7 +111,23 @@ ExprId byteOfImage(Context& context, ExprId lvalue) {
   return typed(context, context.build().address(byte, context.tree().loc(lvalue)), types::kByte);
 }
 
-TypeId checkVarInfo(Context& context, ExprId& expr, ExprId lvalue) {
+std::string pouName(const Context& context) {
+  if (!context.pou) return {};
+  const Pou& pou = context.symbols.pou(context.pou);
+  const std::string own(string(context, pou.name));
+  return pou.owner ? std::string(string(context, context.symbols.pou(pou.owner).name)) + "." + own : own;
+}
+
+std::string position(const Context& context, Loc loc) {
+  const SourceLocation location = context.symbols.sources.location(loc);
+  const std::string line = "Line " + std::to_string(location.line);
+  return context.body ? line + ", Column " + std::to_string(location.column) + " (Impl)" : line + " (Decl)";
+}
+
+}  // namespace
+
+TypeId checkVarInfo(Context& context, ExprId& expr, const PseudoCall& pseudo) {
+  ExprId lvalue = pseudo.arguments[0].value;
   const Loc loc = context.tree().loc(expr);
   const TypeId type = check(context, lvalue, {}, Access::Address);
   const Entity record = lookUpSystem(context, "VAR_INFO");
@@ -143,40 +159,17 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId lvalue) {
   return facts.record;
 }
 
-std::string pouName(const Context& context) {
-  if (!context.pou) return {};
-  const Pou& pou = context.symbols.pou(context.pou);
-  const std::string own(string(context, pou.name));
-  return pou.owner ? std::string(string(context, context.symbols.pou(pou.owner).name)) + "." + own : own;
-}
-
-std::string position(const Context& context, Loc loc) {
-  const SourceLocation location = context.symbols.sources.location(loc);
-  const std::string line = "Line " + std::to_string(location.line);
-  return context.body ? line + ", Column " + std::to_string(location.column) + " (Impl)" : line + " (Decl)";
-}
-
-}  // namespace
-
-TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
-  const bool info = isNamed(context, name, "__VARINFO"), pou = isNamed(context, name, "__POUNAME"),
-             here = isNamed(context, name, "__POSITION");
-  if ((!info && !pou && !here) || context.iec()) return {};
-  const CallExpr node = context.tree().as<CallExpr>(expr);
-  const uint32_t wanted = info ? 1 : 0;
-  if (node.arguments.count != wanted || (info && !context.tree().list(node.arguments)[0].value)) {
-    context.report(diag::WrongArgumentCount, node.h.loc,
-                   {string(context, name), std::to_string(wanted), std::to_string(node.arguments.count)});
-    checkLooseArguments(context, node);
-    return context.tree().expr(expr).type = types::kError;
-  }
-  if (info) {
-    const TypeId type = checkVarInfo(context, expr, context.tree().list(node.arguments)[0].value);
-    return context.tree().expr(expr).type = type;
-  }
-  const std::string text = pou ? pouName(context) : position(context, node.h.loc);
-  context.replace(expr, makeStringLiteral(context, text, node.h.loc));
+static TypeId putText(Context& context, ExprId& expr, std::string_view text) {
+  context.replace(expr, makeStringLiteral(context, text, context.tree().loc(expr)));
   return context.tree().expr(expr).type;
+}
+
+TypeId checkPouName(Context& context, ExprId& expr, const PseudoCall&) {
+  return putText(context, expr, pouName(context));
+}
+
+TypeId checkPosition(Context& context, ExprId& expr, const PseudoCall&) {
+  return putText(context, expr, position(context, context.tree().loc(expr)));
 }
 
 }  // namespace rung::sema

@@ -24,42 +24,25 @@ const char* whyNotAddressable(const Context& context, VarId id) {
 const char* whyNotAddressable(const Context& context, ExprId lvalue) {
   const Tree& tree = context.tree();
   for (;;) {
-    switch (tree.kind(lvalue)) {
-      case ExprKind::Name:
-      case ExprKind::Member: {
-        const Entity entity = entityOf(context, lvalue);
-        if (entity.entityKind() == EntityKind::EnumValue) return "a constant";
-        if (entity.entityKind() == EntityKind::Program) return nullptr;
-        if (entity.entityKind() == EntityKind::Pou)
-          return context.symbols.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
-        if (entity.entityKind() != EntityKind::Var) return "the name of a type";
-        if (const char* reason = whyNotAddressable(context, VarId{entity.index})) return reason;
-        if (tree.kind(lvalue) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue))) return nullptr;
-        lvalue = tree.as<MemberExpr>(lvalue).base;
-        break;
-      }
-      case ExprKind::Index: lvalue = tree.as<IndexExpr>(lvalue).base; break;
-      case ExprKind::Deref: return nullptr;
-      case ExprKind::BitAccess: return tree.as<BitAccessExpr>(lvalue).width == 1 ? "one bit" : "a part of a number";
-      case ExprKind::Address: return tree.expr(lvalue).type == types::kBool ? "one bit of the process image" : nullptr;
-      case ExprKind::Error: return nullptr;
-      case ExprKind::Literal:
-      case ExprKind::TypedName: return "a constant";
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Call:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::Repeat:
-      case ExprKind::StructInit:
-      case ExprKind::Convert:
-      case ExprKind::Bound:
-      case ExprKind::New:
-      case ExprKind::AnyValue:
-      case ExprKind::AddressOf: return "a value";
+    const ExprKind kind = tree.kind(lvalue);
+    if (kind == ExprKind::Deref || kind == ExprKind::Error) return nullptr;
+    if (kind == ExprKind::Literal || kind == ExprKind::TypedName) return "a constant";
+    if (kind == ExprKind::BitAccess)
+      return tree.as<BitAccessExpr>(lvalue).width == 1 ? "one bit" : "a part of a number";
+    if (kind == ExprKind::Address)
+      return tree.expr(lvalue).type == types::kBool ? "one bit of the process image" : nullptr;
+    if (kind == ExprKind::Name || kind == ExprKind::Member) {
+      const Entity entity = entityOf(context, lvalue);
+      if (entity.entityKind() == EntityKind::EnumValue) return "a constant";
+      if (entity.entityKind() == EntityKind::Program) return nullptr;
+      if (entity.entityKind() == EntityKind::Pou)
+        return context.symbols.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
+      if (entity.entityKind() != EntityKind::Var) return "the name of a type";
+      if (const char* reason = whyNotAddressable(context, VarId{entity.index})) return reason;
+      if (kind == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue))) return nullptr;
     }
+    if (shape(kind) != ExprShape::Step) return "a value";
+    lvalue = tree.base(lvalue);
   }
 }
 

@@ -15,38 +15,20 @@ namespace {
 VarId rootOf(const Context& context, ExprId lvalue) {
   const Tree& tree = context.tree();
   for (;;) {
-    switch (tree.kind(lvalue)) {
-      case ExprKind::Name:
-      case ExprKind::Member: {
-        const Entity entity = entityOf(context, lvalue);
-        if (entity.entityKind() != EntityKind::Var) return {};
-        if (tree.kind(lvalue) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue)))
-          return VarId{entity.index};
-        lvalue = tree.as<MemberExpr>(lvalue).base;
-        break;
-      }
-      case ExprKind::Index: lvalue = tree.as<IndexExpr>(lvalue).base; break;
-      case ExprKind::BitAccess: lvalue = tree.as<BitAccessExpr>(lvalue).base; break;
-      case ExprKind::Convert: lvalue = tree.as<ConvertExpr>(lvalue).operand; break;
-      case ExprKind::AddressOf: lvalue = tree.as<AddressOfExpr>(lvalue).lvalue; break;
-      case ExprKind::Deref:
-      case ExprKind::Address:
-      case ExprKind::Bound:
-      case ExprKind::New:
-      case ExprKind::AnyValue:
-      case ExprKind::Error:
-      case ExprKind::Literal:
-      case ExprKind::TypedName:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Call:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Repeat:
-      case ExprKind::StructInit: return {};
+    const ExprKind kind = tree.kind(lvalue);
+    if (kind == ExprKind::Name || kind == ExprKind::Member) {
+      const Entity entity = entityOf(context, lvalue);
+      if (entity.entityKind() != EntityKind::Var) return {};
+      if (kind == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue))) return VarId{entity.index};
     }
+    if (kind == ExprKind::Convert)
+      lvalue = tree.as<ConvertExpr>(lvalue).operand;
+    else if (kind == ExprKind::AddressOf)
+      lvalue = tree.as<AddressOfExpr>(lvalue).lvalue;
+    else if (shape(kind) == ExprShape::Step && kind != ExprKind::Deref)
+      lvalue = tree.base(lvalue);
+    else
+      return {};
   }
 }
 

@@ -14,7 +14,7 @@ TypeId checkForControl(Context& context, ForStmt& node) {
   const TypeId type = check(context, node.control, {}, Access::ReadWrite);
   if (type == types::kError) return type;
   if (isUntyped(context, type)) finalizeUntyped(context, node.control);
-  if (!checkWritable(context, node.control, Purpose{"used as the control variable of FOR", {}, {}})) {
+  if (!checkWritable(context, node.control, Purpose{Use::LoopControl, {}, {}})) {
     return types::kError;
   }
   const TypeKind kind = context.types().plainKind(type);

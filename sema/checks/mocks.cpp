@@ -30,18 +30,18 @@ void chooseTests(Context& context) {
     Pou& pou = symbols.pous[i];
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
       if (keyOf(context, pragma.name) != context.scopes.known_names.mock) continue;
-      pou.mocks.push_back(keyOf(context, context.names().intern(context.tree().string(pragma.value))));
+      pou.pragmas.mocks.push_back(keyOf(context, context.names().intern(context.tree().string(pragma.value))));
     }
-    std::sort(pou.mocks.begin(), pou.mocks.end(), byIndex);
-    if (pou.test) {
-      pou.excluded = !options.with_tests || pou.mocks != chosen;
-    } else if (pou.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
-      pou.test_only = false;  // the program uses it now
-      const std::string_view dotted = context.names().string(pou.replaces);
+    std::sort(pou.pragmas.mocks.begin(), pou.pragmas.mocks.end(), byIndex);
+    if (pou.pragmas.test) {
+      pou.excluded = !options.with_tests || pou.pragmas.mocks != chosen;
+    } else if (pou.pragmas.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
+      pou.pragmas.test_only = false;  // the program uses it now
+      const std::string_view dotted = context.names().string(pou.pragmas.replaces);
       const NameId last = context.names().intern(dotted.substr(dotted.rfind('.') + 1));
       context.scopes.mocks.push_back({.key = keyOf(context, last), .mock = PouId{i}});
     } else {
-      pou.excluded = pou.replaces || (pou.test_only && !options.with_tests);
+      pou.excluded = pou.pragmas.replaces || (pou.pragmas.test_only && !options.with_tests);
     }
   }
 }
@@ -110,17 +110,19 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
 
 bool canBeReplaced(const Pou& original, const Pou& mock) {
   return original.kind == mock.kind && mock.kind != PouKind::Program && !original.generic && !original.extensible &&
-         original.operator_kind == Pou::Operator::None && !original.test && !original.replaces && !mock.test;
+         original.pragmas.operator_kind == OperatorKind::None && !original.pragmas.test && !original.pragmas.replaces &&
+         !mock.pragmas.test;
 }
 
 void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
-  const Entity found = findDotted(context, context.symbols.pou(id).replaces);
+  const Entity found = findDotted(context, context.symbols.pou(id).pragmas.replaces);
   const Pou& mock = context.symbols.pou(id);
-  std::string_view wanted = context.names().string(mock.replaces);
+  std::string_view wanted = context.names().string(mock.pragmas.replaces);
   if (wanted.empty()) wanted = "...";
   if (found.entityKind() != EntityKind::Pou) {
     if (context.tree().lost_names) return;
-    reportPragma(context, diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
+    reportPragma(context, diag::MockOfUnknown, pragma, {wanted})
+        .didYouMean(nearestName(context, mock.pragmas.replaces));
     return;
   }
   const PouId original{found.index};
@@ -151,16 +153,16 @@ void checkMocks(Context& context) {
       const NameId key = keyOf(context, pragma.name);
       if (key == known.replaces) checkReplaced(there, PouId{i}, pragma);
       if (key != known.mock) continue;
-      if (!pou.test) {
+      if (!pou.pragmas.test) {
         reportPragma(context, diag::MockOutsideTest, pragma, {context.names().string(pou.name)});
         break;
       }
       const NameId name = context.names().intern(context.tree().string(pragma.value));
       const Entity found = lookUp(there, name);
-      if (found.entityKind() != EntityKind::Pou || !symbols.pous[found.index].replaces) {
+      if (found.entityKind() != EntityKind::Pou || !symbols.pous[found.index].pragmas.replaces) {
         std::vector<std::string_view> mocks;
         for (const Pou& other : symbols.pous)
-          if (other.replaces) mocks.push_back(context.names().string(other.name));
+          if (other.pragmas.replaces) mocks.push_back(context.names().string(other.name));
         const std::string_view written = context.names().string(name);
         reportPragma(context, diag::NoMock, pragma, {written.empty() ? "..." : written})
             .didYouMean(nearest(written, mocks));
@@ -170,13 +172,13 @@ void checkMocks(Context& context) {
       const Pou& mock = symbols.pous[found.index];
       Context at_mock = atPou(context, PouId{found.index});
       at_mock.pou = {};
-      const Entity original = findDotted(at_mock, mock.replaces);
+      const Entity original = findDotted(at_mock, mock.pragmas.replaces);
       if (original.entityKind() != EntityKind::Pou) continue;  // reported at the mock
       for (const auto& [other, by] : replaced) {
         if (other != original.index) continue;
         reportPragma(context, diag::TwoMocks, pragma,
                      {context.names().string(symbols.pou(by).name), context.names().string(mock.name),
-                      context.names().string(mock.replaces)});
+                      context.names().string(mock.pragmas.replaces)});
       }
       replaced.push_back({original.index, PouId{found.index}});
     }
@@ -184,7 +186,8 @@ void checkMocks(Context& context) {
   if (symbols.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < taken.size(); ++i) {
     const Pou& pou = symbols.pous[i];
-    if (pou.replaces && !taken[i]) context.report(diag::MockUnused, pou.loc, {context.names().string(pou.name)});
+    if (pou.pragmas.replaces && !taken[i])
+      context.report(diag::MockUnused, pou.loc, {context.names().string(pou.name)});
   }
 }
 

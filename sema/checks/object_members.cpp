@@ -27,9 +27,9 @@ PouId inherited(Context& context, PouId object, PouId like) {
 }
 
 std::string_view kindName(const Pou& member) {
-  return member.accessor == Pou::Accessor::None  ? "method"
-         : member.accessor == Pou::Accessor::Get ? "GET of the property"
-                                                 : "SET of the property";
+  return member.object.accessor == AccessorKind::None  ? "method"
+         : member.object.accessor == AccessorKind::Get ? "GET of the property"
+                                                       : "SET of the property";
 }
 
 // Forbids an override that is less visible than the method of the base or interface.
@@ -58,9 +58,9 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   const Pou& pou = context.symbols.pou(method);
   const Pou& other = context.symbols.pou(replaced);
   std::string difference;
-  if (pou.accessor == Pou::Accessor::Set) {  // GET has reported that the property is of another type
+  if (pou.object.accessor == AccessorKind::Set) {  // GET has reported that the property is of another type
     for (const PouId member : context.symbols.pou(pou.owner).members)
-      if (context.symbols.pou(member).accessor == Pou::Accessor::Get &&
+      if (context.symbols.pou(member).object.accessor == AccessorKind::Get &&
           context.names().same(context.symbols.pou(member).name, pou.name))
         return;
   }
@@ -99,7 +99,7 @@ struct Demands {
     if (std::find(seen.begin(), seen.end(), id) != seen.end()) return;
     seen.push_back(id);
     for (const PouId method : context.symbols.pou(id).members) demand(method);
-    for (const PouId base : context.symbols.pou(id).interfaces) interface(base);
+    for (const PouId base : context.symbols.pou(id).object.interfaces) interface(base);
   }
 
   void demand(PouId method) {
@@ -110,7 +110,7 @@ struct Demands {
       return;
     }
     const Pou& pou = context.symbols.pou(object);
-    if ((pou.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
+    if ((pou.object.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
     context
         .report(diag::MemberMissing, loc,
                 {string(context, pou.name), kindName(wanted), string(context, wanted.name),
@@ -134,23 +134,23 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.symbols.pou(id);
   const Pou& owner = context.symbols.pou(object);
   if (method.kind != PouKind::Method) return;
-  if ((method.modifiers & kAbstract) != 0 && (owner.modifiers & kAbstract) == 0) {
+  if ((method.object.modifiers & kAbstract) != 0 && (owner.object.modifiers & kAbstract) == 0) {
     context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
   }
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
-    if ((method.modifiers & kOverride) != 0)
+    if ((method.object.modifiers & kOverride) != 0)
       context.report(diag::OverridesNothing, method.loc, {string(context, method.name)});
     return;
   }
   const Pou& other = context.symbols.pou(replaced);
   const std::string_view base = string(context, context.symbols.pou(other.owner).name);
-  if ((other.modifiers & kFinal) != 0) {
+  if ((other.object.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {
     return;  // the parameters of FB_Init may differ
-  } else if (context.iec() && (method.modifiers & kOverride) == 0) {
+  } else if (context.iec() && (method.object.modifiers & kOverride) == 0) {
     context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
   } else {
     checkSignature(context, id, replaced);
@@ -191,7 +191,7 @@ void checkHalves(Context& context, PouId object) {
   for (const DeclId member :
        context.tree().list(context.tree().as<PouDecl>(context.symbols.pou(object).decl).members)) {
     if (context.tree().kind(member) != DeclKind::Property) continue;
-    const Property& property = context.symbols.properties[context.symbols.pou(object).properties[index++]];
+    const Property& property = context.symbols.properties[context.symbols.pou(object).object.properties[index++]];
     if (context.tree().as<PropertyDecl>(member).h.bits == kInHalves && property.get && property.set)
       checkHalves(context, property);
   }
@@ -205,8 +205,7 @@ void checkObjectMembers(Context& context, PouId object) {
   if (pou.kind == PouKind::Interface) return checkPrototypes(context, object);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   for (const PouId member : pou.members) checkMethod(context, object, member);
-  for (uint32_t i = 0; i < decl.implements.count; ++i) {
-    const TypeExprId written = context.tree().list(decl.implements)[i];
+  for (const TypeExprId written : context.tree().list(decl.implements)) {
     Demands demands{context, object, context.tree().loc(written), {}};
     if (const PouId interface = interfaceOf(context, context.tree().typeExpr(written).type))
       demands.interface(interface);
@@ -216,7 +215,8 @@ void checkObjectMembers(Context& context, PouId object) {
   for (PouId at = pou.base; at; at = context.symbols.pou(at).base) {
     Demands demands{context, object, base_loc, {}};
     for (const PouId method : context.symbols.pou(at).members)
-      if ((context.symbols.pou(method).modifiers & kAbstract) != 0 && inherited(context, object, method) == method)
+      if ((context.symbols.pou(method).object.modifiers & kAbstract) != 0 &&
+          inherited(context, object, method) == method)
         demands.demand(method);
   }
   for (const VarId id : pou.vars) {
@@ -232,7 +232,7 @@ void checkObjectMembers(Context& context, PouId object) {
 bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
   while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
   const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
-  if (!pou || (context.symbols.pou(pou).modifiers & kAbstract) == 0) return true;
+  if (!pou || (context.symbols.pou(pou).object.modifiers & kAbstract) == 0) return true;
   context.report(diag::AbstractInstance, loc, {string(context, context.symbols.pou(pou).name)});
   return false;
 }

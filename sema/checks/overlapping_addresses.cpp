@@ -28,7 +28,7 @@ void checkOverlappingAddresses(Context& context) {
   for (uint32_t i = 1; i < symbols.vars.size(); ++i) {
     const Var& var = symbols.vars[i];
     if (var.storage != Storage::Image || var.external || !var.type || var.type == types::kError) continue;
-    if (!var.written && !var.init) continue;
+    if (!var.use.written && !var.init) continue;
     const ImageView& view = var.image;
     const uint64_t begin = uint64_t{view.byte} * 8 + (view.is_bit ? view.bit : 0);
     const uint64_t bits = view.is_bit ? 1 : uint64_t{table.info(table.resolve(var.type)).size} * 8;

@@ -20,7 +20,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
     const Var& pin = context.symbols.var(pins[i]);
-    const bool must = pin.section == SectionKind::InOut || pin.required ||
+    const bool must = pin.section == SectionKind::InOut || pin.pragmas.required ||
                       (pin.section == SectionKind::Input && context.types().isOpenArray(pin.type));
     if (given) {
       const bool open = !context.tree().list(node.arguments)[arguments.slots[i] - 1].value;

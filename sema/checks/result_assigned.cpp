@@ -11,7 +11,7 @@ namespace rung::sema {
 
 void checkResultAssigned(Context& context) {
   const Pou& pou = context.symbols.pou(context.pou);
-  if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).written) return;
+  if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).use.written) return;
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // their results are not used
   context.report(diag::ResultNotAssigned, pou.loc, {string(context, pou.name)});
 }

@@ -11,9 +11,9 @@ namespace rung::sema {
 
 void checkTestOnly(Context& context, PouId used, Loc loc) {
   const Pou& pou = context.symbols.pou(used);
-  if (!pou.test_only || context.library) return;
+  if (!pou.pragmas.test_only || context.library) return;
   const Pou& user = context.symbols.pou(context.pou);
-  if (user.test || user.test_only || user.replaces) return;
+  if (user.pragmas.test || user.pragmas.test_only || user.pragmas.replaces) return;
   context.report(diag::TestOnly, loc, {context.names().string(pou.name)});
 }
 

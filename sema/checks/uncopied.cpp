@@ -16,7 +16,7 @@ PouId uncopiedIn(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(type);
   if (info.kind == TypeKind::Array) return uncopiedIn(context, info.base);
   if (info.kind != TypeKind::Record || info.record_kind == types::RecordKind::Interface) return {};
-  if (const PouId pou = pouOf(context, type); pou && context.symbols.pou(pou).no_copy) return pou;
+  if (const PouId pou = pouOf(context, type); pou && context.symbols.pou(pou).pragmas.no_copy) return pou;
   for (const types::Field& field : info.fields) {
     if (field.by_reference || !field.type) continue;
     if (const PouId found = uncopiedIn(context, field.type)) return found;

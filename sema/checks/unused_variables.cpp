@@ -25,7 +25,7 @@ void checkUnusedVariables(Context& context) {
   if (context.symbols.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
     const Pou& pou = context.symbols.pous[i];
-    if (pou.library || pou.native || !pou.checked || !pou.decl) continue;
+    if (pou.library || pou.pragmas.native || !pou.progress.checked() || !pou.decl) continue;
     const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
     if (decl.body.empty()) continue;
     for (const VarId id : pou.vars) {
@@ -35,12 +35,13 @@ void checkUnusedVariables(Context& context) {
         continue;
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
-      if (local && !var.read && !var.written) {
+      if (local && !var.use.read && !var.use.written) {
         if (isCreatedByMethod(context, var.type)) continue;
         context.report(diag::UnusedVariable, var.loc, {string(context, var.name)});
-      } else if (local && !var.written && !var.init && var.constructor.index == 0 && pou.kind != PouKind::Program) {
+      } else if (local && !var.use.written && !var.init && var.start.constructor.index == 0 &&
+                 pou.kind != PouKind::Program) {
         context.report(diag::NeverWritten, var.loc, {string(context, var.name)});
-      } else if (var.section == SectionKind::Output && !var.written && !var.init) {
+      } else if (var.section == SectionKind::Output && !var.use.written && !var.init) {
         context.report(diag::OutputNeverWritten, var.loc, {string(context, var.name), string(context, pou.name)});
       }
     }

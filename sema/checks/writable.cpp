@@ -51,73 +51,58 @@ bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) 
   return false;
 }
 
+// A member: of a chart's state, of a list of globals, of an instance, or of a structure. `decided`: false where its
+// base decides.
+bool checkMemberWritable(Context& context, const MemberExpr& node, VarId var, bool& decided) {
+  const Tree& tree = context.tree();
+  const Entity of = entityOf(context, node.base);
+  if (of.entityKind() == EntityKind::Var &&
+      !checkOfChart(context, VarId{of.index}, node.h.loc, string(context, node.member)))
+    return false;
+  if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
+  if (context.symbols.var(var).constant) {
+    context.report(diag::AssignToConstant, node.h.loc, {string(context, node.member)})
+        .declaredHere(context.symbols.var(var).loc);
+    return false;
+  }
+  const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
+  decided = info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program;
+  return true;  // of an instance: checked by outside_access
+}
+
 }  // namespace
 
 bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
   const Tree& tree = context.tree();
   const ExprId whole = expr;
-  for (;;) {
-    switch (tree.kind(expr)) {
-      case ExprKind::Name: {
-        const NameExpr& node = tree.as<NameExpr>(expr);
-        if (node.entity.entityKind() == EntityKind::Var) {
-          const VarId var{node.entity.index};
-          const bool passed = purpose.phrase != "assigned to";  // a whole step may be passed to an in-out
-          return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
-        }
-        context.report(diag::NotAnLvalue, node.h.loc, {purpose.toString(context)});
-        return false;
-      }
-      case ExprKind::Member: {
-        const MemberExpr& node = tree.as<MemberExpr>(expr);
-        if (node.entity.entityKind() != EntityKind::Var) {
-          context.report(diag::NotAnLvalue, node.h.loc, {purpose.toString(context)});
-          return false;
-        }
-        const VarId var{node.entity.index};
-        const Entity of = tree.kind(node.base) == ExprKind::Name     ? tree.as<NameExpr>(node.base).entity
-                          : tree.kind(node.base) == ExprKind::Member ? tree.as<MemberExpr>(node.base).entity
-                                                                     : Entity{};
-        if (of.entityKind() == EntityKind::Var &&
-            !checkOfChart(context, VarId{of.index}, node.h.loc, string(context, node.member)))
-          return false;
-        if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
-        if (context.symbols.var(var).constant) {
-          context.report(diag::AssignToConstant, node.h.loc, {string(context, node.member)})
-              .declaredHere(context.symbols.var(var).loc);
-          return false;
-        }
-        const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
-        if (info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program) {
-          return true;  // checked by outside_access
-        }
-        expr = node.base;
+  const auto refuse = [&](Loc loc) {
+    context.report(diag::NotAnLvalue, loc, {purpose.toString(context)});
+    return false;
+  };
+  for (;; expr = tree.base(expr)) {
+    const ExprKind kind = tree.kind(expr);
+    switch (shape(kind)) {
+      case ExprShape::Leaf: break;
+      case ExprShape::Step:
+        if (kind == ExprKind::Deref) return true;
+        if (kind != ExprKind::Member) continue;
         break;
-      }
-      case ExprKind::Index: expr = tree.as<IndexExpr>(expr).base; break;
-      case ExprKind::BitAccess: expr = tree.as<BitAccessExpr>(expr).base; break;
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Deref:
-      case ExprKind::Address:
-      case ExprKind::Error: return true;
-      case ExprKind::Literal:
-      case ExprKind::TypedName:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Call:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::Repeat:
-      case ExprKind::StructInit:
-      case ExprKind::Convert:
-      case ExprKind::Bound:
-      case ExprKind::New:
-      case ExprKind::AnyValue:
-      case ExprKind::AddressOf:
-        context.report(diag::NotAnLvalue, tree.begin(whole), {purpose.toString(context)});
-        return false;
+      case ExprShape::Operation:
+      case ExprShape::Initializer:
+      case ExprShape::Inserted: return refuse(tree.begin(whole));
     }
+    if (kind == ExprKind::Literal || kind == ExprKind::TypedName) return refuse(tree.begin(whole));
+    if (kind != ExprKind::Name && kind != ExprKind::Member) return true;
+    const Entity entity = entityOf(context, expr);
+    if (entity.entityKind() != EntityKind::Var) return refuse(tree.loc(expr));
+    const VarId var{entity.index};
+    if (kind == ExprKind::Name) {
+      const bool passed = purpose.use != Use::Assigned;  // a whole step may be passed to an in-out
+      return (passed || checkOfChart(context, var, tree.loc(expr), {})) && checkVariable(context, var, tree.loc(expr));
+    }
+    bool decided = true;
+    const bool writable = checkMemberWritable(context, tree.as<MemberExpr>(expr), var, decided);
+    if (decided) return writable;
   }
 }
 

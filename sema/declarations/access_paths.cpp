@@ -57,7 +57,7 @@ struct AccessPathResolver {
     PouId object = named == nullptr ? PouId{} : named->pou;
     while (member.pou && object && !(object == member.pou)) {
       const Pou& pou = project.pou(object);
-      offset += context.types().info(pou.record).fields[project.var(pou.base_var).field].offset;
+      offset += context.types().info(pou.record).fields[project.var(pou.object.base_var).field].offset;
       object = pou.base;
       record = project.pou(object).record;
     }
@@ -77,10 +77,10 @@ struct AccessPathResolver {
     } else if (var.storage == Storage::Field) {
       out.offset += offsetOf(record, var);
     }
-    if (var.is_bit) out.bit = var.bit;
+    if (var.bits.is_bit) out.bit = var.bits.bit;
     if (var.constant) out.read_only = true;
-    project.var(id).read = true;
-    if (!out.read_only) project.var(id).written = true;
+    project.var(id).use.read = true;
+    if (!out.read_only) project.var(id).use.written = true;
     return !step.element || enterElement(out, step, type);
   }
 
@@ -209,7 +209,7 @@ struct AccessPathResolver {
 
   void section(DeclId id, FileId file, NameId configuration) {
     if (tree().kind(id) != DeclKind::Section) return;
-    const SectionDecl section = tree().as<SectionDecl>(id);
+    const SectionDecl& section = tree().as<SectionDecl>(id);
     if (section.section != SectionKind::Access) return;
     context.file = file;
     AccessPath out;
@@ -220,13 +220,11 @@ struct AccessPathResolver {
   void configurations() {
     for (uint32_t u = 0; u < tree().files.size(); ++u) {
       const FileUnit unit = tree().files[u];
-      for (uint32_t i = 0; i < unit.decls.count; ++i) {
-        const DeclId id = tree().list(unit.decls)[i];
+      for (const DeclId id : tree().list(unit.decls)) {
         section(id, unit.file, {});
         if (tree().kind(id) != DeclKind::Configuration) continue;
         const ConfigurationDecl configuration = tree().as<ConfigurationDecl>(id);
-        for (uint32_t m = 0; m < configuration.members.count; ++m) {
-          const DeclId member = tree().list(configuration.members)[m];
+        for (const DeclId member : tree().list(configuration.members)) {
           section(member, unit.file, configuration.name);
           if (tree().kind(member) != DeclKind::Resource) continue;
           const Slice<DeclId> inner = tree().as<ResourceDecl>(member).members;
@@ -239,10 +237,10 @@ struct AccessPathResolver {
   void programs() {
     for (uint32_t p = 1; p < project.pous.size(); ++p) {
       const Pou& pou = project.pous[p];
-      if (pou.kind != PouKind::Program || pou.library || pou.test || !pou.decl) continue;
-      const PouDecl decl = tree().as<PouDecl>(pou.decl);
+      if (pou.kind != PouKind::Program || pou.library || pou.pragmas.test || !pou.decl) continue;
+      const PouDecl& decl = tree().as<PouDecl>(pou.decl);
       for (uint32_t s = 0; s < decl.sections.count; ++s) {
-        const SectionDecl section = tree().as<SectionDecl>(tree().list(decl.sections)[s]);
+        const SectionDecl& section = tree().as<SectionDecl>(tree().list(decl.sections)[s]);
         if (section.section != SectionKind::Access) continue;
         context.file = pou.file;
         for (uint32_t i = 0; i < project.instances.size(); ++i) {

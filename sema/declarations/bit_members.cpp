@@ -30,12 +30,12 @@ bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
 
 void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit) {
   Var& var = context.symbols.var(id);
-  var.bits_of = byte;
-  var.bit = bit;
+  var.bits.holder = byte;
+  var.bits.bit = bit;
   var.field = context.symbols.var(byte).field;
-  var.is_bit = true;
+  var.bits.is_bit = true;
   context.scopes.named(record)->bits.push_back(id);
-  context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
+  context.types().edit(record).bits.push_back({var.name, var.field, var.bits.bit});
 }
 
 VarId addByteOfBits(Context& context, TypeId record, VarId first) {
@@ -50,8 +50,8 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   byte.persistent = var.persistent;
   byte.pou = var.pou;
   byte.record = var.record;
-  byte.read = byte.written = true;
-  byte.holds_bits = true;
+  byte.use.read = byte.use.written = true;
+  byte.bits.holds_bits = true;
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   symbols.vars.push_back(byte);
   if (var.pou) symbols.pou(var.pou).vars.push_back(created);
@@ -65,9 +65,10 @@ void addBit(Context& context, TypeId record, VarId id) {
   Var& var = symbols.var(id);
   const bool is_union = context.types().info(record).record_kind == types::RecordKind::Union;
   const VarId last = named.bits.empty() || is_union ? VarId{} : named.bits.back();
-  if (last && symbols.var(last).bit < 7 && symbols.var(last).bits_of == named.fields.back() &&
+  if (last && symbols.var(last).bits.bit < 7 && symbols.var(last).bits.holder == named.fields.back() &&
       symbols.var(last).retain == var.retain && symbols.var(last).persistent == var.persistent) {
-    return addBitAt(context, record, id, symbols.var(last).bits_of, static_cast<uint8_t>(symbols.var(last).bit + 1));
+    return addBitAt(context, record, id, symbols.var(last).bits.holder,
+                    static_cast<uint8_t>(symbols.var(last).bits.bit + 1));
   }
   addBitAt(context, record, id, addByteOfBits(context, record, id), 0);
 }
@@ -78,12 +79,12 @@ uint8_t initialBits(Context& context, TypeId record, VarId byte) {
   const NamedType& named = *context.scopes.named(context.types().resolve(record));
   for (size_t i = 0; i < named.bits.size(); ++i) {
     const VarId id = named.bits[i];
-    if (context.symbols.var(id).bits_of != byte) continue;
+    if (context.symbols.var(id).bits.holder != byte) continue;
     ensureInitialValue(context, id);
     const ExprId init = context.symbols.var(id).init;
     if (!init) continue;
     const auto bit = requireConstant(context, init, types::kBool);
-    if (bit && bit->bits != 0) value = static_cast<uint8_t>(value | 1u << context.symbols.var(id).bit);
+    if (bit && bit->bits != 0) value = static_cast<uint8_t>(value | 1u << context.symbols.var(id).bits.bit);
   }
   return value;
 }

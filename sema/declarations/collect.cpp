@@ -119,32 +119,36 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.kind = decl.pou_kind;
   pou.decl = id;
   pou.file = file;
-  pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, known.native) != nullptr;
+  pou.pragmas.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, known.native) != nullptr;
   pou.cpp = decl.body_kind == BodyKind::Cpp;
-  pou.pure = findPragma(context, decl.h, known.pure) != nullptr;
-  pou.prefix = findPragma(context, decl.h, known.prefix) != nullptr;
-  pou.sized = findPragma(context, decl.h, known.sized) != nullptr;
-  pou.slice = findPragma(context, decl.h, known.slice) != nullptr;
-  pou.faults = findPragma(context, decl.h, known.fault) != nullptr;
-  pou.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
-  pou.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
-  pou.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
-  pou.test = findPragma(context, decl.h, known.test) != nullptr;
+  pou.pragmas.pure = findPragma(context, decl.h, known.pure) != nullptr;
+  pou.pragmas.prefix = findPragma(context, decl.h, known.prefix) != nullptr;
+  pou.pragmas.sized = findPragma(context, decl.h, known.sized) != nullptr;
+  pou.pragmas.slice = findPragma(context, decl.h, known.slice) != nullptr;
+  pou.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
+  pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
+  pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
+  pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
+  pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
-    pou.replaces = context.names().intern(context.tree().string(pragma->value));
-    pou.test_only = true;
+    pou.pragmas.replaces = context.names().intern(context.tree().string(pragma->value));
+    pou.pragmas.test_only = true;
   }
   if (const Pragma* pragma = findPragma(context, decl.h, known.op)) {
     const std::string_view word = context.tree().string(pragma->value);
-    pou.operator_kind = word == "select"              ? Pou::Operator::Select
-                        : word == "mux"               ? Pou::Operator::Mux
-                        : word == "convert"           ? Pou::Operator::Convert
-                        : word == "move"              ? Pou::Operator::Move
-                        : types::findOp(word, pou.op) ? Pou::Operator::Op
-                                                      : Pou::Operator::None;
+    static constexpr std::pair<std::string_view, OperatorKind> kOperators[] = {{"select", OperatorKind::Select},
+                                                                               {"mux", OperatorKind::Mux},
+                                                                               {"convert", OperatorKind::Convert},
+                                                                               {"move", OperatorKind::Move}};
+    const auto* row = std::find_if(std::begin(kOperators), std::end(kOperators),
+                                   [&](const auto& candidate) { return candidate.first == word; });
+    if (row != std::end(kOperators))
+      pou.pragmas.operator_kind = row->second;
+    else if (types::findOp(word, pou.pragmas.op))
+      pou.pragmas.operator_kind = OperatorKind::Op;
   }
   pou.access = decl.access;
-  pou.modifiers = decl.modifiers;
+  pou.object.modifiers = decl.modifiers;
   if (pou.kind != PouKind::Function) {
     pou.record = context.types().addRecord(pou.kind == PouKind::Program     ? RecordKind::Program
                                            : pou.kind == PouKind::Interface ? RecordKind::Interface
@@ -162,8 +166,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);
     if (!mayHoldGlobals(context, pou.kind)) return;
-    for (uint32_t s = 0; s < decl.sections.count; ++s) {
-      const DeclId id_of_section = context.tree().list(decl.sections)[s];
+    for (const DeclId id_of_section : context.tree().list(decl.sections)) {
       const SectionDecl& section = context.tree().as<SectionDecl>(id_of_section);
       if (section.section != SectionKind::Global) continue;
       addGlobals(context, listNamed(context, toString(context, pou.name), file, section.h.loc, scopes.qualifiers),
@@ -171,7 +174,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     }
     return;
   }
-  pou.library = pou.used = true;
+  pou.library = pou.progress.used = true;
   pou.library_name = scopes.libraries.list[library].name;
   declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
   if (scopes.pous_and_types.find(keyOf(context, pou.name))) {  // a block of the project has the name: both may be used
@@ -267,8 +270,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();
-  for (uint32_t i = 0; i < section.vars.count; ++i) {
-    const DeclId decl = context.tree().list(section.vars)[i];
+  for (const DeclId decl : context.tree().list(section.vars)) {
     scope.decls.push_back(decl);
     declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
   }

@@ -23,13 +23,11 @@ template <class Visit>
 void forEachMember(Context& context, Visit visit) {
   Tree& tree = context.tree();
   for (const FileUnit& unit : tree.files) {
-    for (uint32_t i = 0; i < unit.decls.count; ++i) {
-      const DeclId id = tree.list(unit.decls)[i];
+    for (const DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Configuration) continue;
       const ConfigurationDecl& configuration = tree.as<ConfigurationDecl>(id);
       Part part{configuration.name, {}, unit.file};
-      for (uint32_t m = 0; m < configuration.members.count; ++m) {
-        const DeclId member = tree.list(configuration.members)[m];
+      for (const DeclId member : tree.list(configuration.members)) {
         if (tree.kind(member) != DeclKind::Resource) {
           visit(part, member);
           continue;
@@ -179,7 +177,7 @@ struct TaskReader {
       return;
     }
     task.trigger = VarId{found.index};
-    context.symbols.var(task.trigger).read = true;
+    context.symbols.var(task.trigger).use.read = true;
   }
 
   void read(const TaskDecl& decl) {
@@ -243,8 +241,8 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
     }
     const uint32_t number = findTask(context, part, task, tasks);
     if (number == 0) continue;
-    project.pou(pou).used = true;
-    project.var(found).read = true;
+    project.pou(pou).progress.used = true;
+    project.var(found).use.read = true;
     project.block_tasks.push_back({instance, found, number, block.loc});
   }
 }
@@ -336,11 +334,11 @@ void addDefaultTask(Context& context) {
     const Entity found = id ? context.scopes.pous_and_types.find(keyOf(context, id)) : Entity{};
     if (only || found.entityKind() != EntityKind::Pou) continue;
     const Pou& pou = project.pous[found.index];
-    if (pou.kind == PouKind::Program && !pou.test) only = PouId{found.index};
+    if (pou.kind == PouKind::Program && !pou.pragmas.test) only = PouId{found.index};
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.kind != PouKind::Program || pou.test || pou.library || !pou.name) continue;
+    if (pou.kind != PouKind::Program || pou.pragmas.test || pou.library || !pou.name) continue;
     if (only && only.index != i) continue;
     if (project.tasks.empty()) {
       Task task;

@@ -169,8 +169,8 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
   if (!call.pou || call.en || call.eno) return std::nullopt;
   if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
   const Pou& pou = symbols.pou(call.pou);
-  if (pou.operator_kind == Pou::Operator::Select || pou.operator_kind == Pou::Operator::Mux) {
-    return evaluateChoice(context, call, node.h.type, pou.operator_kind == Pou::Operator::Select, depth);
+  if (pou.pragmas.operator_kind == OperatorKind::Select || pou.pragmas.operator_kind == OperatorKind::Mux) {
+    return evaluateChoice(context, call, node.h.type, pou.pragmas.operator_kind == OperatorKind::Select, depth);
   }
   std::vector<Value> operands;
   for (const Binding& binding : call.bindings) {
@@ -181,21 +181,21 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
   }
   if (call.kind == CallKind::Function) return callFunction(context, call.pou, std::move(operands));
   if (operands.empty()) return std::nullopt;
-  switch (pou.operator_kind) {
-    case Pou::Operator::Move: return operands[0];
-    case Pou::Operator::Convert:
+  switch (pou.pragmas.operator_kind) {
+    case OperatorKind::Move: return operands[0];
+    case OperatorKind::Convert:
       if (TypeTable::isString(context.types().plainKind(operands[0].type)) ||
           TypeTable::isString(context.types().plainKind(node.h.type))) {
         return std::nullopt;
       }
       return types::convert(context.types(), operands[0], node.h.type).value;
-    case Pou::Operator::Op: {
-      if (types::operandCount(pou.op) == 1)
-        return applyChecked(context, pou.op, operands[0], operands[0], node.h.loc, {});
-      if (types::isComparison(pou.op)) {  // GT(a, b, c): a > b and b > c
+    case OperatorKind::Op: {
+      if (types::operandCount(pou.pragmas.op) == 1)
+        return applyChecked(context, pou.pragmas.op, operands[0], operands[0], node.h.loc, {});
+      if (types::isComparison(pou.pragmas.op)) {  // GT(a, b, c): a > b and b > c
         bool all = true;
         for (size_t i = 1; i < operands.size(); ++i) {
-          const auto pair = applyChecked(context, pou.op, operands[i - 1], operands[i], node.h.loc, {});
+          const auto pair = applyChecked(context, pou.pragmas.op, operands[i - 1], operands[i], node.h.loc, {});
           if (!pair) return std::nullopt;
           all = all && pair->bits != 0;
         }
@@ -204,15 +204,15 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
       Value result = operands[0];
       for (size_t i = 1; i < operands.size(); ++i) {
         const Loc divisor = context.tree().begin(call.bindings[i].value);
-        const auto next = applyChecked(context, pou.op, result, operands[i], node.h.loc, divisor);
+        const auto next = applyChecked(context, pou.pragmas.op, result, operands[i], node.h.loc, divisor);
         if (!next) return std::nullopt;
         result = *next;
       }
       return result;
     }
-    case Pou::Operator::Select:
-    case Pou::Operator::Mux:
-    case Pou::Operator::None: return std::nullopt;
+    case OperatorKind::Select:
+    case OperatorKind::Mux:
+    case OperatorKind::None: return std::nullopt;
   }
   return std::nullopt;
 }

@@ -65,18 +65,18 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   const Slice<DeclId> decls =
       text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.h.begin, written.h.end,
                               generic.library ? Dialect::Codesys : symbols.dialect, symbols.diagnostics);
-  for (uint32_t i = 0; i < decls.count; ++i) {
-    const DeclId decl = symbols.tree.list(decls)[i];
+  for (const DeclId decl : symbols.tree.list(decls)) {
     if (symbols.tree.kind(decl) != DeclKind::Pou) continue;
     Pou pou = generic;
     pou.decl = decl;
     pou.vars.clear();
     pou.pins.clear();
-    pou.pins_ready = false;
+    pou.progress.pins_ready = false;
     pou.result = {};
     pou.result_var = {};
-    pou.generic = pou.extensible = pou.checked = false;
-    pou.used = true;
+    pou.generic = pou.extensible = false;
+    pou.progress.body = Pou::Progress::Body::New;
+    pou.progress.used = true;
     pou.generic_of = generic_id;
     pou.unique_name = unique_name;
     const PouId id{static_cast<uint32_t>(symbols.pous.size())};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "frontend/syntax/children.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
@@ -38,50 +39,20 @@ struct InitialOrder {
   // Every variable whose value an expression reads. An address is known before all values.
   void collect(ExprId id, std::vector<VarId>& into) const {
     if (!id) return;
-    switch (tree().kind(id)) {
-      case ExprKind::Name: return addVar(tree().as<NameExpr>(id).entity, into);
-      case ExprKind::Member:
-        addVar(tree().as<MemberExpr>(id).entity, into);
-        return collect(tree().as<MemberExpr>(id).base, into);
-      case ExprKind::Index:
-        for (const ExprId index : tree().list(tree().as<IndexExpr>(id).indices)) collect(index, into);
-        return collect(tree().as<IndexExpr>(id).base, into);
-      case ExprKind::Deref: return collect(tree().as<DerefExpr>(id).base, into);
-      case ExprKind::BitAccess: return collect(tree().as<BitAccessExpr>(id).base, into);
-      case ExprKind::Unary: return collect(tree().as<UnaryExpr>(id).operand, into);
-      case ExprKind::Binary:
-        collect(tree().as<BinaryExpr>(id).left, into);
-        return collect(tree().as<BinaryExpr>(id).right, into);
-      case ExprKind::Convert: return collect(tree().as<ConvertExpr>(id).operand, into);
-      case ExprKind::Call: return collectCall(tree().as<CallExpr>(id).call, into);
-      case ExprKind::ArrayInit:
-        for (const ExprId element : tree().list(tree().as<ArrayInitExpr>(id).elements)) collect(element, into);
-        return;
-      case ExprKind::Repeat:
-        for (const ExprId element : tree().list(tree().as<RepeatExpr>(id).elements)) collect(element, into);
-        return;
-      case ExprKind::StructInit:
-        for (const FieldInit& given : tree().list(tree().as<StructInitExpr>(id).fields)) collect(given.value, into);
-        return;
-      case ExprKind::Error:
-      case ExprKind::Literal:
-      case ExprKind::TypedName:
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Address:
-      case ExprKind::AddressOf:
-      case ExprKind::Bound:
-      case ExprKind::AnyValue:
-      case ExprKind::New:
-      case ExprKind::Range: return;
-    }
+    const ExprKind kind = tree().kind(id);
+    if (kind == ExprKind::Name) return addVar(tree().as<NameExpr>(id).entity, into);
+    if (kind == ExprKind::Member) addVar(tree().as<MemberExpr>(id).entity, into);
+    if (kind == ExprKind::Call) return collectCall(tree().as<CallExpr>(id).call, into);
+    const bool only_takes_addresses = shape(kind) == ExprShape::Inserted && kind != ExprKind::Convert;
+    if (only_takes_addresses || kind == ExprKind::New || kind == ExprKind::Range) return;
+    forEachOperand(tree(), id, [&](ExprId operand) { collect(operand, into); });
   }
 
   void readsOf(VarId id) {
     std::vector<VarId> all;
     collect(var(id).init, all);
-    const uint32_t first = var(id).constructor.index;
-    const uint32_t count = first == 0 ? 0 : std::max(var(id).element_constructors, 1u);
+    const uint32_t first = var(id).start.constructor.index;
+    const uint32_t count = first == 0 ? 0 : std::max(var(id).start.element_constructors, 1u);
     for (uint32_t i = 0; i < count; ++i) collectCall(CallId{first + i}, all);
     std::sort(all.begin(), all.end(), [](VarId a, VarId b) { return a.index < b.index; });
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -208,9 +179,9 @@ void orderInitialValues(Context& context) {
   for (const uint32_t pou : pous)
     order.order(of_pou[pou], project.pous[pou].late,
                 [&](VarId id) { return !project.var(id).list && project.var(id).pou.index == pou; });
-  for (const VarId id : project.late) project.var(id).late = true;
+  for (const VarId id : project.late) project.var(id).start.late = true;
   for (const uint32_t pou : pous)
-    for (const VarId id : project.pous[pou].late) project.var(id).late = true;
+    for (const VarId id : project.pous[pou].late) project.var(id).start.late = true;
 }
 
 }  // namespace rung::sema

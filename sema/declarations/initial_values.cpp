@@ -156,8 +156,7 @@ struct Initializer {
     if (found.entityKind() != EntityKind::Var || !context.symbols.vars[found.index].constant) return;
     if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return;
     std::vector<ExprId> values;
-    for (uint32_t i = 0; i < call.arguments.count; ++i) {
-      const Argument& argument = tree().list(call.arguments)[i];
+    for (const Argument& argument : tree().list(call.arguments)) {
       if (argument.pin.name) return;
       values.push_back(argument.value);
     }
@@ -323,7 +322,7 @@ struct Initializer {
       }
       given.field.name = var.name;  // an alias means its pin
       if (given.value) value(given.value, var.type);
-      if (var.is_bit && given.value) {
+      if (var.bits.is_bit && given.value) {
         setBit(bytes, type, member, given.value);
         given.value = {};
       }
@@ -351,17 +350,18 @@ struct Initializer {
     const auto bit = requireConstant(context, given, types::kBool);
     if (!bit) return;
     const Var& var = context.symbols.var(member);
-    if (bytes.empty() || bytes.back().first != var.bits_of) {
-      auto at = std::find_if(bytes.begin(), bytes.end(), [&](const auto& byte) { return byte.first == var.bits_of; });
+    if (bytes.empty() || bytes.back().first != var.bits.holder) {
+      auto at =
+          std::find_if(bytes.begin(), bytes.end(), [&](const auto& byte) { return byte.first == var.bits.holder; });
       if (at == bytes.end()) {
         const TypeId holder = var.record ? type : context.symbols.pou(var.pou).record;
-        bytes.emplace_back(var.bits_of, initialBits(context, holder, var.bits_of));
+        bytes.emplace_back(var.bits.holder, initialBits(context, holder, var.bits.holder));
       } else {
         std::rotate(at, at + 1, bytes.end());
       }
     }
     uint8_t& bits = bytes.back().second;
-    const auto mask = static_cast<uint8_t>(1u << var.bit);
+    const auto mask = static_cast<uint8_t>(1u << var.bits.bit);
     bits = static_cast<uint8_t>(bit->bits != 0 ? bits | mask : bits & ~mask);
   }
 

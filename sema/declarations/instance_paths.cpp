@@ -30,7 +30,7 @@ struct InstancePathResolver {
   bool inField(const Var& var) const { return var.storage == Storage::Field; }
 
   bool holdsPath(const Var& var) const {
-    return var.instance_path && inField(var) && context.types().kind(var.type) == TypeKind::String;
+    return var.pragmas.instance_path && inField(var) && context.types().kind(var.type) == TypeKind::String;
   }
 
   // `plc.Main.fb[2]` of a variable in that block, in the format of CODESYS and TwinCAT.
@@ -45,7 +45,7 @@ struct InstancePathResolver {
       if (step.var) {
         type = project.var(step.var).type;
         const Var& var = project.var(step.var);
-        const bool inherited = var.pou && project.pou(var.pou).base_var == step.var;
+        const bool inherited = var.pou && project.pou(var.pou).object.base_var == step.var;
         if (!inherited) out.append(".").append(string(var.name));
         continue;
       }
@@ -133,7 +133,7 @@ struct InstancePathResolver {
       if (at.program) walkValue(at, project.pou(at.program).record);
     }
     for (uint32_t i = 1; i < project.pous.size(); ++i) {
-      if (!project.pous[i].test || project.pous[i].kind != PouKind::Program) continue;
+      if (!project.pous[i].pragmas.test || project.pous[i].kind != PouKind::Program) continue;
       InstancePath at;
       at.program = {i};
       walkValue(at, project.pous[i].record);
@@ -275,11 +275,13 @@ struct InstancePathResolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    if (decl.init) {
-      checkInitializerAs(context, decl.init, type, "the initial value of `" + toString(context, last.name) + "`");
+    ExprId init = decl.init;
+    if (init) {
+      checkInitializerAs(context, init, type, "the initial value of `" + toString(context, last.name) + "`");
       for (const PathStep& step : target.path) {  // a configured variable has a value though no body writes it
-        if (step.var) context.symbols.var(step.var).written = true;
+        if (step.var) context.symbols.var(step.var).use.written = true;
       }
+      if (init) decl.init = init;  // otherwise it was reported
     }
     if (inField(var) || !var.open_address) {
       for (InstancePath& known : targets) {
@@ -287,7 +289,7 @@ struct InstancePathResolver {
         if (known.configured) return reportConfiguredTwice(last, known.loc);
         known.configured = true;
         known.loc = last.loc;
-        known.init = decl.init;
+        known.init = init;
         if (view) {
           known.image = *view;
           known.located = true;
@@ -296,7 +298,7 @@ struct InstancePathResolver {
       }
       target.configured = true;
       target.loc = last.loc;
-      target.init = decl.init;
+      target.init = init;
       targets.push_back(target);
       return;
     }
@@ -306,10 +308,10 @@ struct InstancePathResolver {
       complete = view.has_value();
       if (view) var.image = *view;
     }
-    if (decl.init) {
+    if (init) {
       target.configured = true;
       target.loc = last.loc;
-      target.init = decl.init;
+      target.init = init;
       targets.push_back(target);
     }
   }
@@ -324,13 +326,11 @@ struct InstancePathResolver {
     };
     for (uint32_t u = 0; u < tree().files.size(); ++u) {
       const FileUnit unit = tree().files[u];
-      for (uint32_t i = 0; i < unit.decls.count; ++i) {
-        const DeclId id = tree().list(unit.decls)[i];
+      for (const DeclId id : tree().list(unit.decls)) {
         sectionOf(id, unit.file);
         if (tree().kind(id) != DeclKind::Configuration) continue;
         const Slice<DeclId> members = tree().as<ConfigurationDecl>(id).members;
-        for (uint32_t m = 0; m < members.count; ++m) {
-          const DeclId member = tree().list(members)[m];
+        for (const DeclId member : tree().list(members)) {
           sectionOf(member, unit.file);
           if (tree().kind(member) != DeclKind::Resource) continue;
           const Slice<DeclId> inner = tree().as<ResourceDecl>(member).members;

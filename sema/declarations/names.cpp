@@ -123,7 +123,7 @@ Entity orMock(Context& context, NameId key, Entity found) {
       context.scopes.mocks[i].busy = true;
       Context there = atPou(context, mock);
       there.pou = {};
-      const Entity original = findDotted(there, context.symbols.pou(mock).replaces);
+      const Entity original = findDotted(there, context.symbols.pou(mock).pragmas.replaces);
       context.scopes.mocks[i].busy = false;
       if (original.entityKind() == EntityKind::Pou) context.scopes.mocks[i].original = PouId{original.index};
     }

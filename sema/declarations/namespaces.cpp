@@ -69,8 +69,7 @@ struct Collector {
     if (at_file_level && !usings.empty()) region = addRegion(context, {}, kNoLibrary, true);
     if (at_file_level && region) context.scopes.region_of_file[file.index] = region;
     if (!usings.empty()) context.scopes.regions[region.index].usings = std::move(usings);
-    for (uint32_t i = 0; i < decls.count; ++i) {
-      const DeclId decl = tree.list(decls)[i];
+    for (const DeclId decl : tree.list(decls)) {
       if (tree.kind(decl) == DeclKind::Using) continue;
       if (tree.kind(decl) == DeclKind::Namespace) {
         space(tree.as<NamespaceDecl>(decl), file, region);

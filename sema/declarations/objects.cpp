@@ -51,17 +51,17 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.kind = decl.pou_kind;
   member.decl = id;
   member.file = owner.file;
-  member.native = decl.body_kind == BodyKind::Native;
+  member.pragmas.native = decl.body_kind == BodyKind::Native;
   member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
-  member.used = owner.library;
-  member.faults = findPragma(context, decl.h, context.scopes.known_names.fault) != nullptr;
+  member.progress.used = owner.library;
+  member.pragmas.faults = findPragma(context, decl.h, context.scopes.known_names.fault) != nullptr;
   member.library_name = owner.library_name;
   member.owner = owner_id;
   member.access = decl.access;
-  member.modifiers = decl.modifiers;
+  member.object.modifiers = decl.modifiers;
   member.unique_name = uniqueName(context, owner, toString(context, decl.name) + accessor);
-  if (owner.kind == PouKind::Interface) member.modifiers |= kAbstract;
+  if (owner.kind == PouKind::Interface) member.object.modifiers |= kAbstract;
   owner.members.push_back(member_id);
   if (decl.body_kind == BodyKind::Sfc)
     text::declareSfc(chartsOf(there), context.tree().as<PouDecl>(id), chartContextOf(there, member_id));
@@ -115,8 +115,7 @@ PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
 
 void collectMembers(Context& context, PouId owner) {
   const PouDecl& decl = context.tree().as<PouDecl>(context.symbols.pou(owner).decl);
-  for (uint32_t i = 0; i < decl.members.count; ++i) {
-    const DeclId member = context.tree().list(decl.members)[i];
+  for (const DeclId member : context.tree().list(decl.members)) {
     if (context.tree().kind(member) == DeclKind::Pou) {
       addMember(context, owner, member, "");
       continue;
@@ -125,13 +124,13 @@ void collectMembers(Context& context, PouId owner) {
     Property created{property.name, property.h.loc, owner, {}, {}};
     if (property.get) {
       created.get = addMember(context, owner, property.get, "__get");
-      context.symbols.pou(created.get).accessor = Pou::Accessor::Get;
+      context.symbols.pou(created.get).object.accessor = AccessorKind::Get;
     }
     if (property.set) {
       created.set = addMember(context, owner, property.set, "__set");
-      context.symbols.pou(created.set).accessor = Pou::Accessor::Set;
+      context.symbols.pou(created.set).object.accessor = AccessorKind::Set;
     }
-    context.symbols.pou(owner).properties.push_back(static_cast<uint32_t>(context.symbols.properties.size()));
+    context.symbols.pou(owner).object.properties.push_back(static_cast<uint32_t>(context.symbols.properties.size()));
     context.symbols.properties.push_back(created);
   }
 }
@@ -151,14 +150,14 @@ void declareMembers(Context& context, PouId object) {
                                                                    : Loc{};
     reportTwice(context, name, loc, known);
   };
-  for (const uint32_t property : symbols.pou(object).properties) {
+  for (const uint32_t property : symbols.pou(object).object.properties) {
     const Property& of = symbols.properties[property];
     declare(of.name, of.loc, Entity::of(EntityKind::Property, property));
   }
   for (const PouId member : symbols.pou(object).members) {
     if (const PouId chart = symbols.pou(member).chart)
       context.scopes.pous[chart.index].names.insert(keyOf(context, symbols.pou(member).name), entity(member));
-    else if (symbols.pou(member).accessor == Pou::Accessor::None)
+    else if (symbols.pou(member).object.accessor == AccessorKind::None)
       declare(symbols.pou(member).name, symbols.pou(member).loc, entity(member));
     declarePou(context, member);  // its VAR_INST are variables of the object
   }
@@ -172,13 +171,14 @@ void decideDispatch(Context& context, PouId id) {
   const bool is_interface = pou.kind == PouKind::Interface;
   if (pou.kind != PouKind::FunctionBlock && pou.kind != PouKind::Class && !is_interface) return;
   if (pou.base) decideDispatch(context, pou.base);
-  bool own = is_interface || pou.extended || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
+  bool own =
+      is_interface || pou.object.extended || !pou.object.interfaces.empty() || (pou.object.modifiers & kAbstract) != 0;
   for (const PouId member : pou.members) {
     const Pou& method = context.symbols.pou(member);
-    own =
-        own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
+    own = own || (method.kind == PouKind::Method && (pou.object.modifiers & kFinal) == 0 &&
+                  !isLifeMethod(context, method.name));
   }
-  pou.dispatched = own || (pou.base && context.symbols.pou(pou.base).dispatched);
+  pou.object.dispatched = own || (pou.base && context.symbols.pou(pou.base).object.dispatched);
 }
 
 }  // namespace
@@ -188,8 +188,8 @@ namespace {
 // Warns of a duplicate interface in one list.
 //   passes  IMPLEMENTS IRun, IStop      warns   IMPLEMENTS IRun, IRun                                       W0346
 void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
-  if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
-    pou.interfaces.push_back(interface);
+  if (std::find(pou.object.interfaces.begin(), pou.object.interfaces.end(), interface) == pou.object.interfaces.end())
+    pou.object.interfaces.push_back(interface);
   else
     there.report(diag::DuplicateInterface, loc, {there.names().string(there.symbols.pou(interface).name)});
 }
@@ -201,14 +201,13 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
 //   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0352
 void resolveHeader(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
-  if (symbols.pou(id).header != Pou::Header::New || !symbols.pou(id).decl) return;
-  symbols.pou(id).header = Pou::Header::Busy;
+  if (symbols.pou(id).progress.header != Pou::Progress::Header::New || !symbols.pou(id).decl) return;
+  symbols.pou(id).progress.header = Pou::Progress::Header::Busy;
   Context there = atPou(context, id);
   there.pou = {};
   const PouDecl& decl = context.tree().as<PouDecl>(symbols.pou(id).decl);
   const bool is_interface = decl.pou_kind == PouKind::Interface;
-  for (uint32_t i = 0; i < decl.bases.count; ++i) {
-    const TypeExprId written = context.tree().list(decl.bases)[i];
+  for (const TypeExprId written : context.tree().list(decl.bases)) {
     const PouId base = objectNamed(there, written, is_interface);
     if (!base) continue;
     if (context.scopes.depth > kMaxDeclarationDepth) {
@@ -219,34 +218,33 @@ void resolveHeader(Context& context, PouId id) {
     ++context.scopes.depth;
     resolveHeader(context, base);
     --context.scopes.depth;
-    const uint32_t depth = symbols.pou(base).base_depth + 1;
+    const uint32_t depth = symbols.pou(base).object.base_depth + 1;
     if (depth > kMaxBases) {
       reportTooDeep(there, context.tree().loc(written), "bases", kMaxBases);
       continue;
     }
-    symbols.pou(id).base_depth = std::max(symbols.pou(id).base_depth, depth);
+    symbols.pou(id).object.base_depth = std::max(symbols.pou(id).object.base_depth, depth);
     const std::string_view name = context.names().string(symbols.pou(base).name);
-    if (symbols.pou(base).header == Pou::Header::Busy) {
+    if (symbols.pou(base).progress.header == Pou::Progress::Header::Busy) {
       there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().string(symbols.pou(id).name)});
     } else if (is_interface) {
       addInterface(there, symbols.pou(id), base, context.tree().loc(written));
     } else if (symbols.pou(id).base) {
       there.report(diag::SeveralBases, context.tree().loc(written), {context.names().string(symbols.pou(id).name)});
-    } else if ((symbols.pou(base).modifiers & kFinal) != 0) {
+    } else if ((symbols.pou(base).object.modifiers & kFinal) != 0) {
       there.report(diag::ExtendsFinal, context.tree().loc(written), {name}).declaredHere(symbols.pou(base).loc);
     } else {
       symbols.pou(id).base = base;
-      if (!symbols.pou(base).native) symbols.pou(base).extended = true;
+      if (!symbols.pou(base).pragmas.native) symbols.pou(base).object.extended = true;
     }
   }
-  for (uint32_t i = 0; i < decl.implements.count; ++i) {
-    const TypeExprId written = context.tree().list(decl.implements)[i];
+  for (const TypeExprId written : context.tree().list(decl.implements)) {
     if (const PouId interface = objectNamed(there, written, true)) {
       resolveHeader(context, interface);
       addInterface(there, symbols.pou(id), interface, context.tree().loc(written));
     }
   }
-  symbols.pou(id).header = Pou::Header::Done;
+  symbols.pou(id).progress.header = Pou::Progress::Header::Done;
   decideDispatch(context, id);
 }
 
@@ -269,15 +267,15 @@ void addObjectFields(Context& context, PouId id) {
     var.type = type;
     var.storage = Storage::Field;
     var.pou = id;
-    var.read = var.written = true;
+    var.use.read = var.use.written = true;
     const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(var);
-    pou.vars.insert(pou.vars.begin() + (pou.id_var ? 1 : 0), created);
+    pou.vars.insert(pou.vars.begin() + (pou.object.id_var ? 1 : 0), created);
     return created;
   };
-  if (pou.dispatched && !(pou.base && symbols.pou(pou.base).dispatched))
-    pou.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
-  if (pou.base) pou.base_var = hidden("SUPER", symbols.pou(pou.base).record);
+  if (pou.object.dispatched && !(pou.base && symbols.pou(pou.base).object.dispatched))
+    pou.object.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
+  if (pou.base) pou.object.base_var = hidden("SUPER", symbols.pou(pou.base).record);
 }
 
 PouId constructorOf(const Context& context, PouId object) {
@@ -307,7 +305,7 @@ Entity findInObject(Context& context, PouId object, NameId name) {
       }
     }
     if (context.symbols.pou(at).kind != PouKind::Interface) continue;
-    for (const PouId base : context.symbols.pou(at).interfaces)
+    for (const PouId base : context.symbols.pou(at).object.interfaces)
       if (const Entity found = findInObject(context, base, name)) return found;
   }
   return {};
@@ -317,7 +315,7 @@ bool isKindOf(Context& context, PouId object, PouId base) {
   for (PouId at = object; at; at = context.symbols.pou(at).base) {
     if (at == base) return true;
     resolveHeader(context, at);
-    for (const PouId interface : context.symbols.pou(at).interfaces)
+    for (const PouId interface : context.symbols.pou(at).object.interfaces)
       if (isKindOf(context, interface, base)) return true;
   }
   return false;

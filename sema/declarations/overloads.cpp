@@ -34,7 +34,8 @@ PouId methodLike(const Symbols& symbols, PouId object, PouId like_id) {
   const Pou& like = symbols.pou(like_id);
   for (const PouId member : symbols.pou(object).members) {
     const Pou& pou = symbols.pou(member);
-    if (pou.kind != PouKind::Method || pou.accessor != like.accessor || !symbols.names.same(pou.name, like.name))
+    if (pou.kind != PouKind::Method || pou.object.accessor != like.object.accessor ||
+        !symbols.names.same(pou.name, like.name))
       continue;
     if ((!pou.overloads && !like.overloads) || sameParameters(symbols, member, like_id)) return member;
   }
@@ -74,7 +75,7 @@ void markOverloads(Context& context) {
   };
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     Pou& pou = symbols.pous[i];
-    if (pou.kind != PouKind::Method || pou.overloads || pou.accessor != Pou::Accessor::None) continue;
+    if (pou.kind != PouKind::Method || pou.overloads || pou.object.accessor != AccessorKind::None) continue;
     for (PouId at = symbols.pou(pou.owner).base; at && !pou.overloads; at = symbols.pou(at).base)
       if (isOverloadedIn(at, pou)) pou.overloads = PouId{i};
   }

@@ -41,7 +41,7 @@ void addGap(Context& context, TypeId record, uint64_t bytes, Loc loc) {
   gap.type = context.types().array(types::kByte, {&all, 1});
   gap.storage = Storage::Field;
   gap.record = record;
-  gap.read = gap.written = true;
+  gap.use.read = gap.use.written = true;
   const VarId created{static_cast<uint32_t>(context.symbols.vars.size())};
   context.symbols.vars.push_back(gap);
   addField(context, record, created);

@@ -123,10 +123,12 @@ void checkTypeInit(Context& context, TypeId type) {
   if (!decl.init) return;
   Context there = at(context, {}, named.file, named.library, named.region);
   if (context.types().kind(type) == TypeKind::Enum) there.items_of = context.types().resolve(type);
-  checkInitializerAs(there, decl.init, type, "the initial value of `" + toString(context, decl.name) + "`");
+  ExprId init = decl.init;
+  checkInitializerAs(there, init, type, "the initial value of `" + toString(context, decl.name) + "`");
+  if (init) decl.init = init;  // otherwise it was reported
   auto& inits = context.project.type_inits;
   if (inits.size() <= type.index) inits.resize(type.index + 1);
-  inits[type.index] = decl.init;
+  inits[type.index] = init;
 }
 
 void checkFieldInits(Context& context, TypeId type) {
@@ -135,7 +137,7 @@ void checkFieldInits(Context& context, TypeId type) {
   std::vector<ExprId> list(named.fields.size());
   for (size_t i = 0; i < list.size(); ++i) {
     ensureInitialValue(context, named.fields[i]);
-    if (Var& var = context.symbols.var(named.fields[i]); var.holds_bits) {
+    if (Var& var = context.symbols.var(named.fields[i]); var.bits.holds_bits) {
       const uint8_t value = initialBits(context, type, named.fields[i]);
       if (value != 0) var.init = makeLiteral(context, LiteralKind::Integer, types::kByte, value, var.loc);
     }

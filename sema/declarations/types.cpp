@@ -320,9 +320,9 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   for (size_t i = 0; i < named_base->bits.size(); ++i) {
     const VarId id = inherit(named_base->bits[i]);
     Var& var = context.symbols.var(id);
-    var.bits_of = named.fields[var.field];
+    var.bits.holder = named.fields[var.field];
     named.bits.push_back(id);
-    context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
+    context.types().edit(record).bits.push_back({var.name, var.field, var.bits.bit});
   }
 }
 
@@ -346,8 +346,7 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
   SectionDecl section{};
   section.section = SectionKind::Local;
   std::vector<VarId> vars;
-  for (uint32_t i = 0; i < expr.fields.count; ++i) {
-    const DeclId decl = context.tree().list(expr.fields)[i];
+  for (const DeclId decl : context.tree().list(expr.fields)) {
     if (context.tree().kind(decl) != DeclKind::Var) continue;
     declareVars(context, decl, section, {}, {}, &named.members, vars);
   }

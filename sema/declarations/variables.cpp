@@ -100,13 +100,13 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.pou = pou;
   var.list = list;
   if (!decl.h.pragmas.empty()) {
-    var.required = findPragma(context, decl.h, known.required) != nullptr;
-    var.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
-    var.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
-    var.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
+    var.pragmas.required = findPragma(context, decl.h, known.required) != nullptr;
+    var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
+    var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
+    var.pragmas.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
     for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
       if (keyOf(context, pragma.name) == known.alias) {
-        var.aliases.push_back(context.names().intern(context.tree().string(pragma.value)));
+        var.pragmas.aliases.push_back(context.names().intern(context.tree().string(pragma.value)));
       }
     }
   }
@@ -131,17 +131,17 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
         reportTwice(context, var.name, var.loc, loc);
       continue;
     }
-    for (const NameId alias : var.aliases) names->insert(keyOf(context, alias), entity(id));
+    for (const NameId alias : var.pragmas.aliases) names->insert(keyOf(context, alias), entity(id));
   }
 }
 
 static bool isBase(const Context& context, VarId id) {
   const PouId pou = context.symbols.var(id).pou;
-  return pou && context.symbols.pou(pou).base_var == id;
+  return pou && context.symbols.pou(pou).object.base_var == id;
 }
 
 void addField(Context& context, TypeId record, VarId id) {
-  if (context.symbols.var(id).is_bit) return addBit(context, record, id);
+  if (context.symbols.var(id).bits.is_bit) return addBit(context, record, id);
   Var& var = context.symbols.var(id);
   Field field;
   field.name = var.name;
@@ -172,7 +172,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && !isFunction(context.symbols.pou(var.pou).kind) && !var.is_bit;
+  const bool block = var.pou && !isFunction(context.symbols.pou(var.pou).kind) && !var.bits.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(diag::EdgeNotBool, var.loc, {context.names().string(var.name)});
 }
@@ -274,7 +274,7 @@ void ensureVarType(Context& context, VarId id) {
     Var& var = symbols.vars[i];
     if (var.type) continue;
     var.type = type;
-    var.is_bit = bit && type != types::kError;
+    var.bits.is_bit = bit && type != types::kError;
     if (context.types().isOpenArray(type) && !mayBeOpen(context, var)) {
       if (i == first) there.report(diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
@@ -391,8 +391,8 @@ void ensureInitialValue(Context& context, VarId id) {
   for (uint32_t i = firstOfDecl(symbols, id.index);
        i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
     symbols.vars[i].init = init;
-    symbols.vars[i].constructor = constructor;
-    symbols.vars[i].element_constructors = elements;
+    symbols.vars[i].start.constructor = constructor;
+    symbols.vars[i].start.element_constructors = elements;
     if (reads || constructor.index != 0) context.scopes.reading_inits.push_back(VarId{i});
     if (value) {
       symbols.vars[i].has_value = true;
@@ -436,8 +436,7 @@ static void declareHidden(Context& context, PouId id) {
     if (section) added.push_back(section);
   };
   declare(decl, {});
-  for (uint32_t m = 0; m < decl.members.count; ++m) {
-    const DeclId member = tree.list(decl.members)[m];
+  for (const DeclId member : tree.list(decl.members)) {
     if (tree.kind(member) != DeclKind::Pou) continue;
     PouDecl& action = tree.as<PouDecl>(member);
     if (action.pou_kind == PouKind::Action) declare(action, toString(context, action.name) + "_");
@@ -484,8 +483,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
   }
   const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
   const size_t first_var = symbols.vars.size();
-  for (uint32_t i = 0; i < section.vars.count; ++i) {
-    const DeclId var = there.tree().list(section.vars)[i];
+  for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {
       // One for all instances and calls: a separate list, visible only in this POU. codesys.
       const std::string name = toString(there, symbols.pou(id).unique_name) + "__static";
@@ -552,9 +550,9 @@ void resolvePou(Context& context, PouId id) {
     ensureVarType(there, var_id);
     Var& var = symbols.var(var_id);
     if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
-    if (var.storage == Storage::Field && !var.holds_bits) addField(there, pou.record, var_id);
+    if (var.storage == Storage::Field && !var.bits.holds_bits) addField(there, pou.record, var_id);
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
-    if (var.extensible) pou.extensible = true;
+    if (var.pragmas.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
     if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
   }
@@ -573,9 +571,9 @@ void resolvePou(Context& context, PouId id) {
     hidden.type = type;
     hidden.storage = symbols.var(of).storage;
     hidden.pou = id;
-    hidden.read = hidden.written = true;
+    hidden.use.read = hidden.use.written = true;
     hidden.field = static_cast<uint32_t>(pou.vars.size());
-    hidden.hidden_input = hidden.storage == Storage::Local;
+    hidden.open_array.hidden_input = hidden.storage == Storage::Local;
     const VarId hidden_id{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(hidden);
     pou.vars.push_back(hidden_id);
@@ -587,7 +585,7 @@ void resolvePou(Context& context, PouId id) {
     const uint32_t dimensions = context.types().info(context.types().resolve(symbols.var(array).type)).length;
     for (uint32_t i = 0; i < 2 * dimensions; ++i) {
       const VarId bound = addHidden(array, (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1), types::kDInt);
-      if (i == 0) symbols.var(array).bounds = bound;
+      if (i == 0) symbols.var(array).open_array.bounds = bound;
     }
   }
   scope.resolved = State::Done;

@@ -42,9 +42,11 @@ using MockSets = std::vector<std::vector<std::string>>;
 MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
-    if (!pou.test || pou.mocks.empty() || !isChosen(options, std::string(project.names.string(pou.name)))) continue;
+    if (!pou.pragmas.test || pou.pragmas.mocks.empty() ||
+        !isChosen(options, std::string(project.names.string(pou.name))))
+      continue;
     std::vector<std::string> set;
-    for (NameId mock : pou.mocks) set.emplace_back(project.names.string(mock));
+    for (NameId mock : pou.pragmas.mocks) set.emplace_back(project.names.string(mock));
     if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
   }
   return sets;

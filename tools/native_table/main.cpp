@@ -83,7 +83,7 @@ void instantiateAll(Context& context, PouId generic) {
       types.reserve(pins.size());
       for (const TypeId pin : pins) types.push_back(typeOf(pin));
       const PouId created = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
-      context.symbols.pou(created).used = true;
+      context.symbols.pou(created).progress.used = true;
       return;
     }
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
@@ -123,11 +123,11 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   }
   const size_t declared = project.pous.size();
   for (uint32_t i = 1; i < declared; ++i) {
-    if (!project.pous[i].native) continue;
+    if (!project.pous[i].pragmas.native) continue;
     if (project.pous[i].generic) {
       instantiateAll(context, {i});
     } else {
-      project.pous[i].used = true;
+      project.pous[i].progress.used = true;
     }
   }
   if (diagnostics.hasErrors()) {
@@ -137,7 +137,7 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   }
   // Only native bodies matter, and they have no code to check.
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
-    if (!project.pous[i].native) project.pous[i].used = false;
+    if (!project.pous[i].pragmas.native) project.pous[i].progress.used = false;
   }
   rung::ir::Module module(project.types, names, sources);
   rung::ir::LowerOptions lower_options;

@@ -59,9 +59,9 @@ TEST(Libraries, generic_functions_have_an_instance_for_each_tuple) {
       "END_PROGRAM",
       withLibrary());
   EXPECT_EQ(checked.codes(), "") << checked.messages();
-  EXPECT_TRUE(checked.pou("LIMIT__REAL").checked);
-  EXPECT_TRUE(checked.pou("LIMIT__INT").checked);
-  EXPECT_FALSE(checked.pou("LIMIT").checked);
+  EXPECT_TRUE(checked.pou("LIMIT__REAL").progress.checked());
+  EXPECT_TRUE(checked.pou("LIMIT__INT").progress.checked());
+  EXPECT_FALSE(checked.pou("LIMIT").progress.checked());
   EXPECT_EQ(checked.project.pous.size(), 5u);
 }
 
