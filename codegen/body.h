@@ -144,15 +144,47 @@ class BodyWriter {
   void ifStatement(const ir::IfStmt& stmt);
   void deepIf(const ir::IfStmt& stmt);
   void switchStatement(const ir::SwitchStmt& stmt);
-  void callStatement(const ir::CallStmt& stmt, Loc loc);
   void tryStatement(const ir::TryStmt& stmt);
   void assertStatement(const Stmt& stmt);
   void guarded(const std::string& frame, const std::string& fault, StmtId first);
-  std::string indexOfMethod(const ir::CallStmt& stmt);
-  void classCheck(const ir::CallStmt& stmt, Loc loc);
   void faultStatement(const ir::FaultStmt& stmt, Loc loc);
   void leave();
   bool endsInJump(StmtId first) const;
+
+  // ---- calls.cpp
+  struct CallPlan {
+    enum class Form : uint8_t { Direct, Virtual, Sized, Slice };  // the last two: lengths.cpp, slices.cpp
+    enum class Way : uint8_t { Value, Reference, Copy };          // Copy: through a variable
+    enum class Result : uint8_t { None, Value, InPlace, Copied };
+    struct Argument {
+      const ir::Local* parameter;
+      ExprId operand;
+      Way way;
+    };
+    Form form = Form::Direct;
+    Result result = Result::None;
+    bool is_measured = false;  // the result's length lives in a local: the call returns it, or it is counted
+    std::vector<Argument> arguments;
+  };
+  struct CallText {
+    std::string before, after;  // the copies of arguments
+    std::string arguments, result;
+    std::string copy;    // the variable that takes the result, or empty
+    std::string length;  // the local that takes the result's length
+  };
+  CallPlan planCall(const ir::CallStmt& stmt) const;
+  bool writesInPlace(const ir::CallStmt& stmt) const;
+  void callStatement(const ir::CallStmt& stmt, Loc loc);
+  void sliceCall(const ir::CallStmt& stmt);
+  void passArguments(const CallPlan& plan, CallText& text);
+  void passCopy(const CallPlan::Argument& argument, CallText& text);
+  void passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text);
+  void callFunction(const ir::CallStmt& stmt, const CallPlan& plan, const CallText& text);
+  void copyResult(ExprId to, TypeId from, const CallText& text);
+  void callExpr(const Expr& expr);
+  void dispatch(const ir::CallStmt& stmt, Loc loc);
+  std::string indexOfMethod(const ir::CallStmt& stmt);
+  void classCheck(const ir::CallStmt& stmt, Loc loc);
 
   // ---- loops.cpp
   void loopStatement(const ir::LoopStmt& stmt);
@@ -168,20 +200,37 @@ class BodyWriter {
   void constant(const Expr& expr, Prec context);
   void unary(ExprId id, Prec context);
   void binary(ExprId id, Prec context);
+  void function(std::string_view name, const ir::BinaryExpr& node);  // name(left, right)
+  void realOperation(const ir::BinaryExpr& node, Prec context);
+  void bitwise(const ir::BinaryExpr& node, Prec context);
+  void extreme(const ir::BinaryExpr& node);  // MIN, MAX
+  void differs(const ir::BinaryExpr& node, Prec context);
+  void loadBits(const ir::BitsExpr& node, TypeKind kind);
   void logical(const ir::BinaryExpr& node, Prec context);
   void comparison(const ir::BinaryExpr& node, Prec context);
   void leftOfEquality(ExprId id);
+
+  // ---- arithmetic.cpp
   void arithmetic(ExprId id, Prec context);  // + - * and negation of integers
   void modular(ExprId id, bool wide, Prec context);
   void plain(ExprId id, Prec context);  // in int, which holds every intermediate value
+  void inPlainOrModular(ExprId id, uint32_t width);
   uint32_t plainBits(ExprId id) const;
   bool isChain(const Expr& expr) const;  // an operand of such an operator that may join its expression
   void divide(const ir::BinaryExpr& node, Prec context);
   void shift(const Expr& expr, Prec context);
   void power(const Expr& expr);
+
+  // ---- conversions.cpp
   void convert(ExprId id, Prec context);
+  void convertScalar(TypeId type, ExprId from, Prec context);
+  template <class F>
+  void cast(std::string_view type, Prec context, F&& f);
+  void scalarOfString(TypeId type, ExprId from, Prec context);
+  void truthOf(ExprId from, Prec context);
+  void roundReal(TypeId type, ExprId from, Prec context);
+  void resizeInteger(TypeId type, ExprId from, Prec context);
   void convertTime(ExprId from, TypeKind source, TypeKind target);
-  void callExpr(const Expr& expr);
   void scalarBits(ExprId id);         // as uint64_t, for the runtime's generic functions
   void materializeString(ExprId id);  // into a variable of its own
 
@@ -192,6 +241,10 @@ class BodyWriter {
   bool needsPreparation(ExprId id) const;
   void checks(ExprId id, const Expr& expr);
   void indexChecks(const Expr& expr);
+  void nullCheck(const Expr& expr);
+  void divisionCheck(const Expr& expr);
+  void convertCheck(const Expr& expr);
+  void subrangeCheck(const Expr& expr);
   void overflowCheck(ExprId id);
   uint32_t site(Loc loc, types::Fault fault, int64_t low = 0, int64_t high = 0);
   // `RUNG_CHECK(`, the condition, then `, site, `, the value and `); `.
@@ -199,7 +252,12 @@ class BodyWriter {
   void endCheck(Loc loc, types::Fault fault, std::string_view value, int64_t low = 0, int64_t high = 0);
 
   // ---- places.cpp
-  void place(ExprId id);     // an lvalue; for a string: a pointer to its units
+  void place(ExprId id);  // an lvalue; for a string: a pointer to its units
+  void localPlace(const ir::Local& local);
+  void blockPlace(TypeId record, uint32_t number, std::string_view suffix);
+  void fieldPlace(const ir::FieldExpr& node);
+  void elementPlace(const ir::IndexExpr& node);
+  void targetPlace(ExprId pointer, TypeId type);
   void member(ExprId base);  // `self.`, `x_->`
   void indexValue(ExprId id, const types::Dimension& dimension);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
@@ -207,18 +265,28 @@ class BodyWriter {
   void area(uint32_t index);
   void imageAddress(ExprId id);  // a uint8_t* without const
   void imageLoad(ExprId id, const Expr& expr);
+  void imageStore(ExprId place, std::string_view value);
+  void storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value);
   bool isLvalue(ExprId id) const;
   // `place = value` as an expression without `;` for a scalar; `value` is C++ code of the right type.
   void store(ExprId place, std::string_view value);
-  void reference(const ir::Local& parameter, bool native, ExprId operand);
+  void reference(const ir::Local& parameter, ExprId operand);  // as an argument
   void variable(std::string& out, const ir::Local& local) const;
   bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
 
   // ---- strings.cpp
   void assign(const ir::AssignStmt& stmt);
   void prepareString(ExprId from);  // except for the parts that copyString handles itself
-  // `length`: the name of the C++ local that takes the new length, or empty.
-  void copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
+  struct StringTarget {
+    std::string_view name;
+    uint32_t capacity;
+    bool wide;
+    std::string_view length;  // the name of the C++ local that takes the new length, or empty
+  };
+  void copyString(const StringTarget& target, ExprId from);
+  void beginCopy(const StringTarget& target, std::string_view function, uint32_t limit);
+  void copyLiteral(const StringTarget& target, std::string_view literal, bool utf8);
+  void copyVariable(const StringTarget& target, ExprId from);
   void stringValue(ExprId id);  // a const char* or const char16_t*
   void compareStrings(const ir::BinaryExpr& node, Prec context);
   bool isSizedComparison(const ir::BinaryExpr& node) const;

@@ -69,106 +69,23 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
       if ((e.checks & ir::kCheckIndex) != 0) indexChecks(e);
       return;
     case ExprKind::Field:
-    case ExprKind::Deref: {
-      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) == 0) return;
-      beginCheck();
-      if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
-        value(deref->pointer, Prec::Sum);
-      } else {
-        const ir::FieldExpr& field = e.as<ir::FieldExpr>();
-        member(field.base);
-        appendMangled(out_, string(fieldOf(field).name));
-      }
-      out_ += " == nullptr";
-      endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+    case ExprKind::Deref:
+      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) != 0) nullCheck(e);
       return;
-    }
-    case ExprKind::Binary: {
-      if ((e.checks & ir::kCheckDiv) != 0) {
-        const auto [left, right, op] = e.as<ir::BinaryExpr>();
-        const bool is_power = op == Op::Power;
-        const bool never = is_power && !types_.isSigned(kindOf(right));
-        if (!never) {
-          beginCheck();
-          value(is_power ? left : right, Prec::Sum);
-          out_ += " == 0";
-          if (is_power) {
-            out_ += " && ";
-            value(right, Prec::Sum);
-            out_ += " < 0";
-          }
-          endCheck(e.loc, Fault::Div, "0");
-        }
-      }
+    case ExprKind::Binary:
+      if ((e.checks & ir::kCheckDiv) != 0) divisionCheck(e);
       if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
-    }
     case ExprKind::Unary:
       if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
     case ExprKind::Convert: {
-      const ExprId a = e.as<ir::ConvertExpr>().operand;
-      const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
-      const uint32_t width = widthOf(target);
-      const TypeInfo& info = types_.info(types_.resolve(e.type));
-      if (TypeTable::isString(source) || TypeTable::isString(target)) return;
-      const bool is_integer = !TypeTable::isReal(target) && width > 0;
-      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) {
-        const bool is_signed = types_.isSigned(target);
-        beginCheck();
-        if (TypeTable::isReal(source)) {
-          out_ += "rung_round_saturates(";
-          value(a, Prec::Ternary);
-          std::string low = is_signed ? "-" : "0", high;
-          if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
-          appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
-          out_ += ", " + low + ".0, " + high + ".0)";
-        } else {
-          // Cut and extended again it must be the same number, with the same sign.
-          const std::string number = captured([&] { value(a, Prec::Unary); });
-          const char* type = scalarType(types_, e.type);
-          const bool from_signed = types_.isSigned(source);
-          out_ += from_signed ? "(int64_t)" : "(uint64_t)";
-          out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
-          if (from_signed && !is_signed) {
-            out_ += " || (int64_t)" + number + " < 0";
-          } else if (!from_signed && is_signed) {
-            out_ += " || (int64_t)(";
-            out_ += type;
-            out_ += ')' + number + " < 0";
-          }
-        }
-        // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
-        endCheck(e.loc, Fault::Convert, (TypeTable::isReal(source) ? "rung_round_i64(" : "(") + captured([&] {
-                                          value(a, Prec::Ternary);
-                                        }) + ")");
-      }
-      if ((e.checks & ir::kCheckSubrange) != 0 && info.kind == TypeKind::Subrange) {
-        beginCheck();
-        const bool from_real = TypeTable::isReal(source);
-        const std::string number = captured([&] {
-          if (from_real) {
-            out_ += "rung_round_i64(";
-            value(a, Prec::Ternary);
-            out_ += ')';
-          } else {
-            value(a, Prec::Sum);
-          }
-        });
-        const TypeId limits = from_real ? types::kLInt : expr(a).type;
-        const bool from_signed = from_real || types_.isSigned(source);
-        // A limit outside of the source's type needs no test.
-        const auto low = static_cast<uint64_t>(info.low), high = static_cast<uint64_t>(info.high);
-        const bool tests_low = from_signed || info.low > 0;
-        if (tests_low) {
-          out_ += number + " < ";
-          appendConstant(out_, types_, from_signed ? types::kLInt : limits, low);
-          out_ += " || ";
-        }
-        out_ += number + " > ";
-        appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, high);
-        endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
-      }
+      const TypeKind target = types_.plainKind(e.type);
+      if (isString(expr(e.as<ir::ConvertExpr>().operand).type) || TypeTable::isString(target)) return;
+      const bool is_integer = !TypeTable::isReal(target) && widthOf(target) > 0;
+      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) convertCheck(e);
+      const bool is_subrange = types_.info(types_.resolve(e.type)).kind == TypeKind::Subrange;
+      if ((e.checks & ir::kCheckSubrange) != 0 && is_subrange) subrangeCheck(e);
       return;
     }
     case ExprKind::None:
@@ -186,6 +103,96 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
     case ExprKind::Call:
     case ExprKind::Address: break;
   }
+}
+
+void BodyWriter::nullCheck(const Expr& e) {
+  beginCheck();
+  if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
+    value(deref->pointer, Prec::Sum);
+  } else {
+    const ir::FieldExpr& field = e.as<ir::FieldExpr>();
+    member(field.base);
+    appendMangled(out_, string(fieldOf(field).name));
+  }
+  out_ += " == nullptr";
+  endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+}
+
+// Of a power: 0 to a negative exponent.
+void BodyWriter::divisionCheck(const Expr& e) {
+  const auto [left, right, op] = e.as<ir::BinaryExpr>();
+  const bool is_power = op == Op::Power;
+  if (is_power && !types_.isSigned(kindOf(right))) return;
+  beginCheck();
+  value(is_power ? left : right, Prec::Sum);
+  out_ += " == 0";
+  if (is_power) {
+    out_ += " && ";
+    value(right, Prec::Sum);
+    out_ += " < 0";
+  }
+  endCheck(e.loc, Fault::Div, "0");
+}
+
+void BodyWriter::convertCheck(const Expr& e) {
+  const ExprId from = e.as<ir::ConvertExpr>().operand;
+  const TypeKind source = kindOf(from), target = types_.plainKind(e.type);
+  const uint32_t width = widthOf(target);
+  const bool from_real = TypeTable::isReal(source), is_signed = types_.isSigned(target);
+  beginCheck();
+  if (from_real) {
+    out_ += "rung_round_saturates(";
+    value(from, Prec::Ternary);
+    std::string low = is_signed ? "-" : "0", high;
+    if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
+    appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
+    out_ += ", " + low + ".0, " + high + ".0)";
+  } else {
+    // Cut and extended again it must be the same number, with the same sign.
+    const std::string number = captured([&] { value(from, Prec::Unary); });
+    const char* type = scalarType(types_, e.type);
+    const bool from_signed = types_.isSigned(source);
+    out_ += from_signed ? "(int64_t)" : "(uint64_t)";
+    out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
+    if (from_signed && !is_signed) {
+      out_ += " || (int64_t)" + number + " < 0";
+    } else if (!from_signed && is_signed) {
+      out_ += " || (int64_t)(";
+      out_ += type;
+      out_ += ')' + number + " < 0";
+    }
+  }
+  // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
+  const std::string number = captured([&] { value(from, Prec::Ternary); });
+  endCheck(e.loc, Fault::Convert, (from_real ? "rung_round_i64(" : "(") + number + ")");
+}
+
+void BodyWriter::subrangeCheck(const Expr& e) {
+  const ExprId from = e.as<ir::ConvertExpr>().operand;
+  const TypeInfo& info = types_.info(types_.resolve(e.type));
+  const TypeKind source = kindOf(from);
+  const bool from_real = TypeTable::isReal(source);
+  beginCheck();
+  const std::string number = captured([&] {
+    if (from_real) {
+      out_ += "rung_round_i64(";
+      value(from, Prec::Ternary);
+      out_ += ')';
+    } else {
+      value(from, Prec::Sum);
+    }
+  });
+  const TypeId limits = from_real ? types::kLInt : expr(from).type;
+  const bool from_signed = from_real || types_.isSigned(source);
+  // A limit outside of the source's type needs no test.
+  if (from_signed || info.low > 0) {
+    out_ += number + " < ";
+    appendConstant(out_, types_, from_signed ? types::kLInt : limits, static_cast<uint64_t>(info.low));
+    out_ += " || ";
+  }
+  out_ += number + " > ";
+  appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, static_cast<uint64_t>(info.high));
+  endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
 }
 
 void BodyWriter::indexChecks(const Expr& e) {

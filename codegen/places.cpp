@@ -1,5 +1,7 @@
-// Lvalues in C++: variables, fields, elements, targets of pointers, and views of the process image, which are
-// little-endian bytes at any address and therefore read and written by the helpers of rung/code.h.
+// Lvalues in C++: variables, fields, elements, targets of pointers. In: a place of the IR. Out: its C++ as an lvalue,
+// as an argument, or as the target of a store. Called by all writers of a body; views of the image are in image.cpp.
+#include <algorithm>
+
 #include "codegen/body.h"
 #include "ir/walk.h"
 
@@ -23,93 +25,13 @@ bool BodyWriter::isVariableTruth(ExprId id) const {
 void BodyWriter::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
-    case ExprKind::Local: {
-      const ir::Local& local = body_->locals[e.as<ir::LocalExpr>().local];
-      const bool after = local.by_reference && !isString(local.type);
-      if (after) out_ += "(*";
-      variable(out_, local);
-      if (after) out_ += ')';
-      return;
-    }
+    case ExprKind::Local: localPlace(body_->locals[e.as<ir::LocalExpr>().local]); return;
     case ExprKind::Self: out_ += "self"; return;
-    case ExprKind::Global:
-    case ExprKind::Program: {
-      const bool is_list = e.kind == ExprKind::Global;
-      const uint32_t number = is_list ? facts_.list_block[e.as<ir::GlobalExpr>().list]
-                                      : facts_.program_block[e.as<ir::ProgramExpr>().program];
-      const std::string type = recordName(types_, e.type);
-      includeRecord(e.type);
-      bool declared = false;
-      for (uint32_t known : blocks_declared_) declared |= known == number;
-      std::string name;
-      appendMangled(name, string(facts_.blocks[number].name));
-      name += is_list ? "list_block" : "block";
-      if (!declared) {
-        blocks_declared_.push_back(number);
-        declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
-        appendUnsigned(declarations_, number);
-        declarations_ += "]);";
-      }
-      out_ += name;
-      return;
-    }
-    case ExprKind::Field: {
-      const auto [base, number] = e.as<ir::FieldExpr>();
-      const Field& field = fieldOf(e.as<ir::FieldExpr>());
-      if (expr(base).kind == ExprKind::Self && number < fields_.size() && fields_[number].cached) {
-        appendMangled(out_, string(field.name));
-        return;
-      }
-      const bool after = field.by_reference && !isString(field.type);
-      if (after) includeRecord(field.type);
-      if (after) out_ += "(*";
-      member(base);
-      appendMangled(out_, string(field.name));
-      if (after) out_ += ')';
-      return;
-    }
-    case ExprKind::Index: {
-      const ir::IndexExpr& node = e.as<ir::IndexExpr>();
-      const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
-      place(node.base);
-      for (uint32_t i = 0; i < node.indices.count; ++i) {
-        const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
-        out_ += '[';
-        indexValue(body_->list(node.indices)[i], dimension);
-        out_ += ']';
-      }
-      return;
-    }
-    case ExprKind::Deref: {
-      const ExprId pointer = e.as<ir::DerefExpr>().pointer;
-      const TypeKind kind = types_.kind(e.type);
-      if (isString(e.type)) {
-        out_ += isWide(e.type) ? "((char16_t*)" : "((char*)";
-        value(pointer, Prec::Unary);
-        out_ += ')';
-        return;
-      }
-      out_ += "(*(";
-      if (kind == TypeKind::Record || kind == TypeKind::Array) {
-        includeRecord(e.type);
-        const TypeId element = elementOf(types_, e.type);
-        std::string type;
-        appendPointer(type, types_, e.type, "");
-        // Elements may be read with another type than the one they were written with.
-        if (types_.kind(element) != TypeKind::Record && !isString(element)) {
-          const std::string scalar = scalarType(types_, element);
-          type.replace(0, scalar.size(), scalarAliasType(types_, element));
-        }
-        out_ += type;
-      } else {
-        out_ += scalarAliasType(types_, e.type);
-        out_ += '*';
-      }
-      out_ += ')';
-      value(pointer, Prec::Unary);
-      out_ += ')';
-      return;
-    }
+    case ExprKind::Global: blockPlace(e.type, facts_.list_block[e.as<ir::GlobalExpr>().list], "list_block"); return;
+    case ExprKind::Program: blockPlace(e.type, facts_.program_block[e.as<ir::ProgramExpr>().program], "block"); return;
+    case ExprKind::Field: fieldPlace(e.as<ir::FieldExpr>()); return;
+    case ExprKind::Index: elementPlace(e.as<ir::IndexExpr>()); return;
+    case ExprKind::Deref: targetPlace(e.as<ir::DerefExpr>().pointer, e.type); return;
     case ExprKind::Data:
       out_ += "(*(";
       appendPointer(out_, types_, e.type, "", true);
@@ -150,6 +72,82 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Binary:
     case ExprKind::Address: value(id, Prec::Postfix); return;
   }
+}
+
+void BodyWriter::localPlace(const ir::Local& local) {
+  const bool after = local.by_reference && !isString(local.type);
+  if (after) out_ += "(*";
+  variable(out_, local);
+  if (after) out_ += ')';
+}
+
+// A block of memory: a list of globals or a program's instance.
+void BodyWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
+  const std::string type = recordName(types_, record);
+  includeRecord(record);
+  std::string name;
+  appendMangled(name, string(facts_.blocks[number].name));
+  name += suffix;
+  if (std::find(blocks_declared_.begin(), blocks_declared_.end(), number) == blocks_declared_.end()) {
+    blocks_declared_.push_back(number);
+    declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
+    appendUnsigned(declarations_, number);
+    declarations_ += "]);";
+  }
+  out_ += name;
+}
+
+void BodyWriter::fieldPlace(const ir::FieldExpr& node) {
+  const Field& field = fieldOf(node);
+  if (expr(node.base).kind == ExprKind::Self && node.field < fields_.size() && fields_[node.field].cached) {
+    appendMangled(out_, string(field.name));
+    return;
+  }
+  const bool after = field.by_reference && !isString(field.type);
+  if (after) includeRecord(field.type);
+  if (after) out_ += "(*";
+  member(node.base);
+  appendMangled(out_, string(field.name));
+  if (after) out_ += ')';
+}
+
+void BodyWriter::elementPlace(const ir::IndexExpr& node) {
+  const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
+  place(node.base);
+  for (uint32_t i = 0; i < node.indices.count; ++i) {
+    const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
+    out_ += '[';
+    indexValue(body_->list(node.indices)[i], dimension);
+    out_ += ']';
+  }
+}
+
+void BodyWriter::targetPlace(ExprId pointer, TypeId type) {
+  if (isString(type)) {
+    out_ += isWide(type) ? "((char16_t*)" : "((char*)";
+    value(pointer, Prec::Unary);
+    out_ += ')';
+    return;
+  }
+  out_ += "(*(";
+  if (isAggregate(type)) {
+    includeRecord(type);
+    const TypeId element = elementOf(types_, type);
+    std::string pointer_type;
+    appendPointer(pointer_type, types_, type, "");
+    // Elements may be read with another type than the one they were written with.
+    if (types_.kind(element) != TypeKind::Record && !isString(element)) {
+      const std::string scalar = scalarType(types_, element);
+      pointer_type.replace(0, scalar.size(), scalarAliasType(types_, element));
+    }
+    out_ += pointer_type;
+  } else {
+    out_ += scalarAliasType(types_, type);
+    out_ += '*';
+  }
+  out_ += ')';
+  value(pointer, Prec::Unary);
+  out_ += ')';
 }
 
 // Writes the prefix of a field's name.
@@ -243,107 +241,7 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
 }
 
-// ---- the process image
-
-// An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
-void BodyWriter::area(uint32_t index) {
-  std::string name = "area";
-  name += module_.areas[index].letter;
-  if ((areas_declared_ >> index & 1) == 0) {
-    areas_declared_ |= 1u << index;
-    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
-    appendUnsigned(declarations_, index);
-    declarations_ += "];";
-  }
-  out_ += name;
-}
-
-void BodyWriter::imageAddress(ExprId id) {
-  const Expr& e = expr(id);
-  if (const auto* image = e.tryAs<ir::ImageExpr>()) {
-    area(image->area);
-    if (image->byte != 0) {
-      out_ += " + ";
-      appendUnsigned(out_, image->byte);
-    }
-    return;
-  }
-  imageAddress(ir::baseOf(e));
-  if (const auto* field = e.tryAs<ir::FieldExpr>()) {
-    out_ += " + ";
-    appendUnsigned(out_, fieldOf(*field).offset);
-    return;
-  }
-  const ir::IndexExpr& node = e.as<ir::IndexExpr>();
-  const TypeInfo& info = types_.info(types_.resolve(expr(node.base).type));
-  uint64_t size = types_.info(types_.resolve(e.type)).size;
-  for (uint32_t i = node.indices.count; i-- > 0;) {  // row-major: the last index is the fastest
-    out_ += " + (";
-    indexValue(body_->list(node.indices)[i], info.dimensions[i]);
-    out_ += ") * ";
-    appendUnsigned(out_, size);
-    size *= info.dimensions[i].count();
-  }
-}
-
-void BodyWriter::imageLoad(ExprId id, const Expr& e) {
-  const TypeKind kind = types_.plainKind(e.type);
-  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
-    const TypeKind whole = kindOf(bits->base);
-    const uint32_t width = widthOf(kind), shift = bits->position * width;
-    const bool is_signed = types_.isSigned(whole);
-    out_ += kind == TypeKind::Bool ? "(" : width == 8 ? "(uint8_t)(" : width == 16 ? "(uint16_t)(" : "(uint32_t)(";
-    if (is_signed) {
-      const uint32_t from = widthOf(whole);
-      out_ += from == 8 ? "(uint8_t)" : from == 16 ? "(uint16_t)" : from == 32 ? "(uint32_t)" : "(uint64_t)";
-    }
-    value(bits->base, Prec::Unary);
-    if (shift != 0) {
-      out_ += " >> ";
-      appendUnsigned(out_, shift);
-    }
-    out_ += kind == TypeKind::Bool ? " & 1)" : ")";
-    return;
-  }
-  if (isAggregate(e.type)) {
-    place(id);
-    return;
-  }
-  if (ir::isImageBit(e)) {
-    const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    out_ += '(';
-    area(image.area);
-    out_ += '[';
-    appendUnsigned(out_, image.byte);
-    out_ += "] >> ";
-    appendUnsigned(out_, image.bit);
-    out_ += " & 1)";
-    return;
-  }
-  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
-  if (kind == TypeKind::Real || kind == TypeKind::LReal) {
-    out_ += kind == TypeKind::Real ? "rung_f32_of(rung_get32(" : "rung_f64_of(rung_get64(";
-    imageAddress(id);
-    out_ += "))";
-    return;
-  }
-  if (types_.isSigned(kind)) {
-    out_ += '(';
-    out_ += scalarType(types_, e.type);
-    out_ += ')';
-  }
-  if (width == 8) {
-    out_ += kind == TypeKind::Bool ? "(*(" : "*(";
-    imageAddress(id);
-    out_ += kind == TypeKind::Bool ? ") != 0)" : ")";
-    return;
-  }
-  out_ += "rung_get";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(id);
-  out_ += ')';
-}
+// ---- writing
 
 void BodyWriter::store(ExprId to, std::string_view value_code) {
   const Expr& e = expr(to);
@@ -353,65 +251,39 @@ void BodyWriter::store(ExprId to, std::string_view value_code) {
     out_ += value_code;
     return;
   }
-  const TypeKind kind = types_.plainKind(e.type);
-  if (e.kind == ExprKind::Bits) {
-    const ExprId base = e.as<ir::BitsExpr>().base;
-    const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = e.as<ir::BitsExpr>().position * width;
-    const std::string type = from == 64 ? "uint64_t" : "uint32_t";
-    const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
-    const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
-    std::string changed = "(";
-    changed += scalarType(types_, expr(base).type);
-    changed += ")(((" + type + ")" + captured([&] { value(base, Prec::Unary); }) + " & ";
-    appendUnsigned(changed, keep);
-    changed += from == 64 ? "ULL) | (" : "u) | (";
-    changed += type + ")(";
-    changed += value_code;
-    changed += ")";
-    if (shift != 0) {
-      changed += " << ";
-      appendUnsigned(changed, shift);
-    }
-    changed += ")";
-    store(base, changed);
+  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
+    storeBits(*bits, types_.plainKind(e.type), value_code);
     return;
   }
-  if (ir::isImageBit(e)) {
-    out_ += "rung_put_bit(";
-    imageAddress(to);
-    out_ += ", ";
-    appendUnsigned(out_, e.as<ir::ImageExpr>().bit);
-    out_ += ", ";
-    out_ += value_code;
-    out_ += ')';
-    return;
+  imageStore(to, value_code);
+}
+
+// Some bits of a variable: the others keep their values.
+void BodyWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value_code) {
+  const ExprId base = node.base;
+  const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = node.position * width;
+  const std::string type = from == 64 ? "uint64_t" : "uint32_t";
+  const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
+  const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
+  std::string changed = "(";
+  changed += scalarType(types_, expr(base).type);
+  changed += ")(((" + type + ")" + captured([&] { value(base, Prec::Unary); }) + " & ";
+  appendUnsigned(changed, keep);
+  changed += from == 64 ? "ULL) | (" : "u) | (";
+  changed += type + ")(";
+  changed += value_code;
+  changed += ")";
+  if (shift != 0) {
+    changed += " << ";
+    appendUnsigned(changed, shift);
   }
-  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
-  if (width == 8) {
-    out_ += "*(";
-    imageAddress(to);
-    out_ += ") = (uint8_t)(";
-    out_ += value_code;
-    out_ += ')';
-    return;
-  }
-  out_ += "rung_put";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(to);
-  out_ += kind == TypeKind::Real    ? ", rung_bits_of_f32("
-          : kind == TypeKind::LReal ? ", rung_bits_of_f64("
-          : width == 16             ? ", (uint16_t)("
-          : width == 32             ? ", (uint32_t)("
-                                    : ", (uint64_t)(";
-  out_ += value_code;
-  out_ += "))";
+  changed += ")";
+  store(base, changed);
 }
 
 // ---- by-reference parameters
 
-void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId operand) {
-  static_cast<void>(native);
+void BodyWriter::reference(const ir::Local& parameter, ExprId operand) {
   if (!operand) {  // a discarded output
     const std::string name = newVariable(parameter.type, "d");
     if (!isString(parameter.type)) out_ += '&';

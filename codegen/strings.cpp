@@ -47,7 +47,8 @@ void BodyWriter::assign(const ir::AssignStmt& stmt) {
     prepareString(from);
     const std::string name = captured([&] { place(to); });
     const bool is_measured = measuredString(to) != nullptr;
-    copyString(name, capacityOf(type), isWide(type), from, is_measured ? captured([&] { lengthName(to); }) : "");
+    const std::string length = is_measured ? captured([&] { lengthName(to); }) : "";
+    copyString({name, capacityOf(type), isWide(type), length}, from);
     setKnown(to);
     return;
   }
@@ -135,7 +136,7 @@ void BodyWriter::materializeString(ExprId id) {
   const Expr& e = expr(id);
   const std::string name = newVariable(e.type, "s");
   if (e.kind == ExprKind::Convert) {
-    copyString(name, capacityOf(e.type), isWide(e.type), id);
+    copyString({name, capacityOf(e.type), isWide(e.type), {}}, id);
   } else {  // a pure function: its string result is the last parameter
     std::string function = captured([&] { callExpr(e); });
     function.pop_back();
@@ -150,122 +151,108 @@ void BodyWriter::materializeString(ExprId id) {
   materialized_.push_back({id.index, name});
 }
 
-void BodyWriter::copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length) {
-  const Expr& e = expr(from);
-  auto beginLength = [&] {
-    if (length.empty()) return;
-    out_ += length;
+// `length = function(to, limit, `, or without a length.
+void BodyWriter::beginCopy(const StringTarget& target, std::string_view function, uint32_t limit) {
+  if (!target.length.empty()) {
+    out_ += target.length;
     out_ += " = ";
-  };
-  auto setLength = [&](uint32_t number) {
-    if (length.empty()) return;
-    out_ += ' ';
-    beginLength();
-    appendUnsigned(out_, number);
-    out_ += ';';
-  };
-  auto begin = [&](std::string_view function, uint32_t limit) {
-    beginLength();
-    out_ += function;
-    out_ += '(';
-    out_ += to;
-    out_ += ", ";
-    appendUnsigned(out_, limit);
-    out_ += ", ";
-  };
-  switch (e.kind) {
-    case ExprKind::Zero:
-      out_ += to;
-      out_ += "[0] = 0;";
-      setLength(0);
-      return;
-    case ExprKind::String: {
-      if (isWide(e.type) != wide) break;
-      std::string_view literal = upToNul(string(e.as<ir::StringExpr>().characters));
-      literal = wide             ? firstUnits(literal, capacity)
-                : isUtf8(e.type) ? firstWhole(literal, capacity)
-                                 : literal.substr(0, capacity);
-      if (literal.empty()) {
-        out_ += to;
-        out_ += "[0] = 0;";
-        setLength(0);
-        return;
-      }
-      out_ += "memcpy(";
-      out_ += to;
-      out_ += ", ";
-      wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
-      out_ += ", ";
-      appendUnsigned(out_, wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
-      out_ += ");";
-      setLength(static_cast<uint32_t>(literal.size()));
-      return;
-    }
-    case ExprKind::Convert: {
-      const ExprId inner = e.as<ir::ConvertExpr>().operand;
-      const uint32_t limit = std::min(capacity, capacityOf(e.type));
-      if (isWide(e.type) != wide) break;
-      if (isString(expr(inner).type)) {
-        copyString(to, limit, wide, inner, length);
-        return;
-      }
-      begin(wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", limit);
-      out_ += typeKindName(types_, expr(inner).type);
-      out_ += ", ";
-      scalarBits(inner);
-      out_ += ");";
-      return;
-    }
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::Data:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: break;
   }
+  out_ += function;
+  out_ += '(';
+  out_ += target.name;
+  out_ += ", ";
+  appendUnsigned(out_, limit);
+  out_ += ", ";
+}
+
+void BodyWriter::copyString(const StringTarget& target, ExprId from) {
+  const Expr& e = expr(from);
+  const bool same_units = isWide(e.type) == target.wide;
+  if (e.kind == ExprKind::Zero) {
+    copyLiteral(target, {}, false);
+  } else if (e.kind == ExprKind::String && same_units) {
+    copyLiteral(target, upToNul(string(e.as<ir::StringExpr>().characters)), isUtf8(e.type));
+  } else if (const auto* convert = e.tryAs<ir::ConvertExpr>(); convert != nullptr && same_units) {
+    StringTarget cut = target;
+    cut.capacity = std::min(target.capacity, capacityOf(e.type));
+    if (isString(expr(convert->operand).type)) {
+      copyString(cut, convert->operand);
+      return;
+    }
+    beginCopy(target, target.wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", cut.capacity);
+    out_ += typeKindName(types_, expr(convert->operand).type);
+    out_ += ", ";
+    scalarBits(convert->operand);
+    out_ += ");";
+  } else {
+    copyVariable(target, from);
+  }
+}
+
+void BodyWriter::copyLiteral(const StringTarget& target, std::string_view literal, bool utf8) {
+  literal = target.wide ? firstUnits(literal, target.capacity)
+            : utf8      ? firstWhole(literal, target.capacity)
+                        : literal.substr(0, target.capacity);
+  if (literal.empty()) {
+    out_ += target.name;
+    out_ += "[0] = 0;";
+  } else {
+    out_ += "memcpy(";
+    out_ += target.name;
+    out_ += ", ";
+    target.wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
+    out_ += ", ";
+    appendUnsigned(out_, target.wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
+    out_ += ");";
+  }
+  if (target.length.empty()) return;
+  out_ += ' ';
+  out_ += target.length;
+  out_ += " = ";
+  appendUnsigned(out_, static_cast<uint32_t>(literal.size()));
+  out_ += ';';
+}
+
+void BodyWriter::copyVariable(const StringTarget& target, ExprId from) {
+  const TypeId type = expr(from).type;
+  const bool wide = target.wide;
   const std::string source = captured([&] { stringValue(from); });
-  if (source == to && capacity >= capacityOf(e.type)) return;
+  if (source == target.name && target.capacity >= capacityOf(type)) return;
   const bool is_measured = measuredString(from) != nullptr && measuredString(from)->known;
   uint32_t room;
-  if (isWide(e.type) != wide) {
-    begin(wide ? "rung_wstring_of_string" : "rung_string_of_wstring", capacity);
-  } else if (isBuffer(from, room) && room <= capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+  if (isWide(type) != wide) {
+    beginCopy(target, wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target.capacity);
+  } else if (isBuffer(from, room) && room <= target.capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
     out_ += "memcpy(";
-    out_ += to;
+    out_ += target.name;
     out_ += ", " + source + ", ";
     appendUnsigned(out_, (uint64_t{room} + 1) * (wide ? 2 : 1));
     out_ += ");";
-    if (length.empty()) return;
+    if (target.length.empty()) return;
     out_ += ' ';
-    beginLength();
+    out_ += target.length;
+    out_ += " = ";
     if (is_measured) {
       lengthName(from);
     } else {
       out_ += "rung_string_length(";
-      out_ += to;
+      out_ += target.name;
       out_ += ')';
     }
     out_ += ';';
     return;
   } else if (is_measured && !wide) {
-    begin("rung_string_put", capacity);
+    beginCopy(target, "rung_string_put", target.capacity);
     out_ += source + ", ";
     lengthName(from);
     out_ += ");";
     return;
   } else {
-    begin(wide ? "rung_wstring_assign" : isUtf8(e.type) ? "rung_ustring_assign" : "rung_string_assign", capacity);
+    beginCopy(target,
+              wide           ? "rung_wstring_assign"
+              : isUtf8(type) ? "rung_ustring_assign"
+                             : "rung_string_assign",
+              target.capacity);
   }
   out_ += source + ");";
 }
