@@ -1,7 +1,6 @@
 // The function around the statements of a body: signature, variables, exits. See body.h.
 #include "codegen/body.h"
 
-#include "codegen/effort.h"
 #include "frontend/source/invariant.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
@@ -10,7 +9,6 @@ namespace rung::codegen {
 
 using ir::BodyKind;
 using ir::LocalKind;
-using types::TypeInfo;
 using types::TypeTable;
 
 namespace {
@@ -134,82 +132,96 @@ void BodyWriter::variable(std::string& out, const ir::Local& local) const {
 }
 
 void BodyWriter::declareVariables() {
-  for (uint32_t i = 0; i < body_->locals.size(); ++i) {
-    const ir::Local& local = body_->locals[i];
-    includeRecord(local.type);
-    const bool is_result = local.kind == LocalKind::Result && !local.by_reference;
-    const Variable& use = locals_[i];
-    if (isParameter(local)) {
-      if (use.wide != 0) RUNG_INVARIANT(!local.by_reference, "a wide control is a local");
-      continue;
-    }
-    if ((local.kind == LocalKind::Result && local.by_reference) || (use.weight == 0 && !use.written && !is_result)) {
-      continue;
-    }
-    if (use.slice) continue;
-    std::string name;
-    variable(name, local);
-    declarations_ += ' ';
-    if (use.wide != 0) {
-      declarations_ += use.wide == 32 ? "int32_t " : "int64_t ";
-      declarations_ += name;
-      declarations_ += " = 0;";
-      continue;
-    }
-    appendDeclaration(declarations_, types_, local.type, name);
-    if (!isAggregate(local.type) && !isString(local.type)) {
-      const TypeKind kind = types_.plainKind(local.type);
-      declarations_ += kind == TypeKind::Pointer || kind == TypeKind::Reference ? " = nullptr" : " = 0";
-    }
-    declarations_ += ';';
-  }
-  if (!body_->self) return;
-  const TypeInfo& record = types_.info(types_.resolve(body_->self));
-  for (uint32_t i = 0; i < fields_.size(); ++i) {
-    if (!fields_[i].cached) continue;
-    std::string name;
-    appendMangled(name, string(record.fields[i].name));
-    declarations_ += ' ';
-    if (fields_[i].wide != 0) {
-      declarations_ += fields_[i].wide == 32 ? "int32_t" : "int64_t";
-    } else if (types_.plainKind(record.fields[i].type) == TypeKind::Bool) {
-      declarations_ += "bool";
-    } else {
-      declarations_ += scalarType(types_, record.fields[i].type);
-    }
-    declarations_ += ' ';
-    declarations_ += name;
-    declarations_ += " = self.";
-    declarations_ += name;
-    if (types_.plainKind(record.fields[i].type) == TypeKind::Bool) declarations_ += " != 0";
-    declarations_ += ';';
+  const Variables& variables = analysis_->uses.variables;
+  for (uint32_t i = 0; i < variables.localCount(); ++i) declareLocal(i);
+  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
+    if (analysis_->fields.is_cached[i] != 0) declareCached(i);
   }
 }
 
-void BodyWriter::writeBack(std::string& out) {
-  if (fields_.empty()) return;
-  const TypeInfo& record = types_.info(types_.resolve(body_->self));
-  for (uint32_t i = 0; i < fields_.size(); ++i) {
-    if (fields_[i].slice) {
-      std::string name;
-      appendMangled(name, string(record.fields[i].name));
-      out += " if (" + name + "v != nullptr) rung_string_put(self." + name + ", ";
-      appendUnsigned(out, capacityOf(record.fields[i].type));
-      out += ", " + name + "v, " + name + "n);";
-      continue;
-    }
-    if (!fields_[i].cached || !fields_[i].written) continue;
-    out += " self.";
-    appendMangled(out, string(record.fields[i].name));
-    out += " = ";
-    if (fields_[i].wide != 0) {
-      out += '(';
-      out += scalarType(types_, record.fields[i].type);
-      out += ')';
-    }
-    appendMangled(out, string(record.fields[i].name));
-    out += ';';
+void BodyWriter::declareLocal(uint32_t number) {
+  const ir::Local& local = body_->locals[number];
+  includeRecord(local.type);
+  const VariableUse& use = analysis_->uses.of[number];
+  const uint8_t wide = analysis_->loops.wide[number];
+  const bool is_result = local.kind == LocalKind::Result;
+  if (isParameter(local)) {
+    if (wide != 0) RUNG_INVARIANT(!local.by_reference, "a wide control is a local");
+    return;
   }
+  if (is_result ? local.by_reference : use.weight == 0 && !use.written) return;
+  if (analysis_->slices.has(number)) return;
+  std::string name;
+  variable(name, local);
+  declarations_ += ' ';
+  if (wide != 0) {
+    declarations_ += wide == 32 ? "int32_t " : "int64_t ";
+    declarations_ += name;
+    declarations_ += " = 0;";
+    return;
+  }
+  appendDeclaration(declarations_, types_, local.type, name);
+  if (!isAggregate(local.type) && !isString(local.type))
+    declarations_ += isPointer(types_.plainKind(local.type)) ? " = nullptr" : " = 0";
+  declarations_ += ';';
+}
+
+void BodyWriter::declareCached(uint32_t number) {
+  const types::Field& field = analysis_->uses.variables.field(number);
+  const uint8_t wide = analysis_->loops.wide[number];
+  const bool is_truth = types_.plainKind(field.type) == TypeKind::Bool;
+  std::string name;
+  appendMangled(name, string(field.name));
+  declarations_ += ' ';
+  declarations_ += wide == 32 ? "int32_t" : wide == 64 ? "int64_t" : is_truth ? "bool" : scalarType(types_, field.type);
+  declarations_ += ' ' + name + " = self." + name;
+  if (is_truth) declarations_ += " != 0";
+  declarations_ += ';';
+}
+
+void BodyWriter::writeBack(std::string& out) {
+  const Variables& variables = analysis_->uses.variables;
+  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
+    const types::Field& field = variables.field(i);
+    std::string name;
+    if (analysis_->slices.has(i)) {
+      appendMangled(name, string(field.name));
+      out += " if (" + name + "v != nullptr) rung_string_put(self." + name + ", ";
+      appendUnsigned(out, capacityOf(field.type));
+      out += ", " + name + "v, " + name + "n);";
+    } else if (isWrittenBack(i)) {
+      appendMangled(name, string(field.name));
+      out += " self." + name + " = ";
+      if (analysis_->loops.wide[i] != 0) out += '(' + std::string(scalarType(types_, field.type)) + ')';
+      out += name + ';';
+    }
+  }
+}
+
+bool BodyWriter::isWrittenBack(uint32_t number) const {
+  return analysis_->fields.is_cached[number] != 0 && analysis_->uses.of[number].written;
+}
+
+bool BodyWriter::writesFieldsBack() const {
+  const Variables& variables = analysis_->uses.variables;
+  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
+    if (isWrittenBack(i)) return true;
+  }
+  return false;
+}
+
+uint8_t BodyWriter::wideOf(ExprId place) const {
+  const uint32_t number = analysis_->uses.variables.at(place);
+  return number == kNoVariable ? uint8_t{0} : analysis_->loops.wide[number];
+}
+
+bool BodyWriter::isCached(ExprId place) const {
+  const uint32_t number = analysis_->uses.variables.at(place);
+  return number != kNoVariable && analysis_->fields.is_cached[number] != 0;
+}
+
+bool BodyWriter::isSlice(ExprId place) const {
+  return !analysis_->slices.is_slice.empty() && analysis_->slices.has(analysis_->uses.variables.stringAt(place));
 }
 
 void BodyWriter::writeExits() {
@@ -245,16 +257,15 @@ void BodyWriter::write(ir::BodyId id) {
   frames_.clear();
   blocks_declared_.clear();
   areas_declared_ = 0;
-  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = has_leaving_calls_ = has_slices_ =
-      uses_fault_ = uses_leave_ = false;
+  uses_fault_ = uses_leave_ = false;
   names_created_ = 0;
   depth_ = 1;
   closes_ = 0;
   line_ = 0;
   line_file_ = {};
 
-  known_.clear();
-  analyze();
+  const BodyAnalysis analysis = analyzeBody(module_, body, facts_);
+  analysis_ = &analysis;
   if (body.self) includeRecord(body.self);
   declareVariables();
   declareLengths();
@@ -264,7 +275,7 @@ void BodyWriter::write(ir::BodyId id) {
 
   const bool is_inlined = facts_.is_inlined[id.index] != 0;
   std::string& to = group_.code;
-  if (uses_fault_ || has_try_) declarations_ += " uint32_t at; int64_t value;";
+  if (uses_fault_ || analysis.uses.has_try) declarations_ += " uint32_t at; int64_t value;";
   if (is_inlined) {
     to += "\nstatic inline ";
   } else {
@@ -273,10 +284,9 @@ void BodyWriter::write(ir::BodyId id) {
     to += string(body.spelling ? body.spelling : body.name);
     to += '\n';
     const bool is_hot = marks_.hot[id.index] == group_number_;
-    const Effort effort = effortFor(body);
     if (is_hot) to += "RUNG_INLINE ";
-    if (effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
-    if (effort == Effort::Loops) to += "RUNG_LOOPS ";
+    if (analysis.effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
+    if (analysis.effort == Effort::Loops) to += "RUNG_LOOPS ";
   }
   appendSignature(to, module_, body);
   to += " {";

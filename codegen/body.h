@@ -4,7 +4,7 @@
 // Layout: all variables are declared at the top (a `goto` never crosses an initialisation), then the statements, each
 // after its checks, then the exits:
 //   void Ramp_body(Ramp_type& self, rung_context* ctx) {
-//     float y_ = self.y_;  uint32_t at;  int64_t value;      scalars of the instance that live in locals (locals.cpp)
+//     float y_ = self.y_;  uint32_t at;  int64_t value;      scalars of the instance that live in locals (locals.h)
 //     RUNG_CHECK(bad, site << 3 | kind, value)               jumps to fault:
 //   leave: self.y_ = y_; return;
 //   fault: self.y_ = y_; rung_raise(ctx, …);
@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codegen/analysis.h"
 #include "codegen/group.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
@@ -61,6 +62,10 @@ class BodyWriter {
 
   // ---- body.cpp: the function around the statements
   void declareVariables();
+  void declareLocal(uint32_t number);
+  void declareCached(uint32_t number);
+  bool isWrittenBack(uint32_t number) const;
+  bool writesFieldsBack() const;
   void writeBack(std::string& out);
   void writeExits();
   void includeRecord(TypeId type);
@@ -68,70 +73,23 @@ class BodyWriter {
   std::string newName(const char* prefix);
   std::string newVariable(TypeId type, const char* prefix);
 
-  // ---- locals.cpp: variables kept in C++ locals
-  struct Slot {  // a scalar variable that may become a C++ local: of the body or of the instance
-    enum Kind : uint8_t { None, Local, Field } kind = None;
-    uint32_t index = 0;
-    friend bool operator==(const Slot&, const Slot&) = default;
-  };
-  struct Variable {
-    uint32_t weight = 0, loop_weight = 0;  // all uses, weighted by loops; the uses in loops alone
-    bool written = false, exposed = false, cached = false;
-    uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as for the control of a For
-    // A string: its uses by sized functions; whether its length lives in a C++ local, and is known at this statement.
-    uint32_t sized_weight = 0;
-    bool measured = false, known = false;
-    bool sliced = false;       // a string made by functions marked {slice}, where that pays
-    bool taken_apart = false;  // a slice made of a slice
-    bool slice = false;        // a measured string that is part of another: its address lives in a C++ local too
-  };
-  struct Control {
-    Slot slot;
-    StmtId loop;
-    bool disturbed = false;  // written in the loop, or reachable from outside
-  };
-  void analyze();
-  void scanBlock(StmtId first, uint32_t weight);
-  void scanExpr(ExprId id, uint32_t weight);
-  void noteWrite(ExprId place, bool by_reference);
-  Slot slotOf(ExprId place) const;
-  Variable* variableOf(Slot slot);
-  bool isPrivateLoop(StmtId loop) const { return !private_loop_.empty() && private_loop_[loop.index] != 0; }
-  bool boundsFit(const ir::ForStmt& loop) const;
-
-  // ---- lengths.cpp: lengths of strings in C++ locals
-  bool isSized(const Body& callee) const;
-  bool isSizedCall(const Body& callee, Slice<ExprId> operands, ExprId result) const;
-  Variable* stringVariable(ExprId place);
-  const Variable* measuredString(ExprId place) const;
-  void noteSizedCall(const Body& callee, Slice<ExprId> operands, uint32_t weight);
-  void noteStringAssign(const ir::AssignStmt& stmt, uint32_t weight);
-  void chooseMeasured();
+  // ---- measured.cpp: strings with their lengths in C++ locals
   void declareLengths();
-  bool needsMeasuring(ExprId id) const;
-  void measure(const Stmt& stmt);
-  void measureExpr(ExprId id);
-  void measureString(ExprId place);
-  void collectUnknown(const Stmt& stmt);
-  void collectUnknown(StmtId first);
-  void forgetLengths(size_t mark);
-  void setKnown(ExprId place);
+  void countLengths(StmtId id);
   void lengthName(ExprId place);
   void stringLength(ExprId string);
   // `form`: `sized` or `slice`.
   void sizedCall(const Body& callee, Slice<ExprId> operands, const char* form = "sized");
-
-  // ---- slices.cpp: strings that are parts of others
-  const Variable* slicedString(ExprId place) const;
-  bool isSliceSource(ExprId id);
-  void noteSlice(ExprId result, uint32_t weight);
-  void chooseSlices();
-  void refuseSlice(ExprId place);
-  void judgeBlock(StmtId first);
-  void judgeWrite(ExprId place, bool makes_slice);
-  void judgeRead(ExprId id, bool is_sized);
   void sliceName(ExprId place);
   void assignSlice(ExprId to, ExprId from);
+
+  // ---- what the analyses found
+  uint8_t wideOf(ExprId place) const;  // the bits of the C++ local, where it is wider than the type
+  bool isCached(ExprId place) const;   // a field that lives in a C++ local
+  bool isSlice(ExprId place) const;
+  bool isMeasured(ExprId place) const { return strings().isMeasured(place); }
+  bool isKnown(ExprId place) const { return analysis_->lengths.at(place); }
+  StringsOfBody strings() const { return {module_, *body_, analysis_->uses.variables, analysis_->measured}; }
 
   // ---- statements.cpp
   void block(StmtId first);
@@ -189,7 +147,7 @@ class BodyWriter {
   // ---- loops.cpp
   void loopStatement(const ir::LoopStmt& stmt);
   void forStatement(StmtId id, const ir::ForStmt& stmt);
-  void privateFor(const ir::ForStmt& stmt);
+  void countedFor(const ir::ForStmt& stmt, bool fits);
   void breakLoop();
   void continueLoop();
   ExprId exitTest(StmtId id) const;
@@ -255,7 +213,7 @@ class BodyWriter {
   void place(ExprId id);  // an lvalue; for a string: a pointer to its units
   void localPlace(const ir::Local& local);
   void blockPlace(TypeId record, uint32_t number, std::string_view suffix);
-  void fieldPlace(const ir::FieldExpr& node);
+  void fieldPlace(ExprId id);
   void elementPlace(const ir::IndexExpr& node);
   void targetPlace(ExprId pointer, TypeId type);
   void member(ExprId base);  // `self.`, `x_->`
@@ -289,8 +247,6 @@ class BodyWriter {
   void copyVariable(const StringTarget& target, ExprId from);
   void stringValue(ExprId id);  // a const char* or const char16_t*
   void compareStrings(const ir::BinaryExpr& node, Prec context);
-  bool isSizedComparison(const ir::BinaryExpr& node) const;
-  ExprId uncut(ExprId id) const;                       // a string without the conversions that cut it
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a string in memory whose capacity is that of its type
   uint32_t literalLength(const Expr& string) const;
   void dataReference(uint32_t index);
@@ -336,18 +292,12 @@ class BodyWriter {
   uint32_t group_number_;
 
   const Body* body_ = nullptr;
+  const BodyAnalysis* analysis_ = nullptr;
   std::string out_;           // the statements
   std::string declarations_;  // the variables at the top
-  std::vector<Variable> locals_, fields_;
-  std::vector<Control> controls_;  // of the enclosing loops
-  std::vector<Variable*> known_;   // the strings whose lengths became known, taken back at the end of a block
-  std::vector<ExprId> unknown_;    // collectUnknown: one lvalue for each string whose length a loop needs
-  std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
   uint32_t areas_declared_ = 0;                                 // a bit for each
   std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its string
-  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
-       has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_created_ = 0;
 

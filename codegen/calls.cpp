@@ -15,8 +15,8 @@ BodyWriter::CallPlan BodyWriter::planCall(const ir::CallStmt& stmt) const {
   const Body& callee = module_.body(stmt.callee);
   const std::span<const ExprId> operands = body_->list(stmt.operands);
   CallPlan plan;
-  if (!stmt.self && isSizedCall(callee, stmt.operands, stmt.result)) {
-    const bool makes_slice = stmt.result && slicedString(stmt.result) != nullptr;
+  if (!stmt.self && strings().isSizedCall(callee, stmt.operands, stmt.result)) {
+    const bool makes_slice = stmt.result && isSlice(stmt.result);
     plan.form = makes_slice ? CallPlan::Form::Slice : CallPlan::Form::Sized;
   } else if (stmt.is_virtual) {
     plan.form = CallPlan::Form::Virtual;
@@ -36,7 +36,7 @@ BodyWriter::CallPlan BodyWriter::planCall(const ir::CallStmt& stmt) const {
   } else if (callee.result && stmt.result) {
     plan.result = CallPlan::Result::Value;
   }
-  plan.is_measured = stmt.result && measuredString(stmt.result) != nullptr;
+  plan.is_measured = stmt.result && isMeasured(stmt.result);
   return plan;
 }
 
@@ -92,13 +92,10 @@ void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
   }
   out_ += ';';
   if (!text.copy.empty() && stmt.result) copyResult(stmt.result, callee.result, text);
-  if (plan.is_measured) {
-    if (!callee.native && text.copy.empty()) {
-      out_ += ' ' + text.length + " = rung_string_length(";
-      place(stmt.result);
-      out_ += ");";
-    }
-    setKnown(stmt.result);
+  if (plan.is_measured && !callee.native && text.copy.empty()) {
+    out_ += ' ' + text.length + " = rung_string_length(";
+    place(stmt.result);
+    out_ += ");";
   }
   out_ += text.after;
 }
@@ -218,7 +215,7 @@ void BodyWriter::copyResult(ExprId to, TypeId from, const CallText& text) {
 void BodyWriter::callExpr(const Expr& e) {
   const auto [id, operands] = e.as<ir::CallExpr>();
   const Body& callee = module_.body(id);
-  if (!isString(e.type) && isSizedCall(callee, operands, {})) {
+  if (!isString(e.type) && strings().isSizedCall(callee, operands, {})) {
     sizedCall(callee, operands);
     out_ += ')';
     return;

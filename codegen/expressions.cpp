@@ -56,10 +56,7 @@ void BodyWriter::value(ExprId id, Prec context) {
         closeParenthesis(Prec::Equality, context);
         return;
       }
-      Slot slot = slotOf(id);
-      if (Variable* of = variableOf(slot); of != nullptr && of->wide == 64) {
-        out_ += types_.isSigned(kind) ? "(int32_t)" : "(uint32_t)";
-      }
+      if (wideOf(id) == 64) out_ += types_.isSigned(kind) ? "(int32_t)" : "(uint32_t)";
       place(id);
       return;
     }

@@ -1,5 +1,5 @@
-// Loops of a body. A For counts in the control itself when only the loop writes it: in a local wide enough for one
-// step beyond the limit, which makes a plain C++ loop that g++ can vectorize. Otherwise a flag guards the step.
+// Loops of a body in C++: a FOR as a plain C++ loop where counted_loops.h says so, else with a flag that guards the
+// step. In: a loop statement. Out: its C++. Called by statements.cpp.
 #include "codegen/body.h"
 #include "ir/walk.h"
 
@@ -136,11 +136,11 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 }  // namespace
 
-void BodyWriter::privateFor(const ir::ForStmt& stmt) {
+void BodyWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   const TypeKind kind = kindOf(control);
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
-  const Variable& of = *variableOf(slotOf(control));
+  const uint8_t wide = wideOf(control);
   std::string name;
   const Expr& place = expr(control);
   if (const uint32_t* local = ir::localOf(place)) {
@@ -154,8 +154,8 @@ void BodyWriter::privateFor(const ir::ForStmt& stmt) {
     limit = captured([&] { value(to, Prec::Shift); });
   } else {
     limit = newName("e");
-    declarations_ += of.wide == 64 ? " int64_t " : of.wide == 32 ? " int32_t " : " ";
-    if (of.wide == 0) {
+    declarations_ += wide == 64 ? " int64_t " : wide == 32 ? " int32_t " : " ";
+    if (wide == 0) {
       declarations_ += scalarType(types_, place.type);
       declarations_ += ' ';
     }
@@ -178,7 +178,7 @@ void BodyWriter::privateFor(const ir::ForStmt& stmt) {
   const Loop done = loops_.back();
   loops_.pop_back();
   std::string tail;
-  if (of.wide != 0 && !boundsFit(stmt)) {  // where the next value does not fit the control stays at the type's limit
+  if (wide != 0 && !fits) {  // where the next value does not fit the control stays at the type's limit
     const uint32_t width = widthOf(kind);
     const bool is_signed = types_.isSigned(kind);
     std::string bound;
@@ -210,8 +210,8 @@ void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   prepare(control);
   prepare(from);
   prepare(to);
-  if (isPrivateLoop(id)) {
-    privateFor(stmt);
+  if (const CountedLoop* counted = analysis_->loops.find(id)) {
+    countedFor(stmt, counted->fits);
     return;
   }
   const TypeKind kind = kindOf(control);

@@ -17,9 +17,9 @@ bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::B
 // Only generated code writes locals, and it writes 0 or 1.
 bool BodyWriter::isVariableTruth(ExprId id) const {
   const Expr& e = expr(id);
-  if (const uint32_t* local = ir::localOf(e)) return !body_->locals[*local].by_reference && !locals_[*local].exposed;
-  const Slot slot = slotOf(id);
-  return slot.kind == Slot::Field && fields_[slot.index].cached;
+  if (const uint32_t* local = ir::localOf(e))
+    return !body_->locals[*local].by_reference && !analysis_->uses.of[*local].exposed;
+  return isCached(id);
 }
 
 void BodyWriter::place(ExprId id) {
@@ -29,7 +29,7 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Self: out_ += "self"; return;
     case ExprKind::Global: blockPlace(e.type, facts_.list_block[e.as<ir::GlobalExpr>().list], "list_block"); return;
     case ExprKind::Program: blockPlace(e.type, facts_.program_block[e.as<ir::ProgramExpr>().program], "block"); return;
-    case ExprKind::Field: fieldPlace(e.as<ir::FieldExpr>()); return;
+    case ExprKind::Field: fieldPlace(id); return;
     case ExprKind::Index: elementPlace(e.as<ir::IndexExpr>()); return;
     case ExprKind::Deref: targetPlace(e.as<ir::DerefExpr>().pointer, e.type); return;
     case ExprKind::Data:
@@ -97,9 +97,10 @@ void BodyWriter::blockPlace(TypeId record, uint32_t number, std::string_view suf
   out_ += name;
 }
 
-void BodyWriter::fieldPlace(const ir::FieldExpr& node) {
+void BodyWriter::fieldPlace(ExprId id) {
+  const ir::FieldExpr& node = expr(id).as<ir::FieldExpr>();
   const Field& field = fieldOf(node);
-  if (expr(node.base).kind == ExprKind::Self && node.field < fields_.size() && fields_[node.field].cached) {
+  if (isCached(id)) {
     appendMangled(out_, string(field.name));
     return;
   }
@@ -212,9 +213,7 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const TypeKind kind = kindOf(inner);
   const uint32_t width = widthOf(kind);
   const int64_t offset = addend - dimension.low;
-  const Slot slot = slotOf(inner);
-  const Variable* of = expr(inner).kind == ExprKind::Bits ? nullptr : variableOf(slot);
-  const bool is_wide = of != nullptr && of->wide == 64;
+  const bool is_wide = expr(inner).kind != ExprKind::Bits && wideOf(inner) == 64;
   auto writeInner = [&](Prec context) {
     if (is_wide) {
       place(inner);

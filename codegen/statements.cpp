@@ -97,9 +97,7 @@ void BodyWriter::close() {
 // ---- statements
 
 void BodyWriter::block(StmtId first) {
-  const size_t mark = known_.size();
   for (StmtId id = first; id; id = body_->stmt(id).next) statement(id, body_->stmt(id));
-  forgetLengths(mark);
 }
 
 void BodyWriter::statement(StmtId id, const Stmt& stmt) {
@@ -113,7 +111,7 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
     return;
   }
   begin(stmt.loc);
-  measure(stmt);
+  countLengths(id);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
     case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return;
@@ -179,8 +177,7 @@ void BodyWriter::leave() {
     out_ += ';';
     return;
   }
-  const bool has_written =
-      std::any_of(fields_.begin(), fields_.end(), [](const Variable& v) { return v.cached && v.written; });
+  const bool has_written = writesFieldsBack();
   if (has_written) uses_leave_ = true;
   out_ += has_written ? "goto leave;" : "return;";
 }
@@ -235,7 +232,7 @@ void BodyWriter::ifStatement(const ir::IfStmt& stmt) {
     flushCloses(room);
     out_ += " else";
     const auto* chained = other.next ? nullptr : other.tryAs<ir::IfStmt>();
-    if (chained == nullptr || needsPreparation(chained->condition) || needsMeasuring(chained->condition)) {
+    if (chained == nullptr || needsPreparation(chained->condition) || analysis_->lengths.countsBefore(at->else_block)) {
       open();
       block(at->else_block);
       close();

@@ -42,14 +42,13 @@ void BodyWriter::assign(const ir::AssignStmt& stmt) {
   const TypeId type = expr(to).type;
   const Expr& source = expr(from);
   if (isString(type)) {
-    if (slicedString(to) != nullptr) return assignSlice(to, from);
+    if (isSlice(to)) return assignSlice(to, from);
     prepare(to);
     prepareString(from);
     const std::string name = captured([&] { place(to); });
-    const bool is_measured = measuredString(to) != nullptr;
+    const bool is_measured = isMeasured(to);
     const std::string length = is_measured ? captured([&] { lengthName(to); }) : "";
     copyString({name, capacityOf(type), isWide(type), length}, from);
-    setKnown(to);
     return;
   }
   if (!isAggregate(type)) {
@@ -97,7 +96,7 @@ uint32_t BodyWriter::literalLength(const Expr& e) const {
 bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
-  if (slicedString(id) != nullptr) return false;
+  if (isSlice(id)) return false;
   switch (e.kind) {
     case ExprKind::Local: return !body_->locals[e.as<ir::LocalExpr>().local].by_reference;
     case ExprKind::Field: return !fieldOf(e.as<ir::FieldExpr>()).by_reference;
@@ -218,7 +217,7 @@ void BodyWriter::copyVariable(const StringTarget& target, ExprId from) {
   const bool wide = target.wide;
   const std::string source = captured([&] { stringValue(from); });
   if (source == target.name && target.capacity >= capacityOf(type)) return;
-  const bool is_measured = measuredString(from) != nullptr && measuredString(from)->known;
+  const bool is_measured = isKnown(from);
   uint32_t room;
   if (isWide(type) != wide) {
     beginCopy(target, wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target.capacity);
@@ -308,7 +307,7 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Field:
     case ExprKind::Index:
     case ExprKind::Deref:
-      if (slicedString(id) != nullptr) {
+      if (isSlice(id)) {
         sliceName(id);
       } else {
         place(id);
@@ -330,25 +329,6 @@ void BodyWriter::stringValue(ExprId id) {
   }
 }
 
-ir::ExprId BodyWriter::uncut(ExprId id) const {
-  for (const Expr* e = &expr(id); e->kind == ExprKind::Convert && e->checks == 0 && isString(e->type); e = &expr(id)) {
-    const ExprId operand = e->as<ir::ConvertExpr>().operand;
-    const TypeId inner = expr(operand).type;
-    if (!isString(inner) || isWide(inner) != isWide(e->type)) break;
-    id = operand;
-  }
-  return id;
-}
-
-// True when the lengths of both sides are passed.
-bool BodyWriter::isSizedComparison(const ir::BinaryExpr& node) const {
-  if (node.op != Op::Eq && node.op != Op::Ne) return false;
-  auto is_measured = [&](ExprId side) { return measuredString(side) != nullptr && measuredString(side)->known; };
-  auto is_literal = [&](ExprId side) { return expr(side).kind == ExprKind::String; };
-  const ExprId a = node.left, b = node.right;
-  return (is_measured(a) && (is_measured(b) || is_literal(b))) || (is_literal(a) && is_measured(b));
-}
-
 void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
   const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
   const char* op = node.op == Op::Eq   ? " == 0"
@@ -367,8 +347,7 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
     uint32_t capacity = 0;
     const bool is_buffer = isBuffer(a, capacity);
     const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
-    const Variable* of = measuredString(a);
-    if (of != nullptr && of->known) {
+    if (isKnown(a)) {
       const std::string count = captured([&] { lengthName(a); });
       if (length == 0) {
         parenthesis(Prec::Equality, context);
@@ -426,7 +405,7 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
       return;
     }
   }
-  if (isSizedComparison(node)) {
+  if (strings().isSizedComparison(node, [&](ExprId side) { return isKnown(side); })) {
     const std::string count = captured([&] { lengthName(a); });
     out_ += node.op == Op::Eq ? "(" : "!(";
     out_ += count + " == ";
