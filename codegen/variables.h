@@ -18,7 +18,7 @@ class Variables {
  public:
   Variables(const ir::Module& module, const ir::Body& body);
 
-  // A local that is no parameter by reference, a field of the own instance, or bits of one; else none.
+  // A local (but for parameters by reference), a field of the own instance, or bits of one; else none.
   uint32_t at(ir::ExprId place) const;
   // A STRING that only this body can reach unless its address is taken; also an input, or the result, by reference.
   uint32_t stringAt(ir::ExprId place) const;
