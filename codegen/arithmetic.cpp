@@ -3,7 +3,7 @@
 // intermediate value can leave it, and cut back. Called by expressions.cpp and conversions.cpp.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/builder.h"
 
 namespace rung::codegen {
@@ -18,7 +18,7 @@ bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::
 
 // ---- integer + - * and negation
 
-bool BodyWriter::isChain(const Expr& e) const {
+bool ExpressionWriter::isChain(const Expr& e) const {
   const auto* negation = e.tryAs<ir::UnaryExpr>();
   const auto* binary = e.tryAs<ir::BinaryExpr>();
   const bool is_arithmetic =
@@ -28,7 +28,7 @@ bool BodyWriter::isChain(const Expr& e) const {
 }
 
 // Bits of a signed number that holds every value of the expression computed in int.
-uint32_t BodyWriter::plainBits(ExprId id) const {
+uint32_t ExpressionWriter::plainBits(ExprId id) const {
   const Expr& e = expr(id);
   if (isChain(e)) {
     if (const auto* negation = e.tryAs<ir::UnaryExpr>()) return plainBits(negation->operand) + 1;
@@ -46,7 +46,7 @@ uint32_t BodyWriter::plainBits(ExprId id) const {
   return widthOf(kind) + (types_.isSigned(kind) ? 0 : 1);
 }
 
-void BodyWriter::plain(ExprId id, Prec context) {
+void ExpressionWriter::plain(ExprId id, Prec context) {
   const Expr& e = expr(id);
   if (!isChain(e)) {
     value(id, context);
@@ -69,7 +69,7 @@ void BodyWriter::plain(ExprId id, Prec context) {
 }
 
 // An unsigned expression of 32 or 64 bits that is equal to the value modulo 2^32 or 2^64.
-void BodyWriter::modular(ExprId id, bool wide, Prec context) {
+void ExpressionWriter::modular(ExprId id, bool wide, Prec context) {
   const Expr& e = expr(id);
   const TypeKind kind = types_.plainKind(e.type);
   if (isChain(e)) {
@@ -112,7 +112,7 @@ void BodyWriter::modular(ExprId id, bool wide, Prec context) {
   closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::arithmetic(ExprId id, Prec context) {
+void ExpressionWriter::arithmetic(ExprId id, Prec context) {
   const Expr& e = expr(id);
   const auto* binary = e.tryAs<ir::BinaryExpr>();
   const TypeKind kind = kindOf(binary != nullptr ? binary->left : e.as<ir::UnaryExpr>().operand);
@@ -142,7 +142,7 @@ void BodyWriter::arithmetic(ExprId id, Prec context) {
 }
 
 // An operator of that width, to be cut to a type.
-void BodyWriter::inPlainOrModular(ExprId id, uint32_t width) {
+void ExpressionWriter::inPlainOrModular(ExprId id, uint32_t width) {
   if (width <= 16 && plainBits(id) <= 32) {
     plain(id, Prec::Comma);
   } else {
@@ -150,7 +150,7 @@ void BodyWriter::inPlainOrModular(ExprId id, uint32_t width) {
   }
 }
 
-void BodyWriter::divide(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::divide(const ir::BinaryExpr& node, Prec context) {
   const auto [a, b, op] = node;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
@@ -179,7 +179,7 @@ void BodyWriter::divide(const ir::BinaryExpr& node, Prec context) {
 }
 
 // A count of the width or more gives 0; a rotation is modulo the width.
-void BodyWriter::shift(const Expr& e, Prec context) {
+void ExpressionWriter::shift(const Expr& e, Prec context) {
   const Op op = e.op();
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
@@ -237,7 +237,7 @@ void BodyWriter::shift(const Expr& e, Prec context) {
   if (cuts) closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::power(const Expr& e) {
+void ExpressionWriter::power(const Expr& e) {
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   if (TypeTable::isReal(kind)) {

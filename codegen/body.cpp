@@ -1,137 +1,19 @@
 // The function around the statements of a body: signature, variables, exits. See body.h.
 #include "codegen/body.h"
 
+#include "codegen/body_parts.h"
+#include "codegen/signature.h"
+
 #include "frontend/source/invariant.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
 
-using ir::BodyKind;
 using ir::LocalKind;
 using types::TypeTable;
 
-namespace {
-
-// Arrays and records have no C type that a library could know.
-void appendParameter(std::string& out, const TypeTable& types, const ir::Local& local, std::string_view name,
-                     bool native) {
-  const bool read_only = local.kind == LocalKind::Input;
-  const types::TypeKind kind = types.kind(local.type);
-  if (!local.by_reference) {
-    appendDeclaration(out, types, local.type, name);
-  } else if (native && (kind == types::TypeKind::Array || kind == types::TypeKind::Record)) {
-    out += read_only ? "const void* " : "void* ";
-    out += name;
-  } else {
-    appendPointer(out, types, local.type, name, read_only);
-  }
-}
-
-}  // namespace
-
-void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body,
-                                 std::string_view function, std::string_view self) {
-  const TypeTable& types = module.types;
-  const ir::Local* result = nullptr;
-  for (const ir::Local& local : body.locals) {
-    if (local.kind == LocalKind::Result) result = &local;
-  }
-  const bool by_value = body.result && !ir::isAggregate(types, body.result);
-  if (by_value) {
-    const char* type = scalarType(types, body.result);
-    out += type;
-  } else if (body.native && body.result && TypeTable::isString(types.kind(body.result))) {
-    out += "uint32_t";  // the length
-  } else {
-    out += "void";
-  }
-  out += ' ';
-  if (!function.empty()) {
-    out += function;
-  } else if (body.native) {
-    out += ir::nativeName(module, body);
-  } else {
-    appendFunctionName(out, module, body);
-  }
-  out += '(';
-  if (body.native) {
-    out += "rung_context* ctx";
-    if (body.self) {
-      out += ", ";
-      out += self.empty() ? "void" : self;
-      out += "* self";
-    }
-  } else if (isMethod(body)) {
-    out += "void* object, rung_context* ctx";
-  } else if (body.self) {
-    appendRecordType(out, types, body.self);
-    out += "& self, rung_context* ctx";
-  } else {
-    out += "rung_context* ctx";
-  }
-  std::string name;
-  for (const ir::Local& local : ir::parameters(body)) {
-    out += ", ";
-    name.clear();
-    appendMangled(name, module.names.string(local.name));
-    appendParameter(out, types, local, name, body.native);
-  }
-  if (body.result && !by_value) {
-    name.clear();
-    if (result != nullptr && !body.native) {
-      appendMangled(name, module.names.string(result->name));
-    } else {
-      name = "out";
-    }
-    out += ", ";
-    if (body.native && !TypeTable::isString(types.kind(body.result))) {
-      out += "void* out";
-    } else {
-      appendPointer(out, types, body.result, name);
-    }
-    if (body.native && TypeTable::isString(types.kind(body.result))) out += ", uint32_t capacity";
-  }
-  out += ')';
-}
-
-void BodyWriter::includeRecord(TypeId type) {
-  type = elementOf(types_, type);
-  if (types_.kind(type) != TypeKind::Record || marks_.record[type.index] == group_number_) return;
-  marks_.record[type.index] = group_number_;
-  group_.records.push_back(type);
-}
-
-void BodyWriter::call(ir::BodyId id) {
-  if (marks_.body[id.index] == group_number_) return;
-  marks_.body[id.index] = group_number_;
-  (facts_.is_inlined[id.index] != 0 ? group_.inlined : group_.callees).push_back(id);
-}
-
-std::string BodyWriter::newName(const char* prefix) {
-  std::string name = prefix;
-  appendUnsigned(name, ++names_created_);
-  return name;
-}
-
-std::string BodyWriter::newVariable(TypeId type, const char* prefix) {
-  std::string name = newName(prefix);
-  includeRecord(type);
-  declarations_ += ' ';
-  appendDeclaration(declarations_, types_, type, name);
-  declarations_ += ';';
-  return name;
-}
-
-void BodyWriter::variable(std::string& out, const ir::Local& local) const {
-  if (local.kind == LocalKind::Temp) {
-    out += string(local.name);
-  } else {
-    appendMangled(out, string(local.name));
-  }
-}
-
-void BodyWriter::declareVariables() {
+void FunctionWriter::declareVariables() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = 0; i < variables.localCount(); ++i) declareLocal(i);
   for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
@@ -139,7 +21,7 @@ void BodyWriter::declareVariables() {
   }
 }
 
-void BodyWriter::declareLocal(uint32_t number) {
+void FunctionWriter::declareLocal(uint32_t number) {
   const ir::Local& local = body_->locals[number];
   includeRecord(local.type);
   const VariableUse& use = analysis_->uses.of[number];
@@ -166,7 +48,7 @@ void BodyWriter::declareLocal(uint32_t number) {
   declarations_ += ';';
 }
 
-void BodyWriter::declareCached(uint32_t number) {
+void FunctionWriter::declareCached(uint32_t number) {
   const types::Field& field = analysis_->uses.variables.field(number);
   const uint8_t wide = analysis_->loops.wide[number];
   const bool is_truth = types_.plainKind(field.type) == TypeKind::Bool;
@@ -179,7 +61,7 @@ void BodyWriter::declareCached(uint32_t number) {
   declarations_ += ';';
 }
 
-void BodyWriter::writeBack(std::string& out) {
+void FunctionWriter::writeBack(std::string& out) {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
     const types::Field& field = variables.field(i);
@@ -198,47 +80,21 @@ void BodyWriter::writeBack(std::string& out) {
   }
 }
 
-bool BodyWriter::isWrittenBack(uint32_t number) const {
-  return analysis_->fields.is_cached[number] != 0 && analysis_->uses.of[number].written;
-}
-
-bool BodyWriter::writesFieldsBack() const {
-  const Variables& variables = analysis_->uses.variables;
-  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
-    if (isWrittenBack(i)) return true;
-  }
-  return false;
-}
-
-uint8_t BodyWriter::wideOf(ExprId place) const {
-  const uint32_t number = analysis_->uses.variables.at(place);
-  return number == kNoVariable ? uint8_t{0} : analysis_->loops.wide[number];
-}
-
-bool BodyWriter::isCached(ExprId place) const {
-  const uint32_t number = analysis_->uses.variables.at(place);
-  return number != kNoVariable && analysis_->fields.is_cached[number] != 0;
-}
-
-bool BodyWriter::isSlice(ExprId place) const {
-  return !analysis_->slices.is_slice.empty() && analysis_->slices.has(analysis_->uses.variables.stringAt(place));
-}
-
-void BodyWriter::writeExits() {
+void FunctionWriter::writeExits() {
   std::string result;
   for (const ir::Local& local : body_->locals) {
     if (local.kind == LocalKind::Result && !local.by_reference) variable(result, local);
   }
-  if (uses_leave_) out_ += "\nleave:";
+  if (state_.uses_leave) out_ += "\nleave:";
   writeBack(out_);
   if (!result.empty()) {
     out_ += "\n  return ";
     out_ += result;
     out_ += ';';
-  } else if (uses_fault_ || uses_leave_) {
+  } else if (state_.uses_fault || state_.uses_leave) {
     out_ += "\n  return;";
   }
-  if (uses_fault_) {
+  if (state_.uses_fault) {
     out_ += "\nfault:";
     writeBack(out_);
     out_ += " rung_raise(ctx, at & 15, sites_";
@@ -247,54 +103,24 @@ void BodyWriter::writeExits() {
   }
 }
 
-void BodyWriter::write(ir::BodyId id) {
-  const Body& body = module_.body(id);
-  body_ = &body;
-  out_.clear();
-  declarations_.clear();
-  materialized_.clear();
-  loops_.clear();
-  frames_.clear();
-  blocks_declared_.clear();
-  areas_declared_ = 0;
-  uses_fault_ = uses_leave_ = false;
-  names_created_ = 0;
-  depth_ = 1;
-  closes_ = 0;
-  line_ = 0;
-  line_file_ = {};
-
-  const BodyAnalysis analysis = analyzeBody(module_, body, facts_);
-  analysis_ = &analysis;
-  if (body.self) includeRecord(body.self);
+void FunctionWriter::write(ir::BodyId id) {
+  if (body_->self) includeRecord(body_->self);
   declareVariables();
-  declareLengths();
-  block(body.first);
-  flushCloses(0);
+  strings().declareLengths();
+  statements().block(body_->first);
+  statements().flushCloses(0);
   writeExits();
+  if (state_.uses_fault || analysis_->uses.has_try) declarations_ += " uint32_t at; int64_t value;";
 
-  const bool is_inlined = facts_.is_inlined[id.index] != 0;
+  writeHead(id);
   std::string& to = group_.code;
-  if (uses_fault_ || analysis.uses.has_try) declarations_ += " uint32_t at; int64_t value;";
-  if (is_inlined) {
-    to += "\nstatic inline ";
-  } else {
-    to += "\n// ";
-    if (body.kind == BodyKind::Init) to += "initial values of ";
-    to += string(body.spelling ? body.spelling : body.name);
-    to += '\n';
-    const bool is_hot = marks_.hot[id.index] == group_number_;
-    if (is_hot) to += "RUNG_INLINE ";
-    if (analysis.effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
-    if (analysis.effort == Effort::Loops) to += "RUNG_LOOPS ";
-  }
-  appendSignature(to, module_, body);
+  appendSignature(to, module_, *body_);
   to += " {";
-  if (isMethod(body)) {  // also called through tables: one type for all objects
+  if (isMethod(*body_)) {  // also called through tables: one type for all objects
     to += "\n  [[maybe_unused]] ";
-    appendRecordType(to, types_, body.self);
+    appendRecordType(to, types_, body_->self);
     to += "& self = *static_cast<";
-    appendRecordType(to, types_, body.self);
+    appendRecordType(to, types_, body_->self);
     to += "*>(object);";
   }
   if (!declarations_.empty()) {
@@ -303,6 +129,31 @@ void BodyWriter::write(ir::BodyId id) {
   }
   to += out_;
   to += "\n}\n";
+}
+
+// The comment with its name, and the attributes.
+void FunctionWriter::writeHead(ir::BodyId id) {
+  std::string& to = group_.code;
+  if (facts_.is_inlined[id.index] != 0) {
+    to += "\nstatic inline ";
+    return;
+  }
+  to += "\n// ";
+  if (body_->kind == ir::BodyKind::Init) to += "initial values of ";
+  to += string(body_->spelling ? body_->spelling : body_->name);
+  to += '\n';
+  const bool is_hot = state_.in.marks.hot[id.index] == state_.in.group_number;
+  if (is_hot) to += "RUNG_INLINE ";
+  if (analysis_->effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
+  if (analysis_->effort == Effort::Loops) to += "RUNG_LOOPS ";
+}
+
+void BodyWriter::write(ir::BodyId id) {
+  const ir::Body& body = context_.module.body(id);
+  const BodyAnalysis analysis = analyzeBody(context_.module, body, context_.facts);
+  BodyState state(context_, body, analysis);
+  BodyParts parts(state);
+  FunctionWriter(state).write(id);
 }
 
 }  // namespace rung::codegen

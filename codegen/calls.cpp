@@ -3,7 +3,7 @@
 // and strings.cpp.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -11,11 +11,11 @@ namespace rung::codegen {
 
 // ---- the plan
 
-BodyWriter::CallPlan BodyWriter::planCall(const ir::CallStmt& stmt) const {
+CallWriter::CallPlan CallWriter::planCall(const ir::CallStmt& stmt) const {
   const Body& callee = module_.body(stmt.callee);
   const std::span<const ExprId> operands = body_->list(stmt.operands);
   CallPlan plan;
-  if (!stmt.self && strings().isSizedCall(callee, stmt.operands, stmt.result)) {
+  if (!stmt.self && lengths().isSizedCall(callee, stmt.operands, stmt.result)) {
     const bool makes_slice = stmt.result && isSlice(stmt.result);
     plan.form = makes_slice ? CallPlan::Form::Slice : CallPlan::Form::Sized;
   } else if (stmt.is_virtual) {
@@ -25,7 +25,7 @@ BodyWriter::CallPlan BodyWriter::planCall(const ir::CallStmt& stmt) const {
     if (plan.arguments.size() >= operands.size()) break;
     const ExprId operand = operands[plan.arguments.size()];
     // Bits and views of the image are not variables in memory.
-    const bool is_copied = operand && ir::isPlace(expr(operand).kind) && !isLvalue(operand);
+    const bool is_copied = operand && ir::isPlace(expr(operand).kind) && !places().isLvalue(operand);
     const CallPlan::Way way = !parameter.by_reference ? CallPlan::Way::Value
                               : is_copied             ? CallPlan::Way::Copy
                                                       : CallPlan::Way::Reference;
@@ -41,10 +41,10 @@ BodyWriter::CallPlan BodyWriter::planCall(const ir::CallStmt& stmt) const {
 }
 
 // An aggregate is written by the callee to an address of ours, which must not be one of its inputs.
-bool BodyWriter::writesInPlace(const ir::CallStmt& stmt) const {
+bool CallWriter::writesInPlace(const ir::CallStmt& stmt) const {
   const Body& callee = module_.body(stmt.callee);
   const ExprId to = stmt.result;
-  if (!to || !isLvalue(to)) return false;
+  if (!to || !places().isLvalue(to)) return false;
   const TypeId type = expr(to).type;
   if (isString(callee.result) && isWide(type) != isWide(callee.result)) return false;
   if (callee.native) return true;
@@ -61,13 +61,13 @@ bool BodyWriter::writesInPlace(const ir::CallStmt& stmt) const {
 
 // ---- the text
 
-void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
+void CallWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
   const Body& callee = module_.body(stmt.callee);
-  if (stmt.self) prepare(stmt.self);
+  if (stmt.self) checks().prepare(stmt.self);
   for (const ExprId operand : body_->list(stmt.operands)) {
-    if (operand) prepare(operand);
+    if (operand) checks().prepare(operand);
   }
-  if (stmt.result) prepare(stmt.result);
+  if (stmt.result) checks().prepare(stmt.result);
   const CallPlan plan = planCall(stmt);
   if (plan.form == CallPlan::Form::Slice) {
     sliceCall(stmt);
@@ -79,13 +79,13 @@ void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
     call(stmt.callee);
   }
   CallText text;
-  if (plan.is_measured) text.length = captured([&] { lengthName(stmt.result); });
+  if (plan.is_measured) text.length = captured([&] { strings().lengthName(stmt.result); });
   passArguments(plan, text);
   out_ += text.before;
   passResult(stmt, plan, text);
   const std::string function = captured([&] { callFunction(stmt, plan, text); });
   if (plan.result == CallPlan::Result::Value) {
-    store(stmt.result, function);
+    places().store(stmt.result, function);
   } else {
     if (callee.native && text.copy.empty() && plan.is_measured) out_ += text.length + " = ";
     out_ += function;
@@ -94,54 +94,54 @@ void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
   if (!text.copy.empty() && stmt.result) copyResult(stmt.result, callee.result, text);
   if (plan.is_measured && !callee.native && text.copy.empty()) {
     out_ += ' ' + text.length + " = rung_string_length(";
-    place(stmt.result);
+    places().place(stmt.result);
     out_ += ");";
   }
   out_ += text.after;
 }
 
-void BodyWriter::sliceCall(const ir::CallStmt& stmt) {
-  sliceName(stmt.result);
+void CallWriter::sliceCall(const ir::CallStmt& stmt) {
+  strings().sliceName(stmt.result);
   out_ += " = ";
-  sizedCall(module_.body(stmt.callee), stmt.operands, "slice");
+  strings().sizedCall(module_.body(stmt.callee), stmt.operands, "slice");
   out_ += ", ";
   appendUnsigned(out_, capacityOf(expr(stmt.result).type));
   out_ += ", &";
-  lengthName(stmt.result);
+  strings().lengthName(stmt.result);
   out_ += ");";
 }
 
-void BodyWriter::passArguments(const CallPlan& plan, CallText& text) {
+void CallWriter::passArguments(const CallPlan& plan, CallText& text) {
   text.arguments = captured([&] {
     for (const CallPlan::Argument& argument : plan.arguments) {
       out_ += ", ";
       switch (argument.way) {
-        case CallPlan::Way::Value: value(argument.operand, Prec::Ternary); break;
-        case CallPlan::Way::Reference: reference(*argument.parameter, argument.operand); break;
+        case CallPlan::Way::Value: values().value(argument.operand, Prec::Ternary); break;
+        case CallPlan::Way::Reference: places().reference(*argument.parameter, argument.operand); break;
         case CallPlan::Way::Copy: passCopy(argument, text); break;
       }
     }
   });
 }
 
-void BodyWriter::passCopy(const CallPlan::Argument& argument, CallText& text) {
+void CallWriter::passCopy(const CallPlan::Argument& argument, CallText& text) {
   const ir::Local& parameter = *argument.parameter;
   const std::string copy = newVariable(parameter.type, "v");
-  text.before += copy + " = " + captured([&] { value(argument.operand, Prec::Ternary); }) + "; ";
+  text.before += copy + " = " + captured([&] { values().value(argument.operand, Prec::Ternary); }) + "; ";
   if (parameter.kind != ir::LocalKind::Input) {
     text.after += " ";
-    text.after += captured([&] { store(argument.operand, copy); });
+    text.after += captured([&] { places().store(argument.operand, copy); });
     text.after += ';';
   }
   if (!isString(parameter.type)) out_ += '&';
   out_ += copy;
 }
 
-void BodyWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {
+void CallWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {
   const Body& callee = module_.body(stmt.callee);
   TypeId type = callee.result;
   if (plan.result == CallPlan::Result::InPlace) {
-    text.result = captured([&] { place(stmt.result); });
+    text.result = captured([&] { places().place(stmt.result); });
     type = expr(stmt.result).type;
   } else if (plan.result == CallPlan::Result::Copied) {
     text.result = text.copy = newVariable(callee.result, "v");
@@ -156,10 +156,10 @@ void BodyWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, Call
   text.result.insert(0, ", ");
 }
 
-void BodyWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, const CallText& text) {
+void CallWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, const CallText& text) {
   const Body& callee = module_.body(stmt.callee);
   if (plan.form == CallPlan::Form::Sized) {
-    sizedCall(callee, stmt.operands);
+    strings().sizedCall(callee, stmt.operands);
     out_ += text.result;
     out_ += ')';
     return;
@@ -169,7 +169,7 @@ void BodyWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, co
     out_ += "(ctx";
     if (stmt.self) {
       out_ += ", &";
-      place(stmt.self);
+      places().place(stmt.self);
     }
   } else {
     if (plan.form == CallPlan::Form::Virtual) {
@@ -180,7 +180,7 @@ void BodyWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, co
     out_ += '(';
     if (stmt.self) {
       if (isMethod(callee)) out_ += '&';
-      place(stmt.self);
+      places().place(stmt.self);
       out_ += ", ";
     }
     out_ += "ctx";
@@ -190,12 +190,12 @@ void BodyWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, co
   out_ += ')';
 }
 
-void BodyWriter::copyResult(ExprId to, TypeId from, const CallText& text) {
+void CallWriter::copyResult(ExprId to, TypeId from, const CallText& text) {
   out_ += ' ';
   const TypeId type = expr(to).type;
   if (!isString(type)) {
     out_ += "memcpy(&";
-    place(to);
+    places().place(to);
     out_ += ", &" + text.copy + ", sizeof " + text.copy + ");";
     return;
   }
@@ -206,17 +206,17 @@ void BodyWriter::copyResult(ExprId to, TypeId from, const CallText& text) {
   } else {
     out_ += wide ? "rung_wstring_of_string(" : "rung_string_of_wstring(";
   }
-  place(to);
+  places().place(to);
   out_ += ", ";
   appendUnsigned(out_, capacityOf(type));
   out_ += ", " + text.copy + ");";
 }
 
-void BodyWriter::callExpr(const Expr& e) {
+void CallWriter::callExpr(const Expr& e) {
   const auto [id, operands] = e.as<ir::CallExpr>();
   const Body& callee = module_.body(id);
-  if (!isString(e.type) && strings().isSizedCall(callee, operands, {})) {
-    sizedCall(callee, operands);
+  if (!isString(e.type) && lengths().isSizedCall(callee, operands, {})) {
+    strings().sizedCall(callee, operands);
     out_ += ')';
     return;
   }
@@ -233,9 +233,9 @@ void BodyWriter::callExpr(const Expr& e) {
     const ExprId operand = body_->list(operands)[i++];
     out_ += ", ";
     if (parameter.by_reference) {
-      reference(parameter, operand);
+      places().reference(parameter, operand);
     } else {
-      value(operand, Prec::Ternary);
+      values().value(operand, Prec::Ternary);
     }
   }
   out_ += ')';
@@ -243,25 +243,26 @@ void BodyWriter::callExpr(const Expr& e) {
 
 // ---- methods
 
-void BodyWriter::dispatch(const ir::CallStmt& stmt, Loc loc) {
+void CallWriter::dispatch(const ir::CallStmt& stmt, Loc loc) {
   if (std::find(group_.virtuals.begin(), group_.virtuals.end(), stmt.callee) == group_.virtuals.end())
     group_.virtuals.push_back(stmt.callee);
   if (stmt.is_checked) classCheck(stmt, loc);
 }
 
 // The row of a dispatch table for the object's class.
-std::string BodyWriter::indexOfMethod(const ir::CallStmt& stmt) {
-  return "rung_class_of(&" + captured([&] { place(stmt.self); }) + ") - " + methodName(module_, stmt.callee, "first");
+std::string CallWriter::indexOfMethod(const ir::CallStmt& stmt) {
+  return "rung_class_of(&" + captured([&] { places().place(stmt.self); }) + ") - " +
+         methodName(module_, stmt.callee, "first");
 }
 
 // In front of a virtual call: a pointer bound by mistake has the number of no class, or of an unrelated one.
-void BodyWriter::classCheck(const ir::CallStmt& stmt, Loc loc) {
+void CallWriter::classCheck(const ir::CallStmt& stmt, Loc loc) {
   const ir::BodyId method = stmt.callee;
   const std::string index = indexOfMethod(stmt);
-  beginCheck();
+  checks().beginCheck();
   out_ += index + " >= " + methodName(module_, method, "count") + " || " + methodName(module_, method, "table") + '[' +
           index + "] == nullptr";
-  endCheck(loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
+  checks().endCheck(loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
 }
 
 }  // namespace rung::codegen

@@ -1,13 +1,13 @@
 // Conversions in C++. In: a Convert expression. Out: C++ that agrees with the arithmetic kernel: reals are rounded,
 // subranges clamped, times scaled. Called by expressions.cpp.
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 
 namespace rung::codegen {
 
 using types::TypeInfo;
 using types::TypeTable;
 
-void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
+void ExpressionWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   const bool is_signed = types_.isSigned(source);
   const char* integer = is_signed ? "(int64_t)" : "(uint64_t)";
   const char* suffix = is_signed ? "LL" : "ULL";
@@ -48,12 +48,12 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   }
 }
 
-void BodyWriter::convert(ExprId id, Prec context) {
+void ExpressionWriter::convert(ExprId id, Prec context) {
   const Expr& e = expr(id);
   const ExprId from = e.as<ir::ConvertExpr>().operand;
   const TypeKind target = types_.plainKind(e.type);
   if (TypeTable::isString(target)) {
-    stringValue(id);
+    strings().stringValue(id);
     return;
   }
   const TypeInfo& info = types_.info(types_.resolve(e.type));
@@ -76,7 +76,7 @@ void BodyWriter::convert(ExprId id, Prec context) {
   closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::convertScalar(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::convertScalar(TypeId type, ExprId from, Prec context) {
   const TypeKind source = kindOf(from), target = types_.plainKind(type);
   if (TypeTable::isString(source)) {
     scalarOfString(type, from, context);
@@ -112,7 +112,7 @@ void BodyWriter::convertScalar(TypeId type, ExprId from, Prec context) {
 
 // `(type)` and what f writes.
 template <class F>
-void BodyWriter::cast(std::string_view type, Prec context, F&& f) {
+void ExpressionWriter::cast(std::string_view type, Prec context, F&& f) {
   parenthesis(Prec::Unary, context);
   out_ += '(';
   out_ += type;
@@ -121,13 +121,13 @@ void BodyWriter::cast(std::string_view type, Prec context, F&& f) {
   closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::scalarOfString(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::scalarOfString(TypeId type, ExprId from, Prec context) {
   const TypeKind target = types_.plainKind(type);
   auto bits = [&] {
     out_ += kindOf(from) == TypeKind::WString ? "rung_scalar_of_wstring(" : "rung_scalar_of_string(";
     out_ += typeKindName(types_, type);
     out_ += ", ";
-    stringValue(from);
+    strings().stringValue(from);
     out_ += ')';
   };
   if (!TypeTable::isReal(target)) {
@@ -140,7 +140,7 @@ void BodyWriter::scalarOfString(TypeId type, ExprId from, Prec context) {
   out_ += ')';
 }
 
-void BodyWriter::truthOf(ExprId from, Prec context) {
+void ExpressionWriter::truthOf(ExprId from, Prec context) {
   const TypeKind source = kindOf(from);
   if (source == TypeKind::Bool) {
     value(from, context);
@@ -158,7 +158,7 @@ void BodyWriter::truthOf(ExprId from, Prec context) {
   }
 }
 
-void BodyWriter::roundReal(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::roundReal(TypeId type, ExprId from, Prec context) {
   const TypeKind target = types_.plainKind(type);
   const bool is_signed = types_.isSigned(target);
   const uint32_t width = widthOf(target);
@@ -179,7 +179,7 @@ void BodyWriter::roundReal(TypeId type, ExprId from, Prec context) {
   });
 }
 
-void BodyWriter::resizeInteger(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::resizeInteger(TypeId type, ExprId from, Prec context) {
   const TypeKind source = kindOf(from), target = types_.plainKind(type);
   const bool from_signed = types_.isSigned(source), is_signed = types_.isSigned(target);
   const uint32_t from_width = widthOf(source), width = widthOf(target);

@@ -3,7 +3,7 @@
 // checks. Integers are computed in arithmetic.cpp, conversions written in conversions.cpp.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -13,20 +13,20 @@ using types::TypeTable;
 
 // ---- values
 
-void BodyWriter::value(ExprId id, Prec context) {
+void ExpressionWriter::value(ExprId id, Prec context) {
   const Expr& e = expr(id);
   switch (e.kind) {
     case ExprKind::None: out_ += '0'; return;
     case ExprKind::Const: constant(e, context); return;
     case ExprKind::Zero:
       if (isString(e.type)) {
-        stringValue(id);
+        strings().stringValue(id);
       } else {
         appendConstant(out_, types_, e.type, 0);
       }
       return;
-    case ExprKind::String: stringValue(id); return;
-    case ExprKind::Data: place(id); return;
+    case ExprKind::String: strings().stringValue(id); return;
+    case ExprKind::Data: places().place(id); return;
     case ExprKind::Local:
     case ExprKind::Self:
     case ExprKind::Global:
@@ -37,27 +37,27 @@ void BodyWriter::value(ExprId id, Prec context) {
     case ExprKind::Deref:
     case ExprKind::Bits: {
       if (isString(e.type)) {
-        stringValue(id);
+        strings().stringValue(id);
         return;
       }
       if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
         loadBits(*bits, types_.plainKind(e.type));
         return;
       }
-      if (!isLvalue(id)) {
-        imageLoad(id, e);
+      if (!places().isLvalue(id)) {
+        places().imageLoad(id, e);
         return;
       }
       const TypeKind kind = types_.plainKind(e.type);
-      if (kind == TypeKind::Bool && !isVariableTruth(id)) {
+      if (kind == TypeKind::Bool && !places().isVariableTruth(id)) {
         parenthesis(Prec::Equality, context);
-        place(id);
+        places().place(id);
         out_ += " != 0";
         closeParenthesis(Prec::Equality, context);
         return;
       }
       if (wideOf(id) == 64) out_ += types_.isSigned(kind) ? "(int32_t)" : "(uint32_t)";
-      place(id);
+      places().place(id);
       return;
     }
     case ExprKind::Unary: unary(id, context); return;
@@ -65,7 +65,7 @@ void BodyWriter::value(ExprId id, Prec context) {
     case ExprKind::Convert: convert(id, context); return;
     case ExprKind::Select: {
       if (isString(e.type)) {
-        stringValue(id);
+        strings().stringValue(id);
         return;
       }
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
@@ -78,17 +78,17 @@ void BodyWriter::value(ExprId id, Prec context) {
       closeParenthesis(Prec::Ternary, context);
       return;
     }
-    case ExprKind::Call: callExpr(e); return;
+    case ExprKind::Call: calls().callExpr(e); return;
     case ExprKind::Address: {
       const ExprId target = e.as<ir::AddressExpr>().place;
       out_ += isString(expr(target).type) ? "(void*)" : "(void*)&";
-      place(target);
+      places().place(target);
       return;
     }
   }
 }
 
-void BodyWriter::loadBits(const ir::BitsExpr& node, TypeKind kind) {
+void ExpressionWriter::loadBits(const ir::BitsExpr& node, TypeKind kind) {
   const TypeKind whole = kindOf(node.base);
   const uint32_t width = widthOf(kind), shift = node.position * width;
   const bool is_signed = types_.isSigned(whole);
@@ -106,16 +106,16 @@ void BodyWriter::loadBits(const ir::BitsExpr& node, TypeKind kind) {
 }
 
 // A BOOL where C++ expects a condition: memory is compared with != 0 anyway.
-void BodyWriter::condition(ExprId id, Prec context) {
+void ExpressionWriter::condition(ExprId id, Prec context) {
   const Expr& e = expr(id);
-  if (ir::isPlace(e.kind) && isLvalue(id)) {
-    place(id);
+  if (ir::isPlace(e.kind) && places().isLvalue(id)) {
+    places().place(id);
     return;
   }
   value(id, context);
 }
 
-void BodyWriter::constant(const Expr& e, Prec context) {
+void ExpressionWriter::constant(const Expr& e, Prec context) {
   const uint64_t bits = ir::bitsOf(e);
   if (const TypeId record = e.as<ir::ConstExpr>().number_of) {
     if (std::find(group_.classes.begin(), group_.classes.end(), record) == group_.classes.end())
@@ -132,7 +132,7 @@ void BodyWriter::constant(const Expr& e, Prec context) {
   if (negative) closeParenthesis(Prec::Unary, context);
 }
 
-void BodyWriter::scalarBits(ExprId id) {
+void ExpressionWriter::scalarBits(ExprId id) {
   const TypeKind kind = kindOf(id);
   if (TypeTable::isReal(kind)) {
     out_ += "rung_bits_of_f64(";
@@ -146,7 +146,7 @@ void BodyWriter::scalarBits(ExprId id) {
 
 // ---- operators
 
-void BodyWriter::unary(ExprId id, Prec context) {
+void ExpressionWriter::unary(ExprId id, Prec context) {
   const auto [a, op] = expr(id).as<ir::UnaryExpr>();
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
@@ -195,7 +195,7 @@ void BodyWriter::unary(ExprId id, Prec context) {
   arithmetic(id, context);  // Neg
 }
 
-void BodyWriter::binary(ExprId id, Prec context) {
+void ExpressionWriter::binary(ExprId id, Prec context) {
   const ir::BinaryExpr& node = expr(id).as<ir::BinaryExpr>();
   const TypeKind kind = kindOf(node.left);
   const bool is_real = TypeTable::isReal(kind);
@@ -205,7 +205,7 @@ void BodyWriter::binary(ExprId id, Prec context) {
     case Op::Lt:
     case Op::Le:
     case Op::Gt:
-    case Op::Ge: return TypeTable::isString(kind) ? compareStrings(node, context) : comparison(node, context);
+    case Op::Ge: return TypeTable::isString(kind) ? strings().compareStrings(node, context) : comparison(node, context);
     case Op::Add:
     case Op::Sub:
     case Op::Mul: return is_real ? realOperation(node, context) : arithmetic(id, context);
@@ -222,14 +222,14 @@ void BodyWriter::binary(ExprId id, Prec context) {
     case Op::Rol:
     case Op::Ror: return shift(expr(id), context);
     case Op::Min:
-    case Op::Max: return TypeTable::isString(kind) ? stringValue(id) : extreme(node);
+    case Op::Max: return TypeTable::isString(kind) ? strings().stringValue(id) : extreme(node);
     case Op::Neg:
     case Op::Not:
     case Op::Abs: return;
   }
 }
 
-void BodyWriter::function(std::string_view name, const ir::BinaryExpr& node) {
+void ExpressionWriter::function(std::string_view name, const ir::BinaryExpr& node) {
   out_ += name;
   out_ += '(';
   value(node.left, Prec::Ternary);
@@ -238,7 +238,7 @@ void BodyWriter::function(std::string_view name, const ir::BinaryExpr& node) {
   out_ += ')';
 }
 
-void BodyWriter::realOperation(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::realOperation(const ir::BinaryExpr& node, Prec context) {
   const bool is_sum = node.op == Op::Add || node.op == Op::Sub;
   const Prec own = is_sum ? Prec::Sum : Prec::Product;
   parenthesis(own, context);
@@ -249,7 +249,7 @@ void BodyWriter::realOperation(const ir::BinaryExpr& node, Prec context) {
 }
 
 // g++ warns about nested operators of these precedences, so they get parentheses.
-void BodyWriter::bitwise(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::bitwise(const ir::BinaryExpr& node, Prec context) {
   const char* op = node.op == Op::And ? " & " : node.op == Op::Or ? " | " : " ^ ";
   parenthesis(Prec::Bit, context);
   auto operand = [&](ExprId id) {
@@ -262,7 +262,7 @@ void BodyWriter::bitwise(const ir::BinaryExpr& node, Prec context) {
   closeParenthesis(Prec::Bit, context);
 }
 
-void BodyWriter::extreme(const ir::BinaryExpr& node) {
+void ExpressionWriter::extreme(const ir::BinaryExpr& node) {
   const TypeKind kind = kindOf(node.left);
   const bool is_signed = types_.isSigned(kind);
   const uint32_t width = widthOf(kind);
@@ -278,7 +278,7 @@ void BodyWriter::extreme(const ir::BinaryExpr& node) {
 }
 
 // XOR of BOOL.
-void BodyWriter::differs(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::differs(const ir::BinaryExpr& node, Prec context) {
   parenthesis(Prec::Equality, context);
   leftOfEquality(node.left);
   out_ += " != ";
@@ -286,7 +286,7 @@ void BodyWriter::differs(const ir::BinaryExpr& node, Prec context) {
   closeParenthesis(Prec::Equality, context);
 }
 
-void BodyWriter::logical(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::logical(const ir::BinaryExpr& node, Prec context) {
   const Prec own = node.op == Op::And ? Prec::And : Prec::Or;
   parenthesis(own, context);
   auto operand = [&](ExprId id) {
@@ -300,9 +300,9 @@ void BodyWriter::logical(const ir::BinaryExpr& node, Prec context) {
 }
 
 // (!a) != b: without the parentheses g++ warns.
-void BodyWriter::leftOfEquality(ExprId id) { value(id, ir::isNot(expr(id)) ? Prec::Postfix : Prec::Sum); }
+void ExpressionWriter::leftOfEquality(ExprId id) { value(id, ir::isNot(expr(id)) ? Prec::Postfix : Prec::Sum); }
 
-void BodyWriter::comparison(const ir::BinaryExpr& node, Prec context) {
+void ExpressionWriter::comparison(const ir::BinaryExpr& node, Prec context) {
   const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
   const Prec own = is_equality ? Prec::Equality : Prec::Relation;
   parenthesis(own, context);

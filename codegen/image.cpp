@@ -1,7 +1,7 @@
 // Views of the process image in C++: little-endian bytes at any address, therefore read and written by the helpers of
 // rung/code.h. In: a place whose root is an area. Out: its address, its value, or a store. Called by places.cpp and
 // expressions.cpp.
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -9,7 +9,7 @@ namespace rung::codegen {
 using types::TypeInfo;
 
 // An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
-void BodyWriter::area(uint32_t index) {
+void PlaceWriter::area(uint32_t index) {
   std::string name = "area";
   name += module_.areas[index].letter;
   if ((areas_declared_ >> index & 1) == 0) {
@@ -21,7 +21,7 @@ void BodyWriter::area(uint32_t index) {
   out_ += name;
 }
 
-void BodyWriter::imageAddress(ExprId id) {
+void PlaceWriter::imageAddress(ExprId id) {
   const Expr& e = expr(id);
   if (const auto* image = e.tryAs<ir::ImageExpr>()) {
     area(image->area);
@@ -49,7 +49,7 @@ void BodyWriter::imageAddress(ExprId id) {
   }
 }
 
-void BodyWriter::imageLoad(ExprId id, const Expr& e) {
+void PlaceWriter::imageLoad(ExprId id, const Expr& e) {
   const TypeKind kind = types_.plainKind(e.type);
   if (isAggregate(e.type)) {
     place(id);
@@ -91,7 +91,7 @@ void BodyWriter::imageLoad(ExprId id, const Expr& e) {
   out_ += ')';
 }
 
-void BodyWriter::imageStore(ExprId to, std::string_view value_code) {
+void PlaceWriter::imageStore(ExprId to, std::string_view value_code) {
   const Expr& e = expr(to);
   const TypeKind kind = types_.plainKind(e.type);
   if (ir::isImageBit(e)) {

@@ -1,27 +1,27 @@
 // Loops of a body in C++: a FOR as a plain C++ loop where counted_loops.h says so, else with a flag that guards the
 // step. In: a loop statement. Out: its C++. Called by statements.cpp.
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
 
 // The condition of a loop's exit test, with nothing to be done before it; none of other statements.
-ir::ExprId BodyWriter::exitTest(StmtId id) const {
+ir::ExprId StatementWriter::exitTest(StmtId id) const {
   const ExprId test = ir::exitTest(*body_, id);
-  return test && !needsPreparation(test) ? test : ExprId{};
+  return test && !checks().needsPreparation(test) ? test : ExprId{};
 }
 
-void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {
+void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
   const StmtId first = stmt.body_block, next = stmt.next_block;
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loop.has_next = static_cast<bool>(next);
   auto writeNegated = [&](ExprId id) {
     if (ir::isNot(expr(id))) {
-      condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
+      values().condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
     } else {
       out_ += '!';
-      condition(id, Prec::Unary);
+      values().condition(id, Prec::Unary);
     }
   };
   if (!next && exitTest(first)) {  // WHILE
@@ -75,7 +75,7 @@ void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {
   }
 }
 
-void BodyWriter::breakLoop() {
+void StatementWriter::breakLoop() {
   if (loops_.empty()) {
     out_ += ';';
     return;
@@ -96,7 +96,7 @@ void BodyWriter::breakLoop() {
   out_ += ';';
 }
 
-void BodyWriter::continueLoop() {
+void StatementWriter::continueLoop() {
   if (loops_.empty()) {
     out_ += ';';
     return;
@@ -136,7 +136,7 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 }  // namespace
 
-void BodyWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
+void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   const TypeKind kind = kindOf(control);
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
@@ -151,7 +151,7 @@ void BodyWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
   // The limit is read once, before the control changes.
   std::string limit;
   if (expr(to).kind == ExprKind::Const) {
-    limit = captured([&] { value(to, Prec::Shift); });
+    limit = captured([&] { values().value(to, Prec::Shift); });
   } else {
     limit = newName("e");
     declarations_ += wide == 64 ? " int64_t " : wide == 32 ? " int32_t " : " ";
@@ -161,17 +161,17 @@ void BodyWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
     }
     declarations_ += limit + ";";
     out_ += limit + " = ";
-    value(to, Prec::Comma);
+    values().value(to, Prec::Comma);
     out_ += "; ";
   }
   out_ += "for (" + name + " = ";
-  value(from, Prec::Comma);
+  values().value(from, Prec::Comma);
   out_ += "; " + name + (step > 0 ? " <= " : " >= ") + limit + "; ";
   appendStep(out_, name, step);
   out_ += ')';
   open();
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loops_.push_back(loop);
   block(stmt.body_block);
   close();
@@ -205,11 +205,11 @@ void BodyWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
   }
 }
 
-void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
+void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
-  prepare(control);
-  prepare(from);
-  prepare(to);
+  checks().prepare(control);
+  checks().prepare(from);
+  checks().prepare(to);
   if (const CountedLoop* counted = analysis_->loops.find(id)) {
     countedFor(stmt, counted->fits);
     return;
@@ -222,14 +222,14 @@ void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   const std::string next = newName("n"), limit = newName("e"), more = newName("m");
   declarations_ += " " + type + " " + next + " = 0, " + limit + " = 0; bool " + more + " = false;";
   out_ += next + " = ";
-  value(from, Prec::Comma);
+  values().value(from, Prec::Comma);
   out_ += "; " + limit + " = ";
-  value(to, Prec::Comma);
+  values().value(to, Prec::Comma);
   out_ += "; ";
-  store(control, next);
+  places().store(control, next);
   const std::string test = next + (step > 0 ? " <= " : " >= ") + limit;
   out_ += "; for (" + more + " = " + test + "; " + more + "; " + more + " = __builtin_add_overflow(";
-  value(control, Prec::Ternary);
+  values().value(control, Prec::Ternary);
   out_ += ", ";
   appendSigned(out_, step);
   out_ += "LL, &" + next + ") ? (";
@@ -247,13 +247,13 @@ void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   } else {
     last += "0";
   }
-  store(control, last);
+  places().store(control, last);
   out_ += ", false) : (";
-  store(control, next);
+  places().store(control, next);
   out_ += ", " + test + "))";
   open();
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loops_.push_back(loop);
   block(stmt.body_block);
   close();

@@ -3,11 +3,11 @@
 // expressions.cpp and strings.cpp.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 
 namespace rung::codegen {
 
-void BodyWriter::declareLengths() {
+void StringWriter::declareLengths() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = 0; i < variables.count(); ++i) {
     if (!analysis_->measured.has(i)) continue;
@@ -23,17 +23,17 @@ void BodyWriter::declareLengths() {
 }
 
 // In front of a statement: counts the lengths that it needs; for a loop, all that its iterations need.
-void BodyWriter::countLengths(StmtId id) {
+void StringWriter::countLengths(StmtId id) {
   if (!analysis_->lengths.countsBefore(id)) return;
   for (const ExprId place_id : analysis_->lengths.counted[id.index]) {
     lengthName(place_id);
     out_ += " = rung_string_length(";
-    place(place_id);
+    places().place(place_id);
     out_ += "); ";
   }
 }
 
-void BodyWriter::lengthName(ExprId id) {
+void StringWriter::lengthName(ExprId id) {
   const Expr& e = expr(id);
   if (const uint32_t* index = ir::localOf(e)) {
     variable(out_, body_->locals[*index]);
@@ -43,7 +43,7 @@ void BodyWriter::lengthName(ExprId id) {
   out_ += 'n';
 }
 
-void BodyWriter::stringLength(ExprId id) {
+void StringWriter::stringLength(ExprId id) {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::String) {
     appendUnsigned(out_, literalLength(e));
@@ -59,7 +59,7 @@ void BodyWriter::stringLength(ExprId id) {
 }
 
 // Name and inputs of a sized form, without the closing parenthesis.
-void BodyWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const char* form) {
+void StringWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const char* form) {
   if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
     group_.libraries.push_back(callee.library_name);
   out_ += ir::nativeName(module_, callee);
@@ -75,17 +75,17 @@ void BodyWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const cha
       out_ += ", ";
       stringLength(operand);
     } else {
-      value(operand, Prec::Ternary);
+      values().value(operand, Prec::Ternary);
     }
   }
 }
 
-void BodyWriter::sliceName(ExprId id) {
+void StringWriter::sliceName(ExprId id) {
   lengthName(id);
   out_.back() = 'v';
 }
 
-void BodyWriter::assignSlice(ExprId to, ExprId from) {
+void StringWriter::assignSlice(ExprId to, ExprId from) {
   uint32_t capacity = capacityOf(expr(to).type);
   const ExprId whole = uncut(module_, *body_, from);
   for (ExprId cut = from; cut != whole; cut = expr(cut).as<ir::ConvertExpr>().operand)

@@ -2,7 +2,7 @@
 // as an argument, or as the target of a store. Called by all writers of a body; views of the image are in image.cpp.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -11,18 +11,18 @@ using types::Field;
 using types::TypeInfo;
 using types::TypeTable;
 
-bool BodyWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
-bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
+bool PlaceWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
+bool PlaceWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
 
 // Only generated code writes locals, and it writes 0 or 1.
-bool BodyWriter::isVariableTruth(ExprId id) const {
+bool PlaceWriter::isVariableTruth(ExprId id) const {
   const Expr& e = expr(id);
   if (const uint32_t* local = ir::localOf(e))
     return !body_->locals[*local].by_reference && !analysis_->uses.of[*local].exposed;
   return isCached(id);
 }
 
-void BodyWriter::place(ExprId id) {
+void PlaceWriter::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
     case ExprKind::Local: localPlace(body_->locals[e.as<ir::LocalExpr>().local]); return;
@@ -42,14 +42,14 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Zero:
     case ExprKind::Call:
     case ExprKind::Convert:
-      for (const auto& [created, name] : materialized_) {
+      for (const auto& [created, name] : state_.materialized) {
         if (created == id.index) out_ += name;
       }
       return;
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += "(*(";
-      condition(decides, Prec::Or);
+      values().condition(decides, Prec::Or);
       out_ += " ? &";
       place(yes);
       out_ += " : &";
@@ -70,11 +70,11 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::String:
     case ExprKind::Unary:
     case ExprKind::Binary:
-    case ExprKind::Address: value(id, Prec::Postfix); return;
+    case ExprKind::Address: values().value(id, Prec::Postfix); return;
   }
 }
 
-void BodyWriter::localPlace(const ir::Local& local) {
+void PlaceWriter::localPlace(const ir::Local& local) {
   const bool after = local.by_reference && !isString(local.type);
   if (after) out_ += "(*";
   variable(out_, local);
@@ -82,7 +82,7 @@ void BodyWriter::localPlace(const ir::Local& local) {
 }
 
 // A block of memory: a list of globals or a program's instance.
-void BodyWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
+void PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
   const std::string type = recordName(types_, record);
   includeRecord(record);
   std::string name;
@@ -97,7 +97,7 @@ void BodyWriter::blockPlace(TypeId record, uint32_t number, std::string_view suf
   out_ += name;
 }
 
-void BodyWriter::fieldPlace(ExprId id) {
+void PlaceWriter::fieldPlace(ExprId id) {
   const ir::FieldExpr& node = expr(id).as<ir::FieldExpr>();
   const Field& field = fieldOf(node);
   if (isCached(id)) {
@@ -112,7 +112,7 @@ void BodyWriter::fieldPlace(ExprId id) {
   if (after) out_ += ')';
 }
 
-void BodyWriter::elementPlace(const ir::IndexExpr& node) {
+void PlaceWriter::elementPlace(const ir::IndexExpr& node) {
   const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
   place(node.base);
   for (uint32_t i = 0; i < node.indices.count; ++i) {
@@ -123,10 +123,10 @@ void BodyWriter::elementPlace(const ir::IndexExpr& node) {
   }
 }
 
-void BodyWriter::targetPlace(ExprId pointer, TypeId type) {
+void PlaceWriter::targetPlace(ExprId pointer, TypeId type) {
   if (isString(type)) {
     out_ += isWide(type) ? "((char16_t*)" : "((char*)";
-    value(pointer, Prec::Unary);
+    values().value(pointer, Prec::Unary);
     out_ += ')';
     return;
   }
@@ -147,12 +147,12 @@ void BodyWriter::targetPlace(ExprId pointer, TypeId type) {
     out_ += '*';
   }
   out_ += ')';
-  value(pointer, Prec::Unary);
+  values().value(pointer, Prec::Unary);
   out_ += ')';
 }
 
 // Writes the prefix of a field's name.
-void BodyWriter::member(ExprId base) {
+void PlaceWriter::member(ExprId base) {
   const Expr& e = expr(base);
   if (const uint32_t* local = ir::localOf(e); local != nullptr && body_->locals[*local].by_reference) {
     variable(out_, body_->locals[*local]);
@@ -176,7 +176,7 @@ void BodyWriter::member(ExprId base) {
 // ---- indices
 
 // `i + 1` need not be cut to its type when the values that would differ are invalid indices either way.
-ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
+ir::ExprId PlaceWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
   addend = 0;
   const Expr& e = expr(id);
   if (e.kind != ExprKind::Binary || e.checks != 0) return id;
@@ -202,7 +202,7 @@ ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, i
 }
 
 // The index, counted from 0.
-void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
+void PlaceWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const Expr& whole = expr(id);
   if (whole.kind == ExprKind::Const) {
     appendSigned(out_, static_cast<int64_t>(ir::bitsOf(whole)) - dimension.low);
@@ -218,7 +218,7 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
     if (is_wide) {
       place(inner);
     } else {
-      value(inner, context);
+      values().value(inner, context);
     }
   };
   if (offset == 0) {
@@ -227,7 +227,7 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   }
   if (width == 64) {
     out_ += "(int64_t)((uint64_t)";
-    value(inner, Prec::Unary);
+    values().value(inner, Prec::Unary);
     out_ += offset < 0 ? " - " : " + ";
     appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
     out_ += "ULL)";
@@ -240,9 +240,31 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
 }
 
+// ---- constant bytes
+
+void PlaceWriter::dataReference(uint32_t index) {
+  if (state_.in.marks.data[index] != state_.in.group_number) {
+    state_.in.marks.data[index] = state_.in.group_number;
+    state_.in.marks.data_number[index] = ++group_.data_count;
+    const ir::Data& data = module_.data[index];
+    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
+    size_t used = bytes.size();
+    while (used > 0 && bytes[used - 1] == '\0') --used;
+    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
+    appendUnsigned(group_.data, group_.data_count);
+    group_.data += '[';
+    appendUnsigned(group_.data, bytes.size() + 1);
+    group_.data += "] = ";
+    appendQuoted(group_.data, bytes.substr(0, used));
+    group_.data += ";\n";
+  }
+  out_ += "data_" + group_.stem + '_';
+  appendUnsigned(out_, state_.in.marks.data_number[index]);
+}
+
 // ---- writing
 
-void BodyWriter::store(ExprId to, std::string_view value_code) {
+void PlaceWriter::store(ExprId to, std::string_view value_code) {
   const Expr& e = expr(to);
   if (isLvalue(to)) {
     place(to);
@@ -258,7 +280,7 @@ void BodyWriter::store(ExprId to, std::string_view value_code) {
 }
 
 // Some bits of a variable: the others keep their values.
-void BodyWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value_code) {
+void PlaceWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value_code) {
   const ExprId base = node.base;
   const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = node.position * width;
   const std::string type = from == 64 ? "uint64_t" : "uint32_t";
@@ -266,7 +288,7 @@ void BodyWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_
   const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
   std::string changed = "(";
   changed += scalarType(types_, expr(base).type);
-  changed += ")(((" + type + ")" + captured([&] { value(base, Prec::Unary); }) + " & ";
+  changed += ")(((" + type + ")" + captured([&] { values().value(base, Prec::Unary); }) + " & ";
   appendUnsigned(changed, keep);
   changed += from == 64 ? "ULL) | (" : "u) | (";
   changed += type + ")(";
@@ -282,7 +304,7 @@ void BodyWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_
 
 // ---- by-reference parameters
 
-void BodyWriter::reference(const ir::Local& parameter, ExprId operand) {
+void PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
   if (!operand) {  // a discarded output
     const std::string name = newVariable(parameter.type, "d");
     if (!isString(parameter.type)) out_ += '&';
@@ -291,7 +313,7 @@ void BodyWriter::reference(const ir::Local& parameter, ExprId operand) {
   }
   if (isString(parameter.type)) {
     if (parameter.kind == ir::LocalKind::Input) {
-      stringValue(operand);
+      strings().stringValue(operand);
     } else {
       place(operand);
     }

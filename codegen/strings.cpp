@@ -1,8 +1,8 @@
-// Assignments, and strings: stored in place, NUL-terminated, cut to the capacity of their target; read without a
+// Strings in C++: stored in place, NUL-terminated, cut to the capacity of their target; read without a
 // copy, compared with short literals without a call.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -37,63 +37,12 @@ std::string_view firstUnits(std::string_view string, uint32_t units) {
 
 }  // namespace
 
-void BodyWriter::assign(const ir::AssignStmt& stmt) {
-  const ExprId to = stmt.place, from = stmt.value;
-  const TypeId type = expr(to).type;
-  const Expr& source = expr(from);
-  if (isString(type)) {
-    if (isSlice(to)) return assignSlice(to, from);
-    prepare(to);
-    prepareString(from);
-    const std::string name = captured([&] { place(to); });
-    const bool is_measured = isMeasured(to);
-    const std::string length = is_measured ? captured([&] { lengthName(to); }) : "";
-    copyString({name, capacityOf(type), isWide(type), length}, from);
-    return;
-  }
-  if (!isAggregate(type)) {
-    prepare(to);
-    prepare(from);
-    if (isLvalue(to)) {
-      place(to);
-      out_ += " = ";
-      value(from, Prec::Ternary);
-    } else {
-      store(to, captured([&] { value(from, Prec::Ternary); }));
-    }
-    out_ += ';';
-    return;
-  }
-  prepare(to);
-  const std::string name = captured([&] { place(to); });
-  if (source.kind == ExprKind::Zero) {
-    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
-    return;
-  }
-  if (const auto* data = source.tryAs<ir::DataExpr>()) {
-    out_ += "memcpy(&" + name + ", ";
-    dataReference(data->index);
-    out_ += ", sizeof " + name + ");";
-    return;
-  }
-  prepare(from);
-  const std::string value_code = captured([&] { place(from); });
-  if (value_code == name) return;
-  if (types_.kind(type) == TypeKind::Record && !isImagePlace(to) && !isImagePlace(from)) {
-    out_ += name + " = " + value_code + ";";
-  } else {
-    out_ += "memmove(&" + name + ", &" + value_code + ", sizeof " + name + ");";
-  }
-}
-
-// ---- strings
-
-uint32_t BodyWriter::literalLength(const Expr& e) const {
+uint32_t StringWriter::literalLength(const Expr& e) const {
   const std::string_view literal = string(e.as<ir::StringExpr>().characters);
   return isWide(e.type) ? wideLength(literal) : static_cast<uint32_t>(upToNul(literal).size());
 }
 
-bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
+bool StringWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
   if (isSlice(id)) return false;
@@ -122,22 +71,22 @@ bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   return false;
 }
 
-void BodyWriter::prepareString(ExprId from) {
+void StringWriter::prepareString(ExprId from) {
   const Expr& e = expr(from);
   if (e.kind == ExprKind::Convert && isString(e.type)) {
     prepareString(e.as<ir::ConvertExpr>().operand);
     return;
   }
-  prepare(from);
+  checks().prepare(from);
 }
 
-void BodyWriter::materializeString(ExprId id) {
+void StringWriter::materializeString(ExprId id) {
   const Expr& e = expr(id);
   const std::string name = newVariable(e.type, "s");
   if (e.kind == ExprKind::Convert) {
     copyString({name, capacityOf(e.type), isWide(e.type), {}}, id);
   } else {  // a pure function: its string result is the last parameter
-    std::string function = captured([&] { callExpr(e); });
+    std::string function = captured([&] { calls().callExpr(e); });
     function.pop_back();
     out_ += function + ", " + name;
     if (module_.body(e.as<ir::CallExpr>().callee).native) {
@@ -147,11 +96,11 @@ void BodyWriter::materializeString(ExprId id) {
     out_ += ");";
   }
   out_ += ' ';
-  materialized_.push_back({id.index, name});
+  state_.materialized.push_back({id.index, name});
 }
 
 // `length = function(to, limit, `, or without a length.
-void BodyWriter::beginCopy(const StringTarget& target, std::string_view function, uint32_t limit) {
+void StringWriter::beginCopy(const StringTarget& target, std::string_view function, uint32_t limit) {
   if (!target.length.empty()) {
     out_ += target.length;
     out_ += " = ";
@@ -164,7 +113,7 @@ void BodyWriter::beginCopy(const StringTarget& target, std::string_view function
   out_ += ", ";
 }
 
-void BodyWriter::copyString(const StringTarget& target, ExprId from) {
+void StringWriter::copyString(const StringTarget& target, ExprId from) {
   const Expr& e = expr(from);
   const bool same_units = isWide(e.type) == target.wide;
   if (e.kind == ExprKind::Zero) {
@@ -181,14 +130,14 @@ void BodyWriter::copyString(const StringTarget& target, ExprId from) {
     beginCopy(target, target.wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", cut.capacity);
     out_ += typeKindName(types_, expr(convert->operand).type);
     out_ += ", ";
-    scalarBits(convert->operand);
+    values().scalarBits(convert->operand);
     out_ += ");";
   } else {
     copyVariable(target, from);
   }
 }
 
-void BodyWriter::copyLiteral(const StringTarget& target, std::string_view literal, bool utf8) {
+void StringWriter::copyLiteral(const StringTarget& target, std::string_view literal, bool utf8) {
   literal = target.wide ? firstUnits(literal, target.capacity)
             : utf8      ? firstWhole(literal, target.capacity)
                         : literal.substr(0, target.capacity);
@@ -212,7 +161,7 @@ void BodyWriter::copyLiteral(const StringTarget& target, std::string_view litera
   out_ += ';';
 }
 
-void BodyWriter::copyVariable(const StringTarget& target, ExprId from) {
+void StringWriter::copyVariable(const StringTarget& target, ExprId from) {
   const TypeId type = expr(from).type;
   const bool wide = target.wide;
   const std::string source = captured([&] { stringValue(from); });
@@ -256,7 +205,7 @@ void BodyWriter::copyVariable(const StringTarget& target, ExprId from) {
   out_ += source + ");";
 }
 
-void BodyWriter::stringValue(ExprId id) {
+void StringWriter::stringValue(ExprId id) {
   const Expr& e = expr(id);
   const bool wide = isWide(e.type);
   switch (e.kind) {
@@ -270,12 +219,12 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
     case ExprKind::Data:
       out_ += wide ? "((const char16_t*)" : "((const char*)";
-      dataReference(e.as<ir::DataExpr>().index);
+      places().dataReference(e.as<ir::DataExpr>().index);
       out_ += ')';
       return;
     case ExprKind::Convert:
     case ExprKind::Call:
-      for (const auto& [created, name] : materialized_) {
+      for (const auto& [created, name] : state_.materialized) {
         if (created == id.index) {
           out_ += name;
           return;
@@ -286,7 +235,7 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += '(';
-      condition(decides, Prec::Or);
+      values().condition(decides, Prec::Or);
       out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
       stringValue(yes);
       out_ += " : ";
@@ -310,12 +259,12 @@ void BodyWriter::stringValue(ExprId id) {
       if (isSlice(id)) {
         sliceName(id);
       } else {
-        place(id);
+        places().place(id);
       }
       return;
     case ExprKind::Image:
       out_ += wide ? "(char16_t*)(" : "(char*)(";
-      imageAddress(id);
+      places().imageAddress(id);
       out_ += ')';
       return;
     case ExprKind::None:
@@ -329,7 +278,7 @@ void BodyWriter::stringValue(ExprId id) {
   }
 }
 
-void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
+void StringWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
   const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
   const char* op = node.op == Op::Eq   ? " == 0"
                    : node.op == Op::Ne ? " != 0"
@@ -405,7 +354,7 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
       return;
     }
   }
-  if (strings().isSizedComparison(node, [&](ExprId side) { return isKnown(side); })) {
+  if (lengths().isSizedComparison(node, [&](ExprId side) { return isKnown(side); })) {
     const std::string count = captured([&] { lengthName(a); });
     out_ += node.op == Op::Eq ? "(" : "!(";
     out_ += count + " == ";
@@ -426,28 +375,6 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
   out_ += ')';
   out_ += op;
   closeParenthesis(own, context);
-}
-
-// ---- constant bytes
-
-void BodyWriter::dataReference(uint32_t index) {
-  if (marks_.data[index] != group_number_) {
-    marks_.data[index] = group_number_;
-    marks_.data_number[index] = ++group_.data_count;
-    const ir::Data& data = module_.data[index];
-    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
-    size_t used = bytes.size();
-    while (used > 0 && bytes[used - 1] == '\0') --used;
-    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
-    appendUnsigned(group_.data, group_.data_count);
-    group_.data += '[';
-    appendUnsigned(group_.data, bytes.size() + 1);
-    group_.data += "] = ";
-    appendQuoted(group_.data, bytes.substr(0, used));
-    group_.data += ";\n";
-  }
-  out_ += "data_" + group_.stem + '_';
-  appendUnsigned(out_, marks_.data_number[index]);
 }
 
 }  // namespace rung::codegen
