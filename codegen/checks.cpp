@@ -1,7 +1,7 @@
 // Checks in front of a statement, in the order in which its expressions are evaluated (ir.h): each is a compare and a
 // branch to the body's fault block. A check is numbered by its row among the group's sites, so a change of one POU
 // renumbers nothing in other groups.
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -10,8 +10,8 @@ using types::Fault;
 using types::TypeInfo;
 using types::TypeTable;
 
-uint32_t BodyWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
-  uses_fault_ = true;
+uint32_t CheckWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
+  state_.uses_fault = true;
   Site created;
   created.pou = body_->spelling ? body_->spelling : body_->name;
   created.low = low;
@@ -29,7 +29,7 @@ uint32_t BodyWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
   return static_cast<uint32_t>(group_.sites.size() - 1) << 4 | static_cast<uint32_t>(fault);
 }
 
-void BodyWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {
+void CheckWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {
   out_ += ", ";
   appendUnsigned(out_, site(loc, fault, low, high));
   out_ += "u, ";
@@ -37,7 +37,7 @@ void BodyWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t 
   out_ += ") ";
 }
 
-bool BodyWriter::needsPreparation(ExprId id) const {
+bool CheckWriter::needsPreparation(ExprId id) const {
   const Expr& e = expr(id);
   if (e.checks != 0) return true;
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) return true;
@@ -46,129 +46,46 @@ bool BodyWriter::needsPreparation(ExprId id) const {
   return needs;
 }
 
-void BodyWriter::prepareChildren(const Expr& e) {
+void CheckWriter::prepareChildren(const Expr& e) {
   ir::forEachOperand(*body_, e, [&](ExprId operand) { prepare(operand); });
 }
 
-void BodyWriter::prepare(ExprId id) {
+void CheckWriter::prepare(ExprId id) {
   const Expr& e = expr(id);
   prepareChildren(e);
-  if (e.checks != 0) checks(id, e);
+  if (e.checks != 0) checkNode(id, e);
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
-    materializeString(id);
+    strings().materializeString(id);
   } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
     const std::string name = newVariable(e.type, "z");
     out_ += "memset(&" + name + ", 0, sizeof " + name + "); ";
-    materialized_.push_back({id.index, name});
+    state_.materialized.push_back({id.index, name});
   }
 }
 
-void BodyWriter::checks(ExprId id, const Expr& e) {
+void CheckWriter::checkNode(ExprId id, const Expr& e) {
   switch (e.kind) {
     case ExprKind::Index:
       if ((e.checks & ir::kCheckIndex) != 0) indexChecks(e);
       return;
     case ExprKind::Field:
-    case ExprKind::Deref: {
-      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) == 0) return;
-      beginCheck();
-      if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
-        value(deref->pointer, Prec::Sum);
-      } else {
-        const ir::FieldExpr& field = e.as<ir::FieldExpr>();
-        member(field.base);
-        appendMangled(out_, string(fieldOf(field).name));
-      }
-      out_ += " == nullptr";
-      endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+    case ExprKind::Deref:
+      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) != 0) nullCheck(e);
       return;
-    }
-    case ExprKind::Binary: {
-      if ((e.checks & ir::kCheckDiv) != 0) {
-        const auto [left, right, op] = e.as<ir::BinaryExpr>();
-        const bool is_power = op == Op::Power;
-        const bool never = is_power && !types_.isSigned(kindOf(right));
-        if (!never) {
-          beginCheck();
-          value(is_power ? left : right, Prec::Sum);
-          out_ += " == 0";
-          if (is_power) {
-            out_ += " && ";
-            value(right, Prec::Sum);
-            out_ += " < 0";
-          }
-          endCheck(e.loc, Fault::Div, "0");
-        }
-      }
+    case ExprKind::Binary:
+      if ((e.checks & ir::kCheckDiv) != 0) divisionCheck(e);
       if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
-    }
     case ExprKind::Unary:
       if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
       return;
     case ExprKind::Convert: {
-      const ExprId a = e.as<ir::ConvertExpr>().operand;
-      const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
-      const uint32_t width = widthOf(target);
-      const TypeInfo& info = types_.info(types_.resolve(e.type));
-      if (TypeTable::isString(source) || TypeTable::isString(target)) return;
-      const bool is_integer = !TypeTable::isReal(target) && width > 0;
-      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) {
-        const bool is_signed = types_.isSigned(target);
-        beginCheck();
-        if (TypeTable::isReal(source)) {
-          out_ += "rung_round_saturates(";
-          value(a, Prec::Ternary);
-          std::string low = is_signed ? "-" : "0", high;
-          if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
-          appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
-          out_ += ", " + low + ".0, " + high + ".0)";
-        } else {
-          // Cut and extended again it must be the same number, with the same sign.
-          const std::string number = captured([&] { value(a, Prec::Unary); });
-          const char* type = scalarType(types_, e.type);
-          const bool from_signed = types_.isSigned(source);
-          out_ += from_signed ? "(int64_t)" : "(uint64_t)";
-          out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
-          if (from_signed && !is_signed) {
-            out_ += " || (int64_t)" + number + " < 0";
-          } else if (!from_signed && is_signed) {
-            out_ += " || (int64_t)(";
-            out_ += type;
-            out_ += ')' + number + " < 0";
-          }
-        }
-        // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
-        endCheck(e.loc, Fault::Convert, (TypeTable::isReal(source) ? "rung_round_i64(" : "(") + captured([&] {
-                                          value(a, Prec::Ternary);
-                                        }) + ")");
-      }
-      if ((e.checks & ir::kCheckSubrange) != 0 && info.kind == TypeKind::Subrange) {
-        beginCheck();
-        const bool from_real = TypeTable::isReal(source);
-        const std::string number = captured([&] {
-          if (from_real) {
-            out_ += "rung_round_i64(";
-            value(a, Prec::Ternary);
-            out_ += ')';
-          } else {
-            value(a, Prec::Sum);
-          }
-        });
-        const TypeId limits = from_real ? types::kLInt : expr(a).type;
-        const bool from_signed = from_real || types_.isSigned(source);
-        // A limit outside of the source's type needs no test.
-        const auto low = static_cast<uint64_t>(info.low), high = static_cast<uint64_t>(info.high);
-        const bool tests_low = from_signed || info.low > 0;
-        if (tests_low) {
-          out_ += number + " < ";
-          appendConstant(out_, types_, from_signed ? types::kLInt : limits, low);
-          out_ += " || ";
-        }
-        out_ += number + " > ";
-        appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, high);
-        endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
-      }
+      const TypeKind target = types_.plainKind(e.type);
+      if (isString(expr(e.as<ir::ConvertExpr>().operand).type) || TypeTable::isString(target)) return;
+      const bool is_integer = !TypeTable::isReal(target) && widthOf(target) > 0;
+      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) convertCheck(e);
+      const bool is_subrange = types_.info(types_.resolve(e.type)).kind == TypeKind::Subrange;
+      if ((e.checks & ir::kCheckSubrange) != 0 && is_subrange) subrangeCheck(e);
       return;
     }
     case ExprKind::None:
@@ -188,7 +105,97 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
   }
 }
 
-void BodyWriter::indexChecks(const Expr& e) {
+void CheckWriter::nullCheck(const Expr& e) {
+  beginCheck();
+  if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
+    values().value(deref->pointer, Prec::Sum);
+  } else {
+    const ir::FieldExpr& field = e.as<ir::FieldExpr>();
+    places().member(field.base);
+    appendMangled(out_, string(fieldOf(field).name));
+  }
+  out_ += " == nullptr";
+  endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+}
+
+// Of a power: 0 to a negative exponent.
+void CheckWriter::divisionCheck(const Expr& e) {
+  const auto [left, right, op] = e.as<ir::BinaryExpr>();
+  const bool is_power = op == Op::Power;
+  if (is_power && !types_.isSigned(kindOf(right))) return;
+  beginCheck();
+  values().value(is_power ? left : right, Prec::Sum);
+  out_ += " == 0";
+  if (is_power) {
+    out_ += " && ";
+    values().value(right, Prec::Sum);
+    out_ += " < 0";
+  }
+  endCheck(e.loc, Fault::Div, "0");
+}
+
+void CheckWriter::convertCheck(const Expr& e) {
+  const ExprId from = e.as<ir::ConvertExpr>().operand;
+  const TypeKind source = kindOf(from), target = types_.plainKind(e.type);
+  const uint32_t width = widthOf(target);
+  const bool from_real = TypeTable::isReal(source), is_signed = types_.isSigned(target);
+  beginCheck();
+  if (from_real) {
+    out_ += "rung_round_saturates(";
+    values().value(from, Prec::Ternary);
+    std::string low = is_signed ? "-" : "0", high;
+    if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
+    appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
+    out_ += ", " + low + ".0, " + high + ".0)";
+  } else {
+    // Cut and extended again it must be the same number, with the same sign.
+    const std::string number = captured([&] { values().value(from, Prec::Unary); });
+    const char* type = scalarType(types_, e.type);
+    const bool from_signed = types_.isSigned(source);
+    out_ += from_signed ? "(int64_t)" : "(uint64_t)";
+    out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
+    if (from_signed && !is_signed) {
+      out_ += " || (int64_t)" + number + " < 0";
+    } else if (!from_signed && is_signed) {
+      out_ += " || (int64_t)(";
+      out_ += type;
+      out_ += ')' + number + " < 0";
+    }
+  }
+  // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
+  const std::string number = captured([&] { values().value(from, Prec::Ternary); });
+  endCheck(e.loc, Fault::Convert, (from_real ? "rung_round_i64(" : "(") + number + ")");
+}
+
+void CheckWriter::subrangeCheck(const Expr& e) {
+  const ExprId from = e.as<ir::ConvertExpr>().operand;
+  const TypeInfo& info = types_.info(types_.resolve(e.type));
+  const TypeKind source = kindOf(from);
+  const bool from_real = TypeTable::isReal(source);
+  beginCheck();
+  const std::string number = captured([&] {
+    if (from_real) {
+      out_ += "rung_round_i64(";
+      values().value(from, Prec::Ternary);
+      out_ += ')';
+    } else {
+      values().value(from, Prec::Sum);
+    }
+  });
+  const TypeId limits = from_real ? types::kLInt : expr(from).type;
+  const bool from_signed = from_real || types_.isSigned(source);
+  // A limit outside of the source's type needs no test.
+  if (from_signed || info.low > 0) {
+    out_ += number + " < ";
+    appendConstant(out_, types_, from_signed ? types::kLInt : limits, static_cast<uint64_t>(info.low));
+    out_ += " || ";
+  }
+  out_ += number + " > ";
+  appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, static_cast<uint64_t>(info.high));
+  endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
+}
+
+void CheckWriter::indexChecks(const Expr& e) {
   const ir::IndexExpr& node = e.as<ir::IndexExpr>();
   const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
   for (uint32_t i = 0; i < node.indices.count && i < array.dimensions.size(); ++i) {
@@ -201,15 +208,16 @@ void BodyWriter::indexChecks(const Expr& e) {
     const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
     beginCheck();
     out_ += narrow ? "(uint32_t)(" : "(uint64_t)(";
-    indexValue(id, dimension);
+    places().indexValue(id, dimension);
     out_ += ") >= ";
     appendUnsigned(out_, dimension.count());
     out_ += narrow ? "u" : "ULL";
-    endCheck(e.loc, Fault::Index, "(" + captured([&] { value(id, Prec::Comma); }) + ")", dimension.low, dimension.high);
+    endCheck(e.loc, Fault::Index, "(" + captured([&] { values().value(id, Prec::Comma); }) + ")", dimension.low,
+             dimension.high);
   }
 }
 
-void BodyWriter::overflowCheck(ExprId id) {
+void CheckWriter::overflowCheck(ExprId id) {
   const Expr& e = expr(id);
   const bool is_unary = e.kind == ExprKind::Unary;
   const Op op = e.op();
@@ -222,13 +230,13 @@ void BodyWriter::overflowCheck(ExprId id) {
     if (types::isComparison(op)) return;
     beginCheck();
     out_ += "__builtin_isinf(";
-    value(id, Prec::Ternary);
+    values().value(id, Prec::Ternary);
     out_ += ") && __builtin_isfinite(";
-    value(a, Prec::Ternary);
+    values().value(a, Prec::Ternary);
     out_ += ')';
     if (b && TypeTable::isReal(kindOf(b))) {
       out_ += " && __builtin_isfinite(";
-      value(b, Prec::Ternary);
+      values().value(b, Prec::Ternary);
       out_ += ')';
     }
     endCheck(e.loc, Fault::Overflow, "0");
@@ -247,23 +255,23 @@ void BodyWriter::overflowCheck(ExprId id) {
     if (op == Op::Neg) {
       out_ += '0';
     } else {
-      value(a, Prec::Unary);
+      values().value(a, Prec::Unary);
     }
     out_ += ", (" + type + ')';
-    value(op == Op::Neg ? a : b, Prec::Unary);
+    values().value(op == Op::Neg ? a : b, Prec::Unary);
     out_ += ", &" + result + ')';
     endCheck(e.loc, Fault::Overflow, result);
   } else if ((op == Op::Div || op == Op::Abs) && is_signed) {
     beginCheck();
-    value(a, Prec::Sum);
+    values().value(a, Prec::Sum);
     out_ += " == ";
     appendConstant(out_, types_, e.type, ~uint64_t{0} << (width - 1));
     if (op == Op::Div) {
       out_ += " && ";
-      value(b, Prec::Sum);
+      values().value(b, Prec::Sum);
       out_ += " == -1";
     }
-    endCheck(e.loc, Fault::Overflow, "(" + captured([&] { value(a, Prec::Comma); }) + ")");
+    endCheck(e.loc, Fault::Overflow, "(" + captured([&] { values().value(a, Prec::Comma); }) + ")");
   }
 }
 

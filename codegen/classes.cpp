@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <vector>
 
-#include "codegen/body.h"
+#include "codegen/names.h"
+#include "codegen/signature.h"
+#include "codegen/types.h"
 
 namespace rung::codegen {
 
 std::string declareDispatch(const ir::Module& module, ir::BodyId method) {
   const std::string call = methodName(module, method, "call");
   std::string out = "typedef ";
-  BodyWriter::appendSignature(out, module, module.body(method), call);
+  appendSignature(out, module, module.body(method), call);
   out += ";\nextern " + call + "* const " + methodName(module, method, "table") + "[];\n";
   out += "extern const uint32_t " + methodName(module, method, "first") + ";\n";
   return out += "extern const uint32_t " + methodName(module, method, "count") + ";\n";
@@ -45,7 +47,7 @@ std::string classesSource(const ir::Module& module, std::string_view name_space)
   used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<std::string> prototypes;
   for (uint32_t body : used) {
-    BodyWriter::appendSignature(prototypes.emplace_back(), module, module.bodies[body]);
+    appendSignature(prototypes.emplace_back(), module, module.bodies[body]);
     prototypes.back() += ";\n";
   }
   std::sort(prototypes.begin(), prototypes.end());

@@ -14,9 +14,9 @@
 
 #include <algorithm>
 
-#include "codegen/body.h"
 #include "codegen/cpp_names.h"
 #include "codegen/names.h"
+#include "codegen/signature.h"
 #include "codegen/types.h"
 #include "ir/builder.h"
 
@@ -58,7 +58,7 @@ class Writer {
     group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_ + "\n}  // namespace\n\n// ";
     group.code += string(body_.spelling);
     group.code += '\n';
-    BodyWriter::appendSignature(group.code, module_, body_);
+    appendSignature(group.code, module_, body_);
     group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + fields_ +
                   "  {\n" + variables + "    [&]() -> void {\n" + source_ + "\n    }();\n" + ending_ + "  }\n  }\n}\n";
     return std::move(file_);

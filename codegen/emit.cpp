@@ -13,6 +13,7 @@
 #include "codegen/names.h"
 #include "codegen/native_header.h"
 #include "codegen/records.h"
+#include "codegen/signature.h"
 #include "codegen/types.h"
 #include "frontend/source/invariant.h"
 
@@ -28,7 +29,7 @@ std::string prototypes(const ir::Module& module, const std::vector<ir::BodyId>& 
     const ir::Body& body = module.body(id);
     if (body.native != native) continue;
     std::string line(before);
-    BodyWriter::appendSignature(line, module, body);
+    appendSignature(line, module, body);
     lines.push_back(std::move(line));
   }
   std::sort(lines.begin(), lines.end());

@@ -1,27 +1,27 @@
-// Loops of a body. A For counts in the control itself when only the loop writes it: in a local wide enough for one
-// step beyond the limit, which makes a plain C++ loop that g++ can vectorize. Otherwise a flag guards the step.
-#include "codegen/body.h"
+// Loops of a body in C++: a FOR as a plain C++ loop where counted_loops.h says so, else with a flag that guards the
+// step. In: a loop statement. Out: its C++. Called by statements.cpp.
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
 
 // The condition of a loop's exit test, with nothing to be done before it; none of other statements.
-ir::ExprId BodyWriter::exitTest(StmtId id) const {
+ir::ExprId StatementWriter::exitTest(StmtId id) const {
   const ExprId test = ir::exitTest(*body_, id);
-  return test && !needsPreparation(test) ? test : ExprId{};
+  return test && !checks().needsPreparation(test) ? test : ExprId{};
 }
 
-void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {
+void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
   const StmtId first = stmt.body_block, next = stmt.next_block;
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loop.has_next = static_cast<bool>(next);
   auto writeNegated = [&](ExprId id) {
     if (ir::isNot(expr(id))) {
-      condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
+      values().condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
     } else {
       out_ += '!';
-      condition(id, Prec::Unary);
+      values().condition(id, Prec::Unary);
     }
   };
   if (!next && exitTest(first)) {  // WHILE
@@ -75,7 +75,7 @@ void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {
   }
 }
 
-void BodyWriter::breakLoop() {
+void StatementWriter::breakLoop() {
   if (loops_.empty()) {
     out_ += ';';
     return;
@@ -96,7 +96,7 @@ void BodyWriter::breakLoop() {
   out_ += ';';
 }
 
-void BodyWriter::continueLoop() {
+void StatementWriter::continueLoop() {
   if (loops_.empty()) {
     out_ += ';';
     return;
@@ -136,11 +136,11 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 }  // namespace
 
-void BodyWriter::privateFor(const ir::ForStmt& stmt) {
+void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   const TypeKind kind = kindOf(control);
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
-  const Variable& of = *variableOf(slotOf(control));
+  const uint8_t wide = wideOf(control);
   std::string name;
   const Expr& place = expr(control);
   if (const uint32_t* local = ir::localOf(place)) {
@@ -151,34 +151,34 @@ void BodyWriter::privateFor(const ir::ForStmt& stmt) {
   // The limit is read once, before the control changes.
   std::string limit;
   if (expr(to).kind == ExprKind::Const) {
-    limit = captured([&] { value(to, Prec::Shift); });
+    limit = captured([&] { values().value(to, Prec::Shift); });
   } else {
     limit = newName("e");
-    declarations_ += of.wide == 64 ? " int64_t " : of.wide == 32 ? " int32_t " : " ";
-    if (of.wide == 0) {
+    declarations_ += wide == 64 ? " int64_t " : wide == 32 ? " int32_t " : " ";
+    if (wide == 0) {
       declarations_ += scalarType(types_, place.type);
       declarations_ += ' ';
     }
     declarations_ += limit + ";";
     out_ += limit + " = ";
-    value(to, Prec::Comma);
+    values().value(to, Prec::Comma);
     out_ += "; ";
   }
   out_ += "for (" + name + " = ";
-  value(from, Prec::Comma);
+  values().value(from, Prec::Comma);
   out_ += "; " + name + (step > 0 ? " <= " : " >= ") + limit + "; ";
   appendStep(out_, name, step);
   out_ += ')';
   open();
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loops_.push_back(loop);
   block(stmt.body_block);
   close();
   const Loop done = loops_.back();
   loops_.pop_back();
   std::string tail;
-  if (of.wide != 0 && !boundsFit(stmt)) {  // where the next value does not fit the control stays at the type's limit
+  if (wide != 0 && !fits) {  // where the next value does not fit the control stays at the type's limit
     const uint32_t width = widthOf(kind);
     const bool is_signed = types_.isSigned(kind);
     std::string bound;
@@ -205,13 +205,13 @@ void BodyWriter::privateFor(const ir::ForStmt& stmt) {
   }
 }
 
-void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
+void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
-  prepare(control);
-  prepare(from);
-  prepare(to);
-  if (isPrivateLoop(id)) {
-    privateFor(stmt);
+  checks().prepare(control);
+  checks().prepare(from);
+  checks().prepare(to);
+  if (const CountedLoop* counted = analysis_->loops.find(id)) {
+    countedFor(stmt, counted->fits);
     return;
   }
   const TypeKind kind = kindOf(control);
@@ -222,14 +222,14 @@ void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   const std::string next = newName("n"), limit = newName("e"), more = newName("m");
   declarations_ += " " + type + " " + next + " = 0, " + limit + " = 0; bool " + more + " = false;";
   out_ += next + " = ";
-  value(from, Prec::Comma);
+  values().value(from, Prec::Comma);
   out_ += "; " + limit + " = ";
-  value(to, Prec::Comma);
+  values().value(to, Prec::Comma);
   out_ += "; ";
-  store(control, next);
+  places().store(control, next);
   const std::string test = next + (step > 0 ? " <= " : " >= ") + limit;
   out_ += "; for (" + more + " = " + test + "; " + more + "; " + more + " = __builtin_add_overflow(";
-  value(control, Prec::Ternary);
+  values().value(control, Prec::Ternary);
   out_ += ", ";
   appendSigned(out_, step);
   out_ += "LL, &" + next + ") ? (";
@@ -247,13 +247,13 @@ void BodyWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   } else {
     last += "0";
   }
-  store(control, last);
+  places().store(control, last);
   out_ += ", false) : (";
-  store(control, next);
+  places().store(control, next);
   out_ += ", " + test + "))";
   open();
   Loop loop;
-  loop.number = ++names_created_;
+  loop.number = ++state_.names_created;
   loops_.push_back(loop);
   block(stmt.body_block);
   close();

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "codegen/body.h"
 #include "codegen/names.h"
+#include "codegen/signature.h"
 #include "codegen/types.h"
 #include "ir/description.h"
 
@@ -88,7 +88,7 @@ class Describer {
   void declare(ir::BodyId id) {
     if (std::find(declared_.begin(), declared_.end(), id.index) != declared_.end()) return;
     declared_.push_back(id.index);
-    BodyWriter::appendSignature(prototypes_, module_, module_.body(id));
+    appendSignature(prototypes_, module_, module_.body(id));
     prototypes_ += ";\n";
   }
 

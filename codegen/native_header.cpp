@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "codegen/body.h"
 #include "codegen/names.h"
+#include "codegen/signature.h"
 #include "codegen/types.h"
 
 namespace rung::codegen {
@@ -46,7 +46,7 @@ class Declarations {
     for (const ir::Local& local : body.locals)
       if (isParameter(local)) declare(local.type);
     prototypes_ += "extern \"C\" ";
-    BodyWriter::appendSignature(prototypes_, module_, body, {}, self);
+    appendSignature(prototypes_, module_, body, {}, self);
     prototypes_ += ";\n";
   }
 

@@ -1,6 +1,8 @@
-// Lvalues in C++: variables, fields, elements, targets of pointers, and views of the process image, which are
-// little-endian bytes at any address and therefore read and written by the helpers of rung/code.h.
-#include "codegen/body.h"
+// Lvalues in C++: variables, fields, elements, targets of pointers. In: a place of the IR. Out: its C++ as an lvalue,
+// as an argument, or as the target of a store. Called by all writers of a body; views of the image are in image.cpp.
+#include <algorithm>
+
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -9,107 +11,27 @@ using types::Field;
 using types::TypeInfo;
 using types::TypeTable;
 
-bool BodyWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
-bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
+bool PlaceWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
+bool PlaceWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
 
 // Only generated code writes locals, and it writes 0 or 1.
-bool BodyWriter::isVariableTruth(ExprId id) const {
+bool PlaceWriter::isVariableTruth(ExprId id) const {
   const Expr& e = expr(id);
-  if (const uint32_t* local = ir::localOf(e)) return !body_->locals[*local].by_reference && !locals_[*local].exposed;
-  const Slot slot = slotOf(id);
-  return slot.kind == Slot::Field && fields_[slot.index].cached;
+  if (const uint32_t* local = ir::localOf(e))
+    return !body_->locals[*local].by_reference && !analysis_->uses.of[*local].exposed;
+  return isCached(id);
 }
 
-void BodyWriter::place(ExprId id) {
+void PlaceWriter::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
-    case ExprKind::Local: {
-      const ir::Local& local = body_->locals[e.as<ir::LocalExpr>().local];
-      const bool after = local.by_reference && !isString(local.type);
-      if (after) out_ += "(*";
-      variable(out_, local);
-      if (after) out_ += ')';
-      return;
-    }
+    case ExprKind::Local: localPlace(body_->locals[e.as<ir::LocalExpr>().local]); return;
     case ExprKind::Self: out_ += "self"; return;
-    case ExprKind::Global:
-    case ExprKind::Program: {
-      const bool is_list = e.kind == ExprKind::Global;
-      const uint32_t number = is_list ? facts_.list_block[e.as<ir::GlobalExpr>().list]
-                                      : facts_.program_block[e.as<ir::ProgramExpr>().program];
-      const std::string type = recordName(types_, e.type);
-      includeRecord(e.type);
-      bool declared = false;
-      for (uint32_t known : blocks_declared_) declared |= known == number;
-      std::string name;
-      appendMangled(name, string(facts_.blocks[number].name));
-      name += is_list ? "list_block" : "block";
-      if (!declared) {
-        blocks_declared_.push_back(number);
-        declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
-        appendUnsigned(declarations_, number);
-        declarations_ += "]);";
-      }
-      out_ += name;
-      return;
-    }
-    case ExprKind::Field: {
-      const auto [base, number] = e.as<ir::FieldExpr>();
-      const Field& field = fieldOf(e.as<ir::FieldExpr>());
-      if (expr(base).kind == ExprKind::Self && number < fields_.size() && fields_[number].cached) {
-        appendMangled(out_, string(field.name));
-        return;
-      }
-      const bool after = field.by_reference && !isString(field.type);
-      if (after) includeRecord(field.type);
-      if (after) out_ += "(*";
-      member(base);
-      appendMangled(out_, string(field.name));
-      if (after) out_ += ')';
-      return;
-    }
-    case ExprKind::Index: {
-      const ir::IndexExpr& node = e.as<ir::IndexExpr>();
-      const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
-      place(node.base);
-      for (uint32_t i = 0; i < node.indices.count; ++i) {
-        const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
-        out_ += '[';
-        indexValue(body_->list(node.indices)[i], dimension);
-        out_ += ']';
-      }
-      return;
-    }
-    case ExprKind::Deref: {
-      const ExprId pointer = e.as<ir::DerefExpr>().pointer;
-      const TypeKind kind = types_.kind(e.type);
-      if (isString(e.type)) {
-        out_ += isWide(e.type) ? "((char16_t*)" : "((char*)";
-        value(pointer, Prec::Unary);
-        out_ += ')';
-        return;
-      }
-      out_ += "(*(";
-      if (kind == TypeKind::Record || kind == TypeKind::Array) {
-        includeRecord(e.type);
-        const TypeId element = elementOf(types_, e.type);
-        std::string type;
-        appendPointer(type, types_, e.type, "");
-        // Elements may be read with another type than the one they were written with.
-        if (types_.kind(element) != TypeKind::Record && !isString(element)) {
-          const std::string scalar = scalarType(types_, element);
-          type.replace(0, scalar.size(), scalarAliasType(types_, element));
-        }
-        out_ += type;
-      } else {
-        out_ += scalarAliasType(types_, e.type);
-        out_ += '*';
-      }
-      out_ += ')';
-      value(pointer, Prec::Unary);
-      out_ += ')';
-      return;
-    }
+    case ExprKind::Global: blockPlace(e.type, facts_.list_block[e.as<ir::GlobalExpr>().list], "list_block"); return;
+    case ExprKind::Program: blockPlace(e.type, facts_.program_block[e.as<ir::ProgramExpr>().program], "block"); return;
+    case ExprKind::Field: fieldPlace(id); return;
+    case ExprKind::Index: elementPlace(e.as<ir::IndexExpr>()); return;
+    case ExprKind::Deref: targetPlace(e.as<ir::DerefExpr>().pointer, e.type); return;
     case ExprKind::Data:
       out_ += "(*(";
       appendPointer(out_, types_, e.type, "", true);
@@ -120,14 +42,14 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Zero:
     case ExprKind::Call:
     case ExprKind::Convert:
-      for (const auto& [created, name] : materialized_) {
+      for (const auto& [created, name] : state_.materialized) {
         if (created == id.index) out_ += name;
       }
       return;
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += "(*(";
-      condition(decides, Prec::Or);
+      values().condition(decides, Prec::Or);
       out_ += " ? &";
       place(yes);
       out_ += " : &";
@@ -148,12 +70,89 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::String:
     case ExprKind::Unary:
     case ExprKind::Binary:
-    case ExprKind::Address: value(id, Prec::Postfix); return;
+    case ExprKind::Address: values().value(id, Prec::Postfix); return;
   }
 }
 
+void PlaceWriter::localPlace(const ir::Local& local) {
+  const bool after = local.by_reference && !isString(local.type);
+  if (after) out_ += "(*";
+  variable(out_, local);
+  if (after) out_ += ')';
+}
+
+// A block of memory: a list of globals or a program's instance.
+void PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
+  const std::string type = recordName(types_, record);
+  includeRecord(record);
+  std::string name;
+  appendMangled(name, string(facts_.blocks[number].name));
+  name += suffix;
+  if (std::find(blocks_declared_.begin(), blocks_declared_.end(), number) == blocks_declared_.end()) {
+    blocks_declared_.push_back(number);
+    declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
+    appendUnsigned(declarations_, number);
+    declarations_ += "]);";
+  }
+  out_ += name;
+}
+
+void PlaceWriter::fieldPlace(ExprId id) {
+  const ir::FieldExpr& node = expr(id).as<ir::FieldExpr>();
+  const Field& field = fieldOf(node);
+  if (isCached(id)) {
+    appendMangled(out_, string(field.name));
+    return;
+  }
+  const bool after = field.by_reference && !isString(field.type);
+  if (after) includeRecord(field.type);
+  if (after) out_ += "(*";
+  member(node.base);
+  appendMangled(out_, string(field.name));
+  if (after) out_ += ')';
+}
+
+void PlaceWriter::elementPlace(const ir::IndexExpr& node) {
+  const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
+  place(node.base);
+  for (uint32_t i = 0; i < node.indices.count; ++i) {
+    const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
+    out_ += '[';
+    indexValue(body_->list(node.indices)[i], dimension);
+    out_ += ']';
+  }
+}
+
+void PlaceWriter::targetPlace(ExprId pointer, TypeId type) {
+  if (isString(type)) {
+    out_ += isWide(type) ? "((char16_t*)" : "((char*)";
+    values().value(pointer, Prec::Unary);
+    out_ += ')';
+    return;
+  }
+  out_ += "(*(";
+  if (isAggregate(type)) {
+    includeRecord(type);
+    const TypeId element = elementOf(types_, type);
+    std::string pointer_type;
+    appendPointer(pointer_type, types_, type, "");
+    // Elements may be read with another type than the one they were written with.
+    if (types_.kind(element) != TypeKind::Record && !isString(element)) {
+      const std::string scalar = scalarType(types_, element);
+      pointer_type.replace(0, scalar.size(), scalarAliasType(types_, element));
+    }
+    out_ += pointer_type;
+  } else {
+    out_ += scalarAliasType(types_, type);
+    out_ += '*';
+  }
+  out_ += ')';
+  values().value(pointer, Prec::Unary);
+  out_ += ')';
+}
+
 // Writes the prefix of a field's name.
-void BodyWriter::member(ExprId base) {
+void PlaceWriter::member(ExprId base) {
   const Expr& e = expr(base);
   if (const uint32_t* local = ir::localOf(e); local != nullptr && body_->locals[*local].by_reference) {
     variable(out_, body_->locals[*local]);
@@ -177,7 +176,7 @@ void BodyWriter::member(ExprId base) {
 // ---- indices
 
 // `i + 1` need not be cut to its type when the values that would differ are invalid indices either way.
-ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
+ir::ExprId PlaceWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
   addend = 0;
   const Expr& e = expr(id);
   if (e.kind != ExprKind::Binary || e.checks != 0) return id;
@@ -203,7 +202,7 @@ ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, i
 }
 
 // The index, counted from 0.
-void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
+void PlaceWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const Expr& whole = expr(id);
   if (whole.kind == ExprKind::Const) {
     appendSigned(out_, static_cast<int64_t>(ir::bitsOf(whole)) - dimension.low);
@@ -214,14 +213,12 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const TypeKind kind = kindOf(inner);
   const uint32_t width = widthOf(kind);
   const int64_t offset = addend - dimension.low;
-  const Slot slot = slotOf(inner);
-  const Variable* of = expr(inner).kind == ExprKind::Bits ? nullptr : variableOf(slot);
-  const bool is_wide = of != nullptr && of->wide == 64;
+  const bool is_wide = expr(inner).kind != ExprKind::Bits && wideOf(inner) == 64;
   auto writeInner = [&](Prec context) {
     if (is_wide) {
       place(inner);
     } else {
-      value(inner, context);
+      values().value(inner, context);
     }
   };
   if (offset == 0) {
@@ -230,7 +227,7 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   }
   if (width == 64) {
     out_ += "(int64_t)((uint64_t)";
-    value(inner, Prec::Unary);
+    values().value(inner, Prec::Unary);
     out_ += offset < 0 ? " - " : " + ";
     appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
     out_ += "ULL)";
@@ -243,109 +240,31 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
 }
 
-// ---- the process image
+// ---- constant bytes
 
-// An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
-void BodyWriter::area(uint32_t index) {
-  std::string name = "area";
-  name += module_.areas[index].letter;
-  if ((areas_declared_ >> index & 1) == 0) {
-    areas_declared_ |= 1u << index;
-    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
-    appendUnsigned(declarations_, index);
-    declarations_ += "];";
+void PlaceWriter::dataReference(uint32_t index) {
+  if (state_.in.marks.data[index] != state_.in.group_number) {
+    state_.in.marks.data[index] = state_.in.group_number;
+    state_.in.marks.data_number[index] = ++group_.data_count;
+    const ir::Data& data = module_.data[index];
+    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
+    size_t used = bytes.size();
+    while (used > 0 && bytes[used - 1] == '\0') --used;
+    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
+    appendUnsigned(group_.data, group_.data_count);
+    group_.data += '[';
+    appendUnsigned(group_.data, bytes.size() + 1);
+    group_.data += "] = ";
+    appendQuoted(group_.data, bytes.substr(0, used));
+    group_.data += ";\n";
   }
-  out_ += name;
+  out_ += "data_" + group_.stem + '_';
+  appendUnsigned(out_, state_.in.marks.data_number[index]);
 }
 
-void BodyWriter::imageAddress(ExprId id) {
-  const Expr& e = expr(id);
-  if (const auto* image = e.tryAs<ir::ImageExpr>()) {
-    area(image->area);
-    if (image->byte != 0) {
-      out_ += " + ";
-      appendUnsigned(out_, image->byte);
-    }
-    return;
-  }
-  imageAddress(ir::baseOf(e));
-  if (const auto* field = e.tryAs<ir::FieldExpr>()) {
-    out_ += " + ";
-    appendUnsigned(out_, fieldOf(*field).offset);
-    return;
-  }
-  const ir::IndexExpr& node = e.as<ir::IndexExpr>();
-  const TypeInfo& info = types_.info(types_.resolve(expr(node.base).type));
-  uint64_t size = types_.info(types_.resolve(e.type)).size;
-  for (uint32_t i = node.indices.count; i-- > 0;) {  // row-major: the last index is the fastest
-    out_ += " + (";
-    indexValue(body_->list(node.indices)[i], info.dimensions[i]);
-    out_ += ") * ";
-    appendUnsigned(out_, size);
-    size *= info.dimensions[i].count();
-  }
-}
+// ---- writing
 
-void BodyWriter::imageLoad(ExprId id, const Expr& e) {
-  const TypeKind kind = types_.plainKind(e.type);
-  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
-    const TypeKind whole = kindOf(bits->base);
-    const uint32_t width = widthOf(kind), shift = bits->position * width;
-    const bool is_signed = types_.isSigned(whole);
-    out_ += kind == TypeKind::Bool ? "(" : width == 8 ? "(uint8_t)(" : width == 16 ? "(uint16_t)(" : "(uint32_t)(";
-    if (is_signed) {
-      const uint32_t from = widthOf(whole);
-      out_ += from == 8 ? "(uint8_t)" : from == 16 ? "(uint16_t)" : from == 32 ? "(uint32_t)" : "(uint64_t)";
-    }
-    value(bits->base, Prec::Unary);
-    if (shift != 0) {
-      out_ += " >> ";
-      appendUnsigned(out_, shift);
-    }
-    out_ += kind == TypeKind::Bool ? " & 1)" : ")";
-    return;
-  }
-  if (isAggregate(e.type)) {
-    place(id);
-    return;
-  }
-  if (ir::isImageBit(e)) {
-    const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    out_ += '(';
-    area(image.area);
-    out_ += '[';
-    appendUnsigned(out_, image.byte);
-    out_ += "] >> ";
-    appendUnsigned(out_, image.bit);
-    out_ += " & 1)";
-    return;
-  }
-  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
-  if (kind == TypeKind::Real || kind == TypeKind::LReal) {
-    out_ += kind == TypeKind::Real ? "rung_f32_of(rung_get32(" : "rung_f64_of(rung_get64(";
-    imageAddress(id);
-    out_ += "))";
-    return;
-  }
-  if (types_.isSigned(kind)) {
-    out_ += '(';
-    out_ += scalarType(types_, e.type);
-    out_ += ')';
-  }
-  if (width == 8) {
-    out_ += kind == TypeKind::Bool ? "(*(" : "*(";
-    imageAddress(id);
-    out_ += kind == TypeKind::Bool ? ") != 0)" : ")";
-    return;
-  }
-  out_ += "rung_get";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(id);
-  out_ += ')';
-}
-
-void BodyWriter::store(ExprId to, std::string_view value_code) {
+void PlaceWriter::store(ExprId to, std::string_view value_code) {
   const Expr& e = expr(to);
   if (isLvalue(to)) {
     place(to);
@@ -353,65 +272,39 @@ void BodyWriter::store(ExprId to, std::string_view value_code) {
     out_ += value_code;
     return;
   }
-  const TypeKind kind = types_.plainKind(e.type);
-  if (e.kind == ExprKind::Bits) {
-    const ExprId base = e.as<ir::BitsExpr>().base;
-    const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = e.as<ir::BitsExpr>().position * width;
-    const std::string type = from == 64 ? "uint64_t" : "uint32_t";
-    const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
-    const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
-    std::string changed = "(";
-    changed += scalarType(types_, expr(base).type);
-    changed += ")(((" + type + ")" + captured([&] { value(base, Prec::Unary); }) + " & ";
-    appendUnsigned(changed, keep);
-    changed += from == 64 ? "ULL) | (" : "u) | (";
-    changed += type + ")(";
-    changed += value_code;
-    changed += ")";
-    if (shift != 0) {
-      changed += " << ";
-      appendUnsigned(changed, shift);
-    }
-    changed += ")";
-    store(base, changed);
+  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
+    storeBits(*bits, types_.plainKind(e.type), value_code);
     return;
   }
-  if (ir::isImageBit(e)) {
-    out_ += "rung_put_bit(";
-    imageAddress(to);
-    out_ += ", ";
-    appendUnsigned(out_, e.as<ir::ImageExpr>().bit);
-    out_ += ", ";
-    out_ += value_code;
-    out_ += ')';
-    return;
+  imageStore(to, value_code);
+}
+
+// Some bits of a variable: the others keep their values.
+void PlaceWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value_code) {
+  const ExprId base = node.base;
+  const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = node.position * width;
+  const std::string type = from == 64 ? "uint64_t" : "uint32_t";
+  const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
+  const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
+  std::string changed = "(";
+  changed += scalarType(types_, expr(base).type);
+  changed += ")(((" + type + ")" + captured([&] { values().value(base, Prec::Unary); }) + " & ";
+  appendUnsigned(changed, keep);
+  changed += from == 64 ? "ULL) | (" : "u) | (";
+  changed += type + ")(";
+  changed += value_code;
+  changed += ")";
+  if (shift != 0) {
+    changed += " << ";
+    appendUnsigned(changed, shift);
   }
-  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
-  if (width == 8) {
-    out_ += "*(";
-    imageAddress(to);
-    out_ += ") = (uint8_t)(";
-    out_ += value_code;
-    out_ += ')';
-    return;
-  }
-  out_ += "rung_put";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(to);
-  out_ += kind == TypeKind::Real    ? ", rung_bits_of_f32("
-          : kind == TypeKind::LReal ? ", rung_bits_of_f64("
-          : width == 16             ? ", (uint16_t)("
-          : width == 32             ? ", (uint32_t)("
-                                    : ", (uint64_t)(";
-  out_ += value_code;
-  out_ += "))";
+  changed += ")";
+  store(base, changed);
 }
 
 // ---- by-reference parameters
 
-void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId operand) {
-  static_cast<void>(native);
+void PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
   if (!operand) {  // a discarded output
     const std::string name = newVariable(parameter.type, "d");
     if (!isString(parameter.type)) out_ += '&';
@@ -420,7 +313,7 @@ void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId opera
   }
   if (isString(parameter.type)) {
     if (parameter.kind == ir::LocalKind::Input) {
-      stringValue(operand);
+      strings().stringValue(operand);
     } else {
       place(operand);
     }

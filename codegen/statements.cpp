@@ -2,7 +2,7 @@
 // appears only where they diverge, which keeps the code small.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/assertion.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
@@ -36,7 +36,7 @@ Position positionOf(const ir::Module& module, const ir::Body& body, Loc loc) {
 // ---- lines
 
 // Writes the pending braces, at most `lines` of them on separate lines.
-void BodyWriter::flushCloses(uint32_t lines) {
+void StatementWriter::flushCloses(uint32_t lines) {
   for (; closes_ > 0; --closes_) {
     if (lines > 0) {
       out_ += '\n';
@@ -50,7 +50,7 @@ void BodyWriter::flushCloses(uint32_t lines) {
   }
 }
 
-void BodyWriter::begin(Loc loc) {
+void StatementWriter::begin(Loc loc) {
   const Position at = options_.line_directives ? positionOf(module_, *body_, loc) : Position{};
   const size_t indent = indentOf(depth_);
   if (at.line == 0) {
@@ -84,41 +84,39 @@ void BodyWriter::begin(Loc loc) {
   line_file_ = at.file;
 }
 
-void BodyWriter::open() {
+void StatementWriter::open() {
   out_ += " {";
   ++depth_;
 }
 
-void BodyWriter::close() {
+void StatementWriter::close() {
   --depth_;
   ++closes_;
 }
 
 // ---- statements
 
-void BodyWriter::block(StmtId first) {
-  const size_t mark = known_.size();
+void StatementWriter::block(StmtId first) {
   for (StmtId id = first; id; id = body_->stmt(id).next) statement(id, body_->stmt(id));
-  forgetLengths(mark);
 }
 
-void BodyWriter::statement(StmtId id, const Stmt& stmt) {
+void StatementWriter::statement(StmtId id, const Stmt& stmt) {
   if (const auto* call = stmt.tryAs<ir::CallStmt>(); call != nullptr && facts_.is_zeroing[call->callee.index] != 0) {
     // An initialiser begins by clearing the whole record.
     if (body_->kind == ir::BodyKind::Init && expr(ir::rootOf(*body_, call->self)).kind == ExprKind::Self) return;
     begin(stmt.loc);
-    prepare(call->self);
-    const std::string name = captured([&] { place(call->self); });
+    checks().prepare(call->self);
+    const std::string name = captured([&] { places().place(call->self); });
     out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
     return;
   }
   begin(stmt.loc);
-  measure(stmt);
+  strings().countLengths(id);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
     case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return;
     case StmtKind::Bind: bindStatement(stmt.as<ir::BindStmt>()); return;
-    case StmtKind::Call: callStatement(stmt.as<ir::CallStmt>(), stmt.loc); return;
+    case StmtKind::Call: calls().callStatement(stmt.as<ir::CallStmt>(), stmt.loc); return;
     case StmtKind::If: ifStatement(stmt.as<ir::IfStmt>()); return;
     case StmtKind::Switch: switchStatement(stmt.as<ir::SwitchStmt>()); return;
     case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>()); return;
@@ -138,34 +136,83 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::Try: tryStatement(stmt.as<ir::TryStmt>()); return;
     case StmtKind::Fault: faultStatement(stmt.as<ir::FaultStmt>(), stmt.loc); return;
     case StmtKind::Assert: assertStatement(stmt); return;
-    case StmtKind::Evaluate: prepare(stmt.as<ir::EvaluateStmt>().value); return;
+    case StmtKind::Evaluate: checks().prepare(stmt.as<ir::EvaluateStmt>().value); return;
   }
 }
 
-void BodyWriter::bindStatement(const ir::BindStmt& stmt) {
-  prepareChildren(expr(stmt.field));  // the field itself holds no variable yet
-  if (stmt.place) prepare(stmt.place);
+void StatementWriter::assign(const ir::AssignStmt& stmt) {
+  const ExprId to = stmt.place, from = stmt.value;
+  const TypeId type = expr(to).type;
+  const Expr& source = expr(from);
+  if (isString(type)) {
+    if (isSlice(to)) return strings().assignSlice(to, from);
+    checks().prepare(to);
+    strings().prepareString(from);
+    const std::string name = captured([&] { places().place(to); });
+    const bool is_measured = isMeasured(to);
+    const std::string length = is_measured ? captured([&] { strings().lengthName(to); }) : "";
+    strings().copyString({name, capacityOf(type), isWide(type), length}, from);
+    return;
+  }
+  if (!isAggregate(type)) {
+    checks().prepare(to);
+    checks().prepare(from);
+    if (places().isLvalue(to)) {
+      places().place(to);
+      out_ += " = ";
+      values().value(from, Prec::Ternary);
+    } else {
+      places().store(to, captured([&] { values().value(from, Prec::Ternary); }));
+    }
+    out_ += ';';
+    return;
+  }
+  checks().prepare(to);
+  const std::string name = captured([&] { places().place(to); });
+  if (source.kind == ExprKind::Zero) {
+    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
+    return;
+  }
+  if (const auto* data = source.tryAs<ir::DataExpr>()) {
+    out_ += "memcpy(&" + name + ", ";
+    places().dataReference(data->index);
+    out_ += ", sizeof " + name + ");";
+    return;
+  }
+  checks().prepare(from);
+  const std::string value_code = captured([&] { places().place(from); });
+  if (value_code == name) return;
+  if (types_.kind(type) == TypeKind::Record && !places().isImagePlace(to) && !places().isImagePlace(from)) {
+    out_ += name + " = " + value_code + ";";
+  } else {
+    out_ += "memmove(&" + name + ", &" + value_code + ", sizeof " + name + ");";
+  }
+}
+
+void StatementWriter::bindStatement(const ir::BindStmt& stmt) {
+  checks().prepareChildren(expr(stmt.field));  // the field itself holds no variable yet
+  if (stmt.place) checks().prepare(stmt.place);
   const ir::FieldExpr& field = expr(stmt.field).as<ir::FieldExpr>();
-  member(field.base);
+  places().member(field.base);
   const types::Field& info = fieldOf(field);
   appendMangled(out_, string(info.name));
   out_ += " = ";
   if (!stmt.place) {
     out_ += "nullptr";
   } else if (isString(info.type)) {
-    place(stmt.place);
+    places().place(stmt.place);
   } else {
     // The variable may have another type with the same memory.
     out_ += '(';
     appendPointer(out_, types_, info.type, "");
     out_ += ")&";
-    place(stmt.place);
+    places().place(stmt.place);
   }
   out_ += ';';
 }
 
 // `return`, after the locals are written back; in the frame of a try the frame's caller does that.
-void BodyWriter::leave() {
+void StatementWriter::leave() {
   if (!frames_.empty()) {
     frames_.back().returns = true;
     out_ += frames_.back().exit;
@@ -179,13 +226,12 @@ void BodyWriter::leave() {
     out_ += ';';
     return;
   }
-  const bool has_written =
-      std::any_of(fields_.begin(), fields_.end(), [](const Variable& v) { return v.cached && v.written; });
-  if (has_written) uses_leave_ = true;
+  const bool has_written = writesFieldsBack();
+  if (has_written) state_.uses_leave = true;
   out_ += has_written ? "goto leave;" : "return;";
 }
 
-bool BodyWriter::endsInJump(StmtId first) const {
+bool StatementWriter::endsInJump(StmtId first) const {
   StmtKind last = StmtKind::None;
   for (StmtId id = first; id; id = body_->stmt(id).next) last = body_->stmt(id).kind;
   return last == StmtKind::Break || last == StmtKind::Continue || last == StmtKind::Return || last == StmtKind::Jump ||
@@ -193,11 +239,11 @@ bool BodyWriter::endsInJump(StmtId first) const {
 }
 
 // Without braces: every variable is declared at the top, so jumps cross no initialisation.
-void BodyWriter::deepIf(const ir::IfStmt& stmt) {
+void StatementWriter::deepIf(const ir::IfStmt& stmt) {
   const std::string otherwise = newName("else"), end = newName("end");
-  prepare(stmt.condition);
+  checks().prepare(stmt.condition);
   out_ += "if (!";
-  condition(stmt.condition, Prec::Unary);
+  values().condition(stmt.condition, Prec::Unary);
   out_ += ") goto " + otherwise + ";";
   block(stmt.then_block);
   flushCloses(0);
@@ -209,16 +255,16 @@ void BodyWriter::deepIf(const ir::IfStmt& stmt) {
   out_ += " " + end + ":;";
 }
 
-void BodyWriter::ifStatement(const ir::IfStmt& stmt) {
+void StatementWriter::ifStatement(const ir::IfStmt& stmt) {
   const ir::IfStmt* at = &stmt;
   for (;;) {
     if (depth_ > kDeepestBraces) {
       deepIf(*at);
       return;
     }
-    prepare(at->condition);
+    checks().prepare(at->condition);
     out_ += "if (";
-    condition(at->condition, Prec::Comma);
+    values().condition(at->condition, Prec::Comma);
     out_ += ')';
     open();
     block(at->then_block);
@@ -235,7 +281,8 @@ void BodyWriter::ifStatement(const ir::IfStmt& stmt) {
     flushCloses(room);
     out_ += " else";
     const auto* chained = other.next ? nullptr : other.tryAs<ir::IfStmt>();
-    if (chained == nullptr || needsPreparation(chained->condition) || needsMeasuring(chained->condition)) {
+    if (chained == nullptr || checks().needsPreparation(chained->condition) ||
+        analysis_->lengths.countsBefore(at->else_block)) {
       open();
       block(at->else_block);
       close();
@@ -252,13 +299,13 @@ void BodyWriter::ifStatement(const ir::IfStmt& stmt) {
   }
 }
 
-void BodyWriter::switchStatement(const ir::SwitchStmt& stmt) {
-  prepare(stmt.selector);
+void StatementWriter::switchStatement(const ir::SwitchStmt& stmt) {
+  checks().prepare(stmt.selector);
   const TypeKind kind = kindOf(stmt.selector);
   const bool is_unsigned = !types_.isSigned(kind);
   out_ += "switch (";
   if (kind == TypeKind::Bool) out_ += "(int)";
-  value(stmt.selector, kind == TypeKind::Bool ? Prec::Unary : Prec::Comma);
+  values().value(stmt.selector, kind == TypeKind::Bool ? Prec::Unary : Prec::Comma);
   out_ += ')';
   open();
   const bool had_loop = !loops_.empty();
@@ -337,202 +384,18 @@ void BodyWriter::switchStatement(const ir::SwitchStmt& stmt) {
   if (had_loop) loops_.back().in_switch = was_in_switch;
 }
 
-void BodyWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
-  const ir::BodyId callee_id = stmt.callee;
-  const ExprId to = stmt.result;
-  const Body& callee = module_.body(callee_id);
-  const std::span<const ExprId> operands = body_->list(stmt.operands);
-  if (stmt.self) prepare(stmt.self);
-  for (const ExprId operand : operands) {
-    if (operand) prepare(operand);
-  }
-  if (to) prepare(to);
-  const bool is_sized = !stmt.self && isSizedCall(callee, stmt.operands, to);
-  if (stmt.is_virtual) {
-    if (std::find(group_.virtuals.begin(), group_.virtuals.end(), callee_id) == group_.virtuals.end())
-      group_.virtuals.push_back(callee_id);
-    if (stmt.is_checked) classCheck(stmt, loc);
-  } else if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) {
-    call(callee_id);
-  }
-
-  if (is_sized && to && slicedString(to) != nullptr) {
-    sliceName(to);
-    out_ += " = ";
-    sizedCall(callee, stmt.operands, "slice");
-    out_ += ", ";
-    appendUnsigned(out_, capacityOf(expr(to).type));
-    out_ += ", &";
-    lengthName(to);
-    out_ += ");";
-    return;
-  }
-
-  // A string whose length lives in a local: the call returns the length, or it is counted.
-  const std::string length = to && measuredString(to) != nullptr ? captured([&] { lengthName(to); }) : "";
-  std::string before, after;  // parameters that are not variables in memory: bits, views of the image
-  const std::string arguments = captured([&] {
-    uint32_t i = 0;
-    for (const ir::Local& parameter : ir::parameters(callee)) {
-      if (i >= operands.size()) break;
-      const ExprId operand = operands[i++];
-      out_ += ", ";
-      if (parameter.by_reference && operand && ir::isPlace(expr(operand).kind) && !isLvalue(operand)) {
-        const std::string copy = newVariable(parameter.type, "v");
-        before += copy + " = " + captured([&] { value(operand, Prec::Ternary); }) + "; ";
-        if (parameter.kind != ir::LocalKind::Input) {
-          after += " ";
-          after += captured([&] { store(operand, copy); });
-          after += ';';
-        }
-        if (!isString(parameter.type)) out_ += '&';
-        out_ += copy;
-        continue;
-      }
-      if (parameter.by_reference) {
-        reference(parameter, callee.native, operand);
-      } else {
-        value(operand, Prec::Ternary);
-      }
-    }
-  });
-  out_ += before;
-
-  // The result: by value, or written by the callee to an address of ours, which must not be one of its inputs.
-  std::string result, copy;
-  const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
-  if (by_reference) {
-    const TypeId place_type = to ? expr(to).type : callee.result;
-    bool direct = to && isLvalue(to);
-    if (direct && !callee.native) {
-      const uint32_t* root = ir::localOf(expr(ir::rootOf(*body_, to)));
-      direct = root != nullptr && !body_->locals[*root].by_reference;
-      for (const ExprId operand : operands) {
-        if (!direct || !operand || !ir::isPlace(expr(operand).kind)) continue;
-        const uint32_t* other = ir::localOf(expr(ir::rootOf(*body_, operand)));
-        direct = other == nullptr || *other != *root;
-      }
-      if (isString(callee.result) && capacityOf(place_type) < capacityOf(callee.result)) direct = false;
-    }
-    if (isString(callee.result) && isWide(place_type) != isWide(callee.result)) direct = false;
-    uint32_t capacity = 0;
-    if (direct) {
-      result = captured([&] { place(to); });
-      if (isString(callee.result)) capacity = capacityOf(place_type);
-    } else {
-      result = copy = newVariable(callee.result, "v");
-      if (isString(callee.result)) capacity = capacityOf(callee.result);
-    }
-    if (!isString(callee.result)) result.insert(0, "&");
-    if (callee.native && isString(callee.result)) {
-      result += ", ";
-      appendUnsigned(result, capacity);
-    }
-  }
-
-  const std::string function = captured([&] {
-    if (is_sized) {
-      sizedCall(callee, stmt.operands);
-      if (by_reference) {
-        out_ += ", ";
-        out_ += result;
-      }
-      out_ += ')';
-      return;
-    }
-    if (callee.native) {
-      out_ += ir::nativeName(module_, callee);
-      out_ += "(ctx";
-      if (stmt.self) {
-        out_ += ", &";
-        place(stmt.self);
-      }
-    } else {
-      if (stmt.is_virtual) {
-        out_ += methodName(module_, callee_id, "table") + '[' + indexOfMethod(stmt) + ']';
-      } else {
-        appendFunctionName(out_, module_, callee);
-      }
-      out_ += '(';
-      if (stmt.self) {
-        if (isMethod(callee)) out_ += '&';
-        place(stmt.self);
-        out_ += ", ";
-      }
-      out_ += "ctx";
-    }
-    out_ += arguments;
-    if (by_reference) {
-      out_ += ", ";
-      out_ += result;
-    }
-    out_ += ')';
-  });
-  if (callee.result && !by_reference && to) {
-    store(to, function);
-    out_ += ';';
-  } else {
-    if (callee.native && copy.empty() && !length.empty()) out_ += length + " = ";
-    out_ += function;
-    out_ += ';';
-  }
-  if (!copy.empty() && to) {
-    out_ += ' ';
-    const TypeId type = expr(to).type;
-    if (isString(type)) {
-      const bool wide = isWide(type), from_wide = isWide(callee.result);
-      if (!length.empty()) out_ += length + " = ";
-      out_ += wide == from_wide ? (wide           ? "rung_wstring_assign("
-                                   : isUtf8(type) ? "rung_ustring_assign("
-                                                  : "rung_string_assign(")
-                                : (wide ? "rung_wstring_of_string(" : "rung_string_of_wstring(");
-      place(to);
-      out_ += ", ";
-      appendUnsigned(out_, capacityOf(type));
-      out_ += ", " + copy + ");";
-    } else {
-      out_ += "memcpy(&";
-      place(to);
-      out_ += ", &" + copy + ", sizeof " + copy + ");";
-    }
-  }
-  if (!length.empty()) {
-    if (!callee.native && copy.empty()) {
-      out_ += ' ' + length + " = rung_string_length(";
-      place(to);
-      out_ += ");";
-    }
-    setKnown(to);
-  }
-  out_ += after;
-}
-
 // ---- faults and tests
 
-// The row of a dispatch table for the object's class.
-std::string BodyWriter::indexOfMethod(const ir::CallStmt& stmt) {
-  return "rung_class_of(&" + captured([&] { place(stmt.self); }) + ") - " + methodName(module_, stmt.callee, "first");
-}
-
-// In front of a virtual call: a pointer bound by mistake has the number of no class, or of an unrelated one.
-void BodyWriter::classCheck(const ir::CallStmt& stmt, Loc loc) {
-  const ir::BodyId method = stmt.callee;
-  const std::string index = indexOfMethod(stmt);
-  beginCheck();
-  out_ += index + " >= " + methodName(module_, method, "count") + " || " + methodName(module_, method, "table") + '[' +
-          index + "] == nullptr";
-  endCheck(loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
-}
-
-void BodyWriter::faultStatement(const ir::FaultStmt& stmt, Loc loc) {
-  if (stmt.value) prepare(stmt.value);
+void StatementWriter::faultStatement(const ir::FaultStmt& stmt, Loc loc) {
+  if (stmt.value) checks().prepare(stmt.value);
   out_ += "at = ";
   // The bounds of an ARRAY[*] are not known here: low above high marks that.
-  appendUnsigned(out_, stmt.fault == Fault::Index ? site(loc, stmt.fault, 1, 0) : site(loc, stmt.fault));
+  appendUnsigned(out_,
+                 stmt.fault == Fault::Index ? checks().site(loc, stmt.fault, 1, 0) : checks().site(loc, stmt.fault));
   out_ += "; value = ";
   if (stmt.value) {
     out_ += "(int64_t)";
-    value(stmt.value, Prec::Unary);
+    values().value(stmt.value, Prec::Unary);
   } else {
     out_ += '0';
   }
@@ -541,27 +404,27 @@ void BodyWriter::faultStatement(const ir::FaultStmt& stmt, Loc loc) {
 
 // A block of a try is a separate function that the runtime calls between setjmp and longjmp: what it shares with the
 // body is then in memory, and the compiler knows it.
-void BodyWriter::guarded(const std::string& frame, const std::string& fault, StmtId first) {
+void StatementWriter::guarded(const std::string& frame, const std::string& fault, StmtId first) {
   std::vector<Loop> outer_loops = loops_;
   for (Loop& loop : loops_) loop.try_depth += 1;
   out_ += "{ auto " + frame + " = [&]()";  // in a separate scope: a jump to `fault` from before must not enter it
   open();
-  const bool outer_uses_fault = uses_fault_;
-  uses_fault_ = false;
+  const bool outer_uses_fault = state_.uses_fault;
+  state_.uses_fault = false;
   block(first);
   flushCloses(0);
   out_ += " return;";
-  if (uses_fault_) {
+  if (state_.uses_fault) {
     out_ += " fault: rung_raise(ctx, at & 15, sites_" + group_.stem + " + (at >> 4), value);";
   }
-  uses_fault_ = outer_uses_fault;
+  state_.uses_fault = outer_uses_fault;
   --depth_;
   out_ += " }; " + fault + " = rung_try(ctx, [](void* frame) { (*static_cast<decltype(" + frame +
           ")*>(frame))(); }, &" + frame + "); }";
   loops_ = std::move(outer_loops);
 }
 
-void BodyWriter::tryStatement(const ir::TryStmt& stmt) {
+void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
   const std::string exit = newName("x"), fault = newName("k");
   declarations_ += " uint32_t " + exit + " = 0; uint8_t " + fault + " = 0;";
   frames_.push_back({});
@@ -576,7 +439,7 @@ void BodyWriter::tryStatement(const ir::TryStmt& stmt) {
     open();
     if (stmt.number) {
       out_ += ' ';
-      store(stmt.number, fault);
+      places().store(stmt.number, fault);
       out_ += ';';
     }
     if (has_finally) {
@@ -618,11 +481,11 @@ void BodyWriter::tryStatement(const ir::TryStmt& stmt) {
   }
 }
 
-void BodyWriter::assertStatement(const Stmt& stmt) {
+void StatementWriter::assertStatement(const Stmt& stmt) {
   const ir::AssertStmt& node = stmt.as<ir::AssertStmt>();
   const ExprId first = node.first, second = node.second, third = node.third;
   for (const ExprId operand : {first, second, third}) {
-    if (operand) prepare(operand);
+    if (operand) checks().prepare(operand);
   }
   const ir::AssertionReport report = ir::assertionReport(module_, *body_, stmt);
   const auto quotedOrNull = [&](std::string_view string) {
@@ -653,14 +516,14 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
   };
   const auto bits = [&](ExprId id) {
     out_ += ", ";
-    if (!isString(expr(id).type)) return scalarBits(id);
+    if (!isString(expr(id).type)) return values().scalarBits(id);
     out_ += "(uint64_t)(uintptr_t)";
-    stringValue(id);
+    strings().stringValue(id);
   };
   switch (node.assertion) {
     case ir::Assertion::Assert:
       out_ += second ? "rung_assert_compared(ctx, &assertion, " : "rung_assert(ctx, &assertion, ";
-      condition(first, Prec::Ternary);
+      values().condition(first, Prec::Ternary);
       if (!second) break;
       out_ += ", ";
       kind(expr(second).type);
@@ -672,16 +535,16 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
       kind(expr(second).type);
       for (ExprId id : {first, second, third}) {
         out_ += ", ";
-        value(id, Prec::Ternary);
+        values().value(id, Prec::Ternary);
       }
       break;
     case ir::Assertion::AssertEq: {
       const TypeId type = expr(second).type;
       if (isAggregate(type) && !isString(type)) {
         out_ += "rung_assert(ctx, &assertion, memcmp(&";
-        place(first);
+        places().place(first);
         out_ += ", &";
-        place(second);
+        places().place(second);
         out_ += ", ";
         appendUnsigned(out_, types_.info(types_.resolve(type)).size);
         out_ += ") == 0";

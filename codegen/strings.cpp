@@ -1,8 +1,8 @@
-// Assignments, and strings: stored in place, NUL-terminated, cut to the capacity of their target; read without a
+// Strings in C++: stored in place, NUL-terminated, cut to the capacity of their target; read without a
 // copy, compared with short literals without a call.
 #include <algorithm>
 
-#include "codegen/body.h"
+#include "codegen/body_parts.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -37,66 +37,15 @@ std::string_view firstUnits(std::string_view string, uint32_t units) {
 
 }  // namespace
 
-void BodyWriter::assign(const ir::AssignStmt& stmt) {
-  const ExprId to = stmt.place, from = stmt.value;
-  const TypeId type = expr(to).type;
-  const Expr& source = expr(from);
-  if (isString(type)) {
-    if (slicedString(to) != nullptr) return assignSlice(to, from);
-    prepare(to);
-    prepareString(from);
-    const std::string name = captured([&] { place(to); });
-    const bool is_measured = measuredString(to) != nullptr;
-    copyString(name, capacityOf(type), isWide(type), from, is_measured ? captured([&] { lengthName(to); }) : "");
-    setKnown(to);
-    return;
-  }
-  if (!isAggregate(type)) {
-    prepare(to);
-    prepare(from);
-    if (isLvalue(to)) {
-      place(to);
-      out_ += " = ";
-      value(from, Prec::Ternary);
-    } else {
-      store(to, captured([&] { value(from, Prec::Ternary); }));
-    }
-    out_ += ';';
-    return;
-  }
-  prepare(to);
-  const std::string name = captured([&] { place(to); });
-  if (source.kind == ExprKind::Zero) {
-    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
-    return;
-  }
-  if (const auto* data = source.tryAs<ir::DataExpr>()) {
-    out_ += "memcpy(&" + name + ", ";
-    dataReference(data->index);
-    out_ += ", sizeof " + name + ");";
-    return;
-  }
-  prepare(from);
-  const std::string value_code = captured([&] { place(from); });
-  if (value_code == name) return;
-  if (types_.kind(type) == TypeKind::Record && !isImagePlace(to) && !isImagePlace(from)) {
-    out_ += name + " = " + value_code + ";";
-  } else {
-    out_ += "memmove(&" + name + ", &" + value_code + ", sizeof " + name + ");";
-  }
-}
-
-// ---- strings
-
-uint32_t BodyWriter::literalLength(const Expr& e) const {
+uint32_t StringWriter::literalLength(const Expr& e) const {
   const std::string_view literal = string(e.as<ir::StringExpr>().characters);
   return isWide(e.type) ? wideLength(literal) : static_cast<uint32_t>(upToNul(literal).size());
 }
 
-bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
+bool StringWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
-  if (slicedString(id) != nullptr) return false;
+  if (isSlice(id)) return false;
   switch (e.kind) {
     case ExprKind::Local: return !body_->locals[e.as<ir::LocalExpr>().local].by_reference;
     case ExprKind::Field: return !fieldOf(e.as<ir::FieldExpr>()).by_reference;
@@ -122,22 +71,22 @@ bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   return false;
 }
 
-void BodyWriter::prepareString(ExprId from) {
+void StringWriter::prepareString(ExprId from) {
   const Expr& e = expr(from);
   if (e.kind == ExprKind::Convert && isString(e.type)) {
     prepareString(e.as<ir::ConvertExpr>().operand);
     return;
   }
-  prepare(from);
+  checks().prepare(from);
 }
 
-void BodyWriter::materializeString(ExprId id) {
+void StringWriter::materializeString(ExprId id) {
   const Expr& e = expr(id);
   const std::string name = newVariable(e.type, "s");
   if (e.kind == ExprKind::Convert) {
-    copyString(name, capacityOf(e.type), isWide(e.type), id);
+    copyString({name, capacityOf(e.type), isWide(e.type), {}}, id);
   } else {  // a pure function: its string result is the last parameter
-    std::string function = captured([&] { callExpr(e); });
+    std::string function = captured([&] { calls().callExpr(e); });
     function.pop_back();
     out_ += function + ", " + name;
     if (module_.body(e.as<ir::CallExpr>().callee).native) {
@@ -147,130 +96,116 @@ void BodyWriter::materializeString(ExprId id) {
     out_ += ");";
   }
   out_ += ' ';
-  materialized_.push_back({id.index, name});
+  state_.materialized.push_back({id.index, name});
 }
 
-void BodyWriter::copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length) {
-  const Expr& e = expr(from);
-  auto beginLength = [&] {
-    if (length.empty()) return;
-    out_ += length;
+// `length = function(to, limit, `, or without a length.
+void StringWriter::beginCopy(const StringTarget& target, std::string_view function, uint32_t limit) {
+  if (!target.length.empty()) {
+    out_ += target.length;
     out_ += " = ";
-  };
-  auto setLength = [&](uint32_t number) {
-    if (length.empty()) return;
-    out_ += ' ';
-    beginLength();
-    appendUnsigned(out_, number);
-    out_ += ';';
-  };
-  auto begin = [&](std::string_view function, uint32_t limit) {
-    beginLength();
-    out_ += function;
-    out_ += '(';
-    out_ += to;
-    out_ += ", ";
-    appendUnsigned(out_, limit);
-    out_ += ", ";
-  };
-  switch (e.kind) {
-    case ExprKind::Zero:
-      out_ += to;
-      out_ += "[0] = 0;";
-      setLength(0);
-      return;
-    case ExprKind::String: {
-      if (isWide(e.type) != wide) break;
-      std::string_view literal = upToNul(string(e.as<ir::StringExpr>().characters));
-      literal = wide             ? firstUnits(literal, capacity)
-                : isUtf8(e.type) ? firstWhole(literal, capacity)
-                                 : literal.substr(0, capacity);
-      if (literal.empty()) {
-        out_ += to;
-        out_ += "[0] = 0;";
-        setLength(0);
-        return;
-      }
-      out_ += "memcpy(";
-      out_ += to;
-      out_ += ", ";
-      wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
-      out_ += ", ";
-      appendUnsigned(out_, wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
-      out_ += ");";
-      setLength(static_cast<uint32_t>(literal.size()));
-      return;
-    }
-    case ExprKind::Convert: {
-      const ExprId inner = e.as<ir::ConvertExpr>().operand;
-      const uint32_t limit = std::min(capacity, capacityOf(e.type));
-      if (isWide(e.type) != wide) break;
-      if (isString(expr(inner).type)) {
-        copyString(to, limit, wide, inner, length);
-        return;
-      }
-      begin(wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", limit);
-      out_ += typeKindName(types_, expr(inner).type);
-      out_ += ", ";
-      scalarBits(inner);
-      out_ += ");";
-      return;
-    }
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::Data:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: break;
   }
-  const std::string source = captured([&] { stringValue(from); });
-  if (source == to && capacity >= capacityOf(e.type)) return;
-  const bool is_measured = measuredString(from) != nullptr && measuredString(from)->known;
-  uint32_t room;
-  if (isWide(e.type) != wide) {
-    begin(wide ? "rung_wstring_of_string" : "rung_string_of_wstring", capacity);
-  } else if (isBuffer(from, room) && room <= capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+  out_ += function;
+  out_ += '(';
+  out_ += target.name;
+  out_ += ", ";
+  appendUnsigned(out_, limit);
+  out_ += ", ";
+}
+
+void StringWriter::copyString(const StringTarget& target, ExprId from) {
+  const Expr& e = expr(from);
+  const bool same_units = isWide(e.type) == target.wide;
+  if (e.kind == ExprKind::Zero) {
+    copyLiteral(target, {}, false);
+  } else if (e.kind == ExprKind::String && same_units) {
+    copyLiteral(target, upToNul(string(e.as<ir::StringExpr>().characters)), isUtf8(e.type));
+  } else if (const auto* convert = e.tryAs<ir::ConvertExpr>(); convert != nullptr && same_units) {
+    StringTarget cut = target;
+    cut.capacity = std::min(target.capacity, capacityOf(e.type));
+    if (isString(expr(convert->operand).type)) {
+      copyString(cut, convert->operand);
+      return;
+    }
+    beginCopy(target, target.wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", cut.capacity);
+    out_ += typeKindName(types_, expr(convert->operand).type);
+    out_ += ", ";
+    values().scalarBits(convert->operand);
+    out_ += ");";
+  } else {
+    copyVariable(target, from);
+  }
+}
+
+void StringWriter::copyLiteral(const StringTarget& target, std::string_view literal, bool utf8) {
+  literal = target.wide ? firstUnits(literal, target.capacity)
+            : utf8      ? firstWhole(literal, target.capacity)
+                        : literal.substr(0, target.capacity);
+  if (literal.empty()) {
+    out_ += target.name;
+    out_ += "[0] = 0;";
+  } else {
     out_ += "memcpy(";
-    out_ += to;
+    out_ += target.name;
+    out_ += ", ";
+    target.wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
+    out_ += ", ";
+    appendUnsigned(out_, target.wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
+    out_ += ");";
+  }
+  if (target.length.empty()) return;
+  out_ += ' ';
+  out_ += target.length;
+  out_ += " = ";
+  appendUnsigned(out_, static_cast<uint32_t>(literal.size()));
+  out_ += ';';
+}
+
+void StringWriter::copyVariable(const StringTarget& target, ExprId from) {
+  const TypeId type = expr(from).type;
+  const bool wide = target.wide;
+  const std::string source = captured([&] { stringValue(from); });
+  if (source == target.name && target.capacity >= capacityOf(type)) return;
+  const bool is_measured = isKnown(from);
+  uint32_t room;
+  if (isWide(type) != wide) {
+    beginCopy(target, wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target.capacity);
+  } else if (isBuffer(from, room) && room <= target.capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+    out_ += "memcpy(";
+    out_ += target.name;
     out_ += ", " + source + ", ";
     appendUnsigned(out_, (uint64_t{room} + 1) * (wide ? 2 : 1));
     out_ += ");";
-    if (length.empty()) return;
+    if (target.length.empty()) return;
     out_ += ' ';
-    beginLength();
+    out_ += target.length;
+    out_ += " = ";
     if (is_measured) {
       lengthName(from);
     } else {
       out_ += "rung_string_length(";
-      out_ += to;
+      out_ += target.name;
       out_ += ')';
     }
     out_ += ';';
     return;
   } else if (is_measured && !wide) {
-    begin("rung_string_put", capacity);
+    beginCopy(target, "rung_string_put", target.capacity);
     out_ += source + ", ";
     lengthName(from);
     out_ += ");";
     return;
   } else {
-    begin(wide ? "rung_wstring_assign" : isUtf8(e.type) ? "rung_ustring_assign" : "rung_string_assign", capacity);
+    beginCopy(target,
+              wide           ? "rung_wstring_assign"
+              : isUtf8(type) ? "rung_ustring_assign"
+                             : "rung_string_assign",
+              target.capacity);
   }
   out_ += source + ");";
 }
 
-void BodyWriter::stringValue(ExprId id) {
+void StringWriter::stringValue(ExprId id) {
   const Expr& e = expr(id);
   const bool wide = isWide(e.type);
   switch (e.kind) {
@@ -284,12 +219,12 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
     case ExprKind::Data:
       out_ += wide ? "((const char16_t*)" : "((const char*)";
-      dataReference(e.as<ir::DataExpr>().index);
+      places().dataReference(e.as<ir::DataExpr>().index);
       out_ += ')';
       return;
     case ExprKind::Convert:
     case ExprKind::Call:
-      for (const auto& [created, name] : materialized_) {
+      for (const auto& [created, name] : state_.materialized) {
         if (created == id.index) {
           out_ += name;
           return;
@@ -300,7 +235,7 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       out_ += '(';
-      condition(decides, Prec::Or);
+      values().condition(decides, Prec::Or);
       out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
       stringValue(yes);
       out_ += " : ";
@@ -321,15 +256,15 @@ void BodyWriter::stringValue(ExprId id) {
     case ExprKind::Field:
     case ExprKind::Index:
     case ExprKind::Deref:
-      if (slicedString(id) != nullptr) {
+      if (isSlice(id)) {
         sliceName(id);
       } else {
-        place(id);
+        places().place(id);
       }
       return;
     case ExprKind::Image:
       out_ += wide ? "(char16_t*)(" : "(char*)(";
-      imageAddress(id);
+      places().imageAddress(id);
       out_ += ')';
       return;
     case ExprKind::None:
@@ -343,26 +278,7 @@ void BodyWriter::stringValue(ExprId id) {
   }
 }
 
-ir::ExprId BodyWriter::uncut(ExprId id) const {
-  for (const Expr* e = &expr(id); e->kind == ExprKind::Convert && e->checks == 0 && isString(e->type); e = &expr(id)) {
-    const ExprId operand = e->as<ir::ConvertExpr>().operand;
-    const TypeId inner = expr(operand).type;
-    if (!isString(inner) || isWide(inner) != isWide(e->type)) break;
-    id = operand;
-  }
-  return id;
-}
-
-// True when the lengths of both sides are passed.
-bool BodyWriter::isSizedComparison(const ir::BinaryExpr& node) const {
-  if (node.op != Op::Eq && node.op != Op::Ne) return false;
-  auto is_measured = [&](ExprId side) { return measuredString(side) != nullptr && measuredString(side)->known; };
-  auto is_literal = [&](ExprId side) { return expr(side).kind == ExprKind::String; };
-  const ExprId a = node.left, b = node.right;
-  return (is_measured(a) && (is_measured(b) || is_literal(b))) || (is_literal(a) && is_measured(b));
-}
-
-void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
+void StringWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
   const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
   const char* op = node.op == Op::Eq   ? " == 0"
                    : node.op == Op::Ne ? " != 0"
@@ -380,8 +296,7 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
     uint32_t capacity = 0;
     const bool is_buffer = isBuffer(a, capacity);
     const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
-    const Variable* of = measuredString(a);
-    if (of != nullptr && of->known) {
+    if (isKnown(a)) {
       const std::string count = captured([&] { lengthName(a); });
       if (length == 0) {
         parenthesis(Prec::Equality, context);
@@ -439,7 +354,7 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
       return;
     }
   }
-  if (isSizedComparison(node)) {
+  if (lengths().isSizedComparison(node, [&](ExprId side) { return isKnown(side); })) {
     const std::string count = captured([&] { lengthName(a); });
     out_ += node.op == Op::Eq ? "(" : "!(";
     out_ += count + " == ";
@@ -460,28 +375,6 @@ void BodyWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
   out_ += ')';
   out_ += op;
   closeParenthesis(own, context);
-}
-
-// ---- constant bytes
-
-void BodyWriter::dataReference(uint32_t index) {
-  if (marks_.data[index] != group_number_) {
-    marks_.data[index] = group_number_;
-    marks_.data_number[index] = ++group_.data_count;
-    const ir::Data& data = module_.data[index];
-    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
-    size_t used = bytes.size();
-    while (used > 0 && bytes[used - 1] == '\0') --used;
-    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
-    appendUnsigned(group_.data, group_.data_count);
-    group_.data += '[';
-    appendUnsigned(group_.data, bytes.size() + 1);
-    group_.data += "] = ";
-    appendQuoted(group_.data, bytes.substr(0, used));
-    group_.data += ";\n";
-  }
-  out_ += "data_" + group_.stem + '_';
-  appendUnsigned(out_, marks_.data_number[index]);
 }
 
 }  // namespace rung::codegen

@@ -25,6 +25,10 @@ void appendPointer(std::string& out, const types::TypeTable& types, TypeId type,
 void appendRecordType(std::string& out, const types::TypeTable& types, TypeId type);
 std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, for a global list `Valves_list`
 std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
+// Pointer arithmetic has the bounds of ULINT.
+inline bool isPointer(types::TypeKind kind) {
+  return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference;
+}
 inline bool isMethod(const ir::Body& body) { return body.kind == ir::BodyKind::Function && body.self && !body.native; }
 // `Motor_class`, and for a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
 std::string className(const types::TypeTable& types, TypeId record);

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "codegen/body.h"
 #include "codegen/native_header.h"
+#include "codegen/signature.h"
 #include "codegen/types.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
@@ -184,7 +184,7 @@ void addThunks(const rung::ir::Module& module, std::map<std::string, std::string
     }
     std::string& created = table[function];
     created = "extern \"C\" ";
-    rung::codegen::BodyWriter::appendSignature(created, module, body);
+    rung::codegen::appendSignature(created, module, body);
     created +=
         ";\nstatic void call_" + function + "(rung_context* ctx, [[maybe_unused]] uint64_t* slots) { " + call + " }\n";
   }

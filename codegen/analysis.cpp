@@ -1,0 +1,17 @@
+// The list of the analyses of a body: see analysis.h.
+#include "codegen/analysis.h"
+
+namespace rung::codegen {
+
+BodyAnalysis analyzeBody(const ir::Module& module, const ir::Body& body, const Facts& facts) {
+  BodyAnalysis of{analyzeUses(module, body, facts), {}, {}, {}, {}, {}, effortFor(body)};
+  of.fields = analyzeLocals(module, facts, of.uses);
+  of.loops = analyzeLoops(module, body, of.uses, of.fields);
+  of.measured = analyzeLengths(body, facts, of.uses);
+  const StringsOfBody strings{module, body, of.uses.variables, of.measured};
+  of.slices = analyzeSlices(strings, facts, of.uses);
+  of.lengths = analyzeKnownLengths(strings, of.slices);
+  return of;
+}
+
+}  // namespace rung::codegen

@@ -1,0 +1,70 @@
+// What all writers of a body share: see body_part.h.
+#include "codegen/body_part.h"
+
+namespace rung::codegen {
+
+using ir::LocalKind;
+
+void BodyPart::includeRecord(TypeId type) {
+  type = elementOf(types_, type);
+  if (types_.kind(type) != TypeKind::Record || state_.in.marks.record[type.index] == state_.in.group_number) return;
+  state_.in.marks.record[type.index] = state_.in.group_number;
+  group_.records.push_back(type);
+}
+
+void BodyPart::call(ir::BodyId id) {
+  if (state_.in.marks.body[id.index] == state_.in.group_number) return;
+  state_.in.marks.body[id.index] = state_.in.group_number;
+  (facts_.is_inlined[id.index] != 0 ? group_.inlined : group_.callees).push_back(id);
+}
+
+std::string BodyPart::newName(const char* prefix) {
+  std::string name = prefix;
+  appendUnsigned(name, ++state_.names_created);
+  return name;
+}
+
+std::string BodyPart::newVariable(TypeId type, const char* prefix) {
+  std::string name = newName(prefix);
+  includeRecord(type);
+  declarations_ += ' ';
+  appendDeclaration(declarations_, types_, type, name);
+  declarations_ += ';';
+  return name;
+}
+
+void BodyPart::variable(std::string& out, const ir::Local& local) const {
+  if (local.kind == LocalKind::Temp) {
+    out += string(local.name);
+  } else {
+    appendMangled(out, string(local.name));
+  }
+}
+
+bool BodyPart::isWrittenBack(uint32_t number) const {
+  return analysis_->fields.is_cached[number] != 0 && analysis_->uses.of[number].written;
+}
+
+bool BodyPart::writesFieldsBack() const {
+  const Variables& variables = analysis_->uses.variables;
+  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
+    if (isWrittenBack(i)) return true;
+  }
+  return false;
+}
+
+uint8_t BodyPart::wideOf(ExprId place) const {
+  const uint32_t number = analysis_->uses.variables.at(place);
+  return number == kNoVariable ? uint8_t{0} : analysis_->loops.wide[number];
+}
+
+bool BodyPart::isCached(ExprId place) const {
+  const uint32_t number = analysis_->uses.variables.at(place);
+  return number != kNoVariable && analysis_->fields.is_cached[number] != 0;
+}
+
+bool BodyPart::isSlice(ExprId place) const {
+  return !analysis_->slices.is_slice.empty() && analysis_->slices.has(analysis_->uses.variables.stringAt(place));
+}
+
+}  // namespace rung::codegen

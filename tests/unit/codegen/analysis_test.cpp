@@ -1,0 +1,115 @@
+// The analyses of a body: IR text in, what each of them found as text out.
+#include "codegen/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/unit/ir/ir_text.h"
+
+namespace rung::codegen {
+namespace {
+
+const char* const kLibrary =
+    "function @Len native Lib pure sized library { in s: string[80]; result int }\n"
+    "function @Mid native Lib pure sized slice library { in s: string[80]; in l: dint; in p: dint; result string[80] "
+    "}\n"
+    "function @Concat native Lib pure sized library { in a: string[80]; in b: string[80]; result string[80] }\n"
+    "function @Plain native Lib pure library { in s: string[80]; result int }\n";
+
+struct Analysed {
+  explicit Analysed(const std::string& text) : read(text + kLibrary), facts(read.module) {
+    EXPECT_TRUE(read.ok) << read.errors();
+    body = read.find("B");
+    if (body == nullptr) return;
+    of.emplace(analyzeBody(read.module, *body, facts));
+  }
+  const Variables& variables() const { return of->uses.variables; }
+
+  ir::TestModule read;
+  Facts facts;
+  ir::Body* body = nullptr;
+  std::optional<BodyAnalysis> of;
+};
+
+// A block @B with these variables and statements.
+Analysed analysed(const std::string& variables, const std::string& statements) {
+  return Analysed("block @B { " + variables + " }\nbody @B {\n" + statements + "\n}\n");
+}
+
+TEST(Uses, LoopsCountMore) {
+  const Analysed b = analysed("in a: int; var x: int; var i: int", "x = a\nfor i = 0 to 9 by 1 { x = add int x, a }");
+  EXPECT_EQ(b.of->uses.toString(),
+            "a weight 5 in loops 4\n"
+            "x weight 9 in loops 8 written\n"
+            "i weight 5 in loops 4 written\n");
+}
+
+TEST(Uses, AddressExposes) {
+  const Analysed b = analysed("var x: int; var p: pointer to int", "p = address pointer to int x");
+  EXPECT_EQ(b.of->uses.toString(),
+            "x weight 1 exposed\n"
+            "p weight 1 written\n");
+}
+
+TEST(Locals, FieldsThatAreUsedOftenAreCached) {
+  const Analysed b = analysed("var x: int; var y: int", "x = add int x, y\nx = add int x, 1");
+  EXPECT_EQ(b.of->fields.toString(b.variables()), "x cached\n");
+}
+
+TEST(Locals, AcrossCallsOnlyLoopsCount) {
+  const std::string variables = "var x: int; var s: string[80]";
+  const std::string statements = "x = add int x, 1\nx = add int x, 1\n";
+  const Analysed alone = analysed(variables, statements);
+  EXPECT_EQ(alone.of->fields.toString(alone.variables()), "x cached\n");
+  const Analysed calls = analysed(variables, statements + "s = call @Mid(s, 1, 1)");
+  EXPECT_EQ(calls.of->fields.toString(calls.variables()), "");
+}
+
+TEST(CountedLoops, ControlsAreWideWhereTheTypeEnds) {
+  const Analysed b = analysed("var i: int; var n: dint; var k: dint; var last: dint",
+                              "for i = 0 to 9 by 1 { }\nfor n = 0 to last by 1 { }\nfor k = 0 to 9 by 1 { }");
+  EXPECT_EQ(b.of->loops.toString(b.variables()), "i wide 32\nn wide 64\nloop fits\nloop\nloop fits\n");
+}
+
+TEST(CountedLoops, NotWhenTheLoopWritesItsControl) {
+  const Analysed b = analysed("var i: int", "for i = 0 to 9 by 1 { i = add int i, 1 }");
+  EXPECT_EQ(b.of->loops.toString(b.variables()), "");
+}
+
+TEST(Lengths, StringsOfSizedFunctionsAreMeasured) {
+  const Analysed b = analysed("var s: string[80]; var t: string[80]; var n: int; var i: int",
+                              "for i = 0 to 9 by 1 { s = call @Concat(s, 'x')\nn = @Plain(t) }");
+  EXPECT_EQ(b.of->measured.toString(b.variables()), "s measured\n");
+  EXPECT_EQ(b.of->lengths.toString(b.read.module, *b.body, b.variables()), "count s before a loop\n");
+}
+
+TEST(Lengths, AWriteMakesThemKnown) {
+  const Analysed b = analysed("var s: string[80]; var n: int; var i: int",
+                              "s = 'abc'\nfor i = 0 to 9 by 1 { s = call @Concat(s, 'x') }\nn = @Len(s)");
+  EXPECT_EQ(b.of->measured.toString(b.variables()), "s measured\n");
+  EXPECT_EQ(b.of->lengths.toString(b.read.module, *b.body, b.variables()), "");
+}
+
+TEST(Slices, AStringTakenApartIsASlice) {
+  const Analysed b = analysed("in whole: string[80]; var rest: string[80]; var i: int; var n: int",
+                              "rest = whole\nfor i = 0 to 9 by 1 { rest = call @Mid(rest, 9, 2)\nn = @Len(rest) }");
+  EXPECT_EQ(b.of->slices.toString(b.variables()), "rest slice\n");
+}
+
+TEST(Slices, NotWhenItIsPassedWithoutItsLength) {
+  const Analysed b = analysed("in whole: string[80]; var rest: string[80]; var i: int; var n: int",
+                              "rest = whole\nfor i = 0 to 9 by 1 { rest = call @Mid(rest, 9, 2)\nn = @Plain(rest) }");
+  EXPECT_EQ(b.of->slices.toString(b.variables()), "");
+}
+
+TEST(Effort, LongBodiesWithoutLoopsAreStraight) {
+  std::string statements;
+  for (int i = 0; i < 9; ++i) statements += "x = add int x, 1\n";
+  EXPECT_EQ(analysed("var x: int; var i: int", statements).of->effort, Effort::Straight);
+  EXPECT_EQ(analysed("var x: int; var i: int", "for i = 0 to 99 by 1 { " + statements + "}").of->effort, Effort::Loops);
+  EXPECT_EQ(analysed("var x: int; var i: int", "x = 1").of->effort, Effort::Plain);
+}
+
+}  // namespace
+}  // namespace rung::codegen
