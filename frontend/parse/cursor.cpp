@@ -30,7 +30,9 @@ void Cursor::read(uint32_t begin, uint32_t end, std::vector<Comment>* comments) 
 
 uint32_t Cursor::lengthOf(const Token* t) const {
   if (isName(t->kind) || isTypeWord(t->kind))
-    return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.string({t->value}).size());
+    return (t->flags & kSynthetic) != 0 ? 0
+           : t->name_length != 0        ? t->name_length
+                                        : static_cast<uint32_t>(names_.string({t->value}).size());
   return t->value;
 }
 

@@ -300,6 +300,7 @@ const char* Lexer::word(const char* begin) {
     checkUnderscores(begin, p);
   }
   push(kind, begin, name.index);
+  if (length <= UINT16_MAX) out_.tokens.back().name_length = static_cast<uint16_t>(length);
   long_types_ = long_types_ || isLongType(kind);
   return p;
 }

@@ -30,7 +30,7 @@ struct Token {
   uint32_t value;   // NameId of names and type words, length of all others
   Tok kind;
   uint8_t flags;
-  uint16_t spare;
+  uint16_t name_length;  // of names and type words; 0: see Names
 };
 
 // Pragmas and doc comments are looked up by the token to which they belong.
