@@ -17,10 +17,10 @@ namespace {
 int32_t* field(const rung_module& m, rung_context& ctx, const std::string& program, const char* name) {
   for (uint32_t s = 0; s < m.symbol_count; ++s) {
     const rung_symbol& symbol = m.symbols[s];
-    if (strcasecmp(m.text + symbol.name, program.c_str()) != 0) continue;
+    if (strcasecmp(m.strings + symbol.name, program.c_str()) != 0) continue;
     const rung_type& type = m.types[symbol.type];
     for (uint32_t f = type.first; f < type.first + type.count; ++f)
-      if (strcasecmp(m.text + m.fields[f].name, name) == 0)
+      if (strcasecmp(m.strings + m.fields[f].name, name) == 0)
         return reinterpret_cast<int32_t*>(static_cast<char*>(ctx.blocks[symbol.index]) + symbol.offset +
                                           m.fields[f].offset);
   }
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     const int32_t rounds = std::atoi(argument.c_str() + name.size() + 1);
     const rung_task* task = nullptr;
     for (uint32_t t = 0; t < m.task_count; ++t)
-      if (strcasecmp(m.text + m.tasks[t].name, ("T_" + name).c_str()) == 0) task = &m.tasks[t];
+      if (strcasecmp(m.strings + m.tasks[t].name, ("T_" + name).c_str()) == 0) task = &m.tasks[t];
     int32_t* in = field(m, ctx, "P_" + name, "rounds");
     const int32_t* out = field(m, ctx, "P_" + name, "check");
     if (task == nullptr || in == nullptr || out == nullptr) {
