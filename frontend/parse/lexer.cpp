@@ -413,7 +413,7 @@ const char* Lexer::address(const char* begin) {
   return p;
 }
 
-// The operator or delimiter at p; with length 0 it is none, or its neighbours decide.
+// The operator or delimiter at p. Length 0: there is no such, or its neighbours decide.
 Lexer::Punct Lexer::punctAt(const char* p) {
   const auto one = [](Tok kind) { return Punct{kind, 1}; };
   const auto two = [](Tok kind) { return Punct{kind, 2}; };
