@@ -14,11 +14,19 @@ constexpr char kHex[] = "0123456789abcdef";
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
+struct PlainCharacters {
+  bool is[256] = {};
+  constexpr PlainCharacters() {
+    for (const std::string_view range : {"az", "AZ", "09", "__"})
+      for (char c = range[0]; c <= range[1]; ++c) is[static_cast<unsigned char>(c)] = true;
+  }
+};
+constexpr PlainCharacters kPlain;
+
 bool isPlain(std::string_view name) {
   if (name.empty() || !isLetter(name[0])) return false;
-  for (char c : name) {
-    if (!isLetter(c) && !isDigit(c) && c != '_') return false;
-  }
+  for (const char c : name)
+    if (!kPlain.is[static_cast<unsigned char>(c)]) return false;
   return true;
 }
 

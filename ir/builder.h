@@ -32,6 +32,7 @@ class Builder {
     expr.type = type;
     expr.loc = at;
     expr.set(fields);
+    attachOperands(fields);
     return push(expr);
   }
   template <class T>
@@ -39,6 +40,7 @@ class Builder {
     Stmt stmt;
     stmt.loc = at;
     stmt.set(fields);
+    attachOperands(fields);
     return push(stmt);
   }
   template <class T>
@@ -125,12 +127,47 @@ class Builder {
   ExprId add(TypeId type, const T& fields, uint8_t checks = 0) {
     return add(loc, strip(type), fields, checks);
   }
-  ExprId push(const Expr& expr);
+  ExprId push(const Expr& expr) {
+    if (body.exprs.empty()) body.exprs.emplace_back();
+    body.exprs.push_back(expr);
+    return ExprId{static_cast<uint32_t>(body.exprs.size()) - 1};
+  }
   StmtId push(const Stmt& stmt);
-  void attach(ExprId operand);
+
+  // Notes that the operands of a node have a user now.
+  void attach(ExprId operand) {
+    if (!operand) return;
+    if (attached_.size() <= operand.index) attached_.resize(body.exprs.size() + 64);
+    RUNG_INVARIANT(!attached_[operand.index], "an expression is the operand of one node; a second one takes a copy");
+    attached_[operand.index] = true;
+  }
+#define RUNG_OPERAND(name) attach(node.name);
+#define RUNG_READ(name) attach(node.name);
+#define RUNG_WRITE(name) attach(node.name);
+#define RUNG_REFERENCE(name) attach(node.name);
+#define RUNG_OPERANDS(name)  // `list` has attached those in a list
+#define RUNG_ARGUMENTS(name)
+#define RUNG_BLOCK(name)
+#define RUNG_CASES(name)
+#define RUNG_VALUE(type, name)
+#define RUNG_EXPR(kind, word, fields) \
+  void attachOperands([[maybe_unused]] const kind##Expr& node) { fields }
+#define RUNG_STMT(kind, word, fields) \
+  void attachOperands([[maybe_unused]] const kind##Stmt& node) { fields }
+#include "ir/instructions.def"
+#undef RUNG_OPERAND
+#undef RUNG_OPERANDS
+#undef RUNG_READ
+#undef RUNG_WRITE
+#undef RUNG_REFERENCE
+#undef RUNG_ARGUMENTS
+#undef RUNG_BLOCK
+#undef RUNG_CASES
+#undef RUNG_VALUE
+
   TypeId strip(TypeId type) const { return module.types.resolve(type); }
   Block block_;
-  std::vector<bool> attached_;  // by expression that this builder made an operand
+  std::vector<uint8_t> attached_;  // by expression: whether this builder made it an operand
   uint32_t temps_ = 0;
 };
 

@@ -67,23 +67,6 @@ uint32_t Builder::label(NameId name) {
 
 // ---- expressions
 
-void Builder::attach(ExprId id) {
-  if (!id) return;
-  if (attached_.size() <= id.index) attached_.resize(body.exprs.size() + 64);
-  RUNG_INVARIANT(!attached_[id.index], "an expression is the operand of one node; a second one takes a copy");
-  attached_[id.index] = true;
-}
-
-ExprId Builder::push(const Expr& expr) {
-  if (body.exprs.empty()) body.exprs.emplace_back();
-  if (const auto* index = expr.tryAs<IndexExpr>())  // `list` has attached those in a list
-    attach(index->base);
-  else if (expr.kind != ExprKind::Call)
-    forEachOperand(body, expr, [&](ExprId operand) { attach(operand); });
-  body.exprs.push_back(expr);
-  return ExprId{static_cast<uint32_t>(body.exprs.size()) - 1};
-}
-
 Slice<ExprId> Builder::list(std::span<const ExprId> operands) {
   for (const ExprId operand : operands) attach(operand);
   const auto first = static_cast<uint32_t>(body.operands.size());
@@ -181,6 +164,13 @@ ExprId Builder::copy(ExprId original) {
   } else {
     forEachOperand(body, expr, [&](ExprId& operand) { operand = copy(operand); });
   }
+  switch (expr.kind) {
+#define RUNG_EXPR(kind, word, fields)      \
+  case ExprKind::kind:                     \
+    attachOperands(expr.as<kind##Expr>()); \
+    break;
+#include "ir/instructions.def"
+  }
   return push(expr);
 }
 
@@ -188,12 +178,6 @@ ExprId Builder::copy(ExprId original) {
 
 StmtId Builder::push(const Stmt& stmt) {
   if (body.stmts.empty()) body.stmts.emplace_back();
-  if (const auto* call = stmt.tryAs<CallStmt>()) {
-    attach(call->self);
-    attach(call->result);
-  } else {
-    forEachRoot(module, body, stmt, [&](ExprId root, Use) { attach(root); });
-  }
   body.stmts.push_back(stmt);
   StmtId id{static_cast<uint32_t>(body.stmts.size()) - 1};
   if (block_.last) body.stmt(block_.last).next = id;

@@ -28,15 +28,11 @@ void Cursor::read(uint32_t begin, uint32_t end, std::vector<Comment>* comments) 
 
 // ---- tokens
 
-uint32_t Cursor::lengthOf(const Token* t) const {
-  if (isName(t->kind) || isTypeWord(t->kind))
-    return (t->flags & kSynthetic) != 0 ? 0
-           : t->name_length != 0        ? t->name_length
-                                        : static_cast<uint32_t>(names_.string({t->value}).size());
-  return t->value;
+uint32_t Cursor::lengthOfRareName(const Token* t) const {
+  return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.string({t->value}).size());
 }
 
-Loc Cursor::endOfPrevious() const {
+Loc Cursor::endOfRead() const {
   const Token* t = t_;
   while (t > tokens_.data())
     if (((--t)->flags & kSynthetic) == 0) return endOf(t);

@@ -46,7 +46,10 @@ class Cursor {
   Loc here() const { return loc(t_); }
   NameId nameOf(const Token* t) const { return {t->value}; }
   Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
-  uint32_t lengthOf(const Token* t) const;
+  uint32_t lengthOf(const Token* t) const {
+    if (t->name_length != 0) return t->name_length;
+    return isName(t->kind) || isTypeWord(t->kind) ? lengthOfRareName(t) : t->value;
+  }
   std::string_view textOf(const Token* t) const { return source_.substr(t->offset, lengthOf(t)); }
   Loc endOf(const Token* t) const { return {base_ + t->offset + lengthOf(t)}; }
   bool is(const Token* t, std::string_view word) const { return sameIdentifier(textOf(t), word); }
@@ -74,7 +77,10 @@ class Cursor {
 
   // ---- nodes
   // The end of the last token that was read.
-  Loc endOfPrevious() const;
+  Loc endOfPrevious() const {
+    const Token* t = t_ - 1;
+    return t_ != tokens_.data() && (t->flags & kSynthetic) == 0 ? endOf(t) : endOfRead();
+  }
   // Notes that a node ends with the last token that was read.
   ExprId ended(ExprId expr) {
     tree_.expr(expr).end = endOfPrevious();
@@ -119,6 +125,10 @@ class Cursor {
   Token* t_ = nullptr;
   bool panic_ = false;
   const Token* last_error_ = nullptr;
+
+ private:
+  uint32_t lengthOfRareName(const Token* t) const;  // one that recovery made, or a very long one
+  Loc endOfRead() const;                            // where tokens that recovery inserted are in between
 };
 
 }  // namespace rung::text

@@ -164,14 +164,20 @@ class Lexer {
 
   uint32_t at(const char* p) const { return static_cast<uint32_t>(p - source_.data()); }
   Loc loc(const char* p) const { return {base_ + at(p)}; }
-  void push(Tok kind, const char* begin, uint32_t value) {
-    out_.tokens.push_back({at(begin), value, kind, flags_, 0});
+  void push(Tok kind, const char* begin, uint32_t value, uint32_t name_length = 0) {
+    const auto length = static_cast<uint16_t>(name_length <= UINT16_MAX ? name_length : 0);
+    out_.tokens.push_back({at(begin), value, kind, flags_, length});
     flags_ = 0;
   }
   const char* word(const char* p);
   const char* number(const char* p);
   const char* quoted(const char* p);
   const char* address(const char* p);
+  struct Punct {
+    Tok kind;
+    uint8_t length;
+  };
+  static Punct punctAt(const char* p);
   const char* punct(const char* p);
   const char* blockComment(const char* p, bool slash);
   const char* lineComment(const char* p);
@@ -299,8 +305,7 @@ const char* Lexer::word(const char* begin) {
     names_seen_ = names_.count();
     checkUnderscores(begin, p);
   }
-  push(kind, begin, name.index);
-  if (length <= UINT16_MAX) out_.tokens.back().name_length = static_cast<uint16_t>(length);
+  push(kind, begin, name.index, length);
   long_types_ = long_types_ || isLongType(kind);
   return p;
 }
@@ -408,15 +413,10 @@ const char* Lexer::address(const char* begin) {
   return p;
 }
 
-const char* Lexer::punct(const char* p) {
-  const auto one = [&](Tok kind) {
-    push(kind, p, 1);
-    return p + 1;
-  };
-  const auto two = [&](Tok kind) {
-    push(kind, p, 2);
-    return p + 2;
-  };
+// The operator or delimiter at p. Length 0: there is no such, or its neighbours decide.
+Lexer::Punct Lexer::punctAt(const char* p) {
+  const auto one = [](Tok kind) { return Punct{kind, 1}; };
+  const auto two = [](Tok kind) { return Punct{kind, 2}; };
   switch (*p) {
     case ';': return one(Tok::Semicolon);
     case ':': return p[1] == '=' ? two(Tok::Assign) : one(Tok::Colon);
@@ -440,15 +440,22 @@ const char* Lexer::punct(const char* p) {
     case '<': return p[1] == '>' ? two(Tok::NotEqual) : p[1] == '=' ? two(Tok::LessEqual) : one(Tok::Less);
     case '>': return p[1] == '=' ? two(Tok::GreaterEqual) : one(Tok::Greater);
     case '&': return p[1] == '&' ? two(Tok::AmpersandTwice) : one(Tok::Ampersand);
-    case '?': return p[1] == '=' ? two(Tok::TryAssign) : behindSt(p) ? one(Tok::Question) : stray(p);
+    case '?': return p[1] == '=' ? two(Tok::TryAssign) : Punct{Tok::Question, 0};
     case '!': return p[1] == '=' ? two(Tok::BangEqual) : one(Tok::Bang);
     case '|': return p[1] == '|' ? two(Tok::BarTwice) : one(Tok::Bar);
-    case '%': {
-      const auto next = static_cast<Byte>(p[1]);
-      return kClasses[next] == kLetter && p[1] != '_' ? address(p) : one(Tok::Percent);
-    }
-    default: return stray(p);
+    case '%':
+      return kClasses[static_cast<Byte>(p[1])] == kLetter && p[1] != '_' ? Punct{Tok::Address, 0} : one(Tok::Percent);
+    default: return {Tok::End, 0};
   }
+}
+
+const char* Lexer::punct(const char* p) {
+  Punct found = punctAt(p);
+  if (found.kind == Tok::Address) return address(p);
+  if (found.kind == Tok::Question && behindSt(p)) found.length = 1;
+  if (found.length == 0) return stray(p);
+  push(found.kind, p, found.length);
+  return p + found.length;
 }
 
 const char* Lexer::lineComment(const char* p) {

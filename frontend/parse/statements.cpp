@@ -94,6 +94,7 @@ Slice<StmtId> StatementParser::parseStatements(uint8_t stops) {
 }
 
 bool StatementParser::atListEnd(uint8_t stops) {
+  if (at(Tok::Ident)) return (stops & kStopLabel) != 0 && atCaseLabel();
   if (at(Tok::Else)) return (stops & kStopElse) != 0;
   if (at(Tok::Elsif) || (at(Tok::Elseif) && peek() != Tok::Assign)) return (stops & kStopElsif) != 0;
   if (at(Tok::Until)) return (stops & kStopUntil) != 0;
@@ -122,6 +123,7 @@ void StatementParser::parseStatement() {
 
 // A statement that its first token decides. False: it begins otherwise.
 bool StatementParser::parseKeywordStatement(Loc start) {
+  if (at(Tok::Ident)) return false;
   const Token* first = t_;
   static constexpr TokMap<void (StatementParser::*)()> kBlocks = {
       {Tok::If, &StatementParser::parseIf},         {Tok::Case, &StatementParser::parseCase},

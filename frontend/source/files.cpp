@@ -44,6 +44,11 @@ bool isAscii(std::string_view source) {
 std::vector<uint32_t> findLineStarts(std::string_view source) {
   std::vector<uint32_t> starts = {0};
   starts.reserve(source.size() / 24 + 1);
+  if (source.find('\r') == std::string_view::npos) {
+    for (size_t at = source.find('\n'); at != std::string_view::npos; at = source.find('\n', at + 1))
+      starts.push_back(static_cast<uint32_t>(at) + 1);
+    return starts;
+  }
   for (uint32_t i = 0; i < source.size(); ++i) {
     if (source[i] > '\r') continue;
     if (source[i] == '\n' || (source[i] == '\r' && (i + 1 == source.size() || source[i + 1] != '\n')))

@@ -71,30 +71,19 @@ Tree::~Tree() {
   for (const uint32_t* block : blocks_) delete[] block;
 }
 
-uint32_t Tree::allocate(uint32_t words, uint32_t alignment) {
-  if (alignment > 1) next_word_ += next_word_ % alignment;
-  const uint32_t used = next_word_ % kChunkWords;
-  if (used == 0 || used + words > kChunkWords) {
-    next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
-    if (next_word_ == 0) next_word_ = 2;  // 0 means no node
-    const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
-    blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
-    for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);
-  }
-  const uint32_t word = next_word_;
-  next_word_ += words;
-  return word;
-}
-
-uint32_t Tree::store(const void* node, size_t bytes) {
-  const uint32_t word = allocate(static_cast<uint32_t>((bytes + 3) / 4));
-  std::memcpy(address(word), node, bytes);
-  return word;
+void Tree::openChunks(uint32_t words) {
+  next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
+  if (next_word_ == 0) next_word_ = 2;  // 0 means no node
+  const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
+  blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
+  for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);
 }
 
 StringId Tree::addString(std::string_view text) {
   if (text.empty()) return {};
-  return {store(text.data(), text.size()), static_cast<uint32_t>(text.size())};
+  const uint32_t word = allocate(static_cast<uint32_t>((text.size() + 3) / 4));
+  std::memcpy(address(word), text.data(), text.size());
+  return {word, static_cast<uint32_t>(text.size())};
 }
 
 // ---- what was written

@@ -91,7 +91,10 @@ class Tree {
   // ---- writing: see tree_builder.h
   template <class Id, class Node>
   Id add(const Node& node) {
-    return Id{store(&node, sizeof(Node))};
+    static_assert(std::is_trivially_copyable_v<Node> && sizeof(Node) % 4 == 0);
+    const uint32_t word = allocate(sizeof(Node) / 4);
+    std::memcpy(address(word), &node, sizeof(Node));
+    return Id{word};
   }
   // Notes the parentheses around an expression.
   void parenthesize(ExprId expr, Loc open, Loc close_end);
@@ -162,8 +165,15 @@ class Tree {
 #endif
     return at<Node>(word);
   }
-  uint32_t allocate(uint32_t words, uint32_t alignment = 1);
-  uint32_t store(const void* node, size_t bytes);
+  uint32_t allocate(uint32_t words, uint32_t alignment = 1) {
+    if (alignment > 1) next_word_ += next_word_ % alignment;
+    const uint32_t used = next_word_ % kChunkWords;
+    if (used == 0 || words > kChunkWords - used) openChunks(words);
+    const uint32_t word = next_word_;
+    next_word_ += words;
+    return word;
+  }
+  void openChunks(uint32_t words);
 
   struct Parens {
     ExprId of;

@@ -143,7 +143,7 @@ std::string TypeTable::toString(TypeId id) const {
     }
   };
   if (isString(info.kind) && id != idOf(info.kind)) {
-    text = std::string(names_.string(types_[static_cast<size_t>(info.kind)].name)) + '[';
+    text = std::string(names_.string(types_[static_cast<uint32_t>(info.kind)].name)) + '[';
     appendNumber(text, info.length);
     return text + ']';
   }

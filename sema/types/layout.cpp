@@ -13,7 +13,7 @@ uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / 
 }  // namespace
 
 bool TypeTable::layout(TypeId id) {
-  TypeInfo& info = types_[id.index];  // a deque: valid while layout() adds nothing
+  TypeInfo& info = types_[id.index];  // types never move
   if (info.laid_out) return info.size < kMaxSize;
   info.laid_out = true;
   bool fits = true;

@@ -78,9 +78,8 @@ uint64_t internKey(TypeKind kind, uint64_t value) { return static_cast<uint64_t>
 }  // namespace
 
 TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), pointer_size_(pointer_size) {
-  types_.resize(static_cast<size_t>(TypeKind::Count_));
-  for (uint32_t i = 0; i < types_.size(); ++i) {
-    TypeInfo& info = types_[i];
+  for (uint32_t i = 0; i < static_cast<uint32_t>(TypeKind::Count_); ++i) {
+    TypeInfo info;
     info.kind = static_cast<TypeKind>(i);
     if (isScalar(info.kind)) {
       info.size = (bitWidth(info.kind) + 7) / 8;
@@ -89,11 +88,12 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
     } else if (isString(info.kind)) {
       setLength(info, kDefaultLength);
     }
+    types_.add(std::move(info));
   }
   for (const ElementaryName& row : kElementaryNames) {
     const NameId name = names.intern(row.name);
     elementary_.emplace(names.key(name).index, idOf(row.kind));
-    TypeInfo& info = types_[static_cast<size_t>(row.kind)];
+    TypeInfo& info = types_[static_cast<uint32_t>(row.kind)];
     if (!info.name) info.name = name;
   }
   // CODESYS's names for numbers as wide as an address.
@@ -108,7 +108,15 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
     interned_.emplace(internKey(kind, kDefaultLength), idOf(kind));
 }
 
-TypeId TypeTable::plain(TypeId id) const {
+TypeKind TypeTable::kindOfNamed(TypeId id) const {
+  for (;;) {
+    const TypeInfo& info = types_[id.index];
+    if (info.kind != TypeKind::Alias) return info.kind;
+    id = info.base;
+  }
+}
+
+TypeId TypeTable::plainOfNamed(TypeId id) const {
   for (;;) {
     const TypeInfo& info = types_[id.index];
     if (info.kind != TypeKind::Alias && info.kind != TypeKind::Subrange && info.kind != TypeKind::Enum) return id;
@@ -121,22 +129,13 @@ TypeId TypeTable::elementary(NameId name) const {
   return found == elementary_.end() ? TypeId{} : found->second;
 }
 
-namespace {
-
-TypeId append(std::deque<TypeInfo>& types, TypeInfo info) {
-  types.push_back(std::move(info));
-  return TypeId{static_cast<uint32_t>(types.size() - 1)};
-}
-
-}  // namespace
-
 TypeId TypeTable::string(TypeKind kind, uint32_t length) {
   TypeId& id = interned_[internKey(kind, length)];
   if (!id) {
     TypeInfo info;
     info.kind = kind;
     setLength(info, length);
-    id = append(types_, std::move(info));
+    id = types_.add(std::move(info));
   }
   return id;
 }
@@ -164,7 +163,7 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
     info.kind = TypeKind::Array;
     info.base = element;
     info.dimensions.assign(dimensions.begin(), dimensions.end());
-    return id = append(types_, std::move(info));
+    return id = types_.add(std::move(info));
   }
 }
 
@@ -176,7 +175,7 @@ TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
       info.kind = TypeKind::Array;
       info.base = element;
       info.length = dimensions;
-      return id = append(types_, std::move(info));
+      return id = types_.add(std::move(info));
     }
     if (types_[id.index].length == dimensions) return id;
   }
@@ -188,7 +187,7 @@ TypeId TypeTable::pointer(TypeId target) {
     TypeInfo info;
     info.kind = TypeKind::Pointer;
     info.base = target;
-    id = append(types_, std::move(info));
+    id = types_.add(std::move(info));
   }
   return id;
 }
@@ -199,7 +198,7 @@ TypeId TypeTable::reference(TypeId target) {
     TypeInfo info;
     info.kind = TypeKind::Reference;
     info.base = target;
-    id = append(types_, std::move(info));
+    id = types_.add(std::move(info));
   }
   return id;
 }
@@ -209,7 +208,7 @@ TypeId TypeTable::addEnum(NameId name, TypeId base) {
   info.kind = TypeKind::Enum;
   info.name = name;
   info.base = base;
-  return append(types_, std::move(info));
+  return types_.add(std::move(info));
 }
 
 TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t high) {
@@ -219,7 +218,7 @@ TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t hig
   info.base = base;
   info.low = info.initial = low;
   info.high = high;
-  return append(types_, std::move(info));
+  return types_.add(std::move(info));
 }
 
 TypeId TypeTable::addAlias(NameId name, TypeId target) {
@@ -227,7 +226,7 @@ TypeId TypeTable::addAlias(NameId name, TypeId target) {
   info.kind = TypeKind::Alias;
   info.name = name;
   info.base = target;
-  return append(types_, std::move(info));
+  return types_.add(std::move(info));
 }
 
 TypeId TypeTable::addRecord(RecordKind kind, NameId name) {
@@ -235,7 +234,7 @@ TypeId TypeTable::addRecord(RecordKind kind, NameId name) {
   info.kind = TypeKind::Record;
   info.record_kind = kind;
   info.name = name;
-  return append(types_, std::move(info));
+  return types_.add(std::move(info));
 }
 
 uint32_t TypeTable::bitWidth(TypeKind k) {

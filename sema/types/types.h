@@ -5,10 +5,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "frontend/source/names.h"
@@ -136,6 +137,24 @@ struct TypeInfo {
   std::vector<std::pair<NameId, int64_t>> items;  // Enum: in order of declaration
 };
 
+// Types by id. They never move, and a look-up is a shift and a mask.
+class TypeInfos {
+ public:
+  TypeInfo& operator[](uint32_t index) { return chunks_[index / kChunk][index % kChunk]; }
+  const TypeInfo& operator[](uint32_t index) const { return chunks_[index / kChunk][index % kChunk]; }
+  uint32_t size() const { return count_; }
+  TypeId add(TypeInfo info) {
+    if (count_ % kChunk == 0) chunks_.push_back(std::make_unique<TypeInfo[]>(kChunk));
+    (*this)[count_] = std::move(info);
+    return {count_++};
+  }
+
+ private:
+  static constexpr uint32_t kChunk = 64;
+  std::vector<std::unique_ptr<TypeInfo[]>> chunks_;
+  uint32_t count_ = 0;
+};
+
 class TypeTable {
  public:
   // pointer_size: 4 or 8, the target's (--target-pointer).
@@ -144,18 +163,19 @@ class TypeTable {
   TypeTable& operator=(const TypeTable&) = delete;
 
   const TypeInfo& info(TypeId id) const { return types_[id.index]; }
-  uint32_t count() const { return static_cast<uint32_t>(types_.size()); }
+  uint32_t count() const { return types_.size(); }
   uint32_t pointerSize() const { return pointer_size_; }
   const Names& names() const { return names_; }
 
   // The kind, through aliases. `plain` also goes through subranges and enumerations to the integer type in memory.
   TypeId resolve(TypeId id) const {
+    if (isKind(id)) return id;
     while (types_[id.index].kind == TypeKind::Alias) id = types_[id.index].base;
     return id;
   }
-  TypeId plain(TypeId id) const;
-  TypeKind kind(TypeId id) const { return types_[resolve(id).index].kind; }
-  TypeKind plainKind(TypeId id) const { return types_[plain(id).index].kind; }
+  TypeId plain(TypeId id) const { return isKind(id) ? id : plainOfNamed(id); }
+  TypeKind kind(TypeId id) const { return isKind(id) ? static_cast<TypeKind>(id.index) : kindOfNamed(id); }
+  TypeKind plainKind(TypeId id) const { return kind(plain(id)); }
 
   // The elementary type with this name (any case; TOD and TIME_OF_DAY alike), generic types included; or none.
   TypeId elementary(NameId name) const;
@@ -208,6 +228,7 @@ class TypeTable {
                                           : TypeKind::String;
   }
   bool isOpenArray(TypeId id) const {
+    if (isKind(id)) return false;
     const TypeInfo& info = types_[resolve(id).index];
     return info.kind == TypeKind::Array && info.dimensions.empty();
   }
@@ -223,9 +244,14 @@ class TypeTable {
   static bool belongsTo(TypeKind kind, TypeKind generic);
 
  private:
+  // The id is that of an elementary or generic type, which is its kind. Most types are: they need no look-up.
+  static bool isKind(TypeId id) { return id.index < static_cast<uint32_t>(TypeKind::Enum); }
+  TypeId plainOfNamed(TypeId id) const;
+  TypeKind kindOfNamed(TypeId id) const;
+
   Names& names_;
   uint32_t pointer_size_;
-  std::deque<TypeInfo> types_;
+  TypeInfos types_;
   std::unordered_map<uint64_t, TypeId> interned_;
   std::unordered_map<uint32_t, TypeId> elementary_;  // by name key
 };
