@@ -19,7 +19,8 @@ KEYWORDS = frozenset(
     "class enum using namespace template typename static inline public private true false nullptr this sizeof "
     "static_cast reinterpret_cast const_cast new delete".split())
 ROW = re.compile(r"^(?:n|0|\{|\}|,|:|=|-|<|>|\.|&|\|)*,?$")  # of a table or an enumeration
-DECLARATION = re.compile(r"^(?:const )?[n:<>&*, ]+(?: ?= ?[n0])?;$")
+VALUE = r"(?:n|n::n|0|-0|true|false|nullptr)"  # of a member, where none other is given
+DECLARATION = re.compile(rf"^(?:const )?(?:[n:<>&*, ]|bool|int|char)+(?: ?= ?{VALUE}(?:,n ?= ?{VALUE})*)?;$")
 OPENING = re.compile(r"^(?:struct|class|enum class) n")
 
 
