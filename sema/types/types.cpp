@@ -128,6 +128,15 @@ TypeId append(std::deque<TypeInfo>& types, TypeInfo info) {
   return TypeId{static_cast<uint32_t>(types.size() - 1)};
 }
 
+// A type over another one: its elements, target or base.
+TypeInfo infoOver(TypeKind kind, TypeId base, NameId name = {}) {
+  TypeInfo info;
+  info.kind = kind;
+  info.name = name;
+  info.base = base;
+  return info;
+}
+
 }  // namespace
 
 TypeId TypeTable::string(TypeKind kind, uint32_t length) {
@@ -160,9 +169,7 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
       if (equal) return id;
       continue;
     }
-    TypeInfo info;
-    info.kind = TypeKind::Array;
-    info.base = element;
+    TypeInfo info = infoOver(TypeKind::Array, element);
     info.dimensions.assign(dimensions.begin(), dimensions.end());
     return id = append(types_, std::move(info));
   }
@@ -172,9 +179,7 @@ TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
   for (uint64_t key = element.index;; key += uint64_t{1} << 32) {
     TypeId& id = interned_[internKey(TypeKind::Any, key)];
     if (!id) {
-      TypeInfo info;
-      info.kind = TypeKind::Array;
-      info.base = element;
+      TypeInfo info = infoOver(TypeKind::Array, element);
       info.length = dimensions;
       return id = append(types_, std::move(info));
     }
@@ -184,50 +189,27 @@ TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
 
 TypeId TypeTable::pointer(TypeId target) {
   TypeId& id = interned_[internKey(TypeKind::Pointer, target.index)];
-  if (!id) {
-    TypeInfo info;
-    info.kind = TypeKind::Pointer;
-    info.base = target;
-    id = append(types_, std::move(info));
-  }
+  if (!id) id = append(types_, infoOver(TypeKind::Pointer, target));
   return id;
 }
 
 TypeId TypeTable::reference(TypeId target) {
   TypeId& id = interned_[internKey(TypeKind::Reference, target.index)];
-  if (!id) {
-    TypeInfo info;
-    info.kind = TypeKind::Reference;
-    info.base = target;
-    id = append(types_, std::move(info));
-  }
+  if (!id) id = append(types_, infoOver(TypeKind::Reference, target));
   return id;
 }
 
-TypeId TypeTable::addEnum(NameId name, TypeId base) {
-  TypeInfo info;
-  info.kind = TypeKind::Enum;
-  info.name = name;
-  info.base = base;
-  return append(types_, std::move(info));
-}
+TypeId TypeTable::addEnum(NameId name, TypeId base) { return append(types_, infoOver(TypeKind::Enum, base, name)); }
 
 TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t high) {
-  TypeInfo info;
-  info.kind = TypeKind::Subrange;
-  info.name = name;
-  info.base = base;
+  TypeInfo info = infoOver(TypeKind::Subrange, base, name);
   info.low = info.initial = low;
   info.high = high;
   return append(types_, std::move(info));
 }
 
 TypeId TypeTable::addAlias(NameId name, TypeId target) {
-  TypeInfo info;
-  info.kind = TypeKind::Alias;
-  info.name = name;
-  info.base = target;
-  return append(types_, std::move(info));
+  return append(types_, infoOver(TypeKind::Alias, target, name));
 }
 
 TypeId TypeTable::addRecord(RecordKind kind, NameId name) {

@@ -2,9 +2,9 @@
 #include <cstring>
 #include <type_traits>
 
+#include "integers.h"
 #include "rung/code.h"
 #include "rung/values.h"
-#include "stdlib/standard/native/integers.h"
 
 namespace {
 

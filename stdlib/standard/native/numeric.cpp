@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "integers.h"
 #include "rung/code.h"
 #include "rung/cpp_functions.h"
-#include "stdlib/standard/native/integers.h"
 
 namespace {
 
