@@ -152,21 +152,25 @@ Origin Reader::origin() {
   return result;
 }
 
+constexpr Meaning<FieldRole> kFieldRoles[] = {{"in", FieldRole::Input},
+                                              {"out", FieldRole::Output},
+                                              {"inout", FieldRole::InOut},
+                                              {"var", FieldRole::Local},
+                                              {"base", FieldRole::Base}};
+constexpr Meaning<TaskKind> kTaskKinds[] = {{"cyclic", TaskKind::Cyclic},
+                                            {"freewheeling", TaskKind::Freewheeling},
+                                            {"event", TaskKind::Event},
+                                            {"status", TaskKind::Status},
+                                            {"external", TaskKind::External}};
+constexpr Meaning<LocalKind> kParameterKinds[] = {
+    {"in", LocalKind::Input}, {"out", LocalKind::Output}, {"inout", LocalKind::InOut}};
+
 // { in up: bool; out ref retain y: real }
 void Reader::recordFields(TypeId type_id) {
   expect("{");
   while (!failed_ && !accept("}")) {
     Field field;
-    if (accept("in"))
-      field.role = FieldRole::Input;
-    else if (accept("out"))
-      field.role = FieldRole::Output;
-    else if (accept("inout"))
-      field.role = FieldRole::InOut;
-    else if (accept("var"))
-      field.role = FieldRole::Local;
-    else if (accept("base"))
-      field.role = FieldRole::Base;
+    acceptOneOf(kFieldRoles, field.role);
     field.by_reference = field.role == FieldRole::InOut;
     if (accept("ref"))
       field.by_reference = true;
@@ -232,18 +236,7 @@ void Reader::task() {
   ++at_;
   Task created;
   created.name = name();
-  if (accept("cyclic"))
-    created.kind = TaskKind::Cyclic;
-  else if (accept("freewheeling"))
-    created.kind = TaskKind::Freewheeling;
-  else if (accept("event"))
-    created.kind = TaskKind::Event;
-  else if (accept("status"))
-    created.kind = TaskKind::Status;
-  else if (accept("external"))
-    created.kind = TaskKind::External;
-  else
-    expected("the task's kind");
+  if (!acceptOneOf(kTaskKinds, created.kind)) expected("the task's kind");
   if (accept("interval")) created.interval_ns = integer();
   if (accept("priority")) created.priority = static_cast<uint32_t>(integer());
   if (accept("trigger")) created.trigger = quotedText(TokenKind::String);
@@ -255,6 +248,15 @@ void Reader::task() {
   module_.tasks.push_back(std::move(created));
 }
 
+BodyId Reader::bodyNamed(std::string_view what) {
+  const Loc loc = token().loc;
+  const std::string text = sigilName();
+  const auto found = body_by_name_.find(module_.names.intern(text).index);
+  if (found != body_by_name_.end()) return BodyId{found->second};
+  fail(diag::IrUnknownName, loc, {text, what});
+  return {};
+}
+
 void Reader::instance() {
   ++at_;
   expect("$");
@@ -262,28 +264,13 @@ void Reader::instance() {
   created.name = name();
   expect(":");
   created.record = type();
-  if (accept("task")) {
-    const Loc loc = token().loc;
-    const NameId wanted = name();
-    auto found = task_by_name_.find(wanted.index);
-    if (found == task_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.string(wanted), "task"});
-    else
-      created.task = found->second + 1;
-  }
+  if (accept("task")) created.task = numberOf(task_by_name_, "task") + 1;
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();
   if (accept("configuration")) created.configuration = name();
-  auto function = [&] {
-    const Loc loc = token().loc;
-    const std::string text = sigilName();
-    auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "function"});
-    return found == body_by_name_.end() ? BodyId{} : BodyId{found->second};
-  };
-  if (accept("run")) created.run = function();
-  if (accept("setup")) created.setup = function();
-  if (accept("exit")) created.exit = function();
+  if (accept("run")) created.run = bodyNamed("function");
+  if (accept("setup")) created.setup = bodyNamed("function");
+  if (accept("exit")) created.exit = bodyNamed("function");
   if (failed_) return;
   program_by_name_[created.name.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(created);
@@ -339,13 +326,7 @@ void Reader::located() {
   if (accept(".")) created.bit = static_cast<uint32_t>(integer());
   if (accept("of")) {
     expect("$");
-    const Loc loc = token().loc;
-    const NameId wanted = name();
-    auto found = program_by_name_.find(wanted.index);
-    if (found == program_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.string(wanted), "program"});
-    else
-      created.owner_program = found->second + 1;
+    created.owner_program = numberOf(program_by_name_, "program") + 1;
   }
   if (!failed_) module_.located.push_back(created);
 }
@@ -386,12 +367,7 @@ void Reader::function() {
       continue;
     }
     LocalKind kind = LocalKind::Input;
-    if (accept("out"))
-      kind = LocalKind::Output;
-    else if (accept("inout"))
-      kind = LocalKind::InOut;
-    else
-      expect("in");
+    if (!acceptOneOf(kParameterKinds, kind)) expected("in");
     const NameId local = name();
     expect(":");
     const TypeId local_type = type();
@@ -461,11 +437,8 @@ void Reader::classes() {
 void Reader::dispatch() {
   Dispatch created;
   auto body = [&] {
-    const Loc loc = token().loc;
-    const std::string text = sigilName();
-    auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (!failed_ && found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "body"});
-    return failed_ ? BodyId{} : BodyId{found->second};
+    const BodyId named = bodyNamed("body");
+    return failed_ ? BodyId{} : named;
   };
   created.method = body();
   expect("from");
@@ -476,50 +449,45 @@ void Reader::dispatch() {
   if (!failed_) module_.dispatches.push_back(std::move(created));
 }
 
-void Reader::declareItem() {
-  if (isWord("enum")) {
-    ++at_;
-    const TypeId enum_type = type_by_name_[sigilName()];
-    expect(":");
-    type();
-    const bool strict = accept("strict");
-    expect("{");
-    types_.edit(enum_type).strict = strict;
-    while (!failed_ && !accept("}")) {
-      const NameId item = name();
-      expect("=");
-      const int64_t value = integer();
-      types_.edit(enum_type).items.emplace_back(item, value);
-    }
-  } else if (isWord("area")) {
-    area();
-  } else if (isWord("list")) {
-    ++at_;
-    expect("@");
-    List created;
-    created.name = name();
-    expect(":");
-    created.record = type();
-    if (failed_) return;
-    list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
-    module_.lists.push_back(created);
-  } else if (isWord("data")) {
-    dataItem();
-  } else if (isWord("classes")) {
-    classes();
-  } else if (isWord("task")) {
-    task();
-  } else if (isWord("instance")) {
-    instance();
-  } else if (isWord("located")) {
-    located();
-  } else if (isWord("function")) {
-    function();
-  } else if (isWord("body") || isWord("init")) {
-    blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
-  } else if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("dispatch")) {
-    record();
+void Reader::enumItems() {
+  ++at_;
+  const TypeId enum_type = type_by_name_[sigilName()];
+  expect(":");
+  type();
+  const bool strict = accept("strict");
+  expect("{");
+  types_.edit(enum_type).strict = strict;
+  while (!failed_ && !accept("}")) {
+    const NameId item = name();
+    expect("=");
+    const int64_t value = integer();
+    types_.edit(enum_type).items.emplace_back(item, value);
   }
+}
+
+void Reader::list() {
+  ++at_;
+  expect("@");
+  List created;
+  created.name = name();
+  expect(":");
+  created.record = type();
+  if (failed_) return;
+  list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
+  module_.lists.push_back(created);
+}
+
+void Reader::declareItem() {
+  static constexpr Meaning<void (Reader::*)()> kItems[] = {
+      {"enum", &Reader::enumItems},    {"area", &Reader::area},       {"list", &Reader::list},
+      {"data", &Reader::dataItem},     {"classes", &Reader::classes}, {"task", &Reader::task},
+      {"instance", &Reader::instance}, {"located", &Reader::located}, {"function", &Reader::function}};
+  for (const auto& item : kItems) {
+    if (isWord(item.text)) return (this->*item.value)();
+  }
+  if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
+  // The others have been read before, or are read later.
+  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("dispatch")) record();
 }
 
 bool Reader::read() {
@@ -558,14 +526,12 @@ bool Reader::read() {
   forEachItem([&] {
     const bool is_exit = accept("exit");
     if (!is_exit && !accept("test")) return;
-    const Loc loc = token().loc;
-    const std::string text = sigilName();
-    auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (found == body_by_name_.end()) return fail(diag::IrUnknownName, loc, {text, "body"});
+    const BodyId named = bodyNamed("body");
+    if (failed_) return;
     if (is_exit)
-      module_.exit = BodyId{found->second};
+      module_.exit = named;
     else
-      module_.tests.push_back(BodyId{found->second});
+      module_.tests.push_back(named);
   });
   forEachItem([&] {
     if (accept("dispatch")) dispatch();

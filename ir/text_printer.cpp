@@ -1,5 +1,6 @@
 // Prints the text form of the IR: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that
 // of the module, so equal modules give equal bytes.
+#include "frontend/source/quoting.h"
 #include "ir/text_writer.h"
 
 namespace rung::ir {
@@ -26,21 +27,8 @@ void Printer::name(std::string_view text) {
 }
 
 void Printer::quoted(std::string_view text, char quote) {
-  static constexpr char kHex[] = "0123456789ABCDEF";
   out += quote;
-  for (char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == quote || c == '$') {
-      out += '$';
-      out += c;
-    } else if (byte < 0x20 || byte >= 0x7f) {
-      out += '$';
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : text) appendInQuotes(out, c, quote, static_cast<unsigned char>(c) >= 0x7f || isControl(c));
   out += quote;
 }
 

@@ -15,6 +15,13 @@ using types::TypeTable;
 
 constexpr uint32_t kMaxDepth = 1000;
 
+// A word and what it stands for.
+template <class T>
+struct Meaning {
+  std::string_view text;
+  T value;
+};
+
 // Takes tokens one after the other. After a mistake `failed_` is set, and nothing is accepted any more.
 class TokenReader {
  protected:
@@ -36,6 +43,16 @@ class TokenReader {
   }
   void expect(std::string_view text) {
     if (!accept(text)) expected(text);
+  }
+  // Takes one of the words and sets the value that it stands for.
+  template <class T, size_t N>
+  bool acceptOneOf(const Meaning<T> (&words)[N], T& value) {
+    for (const Meaning<T>& word : words) {
+      if (!accept(word.text)) continue;
+      value = word.value;
+      return true;
+    }
+    return false;
   }
   void expected(std::string_view what);
   void fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args);
@@ -64,6 +81,8 @@ class Reader : TokenReader {
   void findItems();
   void declareType();
   void declareItem();
+  void enumItems();
+  void list();
   void recordFields(TypeId type);
   void record();
   void dataItem();
@@ -81,6 +100,7 @@ class Reader : TokenReader {
   void function();
   void blockBody(BodyKind kind);
   void attributes(Body& body);
+  BodyId bodyNamed(std::string_view what);
   Origin origin();
   void code();
 

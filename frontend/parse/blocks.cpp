@@ -254,8 +254,7 @@ void StatementParser::parseFor() {
   if (!panic_ && accept(Tok::By)) s.step = parseExpr();
   finishHeader(Tok::Do);
   s.body = parseStatements(0);
-  closeBlock(open, Tok::EndFor);
-  stmts_.push_back(tree_.add<StmtId>(s));
+  closeBlock(open, Tok::EndFor, s);
 }
 
 // WHILE expr DO statements END_WHILE
@@ -266,8 +265,7 @@ void StatementParser::parseWhile() {
   WhileStmt s{header(StmtKind::While, loc(open)), {}, {}};
   s.condition = parseHeader(Tok::Do);
   s.body = parseStatements(0);
-  closeBlock(open, Tok::EndWhile);
-  stmts_.push_back(tree_.add<StmtId>(s));
+  closeBlock(open, Tok::EndWhile, s);
 }
 
 // REPEAT statements UNTIL expr [";"] END_REPEAT
@@ -292,8 +290,7 @@ void StatementParser::parseRepeat() {
     s.until = build_.error(here());
     if (last_error_ == nullptr || last_error_ < statement_start_) slip(diag::MissingToken, t_, {"UNTIL", describe(t_)});
   }
-  closeBlock(open, Tok::EndRepeat);
-  stmts_.push_back(tree_.add<StmtId>(s));
+  closeBlock(open, Tok::EndRepeat, s);
 }
 
 // __TRY statements [__CATCH ["(" lvalue ")"] statements] [__FINALLY statements] __ENDTRY
@@ -312,8 +309,7 @@ void StatementParser::parseTry() {
     s.handler = parseStatements(kStopTry);
   }
   if (accept(Tok::Finally)) s.finally = parseStatements(0);
-  closeBlock(open, Tok::EndTry);
-  stmts_.push_back(tree_.add<StmtId>(s));
+  closeBlock(open, Tok::EndTry, s);
 }
 
 }  // namespace rung::text

@@ -160,6 +160,7 @@ class FileConditions {
   Truth condition();
   Truth disjunction();
   Truth conjunction();
+  bool acceptWord(std::string_view wanted);
   Truth negation();
   Truth question(std::string_view word);
   Truth ask(std::string_view kind, std::string_view name, std::string_view function, std::string_view value);
@@ -336,26 +337,21 @@ Truth FileConditions::condition() {
 
 Truth FileConditions::disjunction() {
   Truth value = conjunction();
-  for (;;) {
-    const size_t before = p_;
-    if (!sameIdentifier(word(), "OR")) {
-      p_ = before;
-      return value;
-    }
-    value = either(value, conjunction());
-  }
+  while (acceptWord("OR")) value = either(value, conjunction());
+  return value;
 }
 
 Truth FileConditions::conjunction() {
   Truth value = negation();
-  for (;;) {
-    const size_t before = p_;
-    if (!sameIdentifier(word(), "AND")) {
-      p_ = before;
-      return value;
-    }
-    value = both(value, negation());
-  }
+  while (acceptWord("AND")) value = both(value, negation());
+  return value;
+}
+
+bool FileConditions::acceptWord(std::string_view wanted) {
+  const size_t before = p_;
+  if (sameIdentifier(word(), wanted)) return true;
+  p_ = before;
+  return false;
 }
 
 // negation = {NOT} ( "(" condition ")" | question )

@@ -21,15 +21,19 @@ DeclId Parser::parseConfiguration() {
   }
   panic_ = false;
   accept(Tok::Semicolon);
+  d.members = membersUntil(Tok::EndConfiguration, open);
+  return finish(d);
+}
+
+Slice<DeclId> Parser::membersUntil(Tok end, const Token* open) {
   const size_t first = decls_.size();
-  parseMembers(Tok::EndConfiguration, decls_);
-  if (accept(Tok::EndConfiguration)) {
+  parseMembers(end, decls_);
+  if (accept(end)) {
     accept(Tok::Semicolon);
   } else {
-    missingEnd("END_CONFIGURATION", open, "CONFIGURATION");
+    missingEnd(spelling(end), open, spelling(open->kind));
   }
-  d.members = listFrom(decls_, first);
-  return finish(d);
+  return listFrom(decls_, first);
 }
 
 void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
@@ -94,14 +98,7 @@ DeclId Parser::parseResource() {
     skipLine();
     panic_ = false;
   }
-  const size_t first = decls_.size();
-  parseMembers(Tok::EndResource, decls_);
-  if (accept(Tok::EndResource)) {
-    accept(Tok::Semicolon);
-  } else {
-    missingEnd("END_RESOURCE", open, "RESOURCE");
-  }
-  d.members = listFrom(decls_, first);
+  d.members = membersUntil(Tok::EndResource, open);
   return finish(d);
 }
 

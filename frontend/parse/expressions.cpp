@@ -93,6 +93,30 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
   }
 }
 
+// False: too deep, which is reported.
+bool ExpressionParser::enterExpr(const char* what) {
+  if (++expr_depth_ <= kMaxExprDepth) return true;
+  tooDeep(what, kMaxExprDepth);
+  --expr_depth_;
+  return false;
+}
+
+// `:=`, or `=` with an error.
+bool ExpressionParser::acceptAssign() {
+  if (!at(Tok::Equal)) return accept(Tok::Assign);
+  slip(diag::AssignWithEqual, t_, {"="});
+  advance();
+  return true;
+}
+
+// Between two elements of a list.
+void ExpressionParser::missingComma() {
+  if (atLineStart())
+    missing(diag::MissingToken, {",", describe(t_)});
+  else
+    slip(diag::MissingToken, t_, {",", describe(t_)});
+}
+
 // unary = ["-" | "+" | NOT] operand. In codesys `**` binds tighter than the sign, in the standard weaker.
 ExprId ExpressionParser::parseUnary() {
   const bool is_not = at(Tok::Not) || at(Tok::Bang);
@@ -103,11 +127,7 @@ ExprId ExpressionParser::parseUnary() {
   if (is_not && peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, kEnable) || is(t_ + 2, "IN")))
     return parsePrimary();
   const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("expressions", kMaxExprDepth);
-    --expr_depth_;
-    return build_.error(start);
-  }
+  if (!enterExpr("expressions")) return build_.error(start);
   advance();
   const ExprId operand = dialect_ == Dialect::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
   --expr_depth_;
@@ -167,11 +187,7 @@ ExprId ExpressionParser::parseOperandName() {
 // "(" expr ")", with what follows
 ExprId ExpressionParser::parseInParens() {
   const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("parentheses", kMaxExprDepth);
-    --expr_depth_;
-    return build_.error(start);
-  }
+  if (!enterExpr("parentheses")) return build_.error(start);
   advance();
   const ExprId inner = parseCompared(parseExpr());
   closeParen(Tok::RightParen, false);

@@ -21,6 +21,9 @@ class ExpressionParser : public Cursor {
   // `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
   ExprId parseCompared(ExprId left);
   void closeParen(Tok close, bool is_arguments);
+  bool enterExpr(const char* what);
+  bool acceptAssign();
+  void missingComma();
 
   // ---- later subjects
   virtual TypeExprId parseType() = 0;

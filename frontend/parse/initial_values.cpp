@@ -68,11 +68,7 @@ void DeclarationParser::parseElements(Tok close) {
 
 ExprId DeclarationParser::parseArrayInit() {
   const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("initial values", kMaxExprDepth);
-    --expr_depth_;
-    return build_.error(start);
-  }
+  if (!enterExpr("initial values")) return build_.error(start);
   advance();
   const size_t first = exprs_.size();
   parseElements(Tok::RightBracket);
@@ -83,20 +79,13 @@ ExprId DeclarationParser::parseArrayInit() {
 
 ExprId DeclarationParser::parseStructInit() {
   const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("initial values", kMaxExprDepth);
-    --expr_depth_;
-    return build_.error(start);
-  }
+  if (!enterExpr("initial values")) return build_.error(start);
   advance();
   std::vector<FieldInit> fields;
   while (!panic_ && !at(Tok::RightParen)) {
     FieldInit field{};
     if (!parseName(field.field)) break;
-    if (at(Tok::Equal)) {
-      slip(diag::AssignWithEqual, t_, {"="});
-      advance();
-    } else if (!accept(Tok::Assign)) {
+    if (!acceptAssign()) {
       fail(diag::MissingToken, t_, {":=", describe(t_)});
       break;
     }
@@ -104,10 +93,7 @@ ExprId DeclarationParser::parseStructInit() {
     fields.push_back(field);
     if (accept(Tok::Comma)) continue;
     if (!panic_ && isName(kind()) && peek() == Tok::Assign) {
-      if (atLineStart())
-        missing(diag::MissingToken, {",", describe(t_)});
-      else
-        slip(diag::MissingToken, t_, {",", describe(t_)});
+      missingComma();
       continue;
     }
     break;

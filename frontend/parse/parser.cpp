@@ -275,21 +275,21 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
 Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                             Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
+  parser.readAll();
   return parser.parseLoneSections();
 }
 
 Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
+  parser.readAll();
   return parser.parseLoneStatements();
 }
 
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
+  parser.readAll();
   return parser.parseLoneExpression();
 }
 

@@ -11,6 +11,7 @@ class Parser final : public ChartParser {
  public:
   using ChartParser::ChartParser;
 
+  void readAll() { read(0, static_cast<uint32_t>(source_.size())); }
   Slice<DeclId> parseDecls();
   ExprId parseLoneExpression();
   Slice<DeclId> parseLoneSections();
@@ -34,6 +35,7 @@ class Parser final : public ChartParser {
   DeclId parseResource();
   DeclId parseTask();
   DeclId parseProgramInstance();
+  Slice<DeclId> membersUntil(Tok end, const Token* open);
   void parseMembers(Tok end, std::vector<DeclId>& out);
   void skipLine();
 

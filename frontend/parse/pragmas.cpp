@@ -66,20 +66,23 @@ bool Cursor::pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const {
   return false;
 }
 
+// The comment that belongs to the token.
+static const DocRange* docOf(const std::vector<DocRange>& all, const Token* t) {
+  const auto it = std::lower_bound(all.begin(), all.end(), t->offset,
+                                   [](const DocRange& d, uint32_t offset) { return d.token_offset < offset; });
+  return it != all.end() && it->token_offset == t->offset ? &*it : nullptr;
+}
+
 Loc Cursor::takeDoc() {
   if ((t_->flags & kDoc) == 0) return {};
-  const auto& all = stream_.docs;
-  const auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
-                                   [](const DocRange& d, uint32_t offset) { return d.token_offset < offset; });
-  return it != all.end() && it->token_offset == t_->offset ? Loc{base_ + it->begin} : Loc{};
+  const DocRange* doc = docOf(stream_.docs, t_);
+  return doc != nullptr ? Loc{base_ + doc->begin} : Loc{};
 }
 
 Loc Cursor::docAfter(const Token* t) const {
   if ((t->flags & kDocAfter) == 0) return {};
-  const auto& all = stream_.docs_after;
-  const auto it = std::lower_bound(all.begin(), all.end(), t->offset,
-                                   [](const DocRange& d, uint32_t offset) { return d.token_offset < offset; });
-  return it != all.end() && it->token_offset == t->offset ? Loc{base_ + it->begin} : Loc{};
+  const DocRange* doc = docOf(stream_.docs_after, t);
+  return doc != nullptr ? Loc{base_ + doc->begin} : Loc{};
 }
 
 }  // namespace rung::text

@@ -67,6 +67,11 @@ class StatementParser : public DeclarationParser {
   void finishHeader(Tok connective);
   bool enterBlock();
   void closeBlock(const Token* open, Tok end);
+  template <class Stmt>
+  void closeBlock(const Token* open, Tok end, const Stmt& s) {
+    closeBlock(open, end);
+    stmts_.push_back(tree_.add<StmtId>(s));
+  }
 
   const Token* statement_start_ = nullptr;
   std::vector<IfBranch> if_branches_;

@@ -71,13 +71,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
   const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
   if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
   if (!panic_) {
-    if (at(Tok::Equal)) {
-      slip(diag::AssignWithEqual, t_, {"="});
-      advance();
-      d.init = parseInit();
-    } else if (accept(Tok::Assign)) {
-      d.init = parseInit();
-    }
+    if (acceptAssign()) d.init = parseInit();
   }
   if (!panic_ && !accept(Tok::Semicolon) && !(is_struct && (at(Tok::EndType) || atLineStart()))) {
     if (atLineStart() || endsDeclarations(kind()) || (isName(kind()) && peek() == Tok::Colon))
@@ -253,13 +247,7 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
   while (!panic_ && !at(Tok::RightParen)) {
     EnumItem item{};
     if (!parseName(item.item)) break;
-    if (at(Tok::Equal)) {
-      slip(diag::AssignWithEqual, t_, {"="});
-      advance();
-      item.value = parseExpr();
-    } else if (accept(Tok::Assign)) {
-      item.value = parseExpr();
-    }
+    if (acceptAssign()) item.value = parseExpr();
     items.push_back(item);
     if (accept(Tok::Comma)) {
       if (at(Tok::RightParen)) {
@@ -271,10 +259,7 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
       continue;
     }
     if (!panic_ && isName(kind()) && (peek() == Tok::Comma || peek() == Tok::RightParen || peek() == Tok::Assign)) {
-      if (atLineStart())
-        missing(diag::MissingToken, {",", describe(t_)});
-      else
-        slip(diag::MissingToken, t_, {",", describe(t_)});
+      missingComma();
       continue;
     }
     break;

@@ -11,58 +11,50 @@
 
 namespace rung {
 
+// The case of one kind: its fields are those of a node `n`.
+#define RUNG_VISIT(kind, Node, ...)                        \
+  case kind: {                                             \
+    [[maybe_unused]] auto& n = tree.template as<Node>(id); \
+    return visitFields(visit __VA_OPT__(, ) __VA_ARGS__);  \
+  }
+template <class Visit, class... Fields>
+void visitFields(Visit& visit, Fields&... fields) {
+  (visit(fields), ...);
+}
 template <class T, class Visit>
 void forEachField(T& tree, ExprId id, Visit&& visit) {
-  const auto fields = [&](auto&... field) { (visit(field), ...); };
   switch (tree.kind(id)) {
-#define RUNG_EXPR(kind, word, shape, ...)                        \
-  case ExprKind::kind: {                                         \
-    [[maybe_unused]] auto& n = tree.template as<kind##Expr>(id); \
-    return fields(__VA_ARGS__);                                  \
-  }
+#define RUNG_EXPR(kind, word, shape, ...) RUNG_VISIT(ExprKind::kind, kind##Expr, __VA_ARGS__)
 #include "frontend/syntax/nodes.def"
   }
 }
 template <class T, class Visit>
 void forEachField(T& tree, StmtId id, Visit&& visit) {
-  const auto fields = [&](auto&... field) { (visit(field), ...); };
   switch (tree.kind(id)) {
-#define RUNG_STMT(kind, word, ...)                               \
-  case StmtKind::kind: {                                         \
-    [[maybe_unused]] auto& n = tree.template as<kind##Stmt>(id); \
-    return fields(__VA_ARGS__);                                  \
-  }
+#define RUNG_STMT(kind, word, ...) RUNG_VISIT(StmtKind::kind, kind##Stmt, __VA_ARGS__)
 #include "frontend/syntax/nodes.def"
   }
 }
 template <class T, class Visit>
 void forEachField(T& tree, TypeExprId id, Visit&& visit) {
-  const auto fields = [&](auto&... field) { (visit(field), ...); };
   switch (tree.kind(id)) {
-#define RUNG_TYPE_EXPR(kind, word, ...)                              \
-  case TypeExprKind::kind: {                                         \
-    [[maybe_unused]] auto& n = tree.template as<kind##TypeExpr>(id); \
-    return fields(__VA_ARGS__);                                      \
-  }
+#define RUNG_TYPE_EXPR(kind, word, ...) RUNG_VISIT(TypeExprKind::kind, kind##TypeExpr, __VA_ARGS__)
 #include "frontend/syntax/nodes.def"
   }
 }
 template <class T, class Visit>
 void forEachField(T& tree, DeclId id, Visit&& visit) {
-  const auto fields = [&](auto&... field) { (visit(field), ...); };
   switch (tree.kind(id)) {
-#define RUNG_DECL(kind, word, ...)                               \
-  case DeclKind::kind: {                                         \
-    [[maybe_unused]] auto& n = tree.template as<kind##Decl>(id); \
-    return fields(__VA_ARGS__);                                  \
-  }
+#define RUNG_DECL(kind, word, ...) RUNG_VISIT(DeclKind::kind, kind##Decl, __VA_ARGS__)
 #include "frontend/syntax/nodes.def"
   }
 }
+#undef RUNG_VISIT
 
+template <class E, class T>
+concept Is = std::is_same_v<std::remove_const_t<E>, T>;
 template <class Id>
-concept NodeId = std::is_same_v<std::remove_const_t<Id>, ExprId> || std::is_same_v<std::remove_const_t<Id>, StmtId> ||
-    std::is_same_v<std::remove_const_t<Id>, TypeExprId> || std::is_same_v<std::remove_const_t<Id>, DeclId>;
+concept NodeId = Is<Id, ExprId> || Is<Id, StmtId> || Is<Id, TypeExprId> || Is<Id, DeclId>;
 
 // Visits the ids in the elements of lists. `visit` takes an id of each kind, by reference.
 template <class T, class Visit>
@@ -86,58 +78,47 @@ class ChildWalk {
     for (auto& element : tree_.list(list)) of(element);
   }
   void in(const Diagram& diagram) const { in(diagram.elements); }
+  template <class... Fields>
+  void all(Fields&... fields) const {
+    (in(fields), ...);
+  }
 
   template <NodeId Id>
   void of(Id& id) const {
     in(id);
   }
   template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, Argument> || std::is_same_v<std::remove_const_t<E>, FieldInit> ||
-      std::is_same_v<std::remove_const_t<E>, EnumItem>
+  requires Is<E, Argument> || Is<E, FieldInit> || Is<E, EnumItem>
   void of(E& item) const { in(item.value); }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, IfBranch>
+  template <Is<IfBranch> E>
   void of(E& branch) const {
-    in(branch.condition);
-    in(branch.body);
+    all(branch.condition, branch.body);
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, CaseBranch>
+  template <Is<CaseBranch> E>
   void of(E& branch) const {
-    in(branch.labels);
-    in(branch.body);
+    all(branch.labels, branch.body);
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, ArrayBound>
+  template <Is<ArrayBound> E>
   void of(E& bound) const {
-    in(bound.low);
-    in(bound.high);
+    all(bound.low, bound.high);
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, IlInstruction>
+  template <Is<IlInstruction> E>
   void of(E& instruction) const {
-    in(instruction.callee);
-    in(instruction.operands);
+    all(instruction.callee, instruction.operands);
     for (auto& nested : tree_.list(instruction.nested)) in(nested.list);
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, SfcStep>
+  template <Is<SfcStep> E>
   void of(E& step) const {
-    in(step.min.value);
-    in(step.max.value);
+    all(step.min.value, step.max.value);
     for (auto& association : tree_.list(step.actions)) in(association.time.value);
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, SfcTransition>
+  template <Is<SfcTransition> E>
   void of(E& transition) const {
     if (!transition.body) in(transition.condition.value);  // otherwise in an action among the members
   }
-  template <class E>
-  requires std::is_same_v<std::remove_const_t<E>, DiagramElement>
+  template <Is<DiagramElement> E>
   void of(E& element) const {
-    in(element.path);
-    in(element.operand);
-    in(element.body);
+    all(element.path, element.operand, element.body);
   }
 
   T& tree_;

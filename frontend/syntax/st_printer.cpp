@@ -4,8 +4,10 @@
 #include <bit>
 #include <charconv>
 
+#include "frontend/source/calendar.h"
 #include "frontend/source/files.h"
 #include "frontend/source/invariant.h"
+#include "frontend/source/quoting.h"
 
 namespace rung {
 namespace {
@@ -49,6 +51,25 @@ class StPrinter {
 
  private:
   void line(uint32_t indent) { out.append(indent, ' '); }
+  void line(uint32_t indent, const char* text) {
+    line(indent);
+    out += text;
+  }
+  void section(uint32_t indent, const char* word, Slice<StmtId> body) {
+    line(indent, word);
+    stmts(body, indent + 2);
+  }
+  // The expression between two texts.
+  void between(const char* before, ExprId id, const char* after) {
+    out += before;
+    expr(id, 0);
+    out += after;
+  }
+  // Before each element of a list but the first.
+  void comma(bool& first) {
+    if (!first) out += ", ";
+    first = false;
+  }
   void name(NameId id) { out += names_.string(id); }
   void comments(Loc before, uint32_t indent);
   void stmt(StmtId id, uint32_t indent);
@@ -56,7 +77,7 @@ class StPrinter {
   void caseStmt(const CaseStmt& s, uint32_t indent);
   void loops(StmtId id, uint32_t indent);
   void operand(ExprId id, int least, bool always);
-  void list(Slice<ExprId> ids);
+  void list(const char* before, Slice<ExprId> ids, const char* after);
   void arguments(Slice<Argument> arguments);
   void newExpr(const NewExpr& e);
   void unary(ExprId id, int least);
@@ -78,24 +99,13 @@ class StPrinter {
 // ---- literals
 
 void StPrinter::quoted(std::string_view s, char quote) {
-  static const char* const kHex = "0123456789ABCDEF";
   out += quote;
   size_t bad = std::min(findInvalidUtf8(s), s.size());
   for (size_t k = 0; k < s.size(); ++k) {
     const char c = s[k];
-    const auto byte = static_cast<unsigned char>(c);
     const bool is_bad = k == bad;
     if (is_bad) bad = std::min(findInvalidUtf8(s.substr(k + 1)), s.size() - k - 1) + k + 1;
-    if (c == quote || c == '$') {
-      out += '$';
-      out += c;
-    } else if (byte < 0x20 || byte == 0x7f || is_bad) {
-      out += quote == '"' ? "$00" : "$";
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-    } else {
-      out += c;
-    }
+    appendInQuotes(out, c, quote, isControl(c) || is_bad, quote == '"');
   }
   out += quote;
 }
@@ -107,19 +117,12 @@ void StPrinter::padded(uint64_t n, int width) {
 }
 
 void StPrinter::date(int64_t days) {
-  // Days since 1970-01-01 in the proleptic Gregorian calendar, counted in eras of 400 years from 0000-03-01.
-  const int64_t z = days + 719468;
-  const int64_t era = (z >= 0 ? z : z - 146096) / 146097;
-  const int64_t of_era = z - era * 146097;
-  const int64_t year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
-  const int64_t of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const int64_t month = (5 * of_year + 2) / 153;
-  const int64_t day = of_year - (153 * month + 2) / 5 + 1;
-  padded(static_cast<uint64_t>(year_of_era + era * 400 + (month >= 10 ? 1 : 0)), 4);
+  const CalendarDate date = dateOfDays(days);
+  padded(date.year, 4);
   out += '-';
-  padded(static_cast<uint64_t>(month < 10 ? month + 3 : month - 9), 2);
+  padded(date.month, 2);
   out += '-';
-  padded(static_cast<uint64_t>(day), 2);
+  padded(date.day, 2);
 }
 
 void StPrinter::clock(uint64_t ns) {
@@ -231,21 +234,21 @@ void StPrinter::address(const DirectAddress& a) {
 
 // ---- expressions
 
-void StPrinter::list(Slice<ExprId> ids) {
+void StPrinter::list(const char* before, Slice<ExprId> ids, const char* after) {
   bool first = true;
+  out += before;
   for (const ExprId id : tree_.list(ids)) {
-    if (!first) out += ", ";
-    first = false;
+    comma(first);
     expr(id, 0);
   }
+  out += after;
 }
 
 void StPrinter::arguments(Slice<Argument> list) {
   out += '(';
   bool first = true;
   for (const Argument& a : tree_.list(list)) {
-    if (!first) out += ", ";
-    first = false;
+    comma(first);
     if (a.pin.name) {
       if (a.negated) out += "NOT ";
       name(a.pin.name);
@@ -259,9 +262,7 @@ void StPrinter::arguments(Slice<Argument> list) {
 // In parentheses where it binds less tightly than `least`, or always.
 void StPrinter::operand(ExprId id, int least, bool always) {
   if (always) {
-    out += '(';
-    expr(id, 0);
-    out += ')';
+    between("(", id, ")");
   } else {
     expr(id, least);
   }
@@ -282,10 +283,7 @@ void StPrinter::newExpr(const NewExpr& e) {
     }
     if (type.has_arguments) arguments(type.arguments);
   }
-  if (e.count) {
-    out += ", ";
-    expr(e.count, 0);
-  }
+  if (e.count) between(", ", e.count, "");
   out += ')';
 }
 
@@ -318,8 +316,7 @@ void StPrinter::structInit(const StructInitExpr& e) {
   bool first = true;
   out += '(';
   for (const FieldInit& field : tree_.list(e.fields)) {
-    if (!first) out += ", ";
-    first = false;
+    comma(first);
     name(field.field.name);
     out += " := ";
     expr(field.value, 0);
@@ -347,9 +344,7 @@ void StPrinter::expr(ExprId id, int least) {
     case ExprKind::Index: {
       const auto& e = tree_.as<IndexExpr>(id);
       expr(e.base, kPrimary);
-      out += '[';
-      list(e.indices);
-      out += ']';
+      list("[", e.indices, "]");
       return;
     }
     case ExprKind::Deref:
@@ -381,17 +376,11 @@ void StPrinter::expr(ExprId id, int least) {
       out += "..";
       return expr(e.high, 0);
     }
-    case ExprKind::ArrayInit:
-      out += '[';
-      list(tree_.as<ArrayInitExpr>(id).elements);
-      out += ']';
-      return;
+    case ExprKind::ArrayInit: list("[", tree_.as<ArrayInitExpr>(id).elements, "]"); return;
     case ExprKind::Repeat: {
       const auto& e = tree_.as<RepeatExpr>(id);
       expr(e.count, kPrimary);
-      out += '(';
-      list(e.elements);
-      out += ')';
+      list("(", e.elements, ")");
       return;
     }
     case ExprKind::StructInit: return structInit(tree_.as<StructInitExpr>(id));
@@ -421,9 +410,7 @@ void StPrinter::ifStmt(const IfStmt& s, uint32_t indent) {
   const StmtKind first = body.empty() ? StmtKind::Empty : tree_.kind(tree_.list(body)[0]);
   const bool leaves = first == StmtKind::Jump || first == StmtKind::Call || first == StmtKind::Return;
   if (s.h.op == kConditionalOp && body.count == 1 && leaves && s.otherwise.empty()) {  // IF full THEN JMP done; END_IF
-    out += "IF ";
-    expr(branches[0].condition, 0);
-    out += " THEN ";
+    between("IF ", branches[0].condition, " THEN ");
     stmt(tree_.list(body)[0], 0);
     out.back() = ' ';
     out += "END_IF\n";
@@ -436,40 +423,25 @@ void StPrinter::ifStmt(const IfStmt& s, uint32_t indent) {
     out += " THEN\n";
     stmts(branches[k].body, indent + 2);
   }
-  if (!s.otherwise.empty()) {
-    line(indent);
-    out += "ELSE\n";
-    stmts(s.otherwise, indent + 2);
-  }
-  line(indent);
-  out += "END_IF\n";
+  if (!s.otherwise.empty()) section(indent, "ELSE\n", s.otherwise);
+  line(indent, "END_IF\n");
 }
 
 void StPrinter::caseStmt(const CaseStmt& s, uint32_t indent) {
-  out += "CASE ";
-  expr(s.selector, 0);
-  out += " OF\n";
+  between("CASE ", s.selector, " OF\n");
   for (const CaseBranch& branch : tree_.list(s.branches)) {
     line(indent + 2);
-    list(branch.labels);
-    out += ":\n";
+    list("", branch.labels, ":\n");
     stmts(branch.body, indent + 4);
   }
-  if (s.has_else) {
-    line(indent + 2);
-    out += "ELSE\n";
-    stmts(s.otherwise, indent + 4);
-  }
-  line(indent);
-  out += "END_CASE\n";
+  if (s.has_else) section(indent + 2, "ELSE\n", s.otherwise);
+  line(indent, "END_CASE\n");
 }
 
 void StPrinter::loops(StmtId id, uint32_t indent) {
   if (tree_.kind(id) == StmtKind::For) {
     const auto& s = tree_.as<ForStmt>(id);
-    out += "FOR ";
-    expr(s.control, 0);
-    out += " := ";
+    between("FOR ", s.control, " := ");
     expr(s.from, 0);
     out += " TO ";
     expr(s.to, 0);
@@ -479,48 +451,34 @@ void StPrinter::loops(StmtId id, uint32_t indent) {
     }
     out += " DO\n";
     stmts(s.body, indent + 2);
-    line(indent);
-    out += "END_FOR\n";
+    line(indent, "END_FOR\n");
   } else if (tree_.kind(id) == StmtKind::While) {
     const auto& s = tree_.as<WhileStmt>(id);
-    out += "WHILE ";
-    expr(s.condition, 0);
-    out += " DO\n";
+    between("WHILE ", s.condition, " DO\n");
     stmts(s.body, indent + 2);
-    line(indent);
-    out += "END_WHILE\n";
+    line(indent, "END_WHILE\n");
   } else if (tree_.kind(id) == StmtKind::Repeat) {
     const auto& s = tree_.as<RepeatStmt>(id);
     out += "REPEAT\n";
     stmts(s.body, indent + 2);
-    line(indent);
-    out += "UNTIL ";
+    line(indent, "UNTIL ");
     expr(s.until, 0);
     out += '\n';
-    line(indent);
-    out += "END_REPEAT\n";
+    line(indent, "END_REPEAT\n");
   } else {
     const auto& s = tree_.as<TryStmt>(id);
     out += "__TRY\n";
     stmts(s.body, indent + 2);
     if (s.catches) {
-      line(indent);
-      out += "__CATCH";
+      line(indent, "__CATCH");
       if (s.code) {
-        out += '(';
-        expr(s.code, 0);
-        out += ')';
+        between("(", s.code, ")");
       }
       out += '\n';
       stmts(s.handler, indent + 2);
     }
-    if (!s.finally.empty()) {
-      line(indent);
-      out += "__FINALLY\n";
-      stmts(s.finally, indent + 2);
-    }
-    line(indent);
-    out += "__ENDTRY\n";
+    if (!s.finally.empty()) section(indent, "__FINALLY\n", s.finally);
+    line(indent, "__ENDTRY\n");
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "frontend/source/quoting.h"
+
 namespace rung {
 
 static const char* word(ExprKind kind) {
@@ -12,21 +14,8 @@ static const char* word(ExprKind kind) {
   return kKeywords[static_cast<size_t>(kind)];
 }
 void TreeExprPrinter::quoted(std::string_view s) {
-  static const char* const kHex = "0123456789ABCDEF";
   out += '\'';
-  for (char c : s) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\'' || c == '$') {
-      out += '$';
-      out += c;
-    } else if (byte < 0x20 || byte == 0x7f) {
-      out += '$';
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : s) appendInQuotes(out, c, '\'', isControl(c));
   out += '\'';
 }
 
@@ -141,8 +130,7 @@ void TreeExprPrinter::print(const TypedNameExpr& e, int) {
 
 void TreeExprPrinter::print(const MemberExpr& e, int depth) {
   expr(e.base, depth + 1);
-  out += ' ';
-  name(e.member);
+  spaced(e.member);
 }
 
 void TreeExprPrinter::print(const IndexExpr& e, int depth) {
@@ -162,16 +150,13 @@ void TreeExprPrinter::print(const AddressExpr& e, int) { address(e.address); }
 
 void TreeExprPrinter::print(const UnaryExpr& e, int depth) {
   out += spelling(e.op());
-  out += ' ';
-  expr(e.operand, depth + 1);
+  spaced(e.operand, depth + 1);
 }
 
 void TreeExprPrinter::print(const BinaryExpr& e, int depth) {
   out += spelling(e.op());
-  out += ' ';
-  expr(e.left, depth + 1);
-  out += ' ';
-  expr(e.right, depth + 1);
+  spaced(e.left, depth + 1);
+  spaced(e.right, depth + 1);
 }
 
 void TreeExprPrinter::print(const CallExpr& e, int depth) {
@@ -181,8 +166,7 @@ void TreeExprPrinter::print(const CallExpr& e, int depth) {
 
 void TreeExprPrinter::print(const RangeExpr& e, int depth) {
   expr(e.low, depth + 1);
-  out += ' ';
-  expr(e.high, depth + 1);
+  spaced(e.high, depth + 1);
 }
 
 void TreeExprPrinter::print(const ArrayInitExpr& e, int depth) {
@@ -198,8 +182,7 @@ void TreeExprPrinter::print(const RepeatExpr& e, int depth) {
 void TreeExprPrinter::print(const StructInitExpr& e, int depth) {
   out.pop_back();
   for (const FieldInit& f : tree_.list(e.fields)) {
-    out += ' ';
-    name(f.field.name);
+    spaced(f.field.name);
     out += " := ";
     expr(f.value, depth + 1);
   }

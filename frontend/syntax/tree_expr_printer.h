@@ -18,7 +18,15 @@ class TreeExprPrinter {
     if (!out.empty()) out += '\n';
     out.append(static_cast<size_t>(depth) * 2, ' ');
   }
+  void line(int depth, std::string_view text) {
+    line(depth);
+    out += text;
+  }
   void name(NameId id) { out += names_.string(id); }
+  void spaced(NameId id) {
+    out += ' ';
+    name(id);
+  }
   void number(uint64_t n) { out += std::to_string(n); }
   void quoted(std::string_view s);
   void path(Slice<Ident> idents, const char* between) {
@@ -30,11 +38,18 @@ class TreeExprPrinter {
     }
   }
   void expr(ExprId id, int depth = 0);
+  void spaced(ExprId id, int depth = 0) {
+    out += ' ';
+    expr(id, depth);
+  }
+  // Nothing where the expression is missing.
+  void optional(const char* before, ExprId id) {
+    if (!id) return;
+    out += before;
+    expr(id);
+  }
   void exprs(Slice<ExprId> list, int depth) {
-    for (ExprId e : tree_.list(list)) {
-      out += ' ';
-      expr(e, depth + 1);
-    }
+    for (ExprId e : tree_.list(list)) spaced(e, depth + 1);
   }
   void arguments(Slice<Argument> list, int depth);
   void address(const DirectAddress& a);

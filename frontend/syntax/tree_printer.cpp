@@ -10,27 +10,21 @@
 namespace rung {
 namespace {
 
-const char* word(StmtKind kind) {
-  static const char* const kKeywords[] = {
+constexpr const char* kStmtWords[] = {
 #define RUNG_STMT(kind, word, ...) word,
 #include "frontend/syntax/nodes.def"
-  };
-  return kKeywords[static_cast<size_t>(kind)];
-}
-const char* word(TypeExprKind kind) {
-  static const char* const kKeywords[] = {
+};
+constexpr const char* kTypeExprWords[] = {
 #define RUNG_TYPE_EXPR(kind, word, ...) word,
 #include "frontend/syntax/nodes.def"
-  };
-  return kKeywords[static_cast<size_t>(kind)];
-}
-const char* word(DeclKind kind) {
-  static const char* const kKeywords[] = {
+};
+constexpr const char* kDeclWords[] = {
 #define RUNG_DECL(kind, word, ...) word,
 #include "frontend/syntax/nodes.def"
-  };
-  return kKeywords[static_cast<size_t>(kind)];
-}
+};
+const char* word(StmtKind kind) { return kStmtWords[static_cast<size_t>(kind)]; }
+const char* word(TypeExprKind kind) { return kTypeExprWords[static_cast<size_t>(kind)]; }
+const char* word(DeclKind kind) { return kDeclWords[static_cast<size_t>(kind)]; }
 
 class Printer : public TreeExprPrinter {
  public:
@@ -49,8 +43,7 @@ class Printer : public TreeExprPrinter {
   }
   void stmt(StmtId id, int depth);
   void block(const char* label, Slice<StmtId> list, int depth) {
-    line(depth + 1);
-    out += label;
+    line(depth + 1, label);
     stmts(list, depth + 2);
   }
   void instructions(Slice<IlInstruction> list, int depth);
@@ -107,8 +100,7 @@ void Printer::modifiers(AccessLevel access, uint8_t bits) {
 
 void Printer::typeList(const char* what, Slice<TypeExprId> list, int depth) {
   if (list.empty()) return;
-  line(depth + 1);
-  out += what;
+  line(depth + 1, what);
   for (TypeExprId type : tree_.list(list)) typeExpr(type, depth + 2);
 }
 
@@ -125,8 +117,7 @@ void Printer::pragmas(const DeclHeader& h) {
 }
 
 void Printer::stmt(StmtId id, int depth) {
-  line(depth);
-  out += word(tree_.kind(id));
+  line(depth, word(tree_.kind(id)));
   // clang-format off
   switch (tree_.kind(id)) {
 #define RUNG_STMT(kind, word, ...) \
@@ -139,21 +130,15 @@ void Printer::stmt(StmtId id, int depth) {
 void Printer::print(const AssignStmt& s, int) {
   out += ' ';
   out += spelling(s.op());
-  out += ' ';
-  expr(s.target);
-  out += ' ';
-  expr(s.value);
+  spaced(s.target);
+  spaced(s.value);
 }
 
-void Printer::print(const CallStmt& s, int) {
-  out += ' ';
-  expr(s.call);
-}
+void Printer::print(const CallStmt& s, int) { spaced(s.call); }
 
 void Printer::print(const IfStmt& s, int depth) {
   for (const IfBranch& b : tree_.list(s.branches)) {
-    line(depth + 1);
-    out += "then ";
+    line(depth + 1, "then ");
     expr(b.condition);
     stmts(b.body, depth + 2);
   }
@@ -161,11 +146,9 @@ void Printer::print(const IfStmt& s, int depth) {
 }
 
 void Printer::print(const CaseStmt& s, int depth) {
-  out += ' ';
-  expr(s.selector);
+  spaced(s.selector);
   for (const CaseBranch& b : tree_.list(s.branches)) {
-    line(depth + 1);
-    out += "of";
+    line(depth + 1, "of");
     exprs(b.labels, 0);
     stmts(b.body, depth + 2);
   }
@@ -173,22 +156,15 @@ void Printer::print(const CaseStmt& s, int depth) {
 }
 
 void Printer::print(const ForStmt& s, int depth) {
-  out += ' ';
-  expr(s.control);
-  out += ' ';
-  expr(s.from);
-  out += ' ';
-  expr(s.to);
-  if (s.step) {
-    out += " by ";
-    expr(s.step);
-  }
+  spaced(s.control);
+  spaced(s.from);
+  spaced(s.to);
+  optional(" by ", s.step);
   stmts(s.body, depth + 1);
 }
 
 void Printer::print(const WhileStmt& s, int depth) {
-  out += ' ';
-  expr(s.condition);
+  spaced(s.condition);
   stmts(s.body, depth + 1);
 }
 
@@ -201,30 +177,19 @@ void Printer::print(const RepeatStmt& s, int depth) {
 void Printer::print(const TryStmt& s, int depth) {
   stmts(s.body, depth + 1);
   if (s.catches) {
-    line(depth + 1);
-    out += "catch";
-    if (s.code) {
-      out += ' ';
-      expr(s.code);
-    }
+    line(depth + 1, "catch");
+    if (s.code) spaced(s.code);
     stmts(s.handler, depth + 2);
   }
   if (!s.finally.empty()) {
-    line(depth + 1);
-    out += "finally";
+    line(depth + 1, "finally");
     stmts(s.finally, depth + 2);
   }
 }
 
-void Printer::print(const JumpStmt& s, int) {
-  out += ' ';
-  name(s.label.name);
-}
+void Printer::print(const JumpStmt& s, int) { spaced(s.label.name); }
 
-void Printer::print(const LabelStmt& s, int) {
-  out += ' ';
-  name(s.label.name);
-}
+void Printer::print(const LabelStmt& s, int) { spaced(s.label.name); }
 
 // One line each: the label, the operator as written, `(` where it is deferred, its operands.
 void Printer::instructions(Slice<IlInstruction> list, int depth) {
@@ -241,18 +206,11 @@ void Printer::instructions(Slice<IlInstruction> list, int depth) {
     }
     name(i.word);
     if ((i.flags & kIlDeferred) != 0) out += '(';
-    if (i.target.name) {
-      out += ' ';
-      name(i.target.name);
-    }
-    if (i.callee) {
-      out += ' ';
-      expr(i.callee);
-    }
+    if (i.target.name) spaced(i.target.name);
+    if (i.callee) spaced(i.callee);
     arguments(i.operands, 0);
     for (const IlNested& nested : tree_.list(i.nested)) {
-      line(depth + 1);
-      out += "operand ";
+      line(depth + 1, "operand ");
       number(nested.operand);
       instructions(nested.list, depth + 2);
     }
@@ -261,8 +219,7 @@ void Printer::instructions(Slice<IlInstruction> list, int depth) {
 
 void Printer::typeExpr(TypeExprId id, int depth) {
   if (!id) return;
-  line(depth);
-  out += word(tree_.kind(id));
+  line(depth, word(tree_.kind(id)));
   // clang-format off
   switch (tree_.kind(id)) {
 #define RUNG_TYPE_EXPR(kind, word, ...) \
@@ -282,29 +239,20 @@ void Printer::print(const NamedTypeExpr& t, int) {
 void Printer::print(const StringTypeExpr& t, int) {
   out += ' ';
   out += spelling(t.code);
-  if (t.length) {
-    out += ' ';
-    expr(t.length);
-  }
+  if (t.length) spaced(t.length);
 }
 
 void Printer::print(const SubrangeTypeExpr& t, int depth) {
-  out += ' ';
-  expr(t.low);
-  out += ' ';
-  expr(t.high);
+  spaced(t.low);
+  spaced(t.high);
   typeExpr(t.base, depth + 1);
 }
 
 void Printer::print(const EnumTypeExpr& t, int depth) {
   for (const EnumItem& item : tree_.list(t.items)) {
-    line(depth + 1);
-    out += "item ";
+    line(depth + 1, "item ");
     name(item.item.name);
-    if (item.value) {
-      out += ' ';
-      expr(item.value);
-    }
+    if (item.value) spaced(item.value);
   }
   typeExpr(t.base, depth + 1);
 }
@@ -314,8 +262,7 @@ void Printer::print(const ArrayTypeExpr& t, int depth) {
     out += " [";
     if (b.low) {
       expr(b.low);
-      out += ' ';
-      expr(b.high);
+      spaced(b.high);
     } else {
       out += '*';
     }
@@ -328,8 +275,7 @@ void Printer::print(const StructTypeExpr& t, int depth) {
   if (t.is_union) out += " union";
   if (t.overlaps) out += " overlap";
   if (t.base) {
-    line(depth + 1);
-    out += "extends";
+    line(depth + 1, "extends");
     typeExpr(t.base, depth + 2);
   }
   for (DeclId d : tree_.list(t.fields)) decl(d, depth + 1);
@@ -348,8 +294,7 @@ void Printer::sectionBits(uint8_t b) {
 }
 
 void Printer::decl(DeclId id, int depth) {
-  line(depth);
-  out += word(tree_.kind(id));
+  line(depth, word(tree_.kind(id)));
   // clang-format off
   switch (tree_.kind(id)) {
 #define RUNG_DECL(kind, word, ...) \
@@ -360,14 +305,10 @@ void Printer::decl(DeclId id, int depth) {
 }
 
 void Printer::print(const TypeDecl& d, int depth) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   if ((d.h.bits & kInternal) != 0) out += " internal";
   pragmas(d.h);
-  if (d.init) {
-    out += " := ";
-    expr(d.init);
-  }
+  optional(" := ", d.init);
   typeExpr(d.type, depth + 1);
 }
 
@@ -383,53 +324,40 @@ void Printer::print(const PouDecl& d, int depth) {
   typeList("implements", d.implements, depth);
   for (DeclId u : tree_.list(d.usings)) decl(u, depth + 1);
   if (d.result) {
-    line(depth + 1);
-    out += "result";
+    line(depth + 1, "result");
     typeExpr(d.result, depth + 2);
   }
   for (DeclId s : tree_.list(d.sections)) decl(s, depth + 1);
-  if (d.body_kind == BodyKind::Native) {
-    line(depth + 1);
-    out += "native";
-  }
-  if (d.body_kind == BodyKind::Cpp) {
-    line(depth + 1);
-    out += "cpp";
-  }
+  if (d.body_kind == BodyKind::Native) line(depth + 1, "native");
+  if (d.body_kind == BodyKind::Cpp) line(depth + 1, "cpp");
   if (d.body_kind == BodyKind::Il) {
-    line(depth + 1);
-    out += "instructions";
+    line(depth + 1, "instructions");
     instructions(d.il, depth + 2);
   }
   if (d.body_kind == BodyKind::Sfc) {
-    line(depth + 1);
-    out += "chart";
+    line(depth + 1, "chart");
     chart(d, depth + 2);
   }
   if (d.body_kind == BodyKind::Network) {
     static const char* const kLanguages[] = {"networks ld", "networks fbd", "networks cfc"};
-    line(depth + 1);
-    out += kLanguages[static_cast<size_t>(d.diagram.language)];
+    line(depth + 1, kLanguages[static_cast<size_t>(d.diagram.language)]);
     for (const DiagramElement& e : tree_.list(d.diagram.elements)) element(d.diagram, e, depth + 2);
   }
   if (!d.body.empty() && !d.scheduled) {
-    line(depth + 1);
-    out += "body";
+    line(depth + 1, "body");
     stmts(d.body, depth + 2);
   }
   for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
 }
 
 void Printer::print(const PropertyDecl& d, int depth) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   modifiers(d.access, d.modifiers);
   pragmas(d.h);
   typeExpr(d.type, depth + 1);
   for (const DeclId accessor : {d.get, d.set}) {
     if (!accessor) continue;
-    line(depth + 1);
-    out += accessor == d.get ? "get" : "set";
+    line(depth + 1, accessor == d.get ? "get" : "set");
     decl(accessor, depth + 2);
   }
 }
@@ -465,36 +393,29 @@ void Printer::print(const VarDecl& d, int depth) {
   }
   if (d.edge != EdgeKind::None) out += d.edge == EdgeKind::Rising ? " r_edge" : " f_edge";
   pragmas(d.h);
-  if (d.init) {
-    out += " := ";
-    expr(d.init);
-  }
+  optional(" := ", d.init);
   typeExpr(d.type, depth + 1);
 }
 
 void Printer::print(const ConfigurationDecl& d, int depth) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
 }
 
 void Printer::print(const ResourceDecl& d, int depth) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   out += " on ";
   name(d.target);
   for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
 }
 
 void Printer::print(const TaskDecl& d, int) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   arguments(d.settings, 0);
 }
 
 void Printer::print(const ProgramInstanceDecl& d, int) {
-  out += ' ';
-  name(d.name);
+  spaced(d.name);
   sectionBits(d.section_bits);
   if (d.task.name) {
     out += " with ";
@@ -508,8 +429,7 @@ void Printer::print(const ProgramInstanceDecl& d, int) {
 void Printer::idents(const char* before, Slice<Ident> list) {
   out += before;
   for (const Ident& ident : tree_.list(list)) {
-    out += ' ';
-    out += names_.string(ident.name);
+    spaced(ident.name);
   }
 }
 
@@ -517,8 +437,7 @@ void Printer::chart(const PouDecl& d, int depth) {
   static const char* const kQualifiers[] = {"n",  "r",  "s",  "l",  "d",     "p",      "p0",
                                             "p1", "sd", "ds", "sl", "entry", "active", "exit"};
   for (const SfcStep& step : tree_.list(d.steps)) {
-    line(depth);
-    out += step.initial ? "initial_step " : "step ";
+    line(depth, step.initial ? "initial_step " : "step ");
     out += names_.string(step.name.name);
     for (const SfcExpr* limit : {&step.min, &step.max}) {
       if (!limit->value) continue;
@@ -526,30 +445,20 @@ void Printer::chart(const PouDecl& d, int depth) {
       expr(limit->value);
     }
     for (const SfcAssociation& a : tree_.list(step.actions)) {
-      line(depth + 1);
-      out += kQualifiers[static_cast<size_t>(a.qualifier)];
-      out += ' ';
-      out += names_.string(a.action.name);
-      if (a.time.value) {
-        out += ' ';
-        expr(a.time.value);
-      }
+      line(depth + 1, kQualifiers[static_cast<size_t>(a.qualifier)]);
+      spaced(a.action.name);
+      if (a.time.value) spaced(a.time.value);
       if (!a.indicators.empty()) idents(" shows", a.indicators);
     }
   }
   for (const SfcTransition& t : tree_.list(d.transitions)) {
-    line(depth);
-    out += "transition";
-    if (t.name.name) {
-      out += ' ';
-      out += names_.string(t.name.name);
-    }
+    line(depth, "transition");
+    if (t.name.name) spaced(t.name.name);
     if (t.has_priority) out += " priority " + std::to_string(t.priority);
     idents(" from", t.from);
     idents(" to", t.to);
     if (!t.condition.value) continue;
-    out += ' ';
-    expr(t.condition.value);
+    spaced(t.condition.value);
   }
 }
 
@@ -562,25 +471,19 @@ void Printer::modifiers(const Modifiable& element) {
 
 // A wire is printed as the number of the element that it comes from.
 void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth) {
-  line(depth);
-  out += kElementWords[static_cast<size_t>(e.kind)];
+  line(depth, kElementWords[static_cast<size_t>(e.kind)]);
   out += ' ' + std::to_string(e.number);
   if (e.network != 0) out += " network " + std::to_string(tree_.list(diagram.networks)[e.network - 1].number);
   if (e.order != 0) out += " order " + std::to_string(e.order);
   for (const ExprId part : {e.path, e.operand}) {
     if (!part) continue;
-    out += ' ';
-    expr(part);
+    spaced(part);
   }
   modifiers(e);
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     static const char* const kDirections[] = {"in", "out", "in_out"};
-    line(depth + 1);
-    out += kDirections[static_cast<size_t>(pin.direction)];
-    if (pin.name.name) {
-      out += ' ';
-      name(pin.name.name);
-    }
+    line(depth + 1, kDirections[static_cast<size_t>(pin.direction)]);
+    if (pin.name.name) spaced(pin.name.name);
     modifiers(pin);
     for (const DiagramWire& wire : tree_.list(pin.wires)) {
       out += " from " + std::to_string(tree_.list(diagram.elements)[wire.from].number);

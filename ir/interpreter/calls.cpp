@@ -135,41 +135,42 @@ uint32_t slotsOf(const Body& callee, size_t arguments) {
 
 }  // namespace
 
-Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
-  const auto [id, operands] = e.as<CallExpr>();
-  const Body& callee = module_.body(id);
-  std::vector<Argument> passed = arguments(callee, operands, headerSize(callee));
-  traceCall(id, nullptr);
+// Passes the operands; where the result will be.
+Ref BodyTranslator::passOperands(const CallExpr& call) {
+  const Body& callee = module_.body(call.callee);
+  std::vector<Argument> passed = arguments(callee, call.operands, headerSize(callee));
+  traceCall(call.callee, nullptr);
   passArguments(passed);
-  const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
-  if (callee.native) {
-    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+  if (callee.native) native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+  return {headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
+}
+
+Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
+  const CallExpr call = e.as<CallExpr>();
+  const Body& callee = module_.body(call.callee);
+  const Ref result = passOperands(call);
+  if (callee.native)
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
-  } else {
-    emitCall(id, nullptr, site(e.loc));
-  }
+  else
+    emitCall(call.callee, nullptr, site(e.loc));
   const Operand to = target(want);  // another call of the expression would overwrite it
   move(scalarOf(e.type), {Mode::Frame, result, 0}, to);
   return to;
 }
 
 Address BodyTranslator::callString(const Expr& e) {
-  const auto [id, operands] = e.as<CallExpr>();
-  const Body& callee = module_.body(id);
-  std::vector<Argument> passed = arguments(callee, operands, headerSize(callee));
-  traceCall(id, nullptr);
-  passArguments(passed);
-  const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
+  const CallExpr call = e.as<CallExpr>();
+  const Body& callee = module_.body(call.callee);
+  const Ref result = passOperands(call);
   const Address to = stringBuffer(callee.result);
   pointerInto(to, result);
-  if (callee.native) {
-    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+  if (callee.native)
     emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {result.offset + 8, true}, {}, {}, 0,
          capacityOf(callee.result));
+  if (callee.native)
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
-  } else {
-    emitCall(id, nullptr, site(e.loc));
-  }
+  else
+    emitCall(call.callee, nullptr, site(e.loc));
   return to;
 }
 

@@ -158,6 +158,16 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   return operate(op, type, left, right, want, isReal(type) ? 0 : at);
 }
 
+// The operands of a comparison, the left one in memory; `op` is mirrored where they change places.
+std::pair<Operand, Operand> BodyTranslator::comparedValues(ExprId a, ExprId b, Op& op) {
+  Operand left = value(a), right = value(b);
+  if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
+    std::swap(left, right);
+    op = mirrored(op);
+  }
+  return {inMemory(left, scalarOf(a)), right};
+}
+
 Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
   auto [a, b, op] = e.as<BinaryExpr>();
   const Operand to = target(want);
@@ -167,12 +177,7 @@ Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
     return to;
   }
   const Scalar type = scalarOf(a);
-  Operand left = value(a), right = value(b);
-  if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
-    std::swap(left, right);
-    op = mirrored(op);
-  }
-  left = inMemory(left, type);
+  const auto [left, right] = comparedValues(a, b, op);
   emit(compareHandler(op, type, left.mode, right.mode, to.mode), to.ref, left.ref, right.ref, 0, right.imm);
   return to;
 }
@@ -265,12 +270,7 @@ void BodyTranslator::branch(ExprId id, bool sense, Label to) {
         return;
       }
       const Scalar type = scalarOf(a);
-      Operand left = value(a), right = value(b);
-      if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
-        std::swap(left, right);
-        op = mirrored(op);
-      }
-      left = inMemory(left, type);
+      const auto [left, right] = comparedValues(a, b, op);
       jumpTo(emit(branchHandler(op, type, left.mode, right.mode, sense), left.ref, right.ref, {}, 0, right.imm), to);
       return;
     }

@@ -67,6 +67,7 @@ class BodyTranslator : FrameCode {
   Operand unary(const Expr& e, const Operand* want);
   Operand binary(const Expr& e, const Operand* want);
   Operand comparison(const Expr& e, const Operand* want);
+  std::pair<Operand, Operand> comparedValues(ExprId a, ExprId b, Op& op);
   Operand shift(const Expr& e, const Operand* want);
   Operand power(const Expr& e, const Operand* want);
   Operand select(const Expr& e, const Operand* want);
@@ -116,6 +117,7 @@ class BodyTranslator : FrameCode {
   void callStatement(const CallStmt& stmt, Loc loc);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callString(const Expr& e);
+  Ref passOperands(const CallExpr& call);
   struct Argument {
     const Local* parameter;
     ExprId operand;

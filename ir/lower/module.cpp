@@ -203,17 +203,22 @@ void ModuleLowering::declareRecordsOf(TypeId type) {
   addRecord(type);
 }
 
+// The name and source of the POU to which a record or a body belongs.
+template <class T>
+static void takeHeader(T& to, const sema::Pou& owner) {
+  to.name = owner.unique_name ? owner.unique_name : owner.name;
+  to.library = owner.library;
+  to.loc = owner.loc;
+  to.file = owner.file;
+}
+
 void ModuleLowering::addRecord(TypeId type) {
   const TypeInfo& info = types.info(type);
   Record record;
   record.type = type;
   record.name = info.name;
   if (sema::PouId pou = pou_of_record_[type.index]) {
-    const sema::Pou& owner = project.pou(pou);
-    record.name = owner.unique_name ? owner.unique_name : owner.name;
-    record.loc = owner.loc;
-    record.file = owner.file;
-    record.library = owner.library;
+    takeHeader(record, project.pou(pou));
   }
   module.records.push_back(record);
   if (info.record_kind == types::RecordKind::Interface) return;
@@ -340,11 +345,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
   const sema::ListId list = of_list;
   body.name = info.name;
   if (pou) {
-    const sema::Pou& owner = project.pou(pou);
-    body.name = owner.unique_name ? owner.unique_name : owner.name;
-    body.library = owner.library;
-    body.loc = owner.loc;
-    body.file = owner.file;
+    takeHeader(body, project.pou(pou));
   }
   body.spelling = info.name ? info.name : body.name;
   body.kind = BodyKind::Init;

@@ -134,52 +134,42 @@ class Folder {
     if (!mayFault(body_, other)) becomeBits(e, bits);
   }
 
-  void rightIdentity(Expr& e, const BinaryExpr& node, uint64_t b, TypeKind kind) {
-    switch (node.op) {
+  // Operators with which the operands may change places: `bits` is either of them, `other` the one that stays.
+  void eitherIdentity(Expr& e, Op op, ExprId other, uint64_t bits, TypeKind kind) {
+    switch (op) {
       case Op::Add:
-      case Op::Sub:
       case Op::Xor:
-        if (b == 0) becomeOperand(e, node.left);
+        if (bits == 0) becomeOperand(e, other);
         break;
       case Op::Or:
-        if (b == 0)
-          becomeOperand(e, node.left);
-        else if (b == ones(kind))
-          absorb(e, node.left, b);
+        if (bits == 0)
+          becomeOperand(e, other);
+        else if (bits == ones(kind))
+          absorb(e, other, bits);
         break;
       case Op::And:
-        if (b == 0)
-          absorb(e, node.left, 0);
-        else if (b == ones(kind))
-          becomeOperand(e, node.left);
+        if (bits == 0)
+          absorb(e, other, 0);
+        else if (bits == ones(kind))
+          becomeOperand(e, other);
         break;
       case Op::Mul:
-        if (b == 1)
-          becomeOperand(e, node.left);
-        else if (b == 0)
-          absorb(e, node.left, 0);
-        break;
-      case Op::Div:
-        if (b == 1) becomeOperand(e, node.left);
-        break;
-      case Op::Mod:
-        if (b == 1) absorb(e, node.left, 0);
-        break;
-      case Op::Shl:
-      case Op::Shr:
-        if (b == 0)
-          becomeOperand(e, node.left);
-        else if (b >= TypeTable::bitWidth(kind))
-          absorb(e, node.left, 0);
-        break;
-      case Op::Rol:
-      case Op::Ror:
-        if (b % TypeTable::bitWidth(kind) == 0) becomeOperand(e, node.left);
+        if (bits == 1)
+          becomeOperand(e, other);
+        else if (bits == 0)
+          absorb(e, other, 0);
         break;
       case Op::Eq:
       case Op::Ne:
-        if (kind == TypeKind::Bool) compareBool(e, node.op, node.left, b != 0);
+        if (kind == TypeKind::Bool) compareBool(e, op, other, bits != 0);
         break;
+      case Op::Sub:
+      case Op::Div:
+      case Op::Mod:
+      case Op::Shl:
+      case Op::Shr:
+      case Op::Rol:
+      case Op::Ror:
       case Op::Power:
       case Op::Neg:
       case Op::Not:
@@ -193,54 +183,24 @@ class Folder {
     }
   }
 
+  void rightIdentity(Expr& e, const BinaryExpr& node, uint64_t b, TypeKind kind) {
+    const uint32_t width = TypeTable::bitWidth(kind);
+    const bool shifts = node.op == Op::Shl || node.op == Op::Shr;
+    const bool rotates = node.op == Op::Rol || node.op == Op::Ror;
+    if ((b == 0 && (node.op == Op::Sub || shifts)) || (b == 1 && node.op == Op::Div) || (rotates && b % width == 0))
+      becomeOperand(e, node.left);
+    else if ((b == 1 && node.op == Op::Mod) || (shifts && b >= width))
+      absorb(e, node.left, 0);
+    else
+      eitherIdentity(e, node.op, node.left, b, kind);
+  }
+
   void leftIdentity(Expr& e, const BinaryExpr& node, uint64_t a, TypeKind kind) {
-    switch (node.op) {
-      case Op::Add:
-      case Op::Xor:
-        if (a == 0) becomeOperand(e, node.right);
-        break;
-      case Op::Or:
-        if (a == 0)
-          becomeOperand(e, node.right);
-        else if (a == ones(kind))
-          absorb(e, node.right, a);
-        break;
-      case Op::And:
-        if (a == 0)
-          absorb(e, node.right, 0);
-        else if (a == ones(kind))
-          becomeOperand(e, node.right);
-        break;
-      case Op::Mul:
-        if (a == 1)
-          becomeOperand(e, node.right);
-        else if (a == 0)
-          absorb(e, node.right, 0);
-        break;
-      case Op::Shl:
-      case Op::Shr:
-      case Op::Rol:
-      case Op::Ror:
-        if (a == 0) absorb(e, node.right, 0);
-        break;
-      case Op::Eq:
-      case Op::Ne:
-        if (kind == TypeKind::Bool) compareBool(e, node.op, node.right, a != 0);
-        break;
-      case Op::Sub:
-      case Op::Div:
-      case Op::Mod:
-      case Op::Power:
-      case Op::Neg:
-      case Op::Not:
-      case Op::Lt:
-      case Op::Le:
-      case Op::Gt:
-      case Op::Ge:
-      case Op::Min:
-      case Op::Max:
-      case Op::Abs: break;
-    }
+    const bool moves = node.op == Op::Shl || node.op == Op::Shr || node.op == Op::Rol || node.op == Op::Ror;
+    if (moves && a == 0)
+      absorb(e, node.right, 0);
+    else
+      eitherIdentity(e, node.op, node.right, a, kind);
   }
 
   // x = TRUE is x, x = FALSE is NOT x.

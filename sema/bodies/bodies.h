@@ -182,6 +182,12 @@ struct Arguments {
   bool checked = false;  // except literals: chooseOverload
 };
 Arguments matchArguments(Context& context, const CallExpr& node, PouId pou);
+// Checks the values of arguments that do not fit the pins, to report their errors too. Out: no type.
+TypeId checkRefused(Context& context, CallExpr& node, const Arguments& arguments);
+// The POU that a call means: of several of one name the one that fits, with its header resolved. None: reported.
+PouId calledOf(Context& context, const CallExpr& node, PouId named, bool& checked);
+// The type of a call; reports one that has none where a value is wanted.
+TypeId resultOf(Context& context, CallExpr& node, const Pou& callee, bool as_statement);
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call);
 // Checks the arguments of a call that cannot be resolved, to report their errors too.
 void checkLooseArguments(Context& context, const CallExpr& node);

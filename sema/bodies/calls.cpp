@@ -192,14 +192,39 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     convert(context, binding.value, pin.type, purpose);
 }
 
+}  // namespace
+
+TypeId checkRefused(Context& context, CallExpr& node, const Arguments& arguments) {
+  for (const uint32_t index : arguments.slots) {
+    if (index == 0) continue;
+    ExprId value = context.tree().list(node.arguments)[index - 1].value;
+    if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
+  }
+  return node.h.type = types::kError;
+}
+
+PouId calledOf(Context& context, const CallExpr& node, PouId named, bool& checked) {
+  const PouId pou = isOverloaded(context, named) ? chooseOverload(context, node, named, checked) : named;
+  if (!pou) return {};
+  resolvePou(context, pou);
+  noteCall(context, pou, node.h.loc);
+  return pou;
+}
+
+TypeId resultOf(Context& context, CallExpr& node, const Pou& callee, bool as_statement) {
+  if (callee.result || as_statement) return node.h.type = callee.result;
+  context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
+  return node.h.type = types::kError;
+}
+
+namespace {
+
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   bool checked = false;
-  if (isOverloaded(context, pou)) pou = chooseOverload(context, node, pou, checked);
+  pou = calledOf(context, node, pou, checked);
   if (!pou) return node.h.type = types::kError;
-  resolvePou(context, pou);
   const Pou& callee = context.symbols.pou(pou);
-  noteCall(context, pou, node.h.loc);
   checkTestOnly(context, pou, node.h.loc);
   if (callee.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
@@ -218,11 +243,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   }
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
-  if (!callee.result && !as_statement) {
-    context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
-    return node.h.type = types::kError;
-  }
-  return node.h.type = callee.result;
+  return resultOf(context, node, callee, as_statement);
 }
 
 TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool as_statement) {

@@ -205,12 +205,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   const size_t declared = pinsOf(context, pou).size();
   if (arguments.slots.size() > declared) return foldCall(context, expr, pou, arguments, expected);
   if (!arguments.ok) {
-    for (const uint32_t index : arguments.slots) {
-      if (index == 0) continue;
-      ExprId value = context.tree().list(node.arguments)[index - 1].value;
-      if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
-    }
-    return node.h.type = types::kError;
+    return checkRefused(context, node, arguments);
   }
   Call call;
   call.kind = CallKind::Function;

@@ -85,25 +85,26 @@ bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, L
 
 namespace {
 
-// Forbids THIS outside of objects.   fails   FUNCTION f … x := THIS^.y;       E0550
+// Forbids THIS and SUPER outside of objects.   fails   FUNCTION f … x := THIS^.y;       E0550
+PouId wantObject(Context& context, Loc loc, const char* word) {
+  const PouId object = objectOf(context);
+  if (object && context.symbols.pou(object).kind != PouKind::Program) return object;
+  context.report(diag::ThisOutside, loc, {word});
+  return {};
+}
+
 TypeId checkThis(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
-  const PouId object = objectOf(context);
-  if (!object || context.symbols.pou(object).kind == PouKind::Program) {
-    context.report(diag::ThisOutside, header.loc, {"THIS"});
-    return header.type = types::kError;
-  }
+  const PouId object = wantObject(context, header.loc, "THIS");
+  if (!object) return header.type = types::kError;
   return header.type = context.types().pointer(context.symbols.pou(object).record);
 }
 
 // Forbids SUPER where there is no base.   fails   FUNCTION_BLOCK a … SUPER^.m();       E0551
 TypeId checkSuper(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
-  const PouId object = objectOf(context);
-  if (!object || context.symbols.pou(object).kind == PouKind::Program) {
-    context.report(diag::ThisOutside, header.loc, {"SUPER"});
-    return header.type = types::kError;
-  }
+  const PouId object = wantObject(context, header.loc, "SUPER");
+  if (!object) return header.type = types::kError;
   const PouId base = context.symbols.pou(object).base;
   if (!base) {
     if (context.tree().as<PouDecl>(context.symbols.pou(object).decl).bases.empty())
@@ -348,10 +349,8 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
 TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   bool checked = false;
-  if (isOverloaded(context, id)) id = chooseOverload(context, node, id, checked);
+  id = calledOf(context, node, id, checked);
   if (!id) return node.h.type = types::kError;
-  resolvePou(context, id);
-  noteCall(context, id, node.h.loc);
   // An action has the pins of its block (codesys): they are set before it runs and copied after.
   const bool is_action = context.symbols.pou(id).kind == PouKind::Action;
   const PouId has_pins = is_action ? context.symbols.pou(id).owner : id;
@@ -366,11 +365,7 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   context.symbols.call(created) = std::move(call);
   node.call = created;
   const Pou& callee = context.symbols.pou(id);
-  if (!callee.result && !as_statement) {
-    context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
-    return node.h.type = types::kError;
-  }
-  return node.h.type = callee.result;
+  return resultOf(context, node, callee, as_statement);
 }
 
 }  // namespace rung::sema

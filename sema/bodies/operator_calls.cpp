@@ -92,12 +92,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   const Pou& pou = context.symbols.pou(id);
   const Arguments arguments = matchArguments(context, node, id);
   if (!arguments.ok) {
-    for (const uint32_t index : arguments.slots) {
-      if (index == 0) continue;
-      ExprId value = context.tree().list(node.arguments)[index - 1].value;
-      if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
-    }
-    return node.h.type = types::kError;
+    return checkRefused(context, node, arguments);
   }
   if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
   BinaryOp infix;

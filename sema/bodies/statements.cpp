@@ -93,14 +93,20 @@ BinaryOp binaryOf(AssignOp op) {
 
 namespace {
 
-// a += b is a := a + b; lowering keeps the short form where both sides have the target's type.
-void checkCompoundAssign(Context& context, AssignStmt& node) {
-  const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
+// The type of the target; kError when nothing is left to check: it is wrong, or a property.
+TypeId checkAssigned(Context& context, AssignStmt& node, Access access) {
+  const TypeId type = checkTarget(context, node.target, access);
   if (type == types::kError) {
     checkExpr(context, node.value);
-    return;
+    return type;
   }
-  if (checkPropertyAssign(context, node)) return;
+  return checkPropertyAssign(context, node) ? types::kError : type;
+}
+
+// a += b is a := a + b; lowering keeps the short form where both sides have the target's type.
+void checkCompoundAssign(Context& context, AssignStmt& node) {
+  const TypeId type = checkAssigned(context, node, Access::ReadWrite);
+  if (type == types::kError) return;
   ExprId value = context.build().binary(binaryOf(node.op()), node.target, node.value, node.h.loc);
   check(context, context.tree().as<BinaryExpr>(value).right, type, Access::Read);
   if (combine(context, value, type) == types::kError) return;
@@ -120,12 +126,8 @@ void checkAssign(Context& context, AssignStmt& node) {
   switch (node.op()) {
     case AssignOp::Assign: {
       if (checkTemporaryAssign(context, node)) return;
-      const TypeId type = checkTarget(context, node.target, Access::Write);
-      if (type == types::kError) {
-        checkExpr(context, node.value);
-        return;
-      }
-      if (checkPropertyAssign(context, node)) return;
+      const TypeId type = checkAssigned(context, node, Access::Write);
+      if (type == types::kError) return;
       checkAs(context, node.value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
       checkDanglingAddress(context, node.target, node.value);
       return;

@@ -15,31 +15,38 @@ namespace rung::sema {
 using types::RecordKind;
 
 void internKnownNames(Context& context) {
-  const auto word = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
-  Scopes::KnownNames& known = context.scopes.known_names;
-  known.attribute_qualified_only = word("qualified_only");
-  known.attribute_strict = word("strict");
-  known.attribute_instance_path = word("instance-path");
-  known.test = word("test");
-  known.test_only = word("test_only");
-  known.replaces = word("replaces");
-  known.mock = word("mock");
-  known.alias = word("alias");
-  known.required = word("required");
-  known.lazy = word("lazy");
-  known.extensible = word("extensible");
-  known.prefix = word("prefix");
-  known.sized = word("sized");
-  known.slice = word("slice");
-  known.pure = word("pure");
-  known.native = word("native");
-  known.op = word("operator");
-  known.std = word("std");
-  known.no_final_scan = word("no_final_scan");
-  known.list = word("list");
-  known.fault = word("fault");
-  known.no_copy = word("no_copy");
-  known.bytes = word("bytes");
+  struct Row {
+    NameId Scopes::KnownNames::*name;
+    std::string_view text;
+  };
+  using Known = Scopes::KnownNames;
+  static constexpr Row kRows[] = {
+      {&Known::attribute_qualified_only, "qualified_only"},
+      {&Known::attribute_strict, "strict"},
+      {&Known::attribute_instance_path, "instance-path"},
+      {&Known::test, "test"},
+      {&Known::test_only, "test_only"},
+      {&Known::replaces, "replaces"},
+      {&Known::mock, "mock"},
+      {&Known::alias, "alias"},
+      {&Known::required, "required"},
+      {&Known::lazy, "lazy"},
+      {&Known::extensible, "extensible"},
+      {&Known::prefix, "prefix"},
+      {&Known::sized, "sized"},
+      {&Known::slice, "slice"},
+      {&Known::pure, "pure"},
+      {&Known::native, "native"},
+      {&Known::op, "operator"},
+      {&Known::std, "std"},
+      {&Known::no_final_scan, "no_final_scan"},
+      {&Known::list, "list"},
+      {&Known::fault, "fault"},
+      {&Known::no_copy, "no_copy"},
+      {&Known::bytes, "bytes"},
+  };
+  for (const Row& row : kRows)
+    context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {

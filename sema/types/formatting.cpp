@@ -2,7 +2,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "frontend/source/calendar.h"
 #include "frontend/source/files.h"
+#include "frontend/source/quoting.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -66,22 +68,13 @@ void appendDuration(std::string& out, uint64_t ns, bool negative, bool long_form
   }
 }
 
-// Days since 1970-01-01 to a calendar date (proleptic Gregorian; H. Hinnant, "chrono-compatible low-level algorithms").
 void appendDate(std::string& out, int64_t days) {
-  days += 719468;
-  const int64_t era = (days >= 0 ? days : days - 146096) / 146097;
-  const int64_t day_of_era = days - era * 146097;
-  const int64_t year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
-  const int64_t day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const int64_t month_index = (5 * day_of_year + 2) / 153;
-  const int64_t day = day_of_year - (153 * month_index + 2) / 5 + 1;
-  const int64_t month = month_index < 10 ? month_index + 3 : month_index - 9;
-  const int64_t year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
-  appendNumber(out, static_cast<uint64_t>(year), 4);
+  const CalendarDate date = dateOfDays(days);
+  appendNumber(out, date.year, 4);
   out += '-';
-  appendNumber(out, static_cast<uint64_t>(month), 2);
+  appendNumber(out, date.month, 2);
   out += '-';
-  appendNumber(out, static_cast<uint64_t>(day), 2);
+  appendNumber(out, date.day, 2);
 }
 
 void appendClock(std::string& out, uint64_t ns) {
@@ -103,28 +96,15 @@ void appendClock(std::string& out, uint64_t ns) {
 }
 
 void appendString(std::string& out, std::string_view text, char quote) {
-  static constexpr char kHex[] = "0123456789ABCDEF";
   out += quote;
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
     switch (c) {
       case '$': out += "$$"; break;
       case '\n': out += "$L"; break;
       case '\r': out += "$R"; break;
       case '\f': out += "$P"; break;
       case '\t': out += "$T"; break;
-      default:
-        if (c == quote) {
-          out += '$';
-          out += quote;
-        } else if (byte < 0x20 || byte == 0x7f) {
-          out += '$';
-          if (quote == '"') out += "00";  // WSTRING: four digits
-          out += kHex[byte >> 4];
-          out += kHex[byte & 15];
-        } else {
-          out += c;
-        }
+      default: appendInQuotes(out, c, quote, isControl(c), quote == '"');  // WSTRING: four digits
     }
   }
   out += quote;

@@ -129,6 +129,19 @@ TypeId TypeTable::elementary(NameId name) const {
   return found == elementary_.end() ? TypeId{} : found->second;
 }
 
+namespace {
+
+// A type over another one: its elements, target or base.
+TypeInfo infoOver(TypeKind kind, TypeId base, NameId name = {}) {
+  TypeInfo info;
+  info.kind = kind;
+  info.name = name;
+  info.base = base;
+  return info;
+}
+
+}  // namespace
+
 TypeId TypeTable::string(TypeKind kind, uint32_t length) {
   TypeId& id = interned_[internKey(kind, length)];
   if (!id) {
@@ -159,9 +172,7 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
       if (equal) return id;
       continue;
     }
-    TypeInfo info;
-    info.kind = TypeKind::Array;
-    info.base = element;
+    TypeInfo info = infoOver(TypeKind::Array, element);
     info.dimensions.assign(dimensions.begin(), dimensions.end());
     return id = types_.add(std::move(info));
   }
@@ -171,9 +182,7 @@ TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
   for (uint64_t key = element.index;; key += uint64_t{1} << 32) {
     TypeId& id = interned_[internKey(TypeKind::Any, key)];
     if (!id) {
-      TypeInfo info;
-      info.kind = TypeKind::Array;
-      info.base = element;
+      TypeInfo info = infoOver(TypeKind::Array, element);
       info.length = dimensions;
       return id = types_.add(std::move(info));
     }
@@ -183,50 +192,27 @@ TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
 
 TypeId TypeTable::pointer(TypeId target) {
   TypeId& id = interned_[internKey(TypeKind::Pointer, target.index)];
-  if (!id) {
-    TypeInfo info;
-    info.kind = TypeKind::Pointer;
-    info.base = target;
-    id = types_.add(std::move(info));
-  }
+  if (!id) id = types_.add(infoOver(TypeKind::Pointer, target));
   return id;
 }
 
 TypeId TypeTable::reference(TypeId target) {
   TypeId& id = interned_[internKey(TypeKind::Reference, target.index)];
-  if (!id) {
-    TypeInfo info;
-    info.kind = TypeKind::Reference;
-    info.base = target;
-    id = types_.add(std::move(info));
-  }
+  if (!id) id = types_.add(infoOver(TypeKind::Reference, target));
   return id;
 }
 
-TypeId TypeTable::addEnum(NameId name, TypeId base) {
-  TypeInfo info;
-  info.kind = TypeKind::Enum;
-  info.name = name;
-  info.base = base;
-  return types_.add(std::move(info));
-}
+TypeId TypeTable::addEnum(NameId name, TypeId base) { return types_.add(infoOver(TypeKind::Enum, base, name)); }
 
 TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t high) {
-  TypeInfo info;
-  info.kind = TypeKind::Subrange;
-  info.name = name;
-  info.base = base;
+  TypeInfo info = infoOver(TypeKind::Subrange, base, name);
   info.low = info.initial = low;
   info.high = high;
   return types_.add(std::move(info));
 }
 
 TypeId TypeTable::addAlias(NameId name, TypeId target) {
-  TypeInfo info;
-  info.kind = TypeKind::Alias;
-  info.name = name;
-  info.base = target;
-  return types_.add(std::move(info));
+  return types_.add(infoOver(TypeKind::Alias, target, name));
 }
 
 TypeId TypeTable::addRecord(RecordKind kind, NameId name) {

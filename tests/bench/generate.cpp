@@ -49,59 +49,9 @@ END_FUNCTION
 )";
 }
 
-std::string station(long n) {
-  const std::string id = text(n), a = text(n % 4 + 1), b = text(n % 6 + 3);
-  return "(* Station " + id + R"(: averages its level, steps through a batch, counts and reports. *)
-FUNCTION_BLOCK Station)" +
-         id + R"(
-  VAR_INPUT
-    start, stop : BOOL;
-    level : DINT;
-    target : REAL := )" +
-         b + R"(0.0;
-  END_VAR
-  VAR_OUTPUT
-    valve : REAL;
-    busy, alarm : BOOL;
-    message : STRING[40];
-  END_VAR
-  VAR
-    step : StepKind;
-    window : Window;
-    reading : Reading;
-    dwell : TON;
-    pause : TOF;
-    started : R_TRIG;
-    batches : CTU;
-    position, i : INT;
-    mean, error, sum : REAL;
-    mask : WORD := 16#00F)" +
-         a + R"(;
-  END_VAR
-
-  // the window of the last values and its mean
-  position := position MOD 12 + 1;
-  window[position] := Scale)" +
-         id + R"((raw := level, low := 0.0, high := )" + b + R"(00.0);
-  mean := 0.0;
-  FOR i := 1 TO 12 DO
-    mean := mean + window[i];
-  END_FOR;
-  reading.raw := level;
-  reading.value := mean / 12.0;
-  reading.valid := reading.value > 0.5 AND reading.value < )" +
-         b + R"(00.0;
-  reading.kind := step;
-
-  started(CLK := start AND NOT stop);
-  dwell(IN := step = Mixing, PT := T#)" +
-         a + R"(s);
-  pause(IN := busy, PT := T#)" +
-         b + R"(00ms);
-  batches(CU := dwell.Q, RESET := stop, PV := )" +
-         b + R"(0);
-
-  CASE step OF
+// The second half of a station's body: its steps, and what it reports.
+std::string stationSteps(const std::string& id, const std::string& a, const std::string& b) {
+  return R"(  CASE step OF
     Waiting:
       valve := 0.0;
       IF started.Q AND reading.valid THEN
@@ -158,6 +108,61 @@ FUNCTION_BLOCK Station)" +
 END_FUNCTION_BLOCK
 
 )";
+}
+
+std::string station(long n) {
+  const std::string id = text(n), a = text(n % 4 + 1), b = text(n % 6 + 3);
+  return "(* Station " + id + R"(: averages its level, steps through a batch, counts and reports. *)
+FUNCTION_BLOCK Station)" +
+         id + R"(
+  VAR_INPUT
+    start, stop : BOOL;
+    level : DINT;
+    target : REAL := )" +
+         b + R"(0.0;
+  END_VAR
+  VAR_OUTPUT
+    valve : REAL;
+    busy, alarm : BOOL;
+    message : STRING[40];
+  END_VAR
+  VAR
+    step : StepKind;
+    window : Window;
+    reading : Reading;
+    dwell : TON;
+    pause : TOF;
+    started : R_TRIG;
+    batches : CTU;
+    position, i : INT;
+    mean, error, sum : REAL;
+    mask : WORD := 16#00F)" +
+         a + R"(;
+  END_VAR
+
+  // the window of the last values and its mean
+  position := position MOD 12 + 1;
+  window[position] := Scale)" +
+         id + R"((raw := level, low := 0.0, high := )" + b + R"(00.0);
+  mean := 0.0;
+  FOR i := 1 TO 12 DO
+    mean := mean + window[i];
+  END_FOR;
+  reading.raw := level;
+  reading.value := mean / 12.0;
+  reading.valid := reading.value > 0.5 AND reading.value < )" +
+         b + R"(00.0;
+  reading.kind := step;
+
+  started(CLK := start AND NOT stop);
+  dwell(IN := step = Mixing, PT := T#)" +
+         a + R"(s);
+  pause(IN := busy, PT := T#)" +
+         b + R"(00ms);
+  batches(CU := dwell.Q, RESET := stop, PV := )" +
+         b + R"(0);
+
+)" + stationSteps(id, a, b);
 }
 
 std::string area(long number, long first, long count) {

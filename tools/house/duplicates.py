@@ -2,8 +2,9 @@
 """Lists pairs of places that share six or more consecutive lines of code, equal or of the same shape.
     tools/house/duplicates.py [--lines N] [FOLDER ...]
 Lines have the same shape when they differ only in names, numbers and strings. Four of the lines must have names, the
-others may be closing braces. Comments, `case` labels, declarations without a value, rows of tables and prototypes do
-not count as lines. A pair that overlaps another one at both ends is not listed."""
+others may be closing braces. Comments, labels, declarations without a value or with a plain one, the first and last
+lines of types, rows of tables and prototypes do not count as lines. A pair that overlaps another one at both ends is
+not listed."""
 import argparse
 import collections
 import re
@@ -19,8 +20,15 @@ KEYWORDS = frozenset(
     "class enum using namespace template typename static inline public private true false nullptr this sizeof "
     "static_cast reinterpret_cast const_cast new delete".split())
 ROW = re.compile(r"^(?:n|0|\{|\}|,|:|=|-|<|>|\.|&|\|)*,?$")  # of a table or an enumeration
-DECLARATION = re.compile(r"^(?:const )?[n:<>&*, ]+(?: ?= ?[n0])?;$")
-OPENING = re.compile(r"^(?:struct|class|enum class) n")
+VALUE = r"(?:n|n::n|0|-0|true|false|nullptr|\{\})"  # of a member, where none other is given
+DECLARATION = re.compile(rf"^(?:const )?(?:[n:<>&*, ]|bool|int|char)+(?: ?= ?{VALUE}(?:,n ?= ?{VALUE})*)?;$")
+TYPE = r"(?:const )?(?:n(?:::n)*|bool|int|char|void|auto)(?:<[^()]*>)?(?:[&*]| const)*"
+PARAMETER = rf"{TYPE}(?: ?n)?(?: ?= ?[^,()]*)?"
+PROTOTYPE = re.compile(rf"^(?:static |virtual |explicit |friend )*{TYPE} ?~?n\((?:{PARAMETER}(?:, ?{PARAMETER})*)?\)"
+                       rf"(?: const)?(?: n)?(?: ?= ?(?:0|delete|default))?;$")
+ONE_NAME = re.compile(r"^n n\(n(?:, ?n)*\);$")  # a variable and the arguments of its constructor
+OPENING = re.compile(r"^(?:typedef )?(?:struct|class|enum class|enum) n|^\} ?n;$|^(?:public|private|n):$")
+TABLE_ROW = re.compile(r"^\{[^;]*\},?$")
 
 
 def code_lines(path):
@@ -37,7 +45,9 @@ def code_lines(path):
                  for t in tokens]
         shape = " ".join(words)
         compact = re.sub(r" ?([^\w ]) ?", r"\1", shape)
-        if ROW.match(compact) or DECLARATION.match(compact) or OPENING.match(compact):
+        if ROW.match(compact) or DECLARATION.match(compact) or OPENING.match(compact) or TABLE_ROW.match(compact):
+            continue
+        if PROTOTYPE.match(compact) and not ONE_NAME.match(compact):
             continue
         if path.endswith(".h") and compact.endswith(";") and "=" not in compact and not compact.startswith("return"):
             continue

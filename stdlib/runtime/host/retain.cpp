@@ -28,10 +28,11 @@ struct Header {
 constexpr char kMagic[8] = {'R', 'U', 'N', 'G', 'r', 't', '0', '1'};
 constexpr uint64_t kSector = 4096;
 
-bool readAt(int file, uint64_t offset, void* to, size_t size) {
-  char* at = static_cast<char*>(to);
+// All bytes through pread or pwrite, which may take a part of them.
+template <class Byte, class Move>
+bool moveAll(Move move, int file, uint64_t offset, Byte* at, size_t size) {
   while (size > 0) {
-    const ssize_t n = pread(file, at, size, static_cast<off_t>(offset));
+    const ssize_t n = move(file, at, size, static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     at += n;
@@ -40,18 +41,11 @@ bool readAt(int file, uint64_t offset, void* to, size_t size) {
   }
   return true;
 }
-
+bool readAt(int file, uint64_t offset, void* to, size_t size) {
+  return moveAll(pread, file, offset, static_cast<char*>(to), size);
+}
 bool writeAt(int file, uint64_t offset, const void* from, size_t size) {
-  const char* at = static_cast<const char*>(from);
-  while (size > 0) {
-    const ssize_t n = pwrite(file, at, size, static_cast<off_t>(offset));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    offset += static_cast<uint64_t>(n);
-    size -= static_cast<size_t>(n);
-  }
-  return true;
+  return moveAll(pwrite, file, offset, static_cast<const char*>(from), size);
 }
 
 uint32_t bytesOf(const rung_range* ranges, uint32_t count) {

@@ -6,19 +6,23 @@
 
 #include "rung/code.h"
 
+namespace {
+
+struct Activation {
+  rung_context* ctx;
+  void (*run)(rung_context*);
+};
+void activate(void* activation) {
+  const auto* const it = static_cast<const Activation*>(activation);
+  it->run(it->ctx);
+}
+
+}  // namespace
+
 uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*)) {
-  jmp_buf target;
-  void* const outer = ctx->fault_target;
-  ctx->fault_target = &target;
+  Activation activation{ctx, run};
   ctx->fault.kind = RUNG_FAULT_NONE;
-  // Locals do not change after setjmp, so they are all still valid after longjmp.
-  if (setjmp(target) == 0) {
-    run(ctx);
-    ctx->fault_target = outer;
-    return RUNG_FAULT_NONE;
-  }
-  ctx->fault_target = outer;
-  return ctx->fault.kind;
+  return rung_try(ctx, activate, &activation);
 }
 
 void rung_raise(rung_context* ctx, uint8_t kind, uint32_t site, int64_t value) {
@@ -33,6 +37,7 @@ uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame) {
   jmp_buf target;
   void* const outer = ctx->fault_target;
   ctx->fault_target = &target;
+  // Locals do not change after setjmp, so they are all still valid after longjmp.
   if (setjmp(target) == 0) {
     run(frame);
     ctx->fault_target = outer;

@@ -124,6 +124,16 @@ T readLeadingReal(const char* string) {
   return negative ? -value : value;
 }
 
+// False when there is no room: never half a character.
+bool appendCode(char* to, uint32_t capacity, uint32_t& length, uint32_t code) {
+  char bytes[4];
+  const uint32_t count = encode(code, bytes);
+  if (length + count > capacity) return false;
+  memcpy(to + length, bytes, count);
+  length += count;
+  return true;
+}
+
 }  // namespace
 
 uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from) {
@@ -163,11 +173,7 @@ uint32_t rung_string_of_wstring(char* to, uint32_t capacity, const char16_t* fro
       code = 0x10000 + ((code - 0xd800) << 10) + (from[1] - 0xdc00u);
       ++from;
     }
-    char bytes[4];
-    const uint32_t count = encode(code, bytes);
-    if (length + count > capacity) break;  // never half a character
-    memcpy(to + length, bytes, count);
-    length += count;
+    if (!appendCode(to, capacity, length, code)) break;
   }
   to[length] = 0;
   return length;
@@ -240,11 +246,7 @@ uint32_t rung_ustring_of_string(char* to, uint32_t capacity, const char* from) {
   uint32_t length = 0;
   const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
   while (*at != 0) {
-    char bytes[4];
-    const uint32_t count = encode(decode(at), bytes);
-    if (length + count > capacity) break;
-    memcpy(to + length, bytes, count);
-    length += count;
+    if (!appendCode(to, capacity, length, decode(at))) break;
   }
   to[length] = 0;
   return length;

@@ -637,19 +637,43 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
   return to.finish();
 }
 
+namespace {
+
+bool parseBool(const Reader& from, void* value) {
+  Reader word = from;
+  if (word.take("bool#"), word.take("true") && word.done()) return store<uint8_t>(value, 1), true;
+  word = from;
+  if (word.take("bool#"), word.take("false") && word.done()) return store<uint8_t>(value, 0), true;
+  Integer integer;
+  if (!readInteger(from, integer) || integer.negative || integer.magnitude > 1) return false;
+  store<uint8_t>(value, static_cast<uint8_t>(integer.magnitude));
+  return true;
+}
+
+template <class Real>
+bool parseReal(const Reader& from, void* value) {
+  Real real;
+  if (!readReal(from, real)) return false;
+  store(value, real);
+  return true;
+}
+
+bool parseDate(uint8_t kind, const Reader& from, void* value) {
+  uint64_t ns;
+  if (!readDate(kind, from, ns)) return false;
+  if (kind == RUNG_LDATE || kind == RUNG_LTOD || kind == RUNG_LDT) return store(value, ns), true;
+  const uint64_t scaled = ns / (kind == RUNG_TOD ? kNsPerMs : kNsPerSecond);
+  if (scaled > UINT32_MAX) return false;
+  store(value, static_cast<uint32_t>(scaled));
+  return true;
+}
+
+}  // namespace
+
 bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text, size_t size, void* value) {
   const Reader from{text, text + size};
   switch (static_cast<rung_type_kind>(kind)) {
-    case RUNG_BOOL: {
-      Reader word = from;
-      if (word.take("bool#"), word.take("true") && word.done()) return store<uint8_t>(value, 1), true;
-      word = from;
-      if (word.take("bool#"), word.take("false") && word.done()) return store<uint8_t>(value, 0), true;
-      Integer integer;
-      if (!readInteger(from, integer) || integer.negative || integer.magnitude > 1) return false;
-      store<uint8_t>(value, static_cast<uint8_t>(integer.magnitude));
-      return true;
-    }
+    case RUNG_BOOL: return parseBool(from, value);
     case RUNG_BYTE:
     case RUNG_WORD:
     case RUNG_DWORD:
@@ -665,18 +689,8 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
       Integer integer;
       return readInteger(from, integer) && storeInteger(integer, formatOf(kind), value);
     }
-    case RUNG_REAL: {
-      float real;
-      if (!readReal(from, real)) return false;
-      store(value, real);
-      return true;
-    }
-    case RUNG_LREAL: {
-      double real;
-      if (!readReal(from, real)) return false;
-      store(value, real);
-      return true;
-    }
+    case RUNG_REAL: return parseReal<float>(from, value);
+    case RUNG_LREAL: return parseReal<double>(from, value);
     case RUNG_TIME:
     case RUNG_LTIME: {
       Integer ns;
@@ -689,15 +703,7 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
     case RUNG_TOD:
     case RUNG_LTOD:
     case RUNG_DT:
-    case RUNG_LDT: {
-      uint64_t ns;
-      if (!readDate(kind, from, ns)) return false;
-      if (kind == RUNG_LDATE || kind == RUNG_LTOD || kind == RUNG_LDT) return store(value, ns), true;
-      const uint64_t scaled = ns / (kind == RUNG_TOD ? kNsPerMs : kNsPerSecond);
-      if (scaled > UINT32_MAX) return false;
-      store(value, static_cast<uint32_t>(scaled));
-      return true;
-    }
+    case RUNG_LDT: return parseDate(kind, from, value);
     case RUNG_CHAR: {
       char one[2];
       if (!readString(from, 1, nullptr)) return false;

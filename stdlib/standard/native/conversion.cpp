@@ -2,6 +2,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "integers.h"
 #include "rung/code.h"
 #include "rung/values.h"
 
@@ -82,6 +83,17 @@ uint32_t firstOf(const char16_t* text) {
   return rung_ustring_code(utf8);
 }
 
+// The bytes of a number in reverse order.
+template <class T>
+T swapped(T value) {
+  if constexpr (std::is_same<T, float>::value) return rung_f32_of(__builtin_bswap32(rung_bits_of_f32(value)));
+  if constexpr (std::is_same<T, double>::value) return rung_f64_of(__builtin_bswap64(rung_bits_of_f64(value)));
+  if constexpr (sizeof(T) == 2) return static_cast<T>(__builtin_bswap16(static_cast<uint16_t>(value)));
+  if constexpr (sizeof(T) == 4) return static_cast<T>(__builtin_bswap32(static_cast<uint32_t>(value)));
+  if constexpr (sizeof(T) == 8) return static_cast<T>(__builtin_bswap64(static_cast<uint64_t>(value)));
+  return value;
+}
+
 uint8_t isBcd(uint64_t bcd) {
   for (; bcd != 0; bcd >>= 4)
     if ((bcd & 15) > 9) return 0;
@@ -89,6 +101,17 @@ uint8_t isBcd(uint64_t bcd) {
 }
 
 }  // namespace
+
+// ROW(NAME, type) for the durations, dates and times.
+#define RUNG_EACH_TIME(ROW)    \
+  ROW(TIME, uint32_t)          \
+  ROW(LTIME, int64_t)          \
+  ROW(DATE, uint32_t)          \
+  ROW(LDATE, uint64_t)         \
+  ROW(TIME_OF_DAY, uint32_t)   \
+  ROW(LTIME_OF_DAY, uint64_t)  \
+  ROW(DATE_AND_TIME, uint32_t) \
+  ROW(LDATE_AND_TIME, uint64_t)
 
 extern "C" {
 
@@ -128,18 +151,7 @@ extern "C" {
   RUNG_WTEXT_OF(TYPE, TYPE, T, bitsOf(in))                                                      \
   RUNG_OF_STRING(TYPE, TYPE, T)
 RUNG_STRING_BOTH(BOOL, BOOL, uint8_t)
-RUNG_INTEGER_BOTH(BYTE, uint8_t)
-RUNG_INTEGER_BOTH(WORD, uint16_t)
-RUNG_INTEGER_BOTH(DWORD, uint32_t)
-RUNG_INTEGER_BOTH(LWORD, uint64_t)
-RUNG_INTEGER_BOTH(SINT, int8_t)
-RUNG_INTEGER_BOTH(INT, int16_t)
-RUNG_INTEGER_BOTH(DINT, int32_t)
-RUNG_INTEGER_BOTH(LINT, int64_t)
-RUNG_INTEGER_BOTH(USINT, uint8_t)
-RUNG_INTEGER_BOTH(UINT, uint16_t)
-RUNG_INTEGER_BOTH(UDINT, uint32_t)
-RUNG_INTEGER_BOTH(ULINT, uint64_t)
+RUNG_EACH_INTEGER(RUNG_INTEGER_BOTH)
 RUNG_STRING_BOTH(REAL, REAL, float)
 RUNG_STRING_BOTH(LREAL, LREAL, double)
 RUNG_STRING_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
@@ -172,45 +184,25 @@ RUNG_STRING_OF(UCHAR, UCHAR, uint32_t, bitsOf(in))
 #undef RUNG_STRING_OF
 #undef RUNG_OF_STRING
 
-uint32_t rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_string_assign(out, capacity, in);
-}
-uint32_t rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
-  return rung_string_of_wstring(out, capacity, in);
-}
-uint32_t rung_standard_TO_STRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_ustring_assign(out, capacity, in);
-}
-uint32_t rung_standard_TO_USTRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_ustring_of_string(out, capacity, in);
-}
-uint32_t rung_standard_TO_USTRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
-  return rung_string_of_wstring(out, capacity, in);
-}
-uint32_t rung_standard_TO_USTRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_ustring_assign(out, capacity, in);
-}
-uint32_t rung_standard_TO_WSTRING__USTRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
-  return rung_wstring_of_string(out, capacity, in);
-}
-uint32_t rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
-  return rung_wstring_of_string(out, capacity, in);
-}
-uint32_t rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) {
-  return rung_wstring_assign(out, capacity, in);
-}
+#define RUNG_TEXT_OF(TO, TO_CHAR, TYPE, FROM_CHAR, function)                                       \
+  uint32_t rung_standard_TO_##TO##__##TYPE##_255(rung_context*, const FROM_CHAR* in, TO_CHAR* out, \
+                                                 uint32_t capacity) {                              \
+    return function(out, capacity, in);                                                            \
+  }
+RUNG_TEXT_OF(STRING, char, STRING, char, rung_string_assign)
+RUNG_TEXT_OF(STRING, char, WSTRING, char16_t, rung_string_of_wstring)
+RUNG_TEXT_OF(STRING, char, USTRING, char, rung_ustring_assign)
+RUNG_TEXT_OF(USTRING, char, STRING, char, rung_ustring_of_string)
+RUNG_TEXT_OF(USTRING, char, WSTRING, char16_t, rung_string_of_wstring)
+RUNG_TEXT_OF(USTRING, char, USTRING, char, rung_ustring_assign)
+RUNG_TEXT_OF(WSTRING, char16_t, USTRING, char, rung_wstring_of_string)
+RUNG_TEXT_OF(WSTRING, char16_t, STRING, char, rung_wstring_of_string)
+RUNG_TEXT_OF(WSTRING, char16_t, WSTRING, char16_t, rung_wstring_assign)
+#undef RUNG_TEXT_OF
 
 // ---- binary transfer
-float rung_standard_DWORD_TO_REAL(rung_context*, uint32_t in) {
-  float out;
-  std::memcpy(&out, &in, sizeof out);
-  return out;
-}
-uint32_t rung_standard_REAL_TO_DWORD(rung_context*, float in) {
-  uint32_t out;
-  std::memcpy(&out, &in, sizeof out);
-  return out;
-}
+float rung_standard_DWORD_TO_REAL(rung_context*, uint32_t in) { return rung_f32_of(in); }
+uint32_t rung_standard_REAL_TO_DWORD(rung_context*, float in) { return rung_bits_of_f32(in); }
 double rung_standard_LWORD_TO_LREAL(rung_context*, uint64_t in) { return rung_f64_of(in); }
 uint64_t rung_standard_LREAL_TO_LWORD(rung_context*, double in) { return rung_bits_of_f64(in); }
 
@@ -226,27 +218,9 @@ uint64_t rung_standard_LREAL_TO_LWORD(rung_context*, double in) { return rung_bi
 #define RUNG_CHAR_BOTH(TYPE, T) \
   RUNG_CHAR_OF(TYPE, T)         \
   RUNG_CODE_OF(TYPE, T)
-RUNG_CHAR_BOTH(BYTE, uint8_t)
-RUNG_CHAR_BOTH(WORD, uint16_t)
-RUNG_CHAR_BOTH(DWORD, uint32_t)
-RUNG_CHAR_BOTH(LWORD, uint64_t)
-RUNG_CHAR_BOTH(SINT, int8_t)
-RUNG_CHAR_BOTH(INT, int16_t)
-RUNG_CHAR_BOTH(DINT, int32_t)
-RUNG_CHAR_BOTH(LINT, int64_t)
-RUNG_CHAR_BOTH(USINT, uint8_t)
-RUNG_CHAR_BOTH(UINT, uint16_t)
-RUNG_CHAR_BOTH(UDINT, uint32_t)
-RUNG_CHAR_BOTH(ULINT, uint64_t)
+RUNG_EACH_INTEGER(RUNG_CHAR_BOTH)
 RUNG_CHAR_OF(BOOL, uint8_t)
-RUNG_CHAR_OF(TIME, uint32_t)
-RUNG_CHAR_OF(LTIME, int64_t)
-RUNG_CHAR_OF(DATE, uint32_t)
-RUNG_CHAR_OF(LDATE, uint64_t)
-RUNG_CHAR_OF(TIME_OF_DAY, uint32_t)
-RUNG_CHAR_OF(LTIME_OF_DAY, uint64_t)
-RUNG_CHAR_OF(DATE_AND_TIME, uint32_t)
-RUNG_CHAR_OF(LDATE_AND_TIME, uint64_t)
+RUNG_EACH_TIME(RUNG_CHAR_OF)
 RUNG_CHAR_OF(CHAR, uint8_t)
 RUNG_CHAR_OF(WCHAR, uint16_t)
 #undef RUNG_CHAR_BOTH
@@ -309,43 +283,19 @@ uint8_t rung_standard_INT_TO_BCD(rung_context*, int16_t in) {
 }
 
 // ---- byte order: memory of the running program is little-endian, so only the big forms swap.
-#define RUNG_BYTE_ORDER(TYPE, T, swapped)                                                          \
-  T rung_standard_TO_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }   \
-  T rung_standard_FROM_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); } \
-  T rung_standard_TO_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }                     \
+#define RUNG_BYTE_ORDER(TYPE, T)                                                       \
+  T rung_standard_TO_BIG_ENDIAN__##TYPE(rung_context*, T in) { return swapped(in); }   \
+  T rung_standard_FROM_BIG_ENDIAN__##TYPE(rung_context*, T in) { return swapped(in); } \
+  T rung_standard_TO_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }         \
   T rung_standard_FROM_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }
-#define RUNG_SWAP16 __builtin_bswap16(static_cast<uint16_t>(in))
-#define RUNG_SWAP32 __builtin_bswap32(static_cast<uint32_t>(in))
-#define RUNG_SWAP64 __builtin_bswap64(static_cast<uint64_t>(in))
-RUNG_BYTE_ORDER(BOOL, uint8_t, in)
-RUNG_BYTE_ORDER(BYTE, uint8_t, in)
-RUNG_BYTE_ORDER(WORD, uint16_t, RUNG_SWAP16)
-RUNG_BYTE_ORDER(DWORD, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LWORD, uint64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(SINT, int8_t, in)
-RUNG_BYTE_ORDER(INT, int16_t, RUNG_SWAP16)
-RUNG_BYTE_ORDER(DINT, int32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LINT, int64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(USINT, uint8_t, in)
-RUNG_BYTE_ORDER(UINT, uint16_t, RUNG_SWAP16)
-RUNG_BYTE_ORDER(UDINT, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(ULINT, uint64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(TIME, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LTIME, int64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(DATE, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LDATE, uint64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(TIME_OF_DAY, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LTIME_OF_DAY, uint64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(DATE_AND_TIME, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(LDATE_AND_TIME, uint64_t, RUNG_SWAP64)
-RUNG_BYTE_ORDER(CHAR, uint8_t, in)
-RUNG_BYTE_ORDER(WCHAR, uint16_t, RUNG_SWAP16)
-RUNG_BYTE_ORDER(UCHAR, uint32_t, RUNG_SWAP32)
-RUNG_BYTE_ORDER(REAL, float, rung_f32_of(__builtin_bswap32(rung_bits_of_f32(in))))
-RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in))))
-#undef RUNG_SWAP16
-#undef RUNG_SWAP32
-#undef RUNG_SWAP64
+RUNG_BYTE_ORDER(BOOL, uint8_t)
+RUNG_EACH_INTEGER(RUNG_BYTE_ORDER)
+RUNG_EACH_TIME(RUNG_BYTE_ORDER)
+RUNG_BYTE_ORDER(CHAR, uint8_t)
+RUNG_BYTE_ORDER(WCHAR, uint16_t)
+RUNG_BYTE_ORDER(UCHAR, uint32_t)
+RUNG_BYTE_ORDER(REAL, float)
+RUNG_BYTE_ORDER(LREAL, double)
 #undef RUNG_BYTE_ORDER
 
 #define RUNG_STRING_ORDER(NAME)                                                                                       \

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "integers.h"
 #include "rung/code.h"
+#include "rung/cpp_functions.h"
 
 namespace {
 
@@ -23,16 +25,7 @@ extern "C" {
 #define RUNG_ONE_VARIABLE(NAME, function)                                                   \
   float rung_standard_##NAME##__REAL(rung_context*, float in) { return std::function(in); } \
   double rung_standard_##NAME##__LREAL(rung_context*, double in) { return std::function(in); }
-RUNG_ONE_VARIABLE(SQRT, sqrt)
-RUNG_ONE_VARIABLE(LN, log)
-RUNG_ONE_VARIABLE(LOG, log10)
-RUNG_ONE_VARIABLE(EXP, exp)
-RUNG_ONE_VARIABLE(SIN, sin)
-RUNG_ONE_VARIABLE(COS, cos)
-RUNG_ONE_VARIABLE(TAN, tan)
-RUNG_ONE_VARIABLE(ASIN, asin)
-RUNG_ONE_VARIABLE(ACOS, acos)
-RUNG_ONE_VARIABLE(ATAN, atan)
+RUNG_EACH_REAL_FUNCTION(RUNG_ONE_VARIABLE)
 #undef RUNG_ONE_VARIABLE
 
 float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return std::atan2(y, x); }
@@ -41,18 +34,7 @@ double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return st
 #define RUNG_TRUNCATION(TYPE, Integer)                                                                 \
   Integer rung_standard_TRUNC__REAL_##TYPE(rung_context*, float in) { return truncated<Integer>(in); } \
   Integer rung_standard_TRUNC__LREAL_##TYPE(rung_context*, double in) { return truncated<Integer>(in); }
-RUNG_TRUNCATION(BYTE, uint8_t)
-RUNG_TRUNCATION(WORD, uint16_t)
-RUNG_TRUNCATION(DWORD, uint32_t)
-RUNG_TRUNCATION(LWORD, uint64_t)
-RUNG_TRUNCATION(SINT, int8_t)
-RUNG_TRUNCATION(INT, int16_t)
-RUNG_TRUNCATION(DINT, int32_t)
-RUNG_TRUNCATION(LINT, int64_t)
-RUNG_TRUNCATION(USINT, uint8_t)
-RUNG_TRUNCATION(UINT, uint16_t)
-RUNG_TRUNCATION(UDINT, uint32_t)
-RUNG_TRUNCATION(ULINT, uint64_t)
+RUNG_EACH_INTEGER(RUNG_TRUNCATION)
 #undef RUNG_TRUNCATION
 
 uint8_t rung_standard_IS_VALID__REAL(rung_context*, float in) { return std::isfinite(in) ? 1 : 0; }

@@ -3,54 +3,46 @@
 
 namespace {
 
-const rung_files* filesOf(const rung_context* ctx) { return ctx->host == nullptr ? nullptr : ctx->host->files; }
-void* dataOf(const rung_context* ctx) { return ctx->host->files_data; }
+// What the host's function returns; without files `otherwise`.
+template <class... Given, class... Wanted>
+int64_t ask(const rung_context* ctx, int64_t otherwise, int64_t (*rung_files::*function)(void*, Wanted...),
+            Given... given) {
+  const rung_files* const files = ctx->host == nullptr ? nullptr : ctx->host->files;
+  return files == nullptr ? otherwise : (files->*function)(ctx->host->files_data, given...);
+}
 
 }  // namespace
 
 extern "C" {
 
 int64_t rung_system_HOST_FILE_OPEN(rung_context* ctx, const char* name, uint32_t mode) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->open(dataOf(ctx), name, mode);
+  return ask(ctx, RUNG_FILE_DENIED, &rung_files::open, name, mode);
 }
 int64_t rung_system_HOST_FILE_CLOSE(rung_context* ctx, int64_t file) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_HANDLE} : files->close(dataOf(ctx), file);
+  return ask(ctx, RUNG_FILE_HANDLE, &rung_files::close, file);
 }
 int64_t rung_system_HOST_FILE_READ(rung_context* ctx, int64_t file, void* buffer, uint64_t count) {
-  const rung_files* const files = filesOf(ctx);
-  if (files == nullptr || buffer == nullptr) return RUNG_FILE_HANDLE;
-  return files->read(dataOf(ctx), file, buffer, count);
+  return buffer == nullptr ? int64_t{RUNG_FILE_HANDLE}
+                           : ask(ctx, RUNG_FILE_HANDLE, &rung_files::read, file, buffer, count);
 }
 int64_t rung_system_HOST_FILE_WRITE(rung_context* ctx, int64_t file, void* buffer, uint64_t count) {
-  const rung_files* const files = filesOf(ctx);
-  if (files == nullptr || buffer == nullptr) return RUNG_FILE_HANDLE;
-  return files->write(dataOf(ctx), file, buffer, count);
+  return buffer == nullptr ? int64_t{RUNG_FILE_HANDLE}
+                           : ask(ctx, RUNG_FILE_HANDLE, &rung_files::write, file, buffer, count);
 }
 int64_t rung_system_HOST_FILE_SEEK(rung_context* ctx, int64_t file, int64_t offset, int32_t from) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_HANDLE} : files->seek(dataOf(ctx), file, offset, from);
-}
-int64_t rung_system_HOST_FILE_SIZE(rung_context* ctx, const char* name) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->size(dataOf(ctx), name);
-}
-int64_t rung_system_HOST_FILE_REMOVE(rung_context* ctx, const char* name) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->remove(dataOf(ctx), name);
+  return ask(ctx, RUNG_FILE_HANDLE, &rung_files::seek, file, offset, from);
 }
 int64_t rung_system_HOST_FILE_RENAME(rung_context* ctx, const char* old_name, const char* new_name) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->rename(dataOf(ctx), old_name, new_name);
+  return ask(ctx, RUNG_FILE_DENIED, &rung_files::rename, old_name, new_name);
 }
-int64_t rung_system_HOST_FOLDER_MAKE(rung_context* ctx, const char* name) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->make_folder(dataOf(ctx), name);
-}
-int64_t rung_system_HOST_FOLDER_REMOVE(rung_context* ctx, const char* name) {
-  const rung_files* const files = filesOf(ctx);
-  return files == nullptr ? int64_t{RUNG_FILE_DENIED} : files->remove_folder(dataOf(ctx), name);
-}
+#define RUNG_OF_ONE_NAME(NAME, function)                                 \
+  int64_t rung_system_HOST_##NAME(rung_context* ctx, const char* name) { \
+    return ask(ctx, RUNG_FILE_DENIED, &rung_files::function, name);      \
+  }
+RUNG_OF_ONE_NAME(FILE_SIZE, size)
+RUNG_OF_ONE_NAME(FILE_REMOVE, remove)
+RUNG_OF_ONE_NAME(FOLDER_MAKE, make_folder)
+RUNG_OF_ONE_NAME(FOLDER_REMOVE, remove_folder)
+#undef RUNG_OF_ONE_NAME
 
 }  // extern "C"

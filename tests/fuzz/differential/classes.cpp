@@ -86,7 +86,7 @@ Node Generator::classStatement() {
   }
 }
 
-std::vector<Generator::Lvalue> Generator::classLvalues() const {
+std::vector<Lvalue> Generator::classLvalues() const {
   const std::string c = prefix_ + "_C";
   return {{"k0", c + "0", ""},
           {"k1", c + "1", ""},

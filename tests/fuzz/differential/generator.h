@@ -78,6 +78,11 @@ struct Expr : Stmt {
   }
 };
 
+// A variable of a generated program that can be assigned, and the statement that makes it valid.
+struct Lvalue {
+  std::string name, type, binding;
+};
+
 class Generator {
  public:
   Generator(uint64_t seed, unsigned index, Faults faults, Dialect dialect)
@@ -144,9 +149,6 @@ class Generator {
   Node pointerStatement();
   Node pointerQuestion();
 
-  struct Lvalue {
-    std::string name, type, binding;
-  };
   const std::vector<Lvalue>& lvalues();
 
   // classes.cpp: edition 3

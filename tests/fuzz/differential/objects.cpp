@@ -484,7 +484,7 @@ Node Generator::pointerQuestion() {
 }
 
 // The variables of a program for the above, and the bindings in its first cycle or in each.
-const std::vector<Generator::Lvalue>& Generator::lvalues() {
+const std::vector<Lvalue>& Generator::lvalues() {
   if (lvalues_.empty() && dialect_ == Dialect::Iec3) lvalues_ = classLvalues();
   if (!lvalues_.empty() || !codesys()) return lvalues_;
   const std::string o = prefix_ + "_O", pair = prefix_ + "_Pair";

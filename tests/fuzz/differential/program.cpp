@@ -137,21 +137,22 @@ Node Generator::makeBlock(int number) {
               {std::move(vars), std::move(body), std::move(last)}};
 }
 
-Node Generator::program() {
-  std::vector<Node> parts;
-  parts.push_back(Stmt{"TYPE " + prefix_ + "_Colour : (Red, Green := 4, Blue);\n" + prefix_ +
-                       "_Percent : INT (0..100);\n" + prefix_ + "_Small : USINT (3..9);\n" + prefix_ +
+namespace {
+
+// Types and global variables. The located ones share the same memory.
+void declareGlobals(const std::string& prefix, unsigned index, bool codesys, std::vector<Node>& parts) {
+  parts.push_back(Stmt{"TYPE " + prefix + "_Colour : (Red, Green := 4, Blue);\n" + prefix +
+                       "_Percent : INT (0..100);\n" + prefix + "_Small : USINT (3..9);\n" + prefix +
                        "_Pair : STRUCT count : DINT; share : REAL := 0.5; title : STRING[7]; END_STRUCT; END_TYPE\n"});
-  if (codesys()) {
+  if (codesys) {
     parts.push_back(
-        Stmt{"TYPE " + prefix_ + "_Mix : UNION whole : DWORD; bytes : ARRAY[0..3] OF BYTE; END_UNION END_TYPE\n"});
+        Stmt{"TYPE " + prefix + "_Mix : UNION whole : DWORD; bytes : ARRAY[0..3] OF BYTE; END_UNION END_TYPE\n"});
   }
-  // The located variables share the same memory.
-  const unsigned base = index_ * 16;
+  const unsigned base = index * 16;
   std::string globals = "VAR_GLOBAL\n";
   std::vector<Node> global_lines;
   const auto global = [&](const std::string& content) {
-    global_lines.push_back(Stmt{prefix_ + content + ";\n"});
+    global_lines.push_back(Stmt{prefix + content + ";\n"});
     globals += kChild;
   };
   global("_g_dint : DINT");
@@ -161,9 +162,79 @@ Node Generator::program() {
   global("_at_word AT %MW" + std::to_string(base / 2 + 1) + " : WORD");
   global("_at_byte AT %MB" + std::to_string(base + 1) + " : BYTE");
   global("_at_bool AT %MX" + std::to_string(base) + ".3 : BOOL");
-  global("_at_int AT %QW" + std::to_string(index_) + " : INT");
+  global("_at_int AT %QW" + std::to_string(index) + " : INT");
   parts.push_back(Fixed{globals + "END_VAR\n", std::move(global_lines)});
-  if (codesys()) parts.push_back(Stmt{"VAR_GLOBAL CONSTANT " + prefix_ + "_k5 : INT := 5; END_VAR\n"});
+  if (codesys) parts.push_back(Stmt{"VAR_GLOBAL CONSTANT " + prefix + "_k5 : INT := 5; END_VAR\n"});
+}
+
+// The bindings of the references and pointers that the text uses; those in a binding may need a binding themselves.
+Node bindUsed(const std::vector<Lvalue>& all, bool once, std::string& used) {
+  std::vector<bool> is_bound(all.size());
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (is_bound[i] || all[i].binding.empty() || !uses(used, all[i].name)) continue;
+      is_bound[i] = grows = true;
+      used += all[i].binding;
+    }
+  }
+  std::vector<Node> bindings;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (is_bound[i]) bindings.push_back(Stmt{all[i].binding});
+  }
+  std::string binding(bindings.size(), kChild);
+  if (once) binding = "IF NOT bound THEN\nbound := TRUE;\n" + binding + "END_IF\n";
+  return Fixed{bindings.empty() ? "" : binding, std::move(bindings)};
+}
+
+// The variables, apart from those of the elementary types, that the text uses.
+Node declareUsed(const std::string& prefix, const std::string& used, int blocks, const std::vector<Lvalue>& all,
+                 uint64_t seed) {
+  std::string more = "VAR\n";
+  std::vector<Node> lines;
+  const auto line = [&](const std::string& name, const std::string& type) {
+    if (!uses(used, name)) return;
+    lines.push_back(Stmt{name + " : " + type + ";\n"});
+    more += kChild;
+  };
+  line("pair", prefix + "_Pair");
+  line("table", "ARRAY[-1..4] OF " + prefix + "_Pair");
+  line("grid", "ARRAY[1..2, 0..2] OF INT := [3(1), 2, -5]");
+  line("short", "STRING[3]");
+  line("percent", prefix + "_Percent");
+  line("row", "ARRAY[0..2] OF INT := [7, -8, 9]");
+  line("small", prefix + "_Small");
+  line("mix", prefix + "_Mix");
+  line("colour", prefix + "_Colour");
+  line("other_colour", prefix + "_Colour");
+  line("ton", "TON");
+  line("tof", "TOF");
+  line("tp", "TP");
+  line("ctu", "CTU");
+  line("rise", "R_TRIG");
+  line("fall", "F_TRIG");
+  line("latch", "SR");
+  for (int i = 0; i < blocks; ++i) {
+    const std::string n = std::to_string(i);
+    line("block" + n, prefix + "_B" + n);
+    line("block" + n + "b", prefix + "_B" + n);
+  }
+  line("g_dint", "DINT");
+  line("g_real", "REAL");
+  line("g_string", "STRING");
+  line("at_dword", "DWORD");
+  line("at_int", "INT");
+  line("bound", "BOOL");
+  for (const Lvalue& lvalue : all) line(lvalue.name, lvalue.type);
+  lines.push_back(Stmt{"noise : ULINT := " + std::to_string(1 + seed % 2147483645) + ";\n"});
+  return Fixed{more + "\1END_VAR\n", std::move(lines)};
+}
+
+}  // namespace
+
+Node Generator::program() {
+  std::vector<Node> parts;
+  declareGlobals(prefix_, index_, codesys(), parts);
   for (int i = 0, n = 1 + below(2); i < n; ++i) parts.push_back(makeFunction(i));
   parts.push_back(makeAccess());
   const int blocks = 1 + below(2);
@@ -192,65 +263,11 @@ Node Generator::program() {
                         Stmt{"g_string := " + prefix_ + "_g_string;\n"},
                         Stmt{"at_dword := " + prefix_ + "_at_dword;\n"}, Stmt{"at_int := " + prefix_ + "_at_int;\n"}}};
   std::string used = body.print() + results.print();
-  // The lvalues in a binding may need a binding themselves.
   const std::vector<Lvalue>& all = lvalues();
-  std::vector<bool> is_bound(all.size());
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (is_bound[i] || all[i].binding.empty() || !uses(used, all[i].name)) continue;
-      is_bound[i] = grows = true;
-      used += all[i].binding;
-    }
-  }
-  std::vector<Node> bindings;
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (is_bound[i]) bindings.push_back(Stmt{all[i].binding});
-  }
-  std::string binding(bindings.size(), kChild);
-  if (chance(60)) binding = "IF NOT bound THEN\nbound := TRUE;\n" + binding + "END_IF\n";
-  Node bind = Fixed{bindings.empty() ? "" : binding, std::move(bindings)};
+  Node bind = bindUsed(all, chance(60), used);
   used += bind.text;
   Node vars = declarations({&noise, &body, &bind});
-
-  std::string more = "VAR\n";
-  std::vector<Node> lines;
-  const auto line = [&](const std::string& name, const std::string& type) {
-    if (!uses(used, name)) return;
-    lines.push_back(Stmt{name + " : " + type + ";\n"});
-    more += kChild;
-  };
-  line("pair", prefix_ + "_Pair");
-  line("table", "ARRAY[-1..4] OF " + prefix_ + "_Pair");
-  line("grid", "ARRAY[1..2, 0..2] OF INT := [3(1), 2, -5]");
-  line("short", "STRING[3]");
-  line("percent", prefix_ + "_Percent");
-  line("row", "ARRAY[0..2] OF INT := [7, -8, 9]");
-  line("small", prefix_ + "_Small");
-  line("mix", prefix_ + "_Mix");
-  line("colour", prefix_ + "_Colour");
-  line("other_colour", prefix_ + "_Colour");
-  line("ton", "TON");
-  line("tof", "TOF");
-  line("tp", "TP");
-  line("ctu", "CTU");
-  line("rise", "R_TRIG");
-  line("fall", "F_TRIG");
-  line("latch", "SR");
-  for (int i = 0; i < blocks; ++i) {
-    const std::string n = std::to_string(i);
-    line("block" + n, prefix_ + "_B" + n);
-    line("block" + n + "b", prefix_ + "_B" + n);
-  }
-  line("g_dint", "DINT");
-  line("g_real", "REAL");
-  line("g_string", "STRING");
-  line("at_dword", "DWORD");
-  line("at_int", "INT");
-  line("bound", "BOOL");
-  for (const Lvalue& lvalue : all) line(lvalue.name, lvalue.type);
-  lines.push_back(Stmt{"noise : ULINT := " + std::to_string(1 + random() % 2147483645) + ";\n"});
-  Node extra = Fixed{more + "\1END_VAR\n", std::move(lines)};
+  Node extra = declareUsed(prefix_, used, blocks, all, random());
   const std::string guard = "IF differential_only <> " + std::to_string(index_) +
                             (faults_ == Faults::None ? " AND differential_only >= 0" : "") + " THEN RETURN; END_IF\n";
   parts.push_back(Fixed{"PROGRAM " + prefix_ + "\n\1\1\1\1\1\1\1END_PROGRAM\n\n",

@@ -28,21 +28,23 @@ T wrapped(T a, T b, Operation operation) {
     return static_cast<T>(operation(a, b));
   }
 }
-template <class A, class B>
-Common<A, B> ADD(A a, B b) {
-  return wrapped<Common<A, B>>(a, b, [](auto x, auto y) { return x + y; });
+/* The operation over two values, then over the result and the next. */
+template <class Operation, class A, class B, class... More>
+auto folded(Operation operation, A a, B b, More... more) {
+  const auto first = wrapped<Common<A, B>>(a, b, operation);
+  if constexpr (sizeof...(More) == 0) {
+    return first;
+  } else {
+    return folded(operation, first, more...);
+  }
 }
-template <class A, class B, class... More>
-auto ADD(A a, B b, More... more) {
-  return ADD(ADD(a, b), more...);
+template <class... Values>
+auto ADD(Values... values) {
+  return folded([](auto x, auto y) { return x + y; }, values...);
 }
-template <class A, class B>
-Common<A, B> MUL(A a, B b) {
-  return wrapped<Common<A, B>>(a, b, [](auto x, auto y) { return x * y; });
-}
-template <class A, class B, class... More>
-auto MUL(A a, B b, More... more) {
-  return MUL(MUL(a, b), more...);
+template <class... Values>
+auto MUL(Values... values) {
+  return folded([](auto x, auto y) { return x * y; }, values...);
 }
 template <class A, class B>
 Common<A, B> SUB(A a, B b) {
@@ -161,19 +163,23 @@ T ROR(T a, uint64_t n) {
   return ROL(a, kBits - n % kBits);
 }
 
+/* ROW(NAME, function) for the functions of one REAL or LREAL; the function is that of <math.h>. */
+#define RUNG_EACH_REAL_FUNCTION(ROW) \
+  ROW(SQRT, sqrt)                    \
+  ROW(LN, log)                       \
+  ROW(LOG, log10)                    \
+  ROW(EXP, exp)                      \
+  ROW(SIN, sin)                      \
+  ROW(COS, cos)                      \
+  ROW(TAN, tan)                      \
+  ROW(ASIN, asin)                    \
+  ROW(ACOS, acos)                    \
+  ROW(ATAN, atan)
+
 #define RUNG_CPP_REAL_FUNCTION(name, function)                                                \
   inline float name(float a) { return static_cast<float>(function(static_cast<double>(a))); } \
   inline double name(double a) { return function(a); }
-RUNG_CPP_REAL_FUNCTION(SQRT, sqrt)
-RUNG_CPP_REAL_FUNCTION(LN, log)
-RUNG_CPP_REAL_FUNCTION(LOG, log10)
-RUNG_CPP_REAL_FUNCTION(EXP, exp)
-RUNG_CPP_REAL_FUNCTION(SIN, sin)
-RUNG_CPP_REAL_FUNCTION(COS, cos)
-RUNG_CPP_REAL_FUNCTION(TAN, tan)
-RUNG_CPP_REAL_FUNCTION(ASIN, asin)
-RUNG_CPP_REAL_FUNCTION(ACOS, acos)
-RUNG_CPP_REAL_FUNCTION(ATAN, atan)
+RUNG_EACH_REAL_FUNCTION(RUNG_CPP_REAL_FUNCTION)
 #undef RUNG_CPP_REAL_FUNCTION
 template <class A, class B>
 A EXPT(A a, B b) {

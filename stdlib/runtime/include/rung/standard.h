@@ -28,23 +28,25 @@ static inline int16_t rung_standard_LEN__STRING_255_sized(const char*, uint32_t 
   return length > INT16_MAX ? INT16_MAX : (int16_t)length;
 }
 
-/* The slice forms return the beginning of the result, which is a part of the input, and set its length. */
-static inline const char* rung_standard_LEFT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
-                                                               uint32_t capacity, uint32_t* result) {
+/* How many of `length` characters LEFT and RIGHT take; `result`: as many of them as have room. */
+static inline uint32_t rung_string_taken(uint32_t length, int32_t l, uint32_t capacity, uint32_t* result) {
   const uint32_t limit = rung_string_limit(capacity);
   uint32_t count = l < 0 ? 0 : (uint32_t)l;
   if (count > length) count = length;
   *result = count > limit ? limit : count;
+  return count;
+}
+
+/* The slice forms return the beginning of the result, which is a part of the input, and set its length. */
+static inline const char* rung_standard_LEFT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
+                                                               uint32_t capacity, uint32_t* result) {
+  rung_string_taken(length, l, capacity, result);
   return in;
 }
 
 static inline const char* rung_standard_RIGHT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
                                                                 uint32_t capacity, uint32_t* result) {
-  const uint32_t limit = rung_string_limit(capacity);
-  uint32_t count = l < 0 ? 0 : (uint32_t)l;
-  if (count > length) count = length;
-  *result = count > limit ? limit : count;
-  return in + (length - count);
+  return in + (length - rung_string_taken(length, l, capacity, result));
 }
 
 static inline const char* rung_standard_MID__STRING_255_slice(const char* in, uint32_t length, int32_t l, int32_t p,

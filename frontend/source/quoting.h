@@ -1,0 +1,25 @@
+// Characters of strings in the notation of the standard: `$$`, `$'`, `$0A`. Used by everything that prints literals.
+#pragma once
+
+#include <string>
+
+namespace rung {
+
+// One byte between quotes; `escape`: as `$` and its two digits. A wide string (quote ") has four digits.
+inline void appendInQuotes(std::string& out, char c, char quote, bool escape, bool four_digits = false) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  const auto byte = static_cast<unsigned char>(c);
+  if (c == quote || c == '$') {
+    out += '$';
+    out += c;
+  } else if (escape) {
+    out += four_digits ? "$00" : "$";
+    out += kHex[byte >> 4];
+    out += kHex[byte & 15];
+  } else {
+    out += c;
+  }
+}
+inline bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+}  // namespace rung
