@@ -211,9 +211,7 @@ TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t hig
   return types_.add(std::move(info));
 }
 
-TypeId TypeTable::addAlias(NameId name, TypeId target) {
-  return types_.add(infoOver(TypeKind::Alias, target, name));
-}
+TypeId TypeTable::addAlias(NameId name, TypeId target) { return types_.add(infoOver(TypeKind::Alias, target, name)); }
 
 TypeId TypeTable::addRecord(RecordKind kind, NameId name) {
   TypeInfo info;
