@@ -14,13 +14,15 @@
 #include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
-namespace {
 
 enum class Form : uint8_t { Chain, Pair, Invert, Move };  // a op b op c …, a op b, NOT a, a
 struct Operator {
   Form form;
   BinaryOp op;
 };
+
+namespace {
+
 // The function of an operator that a box without instance calls.
 std::optional<Operator> operatorNamed(std::string_view name) {
   if (const OperatorFunction* function = operatorFunction(name))

@@ -8,8 +8,6 @@
 
 namespace rung::ir {
 
-namespace {
-
 // How an argument reaches the callee.
 enum class Passing : uint8_t {
   Default,    // an open input: its default
@@ -20,8 +18,6 @@ enum class Passing : uint8_t {
   Discarded,  // an open output: nothing
   OpenArray,  // ARRAY[*]: a pointer here, the bounds after all other arguments
 };
-
-}  // namespace
 
 struct CallLowering::FunctionCall {
   struct Pin {
