@@ -1,13 +1,11 @@
 // Names in the facade of a body in C++: see cpp_names.h.
 #include "codegen/cpp_names.h"
 
+#include "frontend/source/scanner.h"
+
 namespace rung::codegen {
 
-std::string cppUpper(std::string_view name) {
-  std::string out(name.substr(name.rfind('.') + 1));
-  for (char& c : out) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return out;
-}
+std::string cppUpper(std::string_view name) { return upper(name.substr(name.rfind('.') + 1)); }
 
 std::string cppIdentifier(std::string_view name) {
   // C++ keywords and common macros, separated by blanks.

@@ -21,30 +21,14 @@ class Declarations {
   explicit Declarations(const ir::Module& module)
       : module_(module), types_(module.types), is_declared_(module.types.count()) {}
 
-  // The types that a type holds or points to come first.
-  void declare(TypeId type) {
-    type = elementOf(types_, type);
-    while (types_.kind(type) == TypeKind::Pointer || types_.kind(type) == TypeKind::Reference)
-      type = elementOf(types_, types_.info(type).base);
-    if (is_declared_[type.index]) return;
-    const TypeKind kind = types_.kind(type);
-    if (kind != TypeKind::Record && kind != TypeKind::Enum) return;
-    is_declared_[type.index] = true;
-    if (kind == TypeKind::Enum) return enumeration(type);
-    for (const Field& field : types_.info(type).fields) declare(field.type);
-    appendRecordDefinition(structs_, types_, type, false);
-    appendLayoutAssert(structs_, types_, type);
-    structs_ += '\n';
-  }
-
   void prototype(const ir::Body& body, std::string_view name_space) {
     std::string self;
     if (body.self) {
-      declare(body.self);
+      declareAll(body.self);
       self = std::string(name_space) + "::" + recordName(types_, body.self);
     }
     for (const ir::Local& local : body.locals)
-      if (isParameter(local)) declare(local.type);
+      if (isParameter(local)) declareAll(local.type);
     prototypes_ += "extern \"C\" ";
     appendSignature(prototypes_, module_, body, {}, self);
     prototypes_ += ";\n";
@@ -60,6 +44,35 @@ class Declarations {
   }
 
  private:
+  // A type and all that it holds or points to.
+  void declareAll(TypeId type) {
+    pointed_.push_back(type);
+    while (!pointed_.empty()) {
+      const TypeId next = pointed_.back();
+      pointed_.pop_back();
+      declare(next);
+    }
+  }
+
+  // The types that a type holds come before it, those that it only points to after it: they may hold it.
+  void declare(TypeId type) {
+    type = elementOf(types_, type);
+    const TypeKind kind = types_.kind(type);
+    if (kind == TypeKind::Pointer || kind == TypeKind::Reference) return pointed_.push_back(types_.info(type).base);
+    if (is_declared_[type.index] || (kind != TypeKind::Record && kind != TypeKind::Enum)) return;
+    is_declared_[type.index] = true;
+    if (kind == TypeKind::Enum) return enumeration(type);
+    for (const Field& field : types_.info(type).fields) {
+      if (field.by_reference)
+        pointed_.push_back(field.type);
+      else
+        declare(field.type);
+    }
+    appendRecordDefinition(structs_, types_, type, false);
+    appendLayoutAssert(structs_, types_, type);
+    structs_ += '\n';
+  }
+
   void enumeration(TypeId type) {
     const TypeInfo& info = types_.info(type);
     structs_ += "enum ";
@@ -80,6 +93,7 @@ class Declarations {
   const ir::Module& module_;
   const TypeTable& types_;
   std::vector<bool> is_declared_;  // by type
+  std::vector<TypeId> pointed_;    // to declare later
   std::string structs_, prototypes_;
 };
 

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "frontend/parse/diagnostics.h"
+#include "frontend/source/scanner.h"
 
 namespace rung::text {
 namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; }
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c; }
 int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
   c = lower(c);
@@ -416,7 +416,7 @@ bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, Direc
   if (ok && !rest.empty()) {
     const char size = lower(rest.front());
     if (isSize(size)) {
-      address.size = static_cast<char>(size & ~0x20);
+      address.size = upper(size);
       address.size_given = true;
       rest.remove_prefix(1);
     }

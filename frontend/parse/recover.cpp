@@ -6,6 +6,7 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/source/dialect.h"
+#include "frontend/source/scanner.h"
 
 namespace rung::text {
 namespace {
@@ -780,13 +781,7 @@ Tok nearestKeyword(std::string_view written, std::span<const Tok> candidates) {
   std::vector<std::string_view> spellings;
   spellings.reserve(candidates.size());
   for (Tok t : candidates) spellings.push_back(spelling(t));
-  const std::string upper = [&] {
-    std::string s(written);
-    for (char& c : s)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-    return s;
-  }();
-  const std::string_view found = nearest(upper, spellings);
+  const std::string_view found = nearest(upper(written), spellings);
   if (found.empty()) return Tok::End;
   for (Tok t : candidates)
     if (found == spelling(t)) return t;

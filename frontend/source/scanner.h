@@ -52,7 +52,8 @@ bool isBlankCharacter(char c);
 bool isNameCharacter(char c);           // ASCII only
 bool isIdentifier(std::string_view s);  // in ASCII
 bool isPath(std::string_view s);        // identifiers, separated by dots
-std::string upper(std::string_view s);  // ASCII letters
+char upper(char c);                     // ASCII letters
+std::string upper(std::string_view s);
 
 // Without the byte order mark of UTF-8.
 std::string_view withoutMark(std::string_view source);

@@ -9,12 +9,15 @@
 
 namespace rung::ir::interpreter {
 
+const Native* findNative(std::span<const Native> natives, std::string_view function) {
+  const auto at = std::lower_bound(natives.begin(), natives.end(), function,
+                                   [](const Native& native, std::string_view wanted) { return native.name < wanted; });
+  return at != natives.end() && at->name == function ? &*at : nullptr;
+}
+
 NativeThunk BodyTranslator::findNative(const Body& callee) {
-  const std::string name = nativeName(module_, callee);
-  const auto at =
-      std::lower_bound(options_.natives.begin(), options_.natives.end(), name,
-                       [](const Native& native, const std::string& wanted) { return native.name < wanted; });
-  if (at != options_.natives.end() && name == at->name) return at->call;
+  if (const Native* native = interpreter::findNative(options_.natives, nativeName(module_, callee)))
+    return native->call;
   if (code_.missing.empty()) code_.missing = module_.names.string(callee.spelling ? callee.spelling : callee.name);
   return nullptr;
 }

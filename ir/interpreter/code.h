@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 
 #include "rung/module.h"
 
@@ -83,5 +85,7 @@ struct Native {
   const char* name;  // of the C function
   NativeThunk call;
 };
+// In a table that is sorted by name; null: not there.
+const Native* findNative(std::span<const Native> natives, std::string_view function);
 
 }  // namespace rung::ir::interpreter

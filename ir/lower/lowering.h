@@ -59,9 +59,11 @@ struct ModuleLowering {
   TypeTable& types;
   bool partial = false;  // only one function: see lowerFunction
 
+  // The module gets the records that the type is made of and those that it points to.
   void declareRecordsOf(TypeId type);
 
  private:
+  void declareRecord(TypeId type);
   void addRecord(TypeId record);
   void addPrograms();
   void addLists();
@@ -82,11 +84,13 @@ struct ModuleLowering {
   void addBlockTasks();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                                 // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;                // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;                // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;                 // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;                    // by TypeId
+  std::vector<BodyId> body_of_;                   // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;  // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;  // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;   // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;      // by TypeId
+  std::vector<TypeId> to_declare_;
+  bool is_declaring_ = false;
   std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
   std::unordered_map<uint64_t, const sema::Var*> constructed_;  // by record and field
   std::vector<sema::PouId> pou_of_record_;                      // by TypeId

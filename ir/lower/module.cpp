@@ -193,13 +193,31 @@ void ModuleLowering::markFaulting() {
 // ---- records and their initial values --------------------------------------------------------------------------
 
 void ModuleLowering::declareRecordsOf(TypeId type) {
+  to_declare_.push_back(type);
+  if (is_declaring_) return;  // asked for by a record that is being declared
+  is_declaring_ = true;
+  while (!to_declare_.empty()) {
+    const TypeId next = to_declare_.back();
+    to_declare_.pop_back();
+    declareRecord(next);
+  }
+  is_declaring_ = false;
+}
+
+// The records that a record holds come before it, those that it only points to after it: they may hold it.
+void ModuleLowering::declareRecord(TypeId type) {
   type = types.resolve(type);
   const TypeInfo& info = types.info(type);
-  if (info.kind == TypeKind::Array || info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference)
-    return declareRecordsOf(info.base);
+  if (info.kind == TypeKind::Array) return declareRecord(info.base);
+  if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference) return to_declare_.push_back(info.base);
   if (info.kind != TypeKind::Record) return;
   if (!record_seen_.insert(type.index).second) return;
-  for (const types::Field& f : info.fields) declareRecordsOf(f.type);
+  for (const types::Field& f : info.fields) {
+    if (f.by_reference)
+      to_declare_.push_back(f.type);
+    else
+      declareRecord(f.type);
+  }
   addRecord(type);
 }
 

@@ -13,12 +13,7 @@ bool belongs(const Context& context, TypeId type, TypeKind generic) {
   const TypeKind kind = context.types().kind(type), plain = context.types().plainKind(type);
   if (TypeTable::belongsTo(kind, generic) || TypeTable::belongsTo(plain, generic)) return true;
   if (generic == TypeKind::Any) return true;
-  if (context.iec()) return false;
-  if (TypeTable::isBits(plain)) {
-    return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||
-           generic == TypeKind::AnyMagnitude;
-  }
-  return generic == TypeKind::AnyBit && TypeTable::isInteger(plain);
+  return !context.iec() && TypeTable::belongsToInCodesys(plain, generic);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // a project without a configuration. docs/language.md "Tasks and configuration".
 #include "sema/declarations/configuration.h"
 
+#include "frontend/source/scanner.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
@@ -38,14 +39,6 @@ void forEachMember(Context& context, Visit visit) {
       }
     }
   }
-}
-
-std::string fold(std::string_view text) {
-  std::string folded(text);
-  for (char& c : folded) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return folded;
 }
 
 // The word in a setting that is not a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
@@ -94,7 +87,7 @@ struct TaskReader {
   }
 
   void kind(ExprId expr) {
-    const std::string word = fold(settingOf(context, expr));
+    const std::string word = upper(settingOf(context, expr));
     has_kind = true;
     if (word == "CYCLIC") {
       task.kind = TaskKind::Cyclic;
@@ -114,7 +107,7 @@ struct TaskReader {
   // Forbids settings that a task does not have.
   //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
   void setting(Argument& argument) {
-    const std::string name = fold(context.names().string(argument.pin.name));
+    const std::string name = upper(context.names().string(argument.pin.name));
     if (!argument.value || context.tree().kind(argument.value) == ExprKind::Error) return;
     if (name == "INTERVAL") {
       if (const auto ns = time(argument.value, name)) {

@@ -314,4 +314,13 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   return false;
 }
 
+bool TypeTable::belongsToInCodesys(TypeKind kind, TypeKind generic) {
+  if (belongsTo(kind, generic)) return true;
+  if (isBits(kind)) {
+    return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||
+           generic == TypeKind::AnyMagnitude;
+  }
+  return generic == TypeKind::AnyBit && isInteger(kind);
+}
+
 }  // namespace rung::types

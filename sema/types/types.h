@@ -242,6 +242,8 @@ class TypeTable {
   bool time_is_signed = false;
   // True when `kind` belongs to the generic type (ANY_NUM holds INT).
   static bool belongsTo(TypeKind kind, TypeKind generic);
+  // The same in codesys, which takes bit strings where integers are accepted, and vice versa.
+  static bool belongsToInCodesys(TypeKind kind, TypeKind generic);
 
  private:
   // The id is that of an elementary or generic type, which is its kind. Most types are: they need no look-up.

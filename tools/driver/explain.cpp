@@ -3,6 +3,7 @@
 
 #include "errors_pages.h"
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/scanner.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 
@@ -25,8 +26,7 @@ std::string_view errorPage(std::string_view code) {
 }
 
 int runExplain(const Options& options, Sink& sink) {
-  std::string code = options.inputs[0];
-  for (char& c : code) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  const std::string code = upper(options.inputs[0]);
   const DiagInfo* info = findDiag(code);
   if (info == nullptr) {
     std::vector<std::string_view> codes;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "codegen/names.h"
 #include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 #include "native_table.h"
 #include "tools/driver/file_provider.h"
 
@@ -54,7 +56,9 @@ void NativeSources::addTo(std::vector<codegen::OutputFile>& files, const ir::Mod
   };
   for (const Source& source : sources_) {
     if (!isUsed(source.library)) continue;
-    const std::string text = "#line 1 \"" + std::string(sources.path(source.file)) + "\"\n";
+    std::string text = "#line 1 ";
+    codegen::appendQuoted(text, sources.path(source.file));
+    text += '\n';
     files.push_back({codegen::nativeFolder(source.library) + source.name,
                      text + std::string(sources.sourceText(source.file)), source.name.ends_with(".cpp")});
   }
@@ -62,12 +66,11 @@ void NativeSources::addTo(std::vector<codegen::OutputFile>& files, const ir::Mod
 }
 
 bool NativeSources::mention(std::string_view function, const Sources& sources) const {
-  const auto isWordCharacter = [](char c) { return isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (const Source& source : sources_) {
     const std::string_view text = sources.sourceText(source.file);
     for (size_t at = text.find(function); at != std::string_view::npos; at = text.find(function, at + 1)) {
       const size_t end = at + function.size();
-      if ((at == 0 || !isWordCharacter(text[at - 1])) && (end == text.size() || !isWordCharacter(text[end])))
+      if ((at == 0 || !isNameCharacter(text[at - 1])) && (end == text.size() || !isNameCharacter(text[end])))
         return true;
     }
   }
@@ -75,11 +78,7 @@ bool NativeSources::mention(std::string_view function, const Sources& sources) c
 }
 
 bool isNativeOfRung(std::string_view function) {
-  const auto* const end = natives::table + natives::count;
-  const auto* const found = std::lower_bound(natives::table, end, function, [](const auto& row, std::string_view name) {
-    return std::string_view(row.name) < name;
-  });
-  return found != end && found->name == function;
+  return ir::interpreter::findNative({natives::table, natives::count}, function) != nullptr;
 }
 
 }  // namespace rung::driver

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
 
@@ -41,8 +42,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     text.remove_prefix(end + 1);
   }
 }
-
-char upperCase(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -210,7 +209,7 @@ void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, Pr
 
 // [area R]: a memory area of the product, whose addresses are %RW4 and the like.
 void readAreaSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
-  const char letter = section.name.size() == 1 ? upperCase(section.name[0]) : '\0';
+  const char letter = section.name.size() == 1 ? upper(section.name[0]) : '\0';
   types::MemoryArea area{.letter = letter, .owner = types::AreaOwner::Memory};
   const bool is_known = types::findArea(project.areas, letter).has_value();
   if (!types::isAreaLetter(letter) || is_known) {
@@ -266,12 +265,10 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
         badValue(diagnostics, entry, "it takes one number, time or name");
         continue;
       }
-      std::string key = entry.key, value = entry.value;
-      for (char& c : key) c = static_cast<char>(c - 32);
-      if (entry.key == "kind")
-        for (char& c : value) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+      std::string value = entry.value;
+      if (entry.key == "kind") value = upper(value);
       if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
-      text += separator + key + " := " + value;
+      text += separator + upper(entry.key) + " := " + value;
       separator = ", ";
     }
     text += ");";

@@ -37,16 +37,6 @@ struct LibrarySources {
   std::vector<rung::sema::LibraryFile> files;
 };
 
-// codesys takes bit strings where integers are accepted, and vice versa.
-bool admits(TypeKind generic, TypeKind kind) {
-  if (TypeTable::belongsTo(kind, generic)) return true;
-  if (TypeTable::isBits(kind)) {
-    return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||
-           generic == TypeKind::AnyMagnitude;
-  }
-  return generic == TypeKind::AnyBit && TypeTable::isInteger(kind);
-}
-
 // Every instance of a generic function.
 void instantiateAll(Context& context, PouId generic) {
   rung::sema::resolvePou(context, generic);
@@ -88,7 +78,7 @@ void instantiateAll(Context& context, PouId generic) {
     }
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
       const auto of = static_cast<TypeKind>(kind);
-      if (!admits(generics[at], of)) continue;
+      if (!TypeTable::belongsToInCodesys(of, generics[at])) continue;
       // A string has its largest capacity inside: one instance serves every length.
       chosen[at] = rung::types::TypeTable::isString(of) ? context.types().string(of, 255) : rung::types::idOf(of);
       self(self, at + 1);
