@@ -1,6 +1,9 @@
 // Facts about the whole module that codegen needs before it writes a body: block numbers, which bodies are inlined,
 // and which fields other code than their own block may reach while that block runs.
 // In: the module. Out: tables by index. Called once by emit.cpp, read by all others.
+//
+// Without inlined bodies `cascade`, which calls LIMIT, executes 11 % more instructions in a project of several files
+// (tests/bench/run.sh kernels); where all code is in one file, g++ inlines them by itself.
 #pragma once
 
 #include <unordered_set>

@@ -45,6 +45,7 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts);
 
 // Stamps the small bodies that bodies of the group call in loops. They become inline functions that are emitted all
 // the same: other groups need only the prototype, so this group's code depends on its own bodies alone.
+// Without it (tests/bench/run.sh kernels, --checks=none) `cascade` takes 1.9 times as long, `calendar` 1.1 times.
 void markHot(const ir::Module& module, const Group& group, Marks& marks, uint32_t group_number);
 
 }  // namespace rung::codegen

@@ -6,6 +6,9 @@
 // and returns the length of the result.
 // In: the uses of a body. Out: the measured strings; then, with the slices, where each length is known and where it is
 // counted. Called by analysis.cpp; written by measured.cpp, strings.cpp and calls.cpp.
+//
+// Without it (tests/bench/run.sh kernels, --checks=none) `telegram` executes 5.7 times as many instructions (which
+// includes the gain of slices.h), `report` 3.3 times.
 #pragma once
 
 #include "codegen/uses.h"

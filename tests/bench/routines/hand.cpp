@@ -1,6 +1,7 @@
 // The routines as a C++ programmer writes them; kernels.st does the same work in ST. Prints who, name, rounds, seconds
 // of the best of five runs, and the checksum, which must equal that of the generated code.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -390,6 +391,30 @@ struct Conveyors {
   }
 };
 
+using Name = std::array<char, 81>;
+
+struct Queue {
+  Name waiting[16];
+  __attribute__((noinline)) static int kindOf(const char* name) {
+    if (std::strcmp(name, "on") == 0) return 1;
+    return std::strcmp(name, "off") == 0 ? 2 : 3;
+  }
+  int32_t run(int32_t rounds) {
+    const char* const first[] = {"on", "off", "maintenance"};
+    for (int i = 0; i < 16; ++i) {
+      waiting[i] = {};
+      std::strcpy(waiting[i].data(), first[i % 3]);
+    }
+    int32_t sum = 0;
+    for (int32_t r = 0; r < rounds; ++r) {
+      std::rotate(waiting, waiting + 1, waiting + 16);
+      for (const Name& name : waiting) sum += kindOf(name.data());
+      sum %= 99991;
+    }
+    return sum;
+  }
+};
+
 }  // namespace
 
 int main() {
@@ -405,5 +430,6 @@ int main() {
   measure<Calendar>("calendar", 1000000);
   measure<Stations>("stations", 1000000);
   measure<Conveyors>("conveyors", 1000000);
+  measure<Queue>("queue", 200000);
   return 0;
 }
