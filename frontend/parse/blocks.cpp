@@ -72,10 +72,8 @@ bool StatementParser::enterBlock() {
   uint32_t open = 0;
   do {
     const Tok k = kind();
-    if (k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Try) ++open;
-    if (k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor || k == Tok::EndWhile || k == Tok::EndRepeat ||
-        k == Tok::EndTry)
-      --open;
+    if (beginsBlock(k)) ++open;
+    if (endsBlock(k)) --open;
     advance();
   } while (open > 0 && !at(Tok::End));
   accept(Tok::Semicolon);

@@ -100,17 +100,29 @@ Tok findKeyword(const char* s, uint32_t n) {
 // Keywords that open, divide or close blocks; recover.cpp checks that they balance.
 constexpr std::array<bool, kTokCount> makeBlockKeywords() {
   std::array<bool, kTokCount> b{};
-  for (
-      Tok t :
-      {Tok::If,        Tok::EndIf,       Tok::Case,          Tok::EndCase,          Tok::For,         Tok::EndFor,
-       Tok::While,     Tok::EndWhile,    Tok::Repeat,        Tok::EndRepeat,        Tok::Try,         Tok::EndTry,
-       Tok::Type,      Tok::EndType,     Tok::Struct,        Tok::EndStruct,        Tok::Union,       Tok::EndUnion,
-       Tok::Var,       Tok::VarInput,    Tok::VarOutput,     Tok::VarInOut,         Tok::VarTemp,     Tok::VarExternal,
-       Tok::VarGlobal, Tok::VarStat,     Tok::VarAccess,     Tok::VarInst,          Tok::VarConfig,   Tok::EndVar,
-       Tok::Function,  Tok::EndFunction, Tok::FunctionBlock, Tok::EndFunctionBlock, Tok::Program,     Tok::EndProgram,
-       Tok::Method,    Tok::EndMethod,   Tok::Property,      Tok::PropertyGet,      Tok::PropertySet, Tok::EndProperty,
-       Tok::Action,    Tok::EndAction,   Tok::Interface,     Tok::EndInterface,     Tok::Class,       Tok::EndClass,
-       Tok::Namespace, Tok::Using,       Tok::Configuration, Tok::EndConfiguration, Tok::Resource,    Tok::EndResource})
+  for (const StatementBlock& block : kStatementBlocks)
+    b[static_cast<size_t>(block.begin)] = b[static_cast<size_t>(block.end)] = true;
+  for (Tok t : {Tok::Type,          Tok::EndType,
+                Tok::Struct,        Tok::EndStruct,
+                Tok::Union,         Tok::EndUnion,
+                Tok::Var,           Tok::VarInput,
+                Tok::VarOutput,     Tok::VarInOut,
+                Tok::VarTemp,       Tok::VarExternal,
+                Tok::VarGlobal,     Tok::VarStat,
+                Tok::VarAccess,     Tok::VarInst,
+                Tok::VarConfig,     Tok::EndVar,
+                Tok::Function,      Tok::EndFunction,
+                Tok::FunctionBlock, Tok::EndFunctionBlock,
+                Tok::Program,       Tok::EndProgram,
+                Tok::Method,        Tok::EndMethod,
+                Tok::Property,      Tok::PropertyGet,
+                Tok::PropertySet,   Tok::EndProperty,
+                Tok::Action,        Tok::EndAction,
+                Tok::Interface,     Tok::EndInterface,
+                Tok::Class,         Tok::EndClass,
+                Tok::Namespace,     Tok::Using,
+                Tok::Configuration, Tok::EndConfiguration,
+                Tok::Resource,      Tok::EndResource})
     b[static_cast<size_t>(t)] = true;
   return b;
 }

@@ -16,13 +16,9 @@ bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 // The keyword that closes a block opened by `open`, or End when it opens no block.
 Tok closerOf(Tok open) {
   static_assert(Tok{} == Tok::End);
-  static constexpr TokMap<Tok> kClosers = {{Tok::If, Tok::EndIf},
-                                           {Tok::Case, Tok::EndCase},
-                                           {Tok::For, Tok::EndFor},
-                                           {Tok::While, Tok::EndWhile},
-                                           {Tok::Repeat, Tok::EndRepeat},
-                                           {Tok::Try, Tok::EndTry},
-                                           {Tok::Type, Tok::EndType},
+  for (const StatementBlock& block : kStatementBlocks)
+    if (block.begin == open) return block.end;
+  static constexpr TokMap<Tok> kClosers = {{Tok::Type, Tok::EndType},
                                            {Tok::Struct, Tok::EndStruct},
                                            {Tok::Union, Tok::EndUnion},
                                            {Tok::Function, Tok::EndFunction},
@@ -38,12 +34,18 @@ Tok closerOf(Tok open) {
   return isVarWord(open) ? Tok::EndVar : kClosers[open];
 }
 
-constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor,       Tok::EndWhile,
-                            Tok::EndRepeat,   Tok::EndTry,           Tok::EndType,      Tok::EndStruct,
-                            Tok::EndUnion,    Tok::EndVar,           Tok::EndFunction,  Tok::EndFunctionBlock,
-                            Tok::EndProgram,  Tok::EndConfiguration, Tok::EndResource,  Tok::EndMethod,
-                            Tok::EndProperty, Tok::EndAction,        Tok::EndInterface, Tok::EndClass};
-bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
+constexpr Tok kDeclarationClosers[] = {
+    Tok::EndType,          Tok::EndStruct,  Tok::EndUnion,         Tok::EndVar,      Tok::EndFunction,
+    Tok::EndFunctionBlock, Tok::EndProgram, Tok::EndConfiguration, Tok::EndResource, Tok::EndMethod,
+    Tok::EndProperty,      Tok::EndAction,  Tok::EndInterface,     Tok::EndClass};
+constexpr auto kClosers = [] {
+  std::array<Tok, std::size(kStatementBlocks) + std::size(kDeclarationClosers)> closers{};
+  size_t count = 0;
+  for (const StatementBlock& block : kStatementBlocks) closers[count++] = block.end;
+  for (const Tok closer : kDeclarationClosers) closers[count++] = closer;
+  return closers;
+}();
+bool isCloser(Tok k) { return std::find(kClosers.begin(), kClosers.end(), k) != kClosers.end(); }
 bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }
 bool isPouOpener(Tok k) {
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface || k == Tok::Class ||
@@ -54,19 +56,21 @@ bool isPouCloser(Tok k) {
          k == Tok::EndClass || k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction;
 }
 bool isMemberCloser(Tok k) { return k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction; }
-bool isStatementOpener(Tok k) {
-  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
+bool hasHeader(Tok k) {
+  return std::any_of(std::begin(kStatementBlocks), std::end(kStatementBlocks),
+                     [&](const StatementBlock& block) { return block.begin == k && block.connective != Tok::End; });
 }
 
 // The keywords that can open a block closed by `closer`.
 std::span<const Tok> openersFor(Tok closer) {
   static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
                                   Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
-  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,      Tok::While,    Tok::Repeat,
-                                    Tok::Type,    Tok::Struct,        Tok::Union,    Tok::Function, Tok::FunctionBlock,
+  static constexpr Tok kOthers[] = {Tok::Type,    Tok::Struct,        Tok::Union,    Tok::Function, Tok::FunctionBlock,
                                     Tok::Program, Tok::Configuration, Tok::Resource, Tok::Method,   Tok::Property,
                                     Tok::Action,  Tok::Interface,     Tok::Class};
   if (closer == Tok::EndVar) return kVars;
+  for (const StatementBlock& block : kStatementBlocks)
+    if (block.end == closer) return {&block.begin, 1};
   for (const Tok& t : kOthers)
     if (closerOf(t) == closer) return {&t, 1};
   return {};
@@ -325,10 +329,10 @@ void Balancer::visit(uint32_t i) {
                                                  tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
       bool suspicious = false;
       if (isVarWord(top.kind) || top.kind == Tok::Type) {
-        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
-                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen ||
-                       isStatementOpener(k) || tokens_[i + 1].kind == Tok::Dot ||
-                       tokens_[i + 1].kind == Tok::LeftBracket || beginsIl(k, textOf(i), tokens_[i + 1])));
+        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || beginsBlock(k)) &&
+                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || beginsBlock(k) ||
+                       tokens_[i + 1].kind == Tok::Dot || tokens_[i + 1].kind == Tok::LeftBracket ||
+                       beginsIl(k, textOf(i), tokens_[i + 1])));
       } else if (line_column_ <= top.column) {
         const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) &&
                              (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
@@ -421,7 +425,7 @@ void Balancer::open(uint32_t i, Tok kind) {
   const bool chain = kind == Tok::If && i > region_first_ && tokens_[i - 1].kind == Tok::Else && !atLineStart(i);
   stack_.push_back({kind, i, line_column_, i == line_first_ || chain || kind == Tok::Struct || kind == Tok::Union,
                     chain, 0, 0, Tok::End, 0});
-  if (isStatementOpener(kind) && kind != Tok::Repeat) pending_header_ = i + 1;
+  if (hasHeader(kind)) pending_header_ = i + 1;
   if (isVarWord(kind)) global_section_ = kind == Tok::VarGlobal || kind == Tok::VarConfig || kind == Tok::VarAccess;
   if (isPouOpener(kind)) {
     decl_start_ = i + 1;
@@ -430,9 +434,9 @@ void Balancer::open(uint32_t i, Tok kind) {
 }
 
 bool Balancer::belongs(Tok connective, Tok opener) const {
-  static constexpr TokMap<Tok> kConnectives = {
-      {Tok::If, Tok::Then}, {Tok::For, Tok::Do}, {Tok::While, Tok::Do}, {Tok::Case, Tok::Of}};
-  return connective == kConnectives[opener];
+  for (const StatementBlock& block : kStatementBlocks)
+    if (block.begin == opener) return block.connective == connective;
+  return connective == Tok::End;
 }
 
 void Balancer::close(uint32_t i, Tok closer) {
@@ -480,7 +484,7 @@ void Balancer::close(uint32_t i, Tok closer) {
     if (misplaced_keyword && (found == 0 || !isPouOpener(top.kind))) {
       const std::span<const Tok> openers = openersFor(closer);
       const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
-      if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
+      if ((beginsBlock(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
           (function_without_result && isPouCloser(closer))) {
         diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
         markReported(top.index);
@@ -498,8 +502,7 @@ void Balancer::close(uint32_t i, Tok closer) {
   }
   if (found == 0) return stray(i, closer);
   // `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
-  if (!top_matches && line_start && stack_[found - 1].column != line_column_ &&
-      isStatementOpener(stack_[found - 1].kind)) {
+  if (!top_matches && line_start && stack_[found - 1].column != line_column_ && beginsBlock(stack_[found - 1].kind)) {
     bool orphan = false;
     for (const Orphan& o : orphans_)
       orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ &&
@@ -571,9 +574,8 @@ uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
 
 // The header of a block is there, its first keyword is missing or another word.
 bool Balancer::openAtHeader(uint32_t low, Tok closer) {
-  static constexpr TokSet kWithHeader = {Tok::EndIf, Tok::EndFor, Tok::EndWhile, Tok::EndCase};
-  if (!kWithHeader.has(closer)) return false;
   const std::span<const Tok> openers = openersFor(closer);
+  if (openers.empty() || !hasHeader(openers[0])) return false;
   const Orphan* best = nullptr;
   for (const Orphan& o : orphans_)
     if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr))
@@ -711,15 +713,14 @@ bool Balancer::insideExpression(uint32_t i) const {
       before == Tok::LeftBracket || (before >= Tok::Plus && before <= Tok::EqualLess) ||
       (before >= Tok::And && before <= Tok::Mod))
     return true;
-  if (pending_header_ != 0 && isStatementOpener(k) && before != Tok::EndSlip && before != k) return true;
+  if (pending_header_ != 0 && beginsBlock(k) && before != Tok::EndSlip && before != k) return true;
   if (isPouOpener(k) && before != Tok::Semicolon && !isCloser(before)) return true;
-  const bool is_statement_word = isStatementOpener(k) || k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor ||
-                                 k == Tok::EndWhile || k == Tok::EndRepeat;
+  const bool is_statement_word = beginsBlock(k) || endsBlock(k);
   if (is_statement_word && !stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Struct) &&
       before != Tok::Semicolon && stack_.back().index + 1 != i)
     return true;
   // `f IF (x);`: after a value, a statement begins only where its header follows.
-  if (isStatementOpener(k) && k != Tok::Repeat && before != Tok::EndSlip &&
+  if (hasHeader(k) && before != Tok::EndSlip &&
       (isName(before) || (before >= Tok::Number && before <= Tok::Ident) || before == Tok::RightParen)) {
     for (uint32_t n = i + 1; n < count_ && !atLineStart(n) && tokens_[n].kind != Tok::Semicolon; ++n)
       if (tokens_[n].kind == Tok::Then || tokens_[n].kind == Tok::Do || tokens_[n].kind == Tok::Of) return false;

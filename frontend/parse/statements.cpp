@@ -7,10 +7,7 @@
 
 namespace rung::text {
 
-bool isEndWord(Tok k) {
-  static constexpr TokSet kEnds = {Tok::EndIf, Tok::EndCase, Tok::EndFor, Tok::EndWhile, Tok::EndRepeat, Tok::EndTry};
-  return kEnds.has(k) || endsPart(k);
-}
+bool isEndWord(Tok k) { return endsBlock(k) || endsPart(k); }
 
 bool isPouWord(Tok k) {
   static constexpr TokSet kPous = {Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Type, Tok::Configuration};
@@ -18,9 +15,8 @@ bool isPouWord(Tok k) {
 }
 
 bool isStatementWord(Tok k) {
-  static constexpr TokSet kWords = {Tok::If,  Tok::Case, Tok::For,      Tok::While,  Tok::Repeat,
-                                    Tok::Try, Tok::Exit, Tok::Continue, Tok::Return, Tok::Jmp};
-  return kWords.has(k);
+  static constexpr TokSet kWords = {Tok::Exit, Tok::Continue, Tok::Return, Tok::Jmp};
+  return beginsBlock(k) || kWords.has(k);
 }
 
 bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= Tok::TryAssign); }

@@ -62,4 +62,23 @@ class TokMap {
   std::array<T, kTokCount> values_{};
 };
 
+// The blocks of statements: the keywords of each, and the one that ends its header (End: it has none).
+struct StatementBlock {
+  Tok begin, end, connective;
+};
+inline constexpr StatementBlock kStatementBlocks[] = {
+    {Tok::If, Tok::EndIf, Tok::Then},     {Tok::Case, Tok::EndCase, Tok::Of},      {Tok::For, Tok::EndFor, Tok::Do},
+    {Tok::While, Tok::EndWhile, Tok::Do}, {Tok::Repeat, Tok::EndRepeat, Tok::End}, {Tok::Try, Tok::EndTry, Tok::End}};
+
+constexpr bool beginsBlock(Tok kind) {
+  for (const StatementBlock& block : kStatementBlocks)
+    if (block.begin == kind) return true;
+  return false;
+}
+constexpr bool endsBlock(Tok kind) {
+  for (const StatementBlock& block : kStatementBlocks)
+    if (block.end == kind) return true;
+  return false;
+}
+
 }  // namespace rung::text
