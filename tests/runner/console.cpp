@@ -1,8 +1,10 @@
 // Console tests: .test files in tests/golden and tests/programs. Line 1 is `# purpose`; a line `# features: 40/4a`
 // names rows of the standard as in conformance tests. A session runs in an empty folder, with the tool in PATH and the
-// project at $RUNG_SOURCE; stdout and stderr come in one stream.
+// project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# not sanitized: reason` leaves the file out
+// of the build with sanitizers.
 #include "tests/runner/console.h"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "tests/runner/diff.h"
@@ -106,6 +108,13 @@ std::string folderLikeRoot(const Setting& setting) {
 void addConsole(const Setting& setting, std::vector<Job>& jobs) {
   for (const char* folder : {"tests/golden", "tests/programs"}) {
     for (const std::string& file : filesBelow(setting, folder, ".test")) {
+#ifdef RUNG_SANITIZED
+      const std::string reason = valueOf(splitLines(readContent(setting.root + "/" + file)), "not sanitized");
+      if (!reason.empty()) {
+        std::printf("skipped %s: %s\n", file.c_str(), reason.c_str());
+        continue;
+      }
+#endif
       jobs.push_back({file, 5, [&setting, file] { return runConsoleTest(setting, file); }});
     }
   }

@@ -1,6 +1,7 @@
 // The one runner of all kinds of tests. Each failure prints the difference and the command that reproduces it; the last
 // line is `N passed, N failed`. Called by tools/test.sh and tests/update.
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -189,6 +190,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "rung_test_runner: %s\n", arguments.error.c_str());
     return 2;
   }
+#ifdef RUNG_SANITIZED
+  // Frames are larger, and the limits of nesting are for the usual stack. ASan checks stacks of up to 64 MiB.
+  const rlimit stack = {60 << 20, RLIM_INFINITY};
+  setrlimit(RLIMIT_STACK, &stack);
+#endif
   makeScratch(setting);
   setEnvironment(setting);
 

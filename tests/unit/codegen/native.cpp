@@ -28,6 +28,12 @@ NativeResult command(const std::string& line) {
 
 }  // namespace
 
+#ifdef RUNG_SANITIZED
+constexpr const char* kSanitizers = " -fsanitize=address,undefined";  // as the runtime
+#else
+constexpr const char* kSanitizers = "";
+#endif
+
 NativeResult runNatively(const ir::Module& module, const std::string& driver, const std::string& flags) {
   std::string folder = (std::filesystem::temp_directory_path() / "rung-codegen-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) return {};
@@ -44,7 +50,7 @@ NativeResult runNatively(const ir::Module& module, const std::string& driver, co
                      " && " RUNG_COMPILER
                      " -std=c++17 -Wall -Wextra -Werror -fno-rtti "
                      "-ffp-contract=off " +
-                     flags + " -I. -I" RUNG_INCLUDE + sources + " " RUNG_RUNTIME " -o program");
+                     flags + kSanitizers + " -I. -I" RUNG_INCLUDE + sources + " " RUNG_RUNTIME " -o program");
   }
   if (result.ok) result = command(folder + "/program");
   std::filesystem::remove_all(folder);

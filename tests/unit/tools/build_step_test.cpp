@@ -11,6 +11,9 @@ namespace {
 
 TEST(BuildStep, CMakeProjectWithNinjaAndMake) {
   if (system("command -v ninja >/dev/null && command -v make >/dev/null") != 0) GTEST_SKIP() << "no ninja or make";
+#ifdef RUNG_SANITIZED
+  setenv("LDFLAGS", "-fsanitize=address,undefined", 1);  // as the runtime
+#endif
   TemporaryFolder folder;
   const std::string prefix = folder.path() + "/moved prefix";
   const std::string line = "cmake --install '" RUNG_BUILD "' --prefix '" + folder.path() +

@@ -15,7 +15,11 @@ namespace rung::tool {
 namespace {
 
 constexpr rlim_t kSeconds = 20;
+#ifdef RUNG_SANITIZED
+constexpr long kKilobytes = 1200 * 1024;
+#else
 constexpr long kKilobytes = 300 * 1024;
+#endif
 
 struct LargeTest : testing::Test {
   // Runs `rung emit` on the source; returns its exit code, or -1 when it took too long.
