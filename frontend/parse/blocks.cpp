@@ -291,16 +291,6 @@ void StatementParser::parseRepeat() {
   closeBlock(open, Tok::EndRepeat, s);
 }
 
-// FOREVER statements END_FOREVER
-void StatementParser::parseForever() {
-  const Token* open = t_;
-  if (!enterBlock()) return;
-  advance();
-  ForeverStmt s{header(StmtKind::Forever, loc(open)), {}};
-  s.body = parseStatements(0);
-  closeBlock(open, Tok::EndForever, s);
-}
-
 // __TRY statements [__CATCH ["(" lvalue ")"] statements] [__FINALLY statements] __ENDTRY
 void StatementParser::parseTry() {
   const Token* open = t_;

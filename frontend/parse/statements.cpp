@@ -122,10 +122,9 @@ bool StatementParser::parseKeywordStatement(Loc start) {
   if (at(Tok::Ident)) return false;
   const Token* first = t_;
   static constexpr TokMap<void (StatementParser::*)()> kBlocks = {
-      {Tok::If, &StatementParser::parseIf},          {Tok::Case, &StatementParser::parseCase},
-      {Tok::For, &StatementParser::parseFor},        {Tok::While, &StatementParser::parseWhile},
-      {Tok::Repeat, &StatementParser::parseRepeat},  {Tok::Try, &StatementParser::parseTry},
-      {Tok::Forever, &StatementParser::parseForever}};
+      {Tok::If, &StatementParser::parseIf},         {Tok::Case, &StatementParser::parseCase},
+      {Tok::For, &StatementParser::parseFor},       {Tok::While, &StatementParser::parseWhile},
+      {Tok::Repeat, &StatementParser::parseRepeat}, {Tok::Try, &StatementParser::parseTry}};
   if (const auto block = kBlocks[kind()]; block != nullptr) {
     (this->*block)();
     return true;

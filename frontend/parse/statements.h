@@ -60,7 +60,6 @@ class StatementParser : public DeclarationParser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
-  void parseForever();
   void parseTry();
   bool atCaseLabel() const;
   void parseCaseLabels(std::vector<ExprId>& out);

@@ -67,10 +67,8 @@ struct StatementBlock {
   Tok begin, end, connective;
 };
 inline constexpr StatementBlock kStatementBlocks[] = {
-    {Tok::If, Tok::EndIf, Tok::Then},        {Tok::Case, Tok::EndCase, Tok::Of},
-    {Tok::For, Tok::EndFor, Tok::Do},        {Tok::While, Tok::EndWhile, Tok::Do},
-    {Tok::Repeat, Tok::EndRepeat, Tok::End}, {Tok::Forever, Tok::EndForever, Tok::End},
-    {Tok::Try, Tok::EndTry, Tok::End}};
+    {Tok::If, Tok::EndIf, Tok::Then},     {Tok::Case, Tok::EndCase, Tok::Of},      {Tok::For, Tok::EndFor, Tok::Do},
+    {Tok::While, Tok::EndWhile, Tok::Do}, {Tok::Repeat, Tok::EndRepeat, Tok::End}, {Tok::Try, Tok::EndTry, Tok::End}};
 
 constexpr bool beginsBlock(Tok kind) {
   for (const StatementBlock& block : kStatementBlocks)

@@ -332,10 +332,6 @@ struct RepeatStmt {
   Slice<StmtId> body;
   ExprId until;
 };
-struct ForeverStmt {
-  StmtHeader h;
-  Slice<StmtId> body;
-};
 struct TryStmt {  // __TRY body __CATCH(code) handler __FINALLY finally __ENDTRY
   StmtHeader h;
   Slice<StmtId> body, handler, finally;

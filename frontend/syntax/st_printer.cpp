@@ -465,10 +465,6 @@ void StPrinter::loops(StmtId id, uint32_t indent) {
     expr(s.until, 0);
     out += '\n';
     line(indent, "END_REPEAT\n");
-  } else if (tree_.kind(id) == StmtKind::Forever) {
-    out += "FOREVER\n";
-    stmts(tree_.as<ForeverStmt>(id).body, indent + 2);
-    line(indent, "END_FOREVER\n");
   } else {
     const auto& s = tree_.as<TryStmt>(id);
     out += "__TRY\n";
@@ -509,7 +505,6 @@ void StPrinter::stmt(StmtId id, uint32_t indent) {
     case StmtKind::For:
     case StmtKind::While:
     case StmtKind::Repeat:
-    case StmtKind::Forever:
     case StmtKind::Try: return loops(id, indent);
     case StmtKind::Exit: out += "EXIT;\n"; return;
     case StmtKind::Continue: out += "CONTINUE;\n"; return;

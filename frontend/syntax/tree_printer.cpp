@@ -66,7 +66,6 @@ class Printer : public TreeExprPrinter {
   void print(const ForStmt& s, int depth);
   void print(const WhileStmt& s, int depth);
   void print(const RepeatStmt& s, int depth);
-  void print(const ForeverStmt& s, int depth);
   void print(const TryStmt& s, int depth);
   void print(const JumpStmt& s, int);
   void print(const LabelStmt& s, int);
@@ -174,8 +173,6 @@ void Printer::print(const RepeatStmt& s, int depth) {
   expr(s.until);
   stmts(s.body, depth + 1);
 }
-
-void Printer::print(const ForeverStmt& s, int depth) { stmts(s.body, depth + 1); }
 
 void Printer::print(const TryStmt& s, int depth) {
   stmts(s.body, depth + 1);

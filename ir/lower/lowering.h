@@ -283,7 +283,6 @@ class StatementLowering : public BodyPart {
                                 FunctionRef<void()> iteration);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
-  void lowerForever(const ForeverStmt& stmt);
   void lowerTry(const rung::TryStmt& stmt);
   uint32_t labelNumber(NameId label);
 };

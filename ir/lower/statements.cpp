@@ -75,7 +75,6 @@ void StatementLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::For: return lowerFor(tree_.as<rung::ForStmt>(id));
     case rung::StmtKind::While: return lowerWhile(tree_.as<WhileStmt>(id));
     case rung::StmtKind::Repeat: return lowerRepeat(tree_.as<RepeatStmt>(id));
-    case rung::StmtKind::Forever: return lowerForever(tree_.as<ForeverStmt>(id));
     case rung::StmtKind::Try: return lowerTry(tree_.as<rung::TryStmt>(id));
     case rung::StmtKind::Exit: append(loc, BreakStmt{}); return;
     case rung::StmtKind::Continue: append(loc, ContinueStmt{}); return;
@@ -328,10 +327,6 @@ void StatementLowering::lowerWhile(const WhileStmt& stmt) {
     lowerStatements(stmt.body);
   });
   append(loc, LoopStmt{.body_block = body});
-}
-
-void StatementLowering::lowerForever(const ForeverStmt& stmt) {
-  append(stmt.h.loc, LoopStmt{.body_block = block([&] { lowerStatements(stmt.body); })});
 }
 
 void StatementLowering::lowerRepeat(const RepeatStmt& stmt) {

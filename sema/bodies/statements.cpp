@@ -356,15 +356,6 @@ bool checkStatement(Context& context, StmtId id) {
       checkCondition(context, node.until, Use::UntilCondition);
       return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
-    case StmtKind::Forever: {
-      const ForeverStmt& node = tree.as<ForeverStmt>(id);
-      const uint32_t before = body.ways_out;
-      ++context.loop_depth;
-      checkStatements(context, node.body);
-      --context.loop_depth;
-      if (body.ways_out == before) context.report(diag::EndlessLoop, node.h.loc);
-      return body.ways_out != before;
-    }
     case StmtKind::Try: return checkTry(context, tree.as<TryStmt>(id));
     case StmtKind::Exit:
     case StmtKind::Continue:
