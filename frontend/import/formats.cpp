@@ -7,7 +7,6 @@
 #include "frontend/import/iec10/iec10.h"
 #include "frontend/import/multiprog/multiprog.h"
 #include "frontend/import/plcopen/plcopen.h"
-#include "frontend/import/rungs/rungs.h"
 #include "frontend/import/twincat/twincat.h"
 #include "frontend/import/xml.h"
 #include "frontend/source/scanner.h"
@@ -28,7 +27,6 @@ constexpr Format kFormats[] = {
     {FileKind::TwinCat, "", ".tcpou .tcdut .tcgvl .tcio .tctleo .tctto", twincat::isTwinCat, twincat::readProgram},
     {FileKind::PlcProject, "", ".plcproj", twincat::isProject, nullptr},
     {FileKind::Multiprog, "", "", multiprog::isMultiprog, multiprog::readProgram},
-    {FileKind::Rungs, "", ".rungs", rungs::isRungs, rungs::readProgram},
     {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram},
     {FileKind::Plcopen, "", "", plcopen::isPlcopen, plcopen::readProgram},
     {FileKind::Iec10, "", "", iec10::isIec10, iec10::readProgram},

@@ -25,7 +25,6 @@ enum class FileKind : uint8_t {
   Iec10,       // XML of IEC 61131-10
   Codesys2,    // exports of CODESYS 2.3
   Multiprog,   // MULTIPROG and PC Worx
-  Rungs,       // a toy
   Project,     // rung.project
   Binary
 };
