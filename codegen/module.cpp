@@ -16,11 +16,11 @@ using types::TypeTable;
 namespace {
 
 constexpr const char* kTypeKinds[] = {
-    "RUNG_BOOL",    "RUNG_BYTE",    "RUNG_WORD",  "RUNG_DWORD", "RUNG_LWORD",  "RUNG_SINT",   "RUNG_INT",
-    "RUNG_DINT",    "RUNG_LINT",    "RUNG_USINT", "RUNG_UINT",  "RUNG_UDINT",  "RUNG_ULINT",  "RUNG_OCTET",
-    "RUNG_REAL",    "RUNG_LREAL",   "RUNG_TIME",  "RUNG_LTIME", "RUNG_DATE",   "RUNG_LDATE",  "RUNG_TOD",
-    "RUNG_LTOD",    "RUNG_DT",      "RUNG_LDT",   "RUNG_CHAR",  "RUNG_WCHAR",  "RUNG_UCHAR",  "RUNG_STRING",
-    "RUNG_WSTRING", "RUNG_USTRING", "RUNG_ENUM",  "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
+    "RUNG_BOOL",    "RUNG_BYTE", "RUNG_WORD",  "RUNG_DWORD",  "RUNG_LWORD",  "RUNG_SINT",   "RUNG_INT",
+    "RUNG_DINT",    "RUNG_LINT", "RUNG_USINT", "RUNG_UINT",   "RUNG_UDINT",  "RUNG_ULINT",  "RUNG_REAL",
+    "RUNG_LREAL",   "RUNG_TIME", "RUNG_LTIME", "RUNG_DATE",   "RUNG_LDATE",  "RUNG_TOD",    "RUNG_LTOD",
+    "RUNG_DT",      "RUNG_LDT",  "RUNG_CHAR",  "RUNG_WCHAR",  "RUNG_UCHAR",  "RUNG_STRING", "RUNG_WSTRING",
+    "RUNG_USTRING", "RUNG_ENUM", "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
 static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
 constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_AREA"};
 constexpr const char* kOwners[] = {"RUNG_AREA_INPUT", "RUNG_AREA_OUTPUT", "RUNG_AREA_MEMORY"};

@@ -134,7 +134,6 @@ const char* typeKindName(const TypeTable& types, TypeId type) {
     case TypeKind::UInt: return "RUNG_UINT";
     case TypeKind::UDInt: return "RUNG_UDINT";
     case TypeKind::ULInt: return "RUNG_ULINT";
-    case TypeKind::Octet: return "RUNG_OCTET";
     case TypeKind::Real: return "RUNG_REAL";
     case TypeKind::LReal: return "RUNG_LREAL";
     case TypeKind::Time: return "RUNG_TIME";

@@ -8,15 +8,15 @@ using types::TypeTable;
 
 namespace {
 constexpr TypeKeyword kTypeKeywords[] = {
-    {"bool", TypeKind::Bool},       {"byte", TypeKind::Byte},   {"word", TypeKind::Word},
-    {"dword", TypeKind::DWord},     {"lword", TypeKind::LWord}, {"sint", TypeKind::SInt},
-    {"int", TypeKind::Int},         {"dint", TypeKind::DInt},   {"lint", TypeKind::LInt},
-    {"usint", TypeKind::USInt},     {"uint", TypeKind::UInt},   {"udint", TypeKind::UDInt},
-    {"ulint", TypeKind::ULInt},     {"octet", TypeKind::Octet}, {"real", TypeKind::Real},
-    {"lreal", TypeKind::LReal},     {"time", TypeKind::Time},   {"ltime", TypeKind::LTime},
-    {"date", TypeKind::Date},       {"ldate", TypeKind::LDate}, {"tod", TypeKind::TimeOfDay},
-    {"ltod", TypeKind::LTimeOfDay}, {"dt", TypeKind::DateTime}, {"ldt", TypeKind::LDateTime},
-    {"char", TypeKind::Char},       {"wchar", TypeKind::WChar}, {"uchar", TypeKind::UChar},
+    {"bool", TypeKind::Bool},   {"byte", TypeKind::Byte},     {"word", TypeKind::Word},
+    {"dword", TypeKind::DWord}, {"lword", TypeKind::LWord},   {"sint", TypeKind::SInt},
+    {"int", TypeKind::Int},     {"dint", TypeKind::DInt},     {"lint", TypeKind::LInt},
+    {"usint", TypeKind::USInt}, {"uint", TypeKind::UInt},     {"udint", TypeKind::UDInt},
+    {"ulint", TypeKind::ULInt}, {"real", TypeKind::Real},     {"lreal", TypeKind::LReal},
+    {"time", TypeKind::Time},   {"ltime", TypeKind::LTime},   {"date", TypeKind::Date},
+    {"ldate", TypeKind::LDate}, {"tod", TypeKind::TimeOfDay}, {"ltod", TypeKind::LTimeOfDay},
+    {"dt", TypeKind::DateTime}, {"ldt", TypeKind::LDateTime}, {"char", TypeKind::Char},
+    {"wchar", TypeKind::WChar}, {"uchar", TypeKind::UChar},
 };
 // Beside the words of instructions.def.
 constexpr const char* kReserved[] = {

@@ -303,7 +303,6 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::UInt:
       case TypeKind::UDInt:
       case TypeKind::ULInt:
-      case TypeKind::Octet:
       case TypeKind::Real:
       case TypeKind::LReal:
       case TypeKind::Time:

@@ -25,7 +25,6 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
     case TypeKind::UInt: return 11;
     case TypeKind::UDInt: return 12;
     case TypeKind::ULInt: return 13;
-    case TypeKind::Octet: return 10;
     case TypeKind::Real: return 14;
     case TypeKind::LReal: return 15;
     case TypeKind::String:

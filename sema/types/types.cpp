@@ -26,7 +26,6 @@ constexpr ElementaryName kElementaryNames[] = {
     {"UINT", TypeKind::UInt},
     {"UDINT", TypeKind::UDInt},
     {"ULINT", TypeKind::ULInt},
-    {"OCTET", TypeKind::Octet},
     {"REAL", TypeKind::Real},
     {"LREAL", TypeKind::LReal},
     {"TIME", TypeKind::Time},
@@ -228,7 +227,6 @@ uint32_t TypeTable::bitWidth(TypeKind k) {
     case TypeKind::Byte:
     case TypeKind::SInt:
     case TypeKind::USInt:
-    case TypeKind::Octet:
     case TypeKind::Char: return 8;
     case TypeKind::Word:
     case TypeKind::Int:

@@ -33,7 +33,6 @@ enum class TypeKind : uint8_t {
   UInt,
   UDInt,
   ULInt,
-  Octet,
   Real,
   LReal,
   Time,
@@ -205,8 +204,8 @@ class TypeTable {
 
   // ---- classes of elementary kinds
   static bool isSignedInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::LInt; }
-  static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::Octet; }
-  static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::Octet; }
+  static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
+  static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
   static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
   static bool isNumber(TypeKind k) { return isInteger(k) || isBits(k) || isReal(k); }
   static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }

@@ -32,7 +32,7 @@ bool equalNames(std::string_view a, const char* b) {
   return *b == 0;
 }
 
-bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_OCTET; }
+bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
 
 }  // namespace
 

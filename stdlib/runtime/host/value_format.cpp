@@ -8,11 +8,10 @@
 namespace rung::host {
 namespace {
 
-const char* const kKindNames[] = {"BOOL",    "BYTE",    "WORD",        "DWORD", "LWORD",     "SINT",   "INT",
-                                  "DINT",    "LINT",    "USINT",       "UINT",  "UDINT",     "ULINT",  "OCTET",
-                                  "REAL",    "LREAL",   "TIME",        "LTIME", "DATE",      "LDATE",  "TOD",
-                                  "LTOD",    "DT",      "LDT",         "CHAR",  "WCHAR",     "UCHAR",  "STRING",
-                                  "WSTRING", "USTRING", "enumeration", "array", "structure", "pointer"};
+const char* const kKindNames[] = {
+    "BOOL",  "BYTE",  "WORD",  "DWORD", "LWORD",  "SINT",    "INT",     "DINT",        "LINT",  "USINT",     "UINT",
+    "UDINT", "ULINT", "REAL",  "LREAL", "TIME",   "LTIME",   "DATE",    "LDATE",       "TOD",   "LTOD",      "DT",
+    "LDT",   "CHAR",  "WCHAR", "UCHAR", "STRING", "WSTRING", "USTRING", "enumeration", "array", "structure", "pointer"};
 
 uint8_t integerKind(const rung_module& module, const rung_type& type) {
   if (type.kind == RUNG_ENUM && type.element != RUNG_NONE) return module.types[type.element].kind;
@@ -150,7 +149,6 @@ void formatValue(const rung_module& module, const Variable& variable, std::strin
     case RUNG_UINT:
     case RUNG_UDINT:
     case RUNG_ULINT:
-    case RUNG_OCTET:
     case RUNG_REAL:
     case RUNG_LREAL:
     case RUNG_TIME:

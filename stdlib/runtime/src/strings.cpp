@@ -26,7 +26,7 @@ bool isSignedInteger(uint8_t kind) {
 }
 bool isUnsignedInteger(uint8_t kind) {
   return kind == RUNG_BYTE || kind == RUNG_WORD || kind == RUNG_DWORD || kind == RUNG_LWORD || kind == RUNG_USINT ||
-         kind == RUNG_UINT || kind == RUNG_UDINT || kind == RUNG_ULINT || kind == RUNG_OCTET;
+         kind == RUNG_UINT || kind == RUNG_UDINT || kind == RUNG_ULINT;
 }
 
 uint32_t formatScalar(uint8_t kind, uint64_t bits, char* out) {

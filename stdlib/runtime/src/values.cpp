@@ -256,8 +256,8 @@ struct Reader {
   }
 };
 
-const char* const kTypeNames[] = {"bool", "byte",  "word", "dword", "lword", "sint",  "int",  "dint",
-                                  "lint", "usint", "uint", "udint", "ulint", "octet", "real", "lreal"};
+const char* const kTypeNames[] = {"bool", "byte",  "word", "dword", "lword", "sint", "int",  "dint",
+                                  "lint", "usint", "uint", "udint", "ulint", "real", "lreal"};
 
 // Skips `INT#` before a number: the name of any elementary type, since the value must fit anyway.
 void skipTypePrefix(Reader& from) {
@@ -295,8 +295,7 @@ struct IntegerFormat {
 IntegerFormat formatOf(uint8_t kind) {
   switch (kind) {
     case RUNG_BYTE:
-    case RUNG_USINT:
-    case RUNG_OCTET: return {1, false};
+    case RUNG_USINT: return {1, false};
     case RUNG_WORD:
     case RUNG_UINT: return {2, false};
     case RUNG_DWORD:
@@ -554,8 +553,7 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
   switch (static_cast<rung_type_kind>(kind)) {
     case RUNG_BOOL: to.put(load<uint8_t>(value) != 0 ? "TRUE" : "FALSE"); break;
     case RUNG_BYTE:
-    case RUNG_USINT:
-    case RUNG_OCTET: to.number(load<uint8_t>(value)); break;
+    case RUNG_USINT: to.number(load<uint8_t>(value)); break;
     case RUNG_WORD:
     case RUNG_UINT: to.number(load<uint16_t>(value)); break;
     case RUNG_DWORD:
@@ -685,7 +683,6 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
     case RUNG_DINT:
     case RUNG_LINT:
     case RUNG_USINT:
-    case RUNG_OCTET:
     case RUNG_UINT:
     case RUNG_UDINT:
     case RUNG_ULINT: {

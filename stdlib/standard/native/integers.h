@@ -16,5 +16,4 @@
   ROW(USINT, uint8_t)          \
   ROW(UINT, uint16_t)          \
   ROW(UDINT, uint32_t)         \
-  ROW(ULINT, uint64_t)         \
-  ROW(OCTET, uint8_t)
+  ROW(ULINT, uint64_t)

@@ -33,7 +33,6 @@ typedef enum rung_type_kind {
   RUNG_UINT,
   RUNG_UDINT,
   RUNG_ULINT,
-  RUNG_OCTET,
   RUNG_REAL,
   RUNG_LREAL,
   RUNG_TIME,
