@@ -1,7 +1,7 @@
 // Console tests: .test files in tests/golden and tests/programs. Line 1 is `# purpose`; a line `# features: 40/4a`
 // names rows of the standard as in conformance tests. A session runs in an empty folder, with the tool in PATH and the
-// project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# not sanitized: reason` leaves the file out
-// of the build with sanitizers.
+// project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# release only: reason` leaves the file
+// out of debug builds and of those with sanitizers.
 #include "tests/runner/console.h"
 
 #include <cstdio>
