@@ -43,6 +43,7 @@ struct Var {
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
   bool constant = false, retain = false, persistent = false;
+  bool non_retain = false;    // NON_RETAIN, which also holds inside of a retained instance
   bool has_value = false;     // constant scalar or string with a known value: see `value`
   bool hierarchical = false;  // AT %QW0.1.2: placed after all others when these are known
   bool open_address = false;  // AT %I*: the number comes from VAR_CONFIG or from the system

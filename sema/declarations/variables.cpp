@@ -97,6 +97,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.constant = (section.h.bits & kConstant) != 0;
   var.persistent = (section.h.bits & kPersistent) != 0;
   var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
+  var.non_retain = (section.h.bits & kNonRetain) != 0;
   var.pou = pou;
   var.list = list;
   if (!decl.h.pragmas.empty()) {
@@ -158,6 +159,7 @@ void addField(Context& context, TypeId record, VarId id) {
     field.by_reference = false;
   }
   field.retain = var.retain;
+  field.non_retain = var.non_retain;
   field.persistent = var.persistent;
   field.constant = var.constant;
   types::TypeInfo& info = context.types().edit(record);
