@@ -13,6 +13,7 @@ namespace rung::text {
 struct NumberValue {
   bool is_real = false;
   bool is_based = false;
+  bool has_underscore_pair = false;  // 1__000, an error in the standard
   uint64_t integer = 0;  // magnitude
   double real = 0;
 };
