@@ -1,9 +1,9 @@
 // The width of intermediate results. In codesys + - * / MOD, negation and ABS of integers and bit strings below the
 // native width (--native-width, 32 bits by default) compute in the native width: signed operands in DINT, all others
 // modulo 2^32. Assigning, passing and converting cut the value; another operation and a comparison see it uncut. The
-// tree keeps the operands' type as the type of the expression; these functions tell what is computed instead. In iec and
-// in library code nothing is wider than its type. "Operators: overflow/underflow in the data type" of the CODESYS help.
-// Used by constant expressions and by lowering.
+// tree keeps the operands' type as the type of the expression; these functions tell what is computed instead. In iec
+// and in library code nothing is wider than its type. "Operators: overflow/underflow in the data type" of the CODESYS
+// help. Used by constant expressions and by lowering.
 #pragma once
 
 #include "sema/entities.h"

@@ -1,6 +1,6 @@
-// Lowering of intermediate results that may be wider than their type says (sema/intermediate.h). In: checked operations on
-// narrow integers. Out: operations in the native type, or, where only the last bits are wanted, in the type that wants
-// them: `i := i + 1` adds in INT. Called by values.cpp and by all who see a value uncut.
+// Lowering of intermediate results that may be wider than their type says (sema/intermediate.h). In: checked operations
+// on narrow integers. Out: operations in the native type, or, where only the last bits are wanted, in the type that
+// wants them: `i := i + 1` adds in INT. Called by values.cpp and by all who see a value uncut.
 #include "ir/lower/lowering.h"
 #include "sema/intermediate.h"
 

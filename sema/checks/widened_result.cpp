@@ -1,6 +1,6 @@
-// Warns of a product or sum of integers, or a difference of unsigned ones, that is converted to a wider type only after it
-// was calculated in the narrow one. In iec alone: codesys calculates in at least 32 bits (sema/intermediate.h). The same
-// as SA0130 of CODESYS Static Analysis.
+// Warns of a product or sum of integers, or a difference of unsigned ones, that is converted to a wider type only after
+// it was calculated in the narrow one. In iec alone: codesys calculates in at least 32 bits (sema/intermediate.h). The
+// same as SA0130 of CODESYS Static Analysis.
 //   passes  d := INT_TO_DINT(i) * j;   i := i * j;
 //   fails   d := i * j;                                  W0581
 // Called by conversions.cpp for each implicit conversion that loses nothing.

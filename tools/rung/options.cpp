@@ -127,8 +127,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "treat each file as a separate project"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "show the declaration of a function, block or type"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
-    {Key::NativeWidth, "--native-width", "32|64", kCompile,
-     "codesys: bits of intermediate results (default: 32)"},
+    {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
      "run-time checks: div,index,null,cast,subrange,\n"
      "convert,overflow, or default, all, none\n"
