@@ -105,6 +105,8 @@ struct ModuleLowering {
 
 // The scalar or string value of a checked constant expression; none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
+// The same of an intermediate result (sema/intermediate.h) in its own type.
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId expr);
 
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
@@ -167,6 +169,11 @@ class ValueLowering : public BodyPart {
   using BodyPart::BodyPart;
 
   ExprId lowerValue(rung::ExprId expr);
+  // An operand of an operation in the type `native`, where the value may be wider than its type; none: in its own type.
+  ExprId lowerOperand(rung::ExprId expr, TypeId native) { return native ? lowerIn(expr, native) : lowerValue(expr); }
+  // The last bits of an intermediate result that fit an integer type; intermediate_results.cpp.
+  ExprId lowerIn(rung::ExprId expr, TypeId type);
+  ExprId lowerUncut(rung::ExprId expr);
   void lowerDelete(const sema::Call& call, Loc loc);
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
 
@@ -177,6 +184,9 @@ class ValueLowering : public BodyPart {
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
+  ExprId convertUncut(const rung::ConvertExpr& node);
+  ExprId operate(rung::ExprId expr, TypeId type);
+  bool hasUncut(rung::ExprId expr) const;
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
   ExprId lowerNew(rung::ExprId expr);
@@ -195,6 +205,7 @@ class CallLowering : public BodyPart {
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
   // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
@@ -220,7 +231,6 @@ class CallLowering : public BodyPart {
   void faultUnlessZero(ExprId result, Loc loc);
 
   ExprId lowerOperator(const sema::Call& call, const rung::CallExpr& node);
-  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const rung::CallExpr& node);
   ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);

@@ -2,12 +2,20 @@
 // become statements before, and values that were read before a call move to a temporary (evaluation_order.cpp).
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+static std::optional<Value> constantOperand(const sema::Project& project, rung::ExprId id, TypeId native) {
+  const auto value = native ? uncutConstant(project, id) : constantOf(project, id);
+  if (!value || !TypeTable::isScalar(project.types.plainKind(value->type))) return std::nullopt;
+  return native ? types::convert(project.types, *value, native).value : value;
+}
+
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id) {
   const Tree& tree = project.tree;
   const TypeTable& types = project.types;
+  const TypeId native = sema::uncutType(project, id);
   switch (tree.kind(id)) {
     case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
     case rung::ExprKind::Name:
@@ -27,8 +35,9 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return Value{types.resolve(var->value.type), var->value.bits};
     }
     case rung::ExprKind::Convert: {
-      auto operand = constantOf(project, tree.as<rung::ConvertExpr>(id).operand);
+      auto operand = uncutConstant(project, tree.as<rung::ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
+      if (native) return types::convert(types, *operand, native).value;
       TypeId to = types.resolve(tree.expr(id).type);
       bool from_string = TypeTable::isString(types.plainKind(operand->type));
       if (from_string) {
@@ -42,8 +51,8 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Unary: {
       const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
-      auto operand = constantOf(project, node.operand);
-      if (!operand || !TypeTable::isScalar(types.plainKind(operand->type))) return std::nullopt;
+      auto operand = constantOperand(project, node.operand, native);
+      if (!operand) return std::nullopt;
       switch (node.op()) {
         case UnaryOp::Plus: return operand;
         case UnaryOp::Not: return types::apply(types, project.names, Op::Not, *operand).value;
@@ -53,11 +62,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Binary: {
       const rung::BinaryExpr& node = tree.as<rung::BinaryExpr>(id);
-      auto left = constantOf(project, node.left);
-      if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
-      auto right = constantOf(project, node.right);
-      if (!right || !TypeTable::isScalar(types.plainKind(right->type))) return std::nullopt;
-      types::Outcome outcome = types::apply(types, project.names, sema::operatorOf(node.op()), *left, *right);
+      const Op op = sema::operatorOf(node.op());
+      const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
+      auto left = constantOperand(project, node.left, type);
+      auto right = constantOperand(project, node.right, type);
+      if (!left || !right) return std::nullopt;
+      types::Outcome outcome = types::apply(types, project.names, op, *left, *right);
       if (outcome.fault != types::Fault::None) return std::nullopt;
       return outcome.value;
     }
@@ -79,6 +89,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::StructInit: return std::nullopt;
   }
   return std::nullopt;
+}
+
+std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+  const auto value = uncutConstant(project, id);
+  if (!value || !sema::uncutType(project, id)) return value;
+  return types::convert(project.types, *value, project.types.resolve(project.tree.expr(id).type)).value;
 }
 
 ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
@@ -120,7 +136,8 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return places().openArrayBound(node.array, node.index, node.h.loc);
     }
-    case rung::ExprKind::Call: return calls().lowerCall(id);
+    case rung::ExprKind::Call:
+      return sema::uncutType(project_, id) ? lowerIn(id, strip(tree_.expr(id).type)) : calls().lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -134,6 +151,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
   ExprId operand = lowerValue(node.operand);
   TypeId type = strip(node.h.type);
   switch (node.op()) {
@@ -154,8 +172,11 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
         op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.dialect != Dialect::Codesys;
     return lowerLogical(id, is_and, short_circuit);
   }
-  ExprId left = lowerValue(node.left);
-  ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
+  const TypeId compared =
+      types::isComparison(sema::operatorOf(op)) ? sema::comparedType(project_, node.left, node.right) : TypeId{};
+  ExprId left = lowerOperand(node.left, compared);
+  ExprId right = lowerAfter({&left}, [&] { return lowerOperand(node.right, compared); });
   return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
@@ -252,6 +273,7 @@ ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
   if (ExprId object = lowerObjectConversion(node)) return object;
+  if (sema::uncutType(project_, node.operand)) return convertUncut(node);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
 }
 

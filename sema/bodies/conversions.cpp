@@ -4,6 +4,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
+#include "sema/checks/widened_result.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
@@ -386,6 +387,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
+  if (fitness == Fit::Lossless) checkWidenedResult(context, expr, to);
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
     if (const Entity object = entityOf(context, expr); object.entityKind() == EntityKind::Var)
       markAccess(context, VarId{object.index}, Access::Address);
