@@ -63,6 +63,7 @@ struct Var {
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   struct Pragmas {         // of the declaration
     bool required = false, lazy = false, extensible = false;  // pins of library declarations
+    bool long_time = false;                                   // {long_time}: a TIME that takes an LTIME too (iec3)
     bool instance_path = false;   // {attribute 'instance-path'}: holds the path of its instance
     std::vector<NameId> aliases;  // {alias 'R'}
   } pragmas;

@@ -158,7 +158,7 @@ ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = places().lowerPlace(argument);
   if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
-  if (isPlace(body_.expr(place).kind)) return stable(place);
+  if (isPlace(body_.expr(place).kind)) return places().seenAs(stable(place), strip(pin_type), loc);
   const ExprId own = temp(strip(pin_type), loc);
   assign(copy(own), convertValue(place, strip(pin_type), loc), loc);
   return own;

@@ -133,6 +133,7 @@ class PlaceLowering : public BodyPart {
   ExprId lowerPlace(rung::ExprId expr);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
+  ExprId seenAs(ExprId place, TypeId type, Loc loc);
   ExprId programPlace(uint32_t program, Loc loc);
   ExprId instancePlace(uint32_t program, const sema::InstancePath& place);
   ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
@@ -192,6 +193,7 @@ class ValueLowering : public BodyPart {
   ExprId lowerNew(rung::ExprId expr);
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId lowerObjectConversion(const rung::ConvertExpr& node);
+  ExprId lowerPart(const rung::ConvertExpr& node);
   ExprId checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
 };

@@ -272,9 +272,29 @@ ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circ
 ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
+  if (types_.kind(strip(node.h.type)) == TypeKind::Record) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
   if (sema::uncutType(project_, node.operand)) return convertUncut(node);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+// The value of an object or structure as one of what it extends: a copy, which is an object of that kind.
+ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
+  const Loc loc = node.h.loc;
+  const TypeId type = strip(node.h.type);
+  const sema::PouId base = in_.pouOfRecord(type);
+  ExprId place = places().lowerPlace(node.operand);
+  place = base ? asBase(place, base, loc) : places().seenAs(place, type, loc);
+  const ExprId part = temp(type, loc);
+  assign(copy(part), place, loc);
+  if (base && project_.pou(base).object.dispatched) {
+    sema::PouId first = base;
+    while (!project_.pou(first).object.id_var) first = project_.pou(first).base;
+    const uint32_t id = project_.var(project_.pou(first).object.id_var).field;
+    assign(field(asBase(copy(part), first, loc), id, types::kUDInt, loc),
+           add(loc, types::kUDInt, ConstExpr{.number_of = type}), loc);
+  }
+  return part;
 }
 
 // The address of the target of a pointer or reference is its value: nothing is read.

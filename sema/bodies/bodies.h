@@ -18,7 +18,8 @@ using types::TypeKind;
 enum class Access : uint8_t {
   Read,
   Write,      // the target of an assignment or an output binding
-  ReadWrite,  // an in-out argument, an instance that is called
+  ReadWrite,  // an instance that is called, a compound assignment
+  InOut,      // an in-out argument: read and written, too
   Qualifier,  // the base of a member: may be a list, a library, a type or a program
   Address,    // ADR, SIZEOF: neither read nor written here
 };
@@ -138,6 +139,7 @@ enum class Fit : uint8_t {
   No,
 };
 Fit fit(const Context& context, TypeId from, TypeId to);
+bool extendsStructure(const Context& context, TypeId derived, TypeId base);
 // One is a type with named values, the other its base type. IEC 61131-3 ed. 3, 6.4.4.3.
 bool isNamedValueOf(const Context& context, TypeId a, TypeId b);
 bool sameType(const Context& context, TypeId a, TypeId b);

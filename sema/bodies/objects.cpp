@@ -185,7 +185,8 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   const PouId accessor = property.get ? property.get : property.set;
   if (!accessor) return header.type = types::kError;
   resolvePou(context, accessor);
-  if (access == Access::Write || access == Access::ReadWrite) {  // an assignment handles it; other uses need a variable
+  if (access == Access::Write || access == Access::ReadWrite ||
+      access == Access::InOut) {  // an assignment handles it; other uses need a variable
     header.type = property.get ? context.symbols.pou(property.get).result
                                : context.symbols.var(pinsOf(context, property.set)[0]).type;
     return header.type;

@@ -102,7 +102,9 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
     case Operands::NumberOrTime:
       return (TypeTable::isNumber(plain) && !(bits && context.iec())) || TypeTable::isDuration(plain);
     case Operands::Bits: return plain == TypeKind::Bool || bits || (TypeTable::isInteger(plain) && !context.iec());
-    case Operands::Comparable:
+    case Operands::Comparable:  // the standard compares references for equality only: ed. 3, 6.4.4.10.5
+      if (kind == TypeKind::Pointer && context.iec()) return false;
+      [[fallthrough]];
     case Operands::Equatable:
       return TypeTable::isElementary(plain) || kind == TypeKind::Pointer || kind == TypeKind::NullLiteral;
     case Operands::Anything: return true;

@@ -31,6 +31,7 @@ void internKnownNames(Context& context) {
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},
+      {&Known::long_time, "long_time"},
       {&Known::extensible, "extensible"},
       {&Known::prefix, "prefix"},
       {&Known::sized, "sized"},
