@@ -231,6 +231,8 @@ class CallLowering : public BodyPart {
   void spillArguments(FunctionCall& plan, InsertionPoint point);
   ExprId emitFunctionCall(FunctionCall& plan, ExprId object, ExprId result);
   void faultUnlessZero(ExprId result, Loc loc);
+  // Sorts numbers of pins so that those with a value come in the order in which the values were written.
+  void writtenOrder(std::vector<uint32_t>& pins, FunctionRef<rung::ExprId(uint32_t)> value) const;
 
   ExprId lowerOperator(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const rung::CallExpr& node);

@@ -1,5 +1,7 @@
 // Lowering of operators in call form: ADD, GT, SEL, MUX, MOVE and conversions. In: calls that sema has resolved to an
 // operator. Out: values; `if` and `switch` where an input is evaluated only when it is chosen. Called by calls.cpp.
+#include <numeric>
+
 #include "ir/lower/lowering.h"
 #include "sema/intermediate.h"
 
@@ -35,13 +37,17 @@ ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung:
   for (const sema::Binding& binding : call.bindings)
     if (binding.value && !operand_type) operand_type = native ? native : strip(tree_.expr(binding.value).type);
   if (!operand_type) operand_type = type;
-  std::vector<ExprId> operands;
-  for (const sema::Binding& binding : call.bindings) {
+  std::vector<uint32_t> order(call.bindings.size());
+  std::iota(order.begin(), order.end(), 0);
+  writtenOrder(order, [&](uint32_t i) { return call.bindings[i].value; });
+  std::vector<ExprId> operands(call.bindings.size());
+  for (const uint32_t number : order) {
+    const sema::Binding& binding = call.bindings[number];
     InsertionPoint point = here();
     ExprId operand =
         native && binding.value ? values().lowerIn(binding.value, native) : operandOr0(binding, operand_type, loc);
     for (size_t i = operands.size(); i-- > 0;) spill(point, {&operands[i]});
-    operands.push_back(operand);
+    operands[number] = operand;
   }
   if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
   if (!types::isComparison(op) || operands.size() == 2) {
