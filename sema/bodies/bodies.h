@@ -20,6 +20,7 @@ enum class Access : uint8_t {
   Write,      // the target of an assignment or an output binding
   ReadWrite,  // an in-out argument, an instance that is called
   Qualifier,  // the base of a member: may be a list, a library, a type or a program
+  Bind,       // the target of REF=: the reference itself
   Address,    // ADR, SIZEOF: neither read nor written here
 };
 
