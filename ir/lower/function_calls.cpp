@@ -5,6 +5,7 @@
 // change them during the call. Only a callee that writes such an input copies it, at its entry (statements.cpp), so
 // callers never pay for callees that only read.
 #include "ir/lower/lowering.h"
+#include "ir/string_end.h"
 
 namespace rung::ir {
 
@@ -158,7 +159,12 @@ ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = places().lowerPlace(argument);
   if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
-  if (isPlace(body_.expr(place).kind)) return stable(place);
+  if (isPlace(body_.expr(place).kind)) {
+    place = stable(place);
+    const bool is_string = TypeTable::isString(types_.kind(typeOf(place)));
+    if (is_string && mayLackEnd(types_, body_, place)) assign(copy(place), toTemp(copy(place), loc), loc);
+    return place;
+  }
   const ExprId own = temp(strip(pin_type), loc);
   assign(copy(own), convertValue(place, strip(pin_type), loc), loc);
   return own;
