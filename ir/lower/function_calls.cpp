@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "ir/lower/lowering.h"
+#include "ir/string_end.h"
 
 namespace rung::ir {
 
@@ -168,7 +169,12 @@ ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = places().lowerPlace(argument);
   if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
-  if (isPlace(body_.expr(place).kind)) return places().seenAs(stable(place), strip(pin_type), loc);
+  if (isPlace(body_.expr(place).kind)) {
+    place = stable(place);
+    const bool is_string = TypeTable::isString(types_.kind(typeOf(place)));
+    if (is_string && mayLackEnd(types_, body_, place)) assign(copy(place), toTemp(copy(place), loc), loc);
+    return places().seenAs(place, strip(pin_type), loc);
+  }
   const ExprId own = temp(strip(pin_type), loc);
   assign(copy(own), convertValue(place, strip(pin_type), loc), loc);
   return own;

@@ -65,6 +65,7 @@ struct ModuleLowering {
  private:
   void declareRecord(TypeId type);
   void addRecord(TypeId record);
+  Record* recordOf(TypeId type);
   void addPrograms();
   void addLists();
   void markFaulting();
@@ -84,11 +85,12 @@ struct ModuleLowering {
   void addBlockTasks();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                   // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;  // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;  // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;   // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;      // by TypeId
+  std::vector<BodyId> body_of_;                            // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;           // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;           // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;            // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;               // by TypeId
+  std::unordered_map<uint32_t, uint32_t> record_of_type_;  // by TypeId: indices of module.records
   std::vector<TypeId> to_declare_;
   bool is_declaring_ = false;
   std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
@@ -179,6 +181,7 @@ class ValueLowering : public BodyPart {
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
 
  private:
+  ExprId closed(ExprId place);
   ExprId lowerLiteral(rung::ExprId expr);
   ExprId lowerUnary(rung::ExprId expr);
   ExprId lowerBinary(rung::ExprId expr);
@@ -243,7 +246,7 @@ class CallLowering : public BodyPart {
   NameId comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition);
 };
 
-// The life of objects: initial_values.cpp, and FB_Exit in exits.cpp.
+// The life of objects: initial_values.cpp, repeated_values.cpp, and FB_Exit in exits.cpp.
 class ObjectLowering : public BodyPart {
  public:
   using BodyPart::BodyPart;
@@ -258,6 +261,10 @@ class ObjectLowering : public BodyPart {
  private:
   void exitParts(ExprId place, TypeId record);
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
+  bool storeRepeated(ExprId place, TypeId type, std::span<const uint8_t> bytes, bool place_is_zero);
+  void storeRows(ExprId array, TypeId type, std::span<const uint8_t> bytes, std::vector<ExprId>& indices,
+                 bool place_is_zero);
+  void storeBytes(ExprId place, TypeId declared, std::span<const uint8_t> bytes);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
   void construct(ExprId place, TypeId type);

@@ -2,6 +2,7 @@
 // become statements before, and values that were read before a call move to a temporary (evaluation_order.cpp).
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
+#include "ir/string_end.h"
 #include "sema/intermediate.h"
 
 namespace rung::ir {
@@ -113,7 +114,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
         const MemberExpr& node = tree_.as<MemberExpr>(id);
         RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
       }
-      return places().lowerPlace(id);
+      return closed(places().lowerPlace(id));
     }
     case rung::ExprKind::This:
     case rung::ExprKind::Super: {
@@ -125,7 +126,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
-    case rung::ExprKind::Address: return places().lowerPlace(id);
+    case rung::ExprKind::Address: return closed(places().lowerPlace(id));
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
@@ -146,6 +147,12 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
   }
   RUNG_INVARIANT(false, "an expression without a value is not lowered");
   return {};
+}
+
+// A string that other variables may overlap, cut at its capacity.
+ExprId ValueLowering::closed(ExprId place) {
+  if (!TypeTable::isString(types_.kind(typeOf(place))) || !mayLackEnd(types_, body_, place)) return place;
+  return toTemp(place, body_.expr(place).loc);
 }
 
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {

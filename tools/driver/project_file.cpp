@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "frontend/import/source_mapped_text.h"
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
@@ -253,14 +254,14 @@ bool isPlain(std::string_view value) {
   return true;
 }
 
-void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& project) {
-  std::string text, programs;
-  uint32_t line = 1;
+// TASK and PROGRAM declarations of the [task] sections, each value at its place in the file.
+FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile& project) {
+  xml::SourceMappedText text(sources);
+  std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
     if (section.kind != "task" || !isModuleName(section.name)) continue;
-    if (text.empty()) text = "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC ";
-    for (uint32_t at = sources.location(section.loc).line; line < at; line++) text += '\n';
-    text += "TASK " + section.name + "(";
+    if (text.empty()) text.put(section.loc, "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n");
+    text.put(section.loc, "TASK " + section.name + "(");
     const char* separator = "";
     for (const ProjectEntry& entry : section.entries) {
       if (entry.key == "programs") continue;
@@ -271,10 +272,11 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
       std::string value = entry.value;
       if (entry.key == "kind") value = upper(value);
       if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
-      text += separator + upper(entry.key) + " := " + value;
+      text.put(entry.key_loc, separator + upper(entry.key) + " := ");
+      text.put(entry.value_loc, value);
       separator = ", ";
     }
-    text += ");";
+    text.put(section.loc, ");\n");
     if (const ProjectEntry* entry = section.find("programs")) {
       for (const std::string& item : list(entry->value)) {
         // `Type` or `instance : Type`
@@ -285,11 +287,14 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
           badValue(diagnostics, *entry, "it takes `Program` or `instance : Program`, separated by commas");
           continue;
         }
-        programs += " PROGRAM " + name + " WITH " + section.name + " : " + type + ";";
+        programs.emplace_back(entry->value_loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");
       }
     }
   }
-  if (!text.empty()) project.configuration = text + programs + " END_RESOURCE END_CONFIGURATION\n";
+  if (text.empty()) return {};
+  for (const auto& [loc, program] : programs) text.put(loc, program);
+  text.word("END_RESOURCE END_CONFIGURATION\n");
+  return text.finish(sources, project.file);
 }
 
 }  // namespace
@@ -300,7 +305,7 @@ const ProjectEntry* ProjectSection::find(std::string_view key) const {
   return nullptr;
 }
 
-void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project) {
+void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project) {
   project.file = file;
   Reader(sources, file, diagnostics, project).read();
   for (const ProjectSection& section : project.sections)
@@ -310,7 +315,7 @@ void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnost
       readPoolSection(section, diagnostics, project);
     else if (section.kind == "area" && !section.name.empty())
       readAreaSection(section, diagnostics, project);
-  writeTasks(sources, diagnostics, project);
+  project.configuration = writeTasks(sources, diagnostics, project);
 }
 
 void applyProjectFile(const ProjectFile& project, Options& options) {

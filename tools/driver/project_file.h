@@ -43,11 +43,10 @@ struct ProjectFile {
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
-  // The tasks as a CONFIGURATION in ST, each on the line of its section; empty: no [task] section.
-  std::string configuration;
+  FileId configuration;  // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };
 
-void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
+void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
 
 // Applies the settings of the file that the command line does not have.
 void applyProjectFile(const ProjectFile& project, Options& options);
