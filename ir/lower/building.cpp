@@ -88,7 +88,9 @@ ExprId BodyPart::unary(Op op, TypeId type, ExprId operand, Loc loc) {
 
 ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) {
   type = strip(type);
-  bool divides = op == Op::Div || op == Op::Mod;
+  // iec: MOD by zero is 0, by the standard's definition of MOD.
+  const bool defined_for_0 = project_.dialect != Dialect::Codesys && !(pou_ && project_.pou(pou_).library);
+  bool divides = op == Op::Div || (op == Op::Mod && !defined_for_0);
   bool checked = divides && !TypeTable::isReal(types_.plainKind(type));
   return add(loc, type, BinaryExpr{.left = left, .right = right, .op = op},
              static_cast<uint8_t>(checked ? in_.options.checks & kCheckDiv : 0));

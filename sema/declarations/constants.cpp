@@ -136,7 +136,9 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   if (op == Op::Power && a == TypeKind::IntegerLiteral && TypeTable::isReal(b)) {
     left = types::convert(table, left, right.type).value;
   }
-  return checked(context, types::apply(table, context.names(), op, left, right), loc, divisor);
+  Outcome outcome = types::apply(table, context.names(), op, left, right);
+  if (op == Op::Mod && context.iec()) outcome.fault = types::Fault::None;  // MOD by zero is 0
+  return checked(context, outcome, loc, divisor);
 }
 
 // SEL and MUX: only the chosen input.
