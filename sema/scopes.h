@@ -182,9 +182,12 @@ struct Scopes {
   // Name keys of pragmas and keywords that declarations look for.
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
-        required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy,
-        bytes;
+        required, lazy, extensible, long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault,
+        no_copy, bytes, attribute_no_check;
   } known_names;
+
+  std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> implicit_checks;  // the project's functions
+  bool implicit_checks_found = false;
 
   NamedType* named(TypeId type) {
     const uint32_t index = type.index < named_of_type.size() ? named_of_type[type.index] : 0;

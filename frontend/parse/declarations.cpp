@@ -87,6 +87,7 @@ DeclId DeclarationParser::parseSection() {
   const Token* open = t_;
   SectionDecl d{declHeader(DeclKind::Section), kSections[kind()], AccessLevel::None, {}};
   if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // it is unknown which section was meant
+  if (at(Tok::VarGeneric)) d.h.bits = kGeneric | kConstant;
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
     const uint8_t bit = kSectionBits[kind()];

@@ -21,6 +21,7 @@ class DeclarationParser : public ExpressionParser {
   bool acceptAccess(AccessLevel& access);
   void parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name);
   Slice<TypeExprId> parseTypeNames();
+  bool endsWithComma();
 
   bool lost_ = false;  // declarations of the current POU or TYPE entry could not be read
   std::vector<DeclId> decls_;
@@ -53,6 +54,7 @@ class DeclarationParser : public ExpressionParser {
   TypeExprId parseArray();
   TypeExprId parseNamedType() { return ended(namedType()); }
   TypeExprId namedType();
+  Slice<Argument> parseGenerics();
   bool rangeFollows() const;
   // ---- initial_values.cpp
   ExprId parseDeclaredInit(TypeExprId type);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/foreign.h"
@@ -102,33 +103,62 @@ constexpr std::array<bool, kTokCount> makeBlockKeywords() {
   std::array<bool, kTokCount> b{};
   for (const StatementBlock& block : kStatementBlocks)
     b[static_cast<size_t>(block.begin)] = b[static_cast<size_t>(block.end)] = true;
-  for (Tok t : {Tok::Type,          Tok::EndType,
-                Tok::Struct,        Tok::EndStruct,
-                Tok::Union,         Tok::EndUnion,
-                Tok::Var,           Tok::VarInput,
-                Tok::VarOutput,     Tok::VarInOut,
-                Tok::VarTemp,       Tok::VarExternal,
-                Tok::VarGlobal,     Tok::VarStat,
-                Tok::VarAccess,     Tok::VarInst,
-                Tok::VarConfig,     Tok::EndVar,
-                Tok::Function,      Tok::EndFunction,
-                Tok::FunctionBlock, Tok::EndFunctionBlock,
-                Tok::Program,       Tok::EndProgram,
-                Tok::Method,        Tok::EndMethod,
-                Tok::Property,      Tok::PropertyGet,
-                Tok::PropertySet,   Tok::EndProperty,
-                Tok::Action,        Tok::EndAction,
-                Tok::Interface,     Tok::EndInterface,
-                Tok::Class,         Tok::EndClass,
-                Tok::Namespace,     Tok::Using,
-                Tok::Configuration, Tok::EndConfiguration,
-                Tok::Resource,      Tok::EndResource})
+  for (Tok t : {Tok::Type,
+                Tok::EndType,
+                Tok::Struct,
+                Tok::EndStruct,
+                Tok::Union,
+                Tok::EndUnion,
+                Tok::Var,
+                Tok::VarInput,
+                Tok::VarOutput,
+                Tok::VarInOut,
+                Tok::VarTemp,
+                Tok::VarExternal,
+                Tok::VarGlobal,
+                Tok::VarStat,
+                Tok::VarAccess,
+                Tok::VarInst,
+                Tok::VarConfig,
+                Tok::EndVar,
+                Tok::VarGeneric,
+                Tok::Function,
+                Tok::EndFunction,
+                Tok::FunctionBlock,
+                Tok::EndFunctionBlock,
+                Tok::Program,
+                Tok::EndProgram,
+                Tok::Method,
+                Tok::EndMethod,
+                Tok::Property,
+                Tok::PropertyGet,
+                Tok::PropertySet,
+                Tok::EndProperty,
+                Tok::Action,
+                Tok::EndAction,
+                Tok::Interface,
+                Tok::EndInterface,
+                Tok::Class,
+                Tok::EndClass,
+                Tok::Namespace,
+                Tok::Using,
+                Tok::Configuration,
+                Tok::EndConfiguration,
+                Tok::Resource,
+                Tok::EndResource})
     b[static_cast<size_t>(t)] = true;
   return b;
 }
 constexpr std::array<bool, kTokCount> kBlockKeyword = makeBlockKeywords();
 
-bool isLongType(Tok kind) { return kind == Tok::Ltime || kind == Tok::Ldate || kind == Tok::Ltod || kind == Tok::Ldt; }
+// Keywords that sources of CODESYS and TwinCAT use as names: its version 2.3 had no LTIME, LDATE, LTOD and LDT, no
+// version has CHAR, WCHAR and REF_TO, and TO, BY and CONTINUE are keywords only where a statement has them.
+bool isForeignType(Tok kind) {
+  static constexpr TokSet kTypes = {Tok::Ltime, Tok::Ldate, Tok::Ltod, Tok::Ldt, Tok::Char, Tok::Wchar, Tok::RefTo};
+  return kTypes.has(kind);
+}
+bool isStatementPart(Tok kind) { return kind == Tok::To || kind == Tok::By || kind == Tok::Continue; }
+bool mayBeName(Tok kind) { return isForeignType(kind) || isStatementPart(kind); }
 
 enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
 Prefix prefixOf(std::string_view word) {
@@ -209,7 +239,8 @@ class Lexer {
   void message(const char* begin, const char* end);
   void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
-  void resolveLongTypes();
+  bool continuesOverLines(const char* p, char quote) const;
+  void resolveDeclaredWords();
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
   TokenStream& out_;
@@ -224,7 +255,7 @@ class Lexer {
   uint32_t names_seen_;
   uint8_t flags_ = kLineStart;
   uint32_t pending_pragmas_ = 0;  // pragmas at the end of out_.pragmas that wait for their token
-  bool long_types_ = false;       // LTIME, LDATE, LTOD or LDT was read
+  bool may_be_name_ = false;      // a word that mayBeName was read
   uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
 };
 
@@ -296,7 +327,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   flushPending();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
-  if (long_types_ && dialect_ == Dialect::Codesys) resolveLongTypes();
+  if (may_be_name_ && dialect_ == Dialect::Codesys) resolveDeclaredWords();
 }
 
 const char* Lexer::word(const char* begin) {
@@ -307,6 +338,7 @@ const char* Lexer::word(const char* begin) {
   if (*p == '#' && p < end_)
     if (const Prefix prefix = prefixOf({begin, length}); prefix != Prefix::None) return prefixed(begin, p + 1, prefix);
   const Tok kind = findKeyword(begin, length);
+  may_be_name_ = may_be_name_ || mayBeName(kind);
   if (kBlockKeyword[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
   if (isReserved(kind)) {
     push(kind, begin, length);
@@ -318,24 +350,50 @@ const char* Lexer::word(const char* begin) {
     checkUnderscores(begin, p);
   }
   push(kind, begin, name.index, length);
-  long_types_ = long_types_ || isLongType(kind);
   return p;
 }
 
-// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a source that declares a variable of such a name, the keyword is
-// that name wherever a type is not possible.
-void Lexer::resolveLongTypes() {
+// Whether the token declares a variable or member, by what is on both sides of it.
+static bool isDeclared(const std::vector<Token>& tokens, size_t i) {
+  const Tok next = tokens[i + 1].kind;
+  if (next != Tok::Colon && next != Tok::Comma) return false;
+  if (i == 0 || (tokens[i].flags & kLineStart) != 0) return true;
+  const Tok before = tokens[i - 1].kind;
+  static constexpr TokSet kBefore = {Tok::Semicolon, Tok::Struct, Tok::Union,
+                                     Tok::Constant,  Tok::Retain, Tok::Persistent};
+  return kBefore.has(before) || (before >= Tok::Var && before <= Tok::VarConfig) ||
+         (before == Tok::Comma && next == Tok::Colon);
+}
+
+// In a source that declares a variable or member with the name of such a keyword, a type is that name wherever a type
+// is not possible, and TO, BY and CONTINUE wherever a statement cannot have them; everywhere after a dot.
+void Lexer::resolveDeclaredWords() {
   std::vector<Token>& tokens = out_.tokens;
   bool declared[kTokCount] = {};
   for (size_t i = 0; i < tokens.size(); ++i)
-    if (isLongType(tokens[i].kind) && (tokens[i + 1].kind == Tok::Colon || tokens[i + 1].kind == Tok::Comma) &&
-        (tokens[i].flags & kLineStart) != 0)
-      declared[static_cast<size_t>(tokens[i].kind)] = true;
+    if (mayBeName(tokens[i].kind) && isDeclared(tokens, i)) declared[static_cast<size_t>(tokens[i].kind)] = true;
+  static constexpr TokSet kOperandFollows = {Tok::If,  Tok::Elsif, Tok::While, Tok::Until,      Tok::Case,
+                                             Tok::Not, Tok::And,   Tok::Or,    Tok::Xor,        Tok::Mod,
+                                             Tok::For, Tok::To,    Tok::By,    Tok::LeftBracket};
   Tok before = Tok::Semicolon;
-  for (Token& token : tokens) {
-    const bool type = before == Tok::Colon || before == Tok::Of || before == Tok::To || before == Tok::RefTo;
-    before = token.kind;
-    if (declared[static_cast<size_t>(token.kind)] && !type) token.kind = Tok::Ident;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    Token& token = tokens[i];
+    const Tok last = std::exchange(before, token.kind), next = i + 1 < tokens.size() ? tokens[i + 1].kind : Tok::End;
+    if (!mayBeName(token.kind) || next == Tok::Hash) continue;
+    const bool type = last == Tok::Colon || last == Tok::Of || last == Tok::To || last == Tok::RefTo;
+    const bool operand = (last > Tok::Colon && last <= Tok::EqualLess && last != Tok::RightParen &&
+                          last != Tok::RightBracket && last != Tok::Caret) ||
+                         kOperandFollows.has(last) || next == Tok::Assign || next == Tok::Arrow || next == Tok::Comma ||
+                         next == Tok::Colon || next == Tok::RightParen || next == Tok::Dot;
+    const bool name = isStatementPart(token.kind) ? operand : !type;
+    const bool member = last == Tok::Dot && isReserved(token.kind);
+    if (!member && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
+    if (isReserved(token.kind)) {
+      const auto length = static_cast<uint16_t>(token.value);
+      token.value = names_.intern(source_.substr(token.offset, length)).index;
+      token.name_length = length;
+    }
+    token.kind = before = Tok::Ident;
   }
 }
 
@@ -393,11 +451,26 @@ const char* Lexer::number(const char* begin) {
   return p;
 }
 
+// CODESYS: a string may continue on the next lines. A quote is missing where another string begins on the line that
+// would end this one.
+bool Lexer::continuesOverLines(const char* p, char quote) const {
+  if (dialect_ != Dialect::Codesys) return false;
+  uint32_t quotes = 0;
+  for (; p < end_ && (quotes == 0 || (*p != '\n' && *p != '\r')); ++p) {
+    if (*p == '$' && p + 1 < end_)
+      ++p;
+    else if (*p == quote)
+      ++quotes;
+  }
+  return quotes % 2 == 1;
+}
+
 const char* Lexer::quoted(const char* begin) {
   const char quote = *begin;
   const char* p = begin + 1;
   while (*p != quote) {
-    if (*p == '\n' || *p == '\r' || p >= end_) {
+    const bool line_ends = *p == '\n' || *p == '\r';
+    if ((line_ends && !continuesOverLines(p, quote)) || p >= end_) {
       diagnostics_.report(diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
           .length(static_cast<uint32_t>(p - begin));
       flags_ |= kReported;
@@ -578,7 +651,7 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
       "attribute", "test",       "info",   "warning", "error",    "text",      "define", "undefine",
       "IF",        "ELSIF",      "ELSE",   "END_IF",  "region",   "endregion", "native", "alias",
       "required",  "extensible", "lazy",   "pure",    "operator", "replaces",  "std",    "sized",
-      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes"};
+      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes",  "long_time"};
   static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
   const std::vector<std::string_view>* known = &kPragmas;
   if (sameIdentifier(word, "attribute")) {

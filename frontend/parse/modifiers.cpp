@@ -66,15 +66,23 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
 }
 
 // type {"," type}
+// CODESYS ignores a comma after the last name.
+bool DeclarationParser::endsWithComma() {
+  if (dialect_ != Dialect::Codesys || (isName(kind()) && !isObjectWord(kind()) && !at(Tok::Implements))) return false;
+  diagnostics_.report(diag::ListEndsWithComma, loc(t_ - 1));
+  return true;
+}
+
 Slice<TypeExprId> DeclarationParser::parseTypeNames() {
   std::vector<TypeExprId> list;
   advance();
   do {
-    NamedTypeExpr named{header(TypeExprKind::Named, here()), {}, {}, false, {}};
+    NamedTypeExpr named{header(TypeExprKind::Named, here()), {}, {}, false, {}, {}};
     parseNamePath(named.path);
+    if (!panic_ && at(Tok::Less) && dialect_ == Dialect::Codesys) named.generics = parseGenerics();
     if (panic_) break;
     list.push_back(ended(tree_.add<TypeExprId>(named)));
-  } while (accept(Tok::Comma));
+  } while (accept(Tok::Comma) && !endsWithComma());
   return tree_.addList<TypeExprId>(list);
 }
 

@@ -138,7 +138,7 @@ bool StatementParser::parseKeywordStatement(Loc start) {
   } else if (accept(Tok::Continue)) {
     stmts_.push_back(build_.loopContinue(start));
   } else if (accept(Tok::Return)) {
-    stmts_.push_back(build_.returnStatement(start));
+    parseReturn(start);
   } else if (accept(Tok::Jmp)) {
     Ident label{};
     if (isName(kind())) {
@@ -153,6 +153,21 @@ bool StatementParser::parseKeywordStatement(Loc start) {
   }
   endStatement();
   return true;
+}
+
+// After RETURN: ["(" condition ")"]. CODESYS, "ST Statement: RETURN": it leaves when the condition is TRUE.
+void StatementParser::parseReturn(Loc start) {
+  const StmtId leave = build_.returnStatement(start);
+  if (!at(Tok::LeftParen) || atLineStart()) {
+    stmts_.push_back(leave);
+    return;
+  }
+  if (dialect_ != Dialect::Codesys) slip(diag::ReturnCondition, t_);
+  advance();
+  const ExprId condition = parseCompared(parseExpr());
+  closeParen(Tok::RightParen, false);
+  tree_.stmt(leave).end = endOfPrevious();
+  stmts_.push_back(build_.ifStatement(condition, {&leave, 1}, start, kConditionalOp));
 }
 
 // What cannot begin a statement.

@@ -46,6 +46,7 @@ class StatementParser : public DeclarationParser {
   bool atListEnd(uint8_t stops);
   void parseStatement();
   bool parseKeywordStatement(Loc start);
+  void parseReturn(Loc start);
   void parseStray(Loc start);
   void parseExprStatement();
   bool parseLabelOrDeclaration();

@@ -147,9 +147,10 @@ TypeExprId DeclarationParser::namedType() {
     }
     return tree_.add<TypeExprId>(d);
   }
-  NamedTypeExpr named{header(TypeExprKind::Named, start), {}, {}, false, {}};
+  NamedTypeExpr named{header(TypeExprKind::Named, start), {}, {}, false, {}, {}};
   const Token* first = t_;
   parseNamePath(named.path);
+  if (!panic_ && at(Tok::Less) && dialect_ == Dialect::Codesys) named.generics = parseGenerics();
   const TypeExprId base = ended(tree_.add<TypeExprId>(named));
   if (panic_) return base;
   if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
@@ -200,6 +201,29 @@ TypeExprId DeclarationParser::namedType() {
   d.high = panic_ ? build_.error(here()) : parseExpr();
   closeParen(Tok::RightParen, false);
   return tree_.add<TypeExprId>(d);
+}
+
+// generics = "<" generic {"," generic} ">"; generic = primary | "(" name ":=" expr ")"
+Slice<Argument> DeclarationParser::parseGenerics() {
+  std::vector<Argument> list;
+  advance();
+  do {
+    Argument a{};
+    a.loc = here();
+    if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) {
+      advance();
+      a.pin = ident(t_);
+      advance();
+      advance();
+      a.value = parseExpr();
+      closeParen(Tok::RightParen, false);
+    } else {
+      a.value = at(Tok::Minus) ? parseUnary() : parsePrimary();
+    }
+    list.push_back(a);
+  } while (!panic_ && accept(Tok::Comma));
+  if (!panic_) expect(Tok::Greater);
+  return tree_.addList<Argument>(list);
 }
 
 // Whether the parentheses here contain `low .. high`.

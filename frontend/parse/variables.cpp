@@ -160,6 +160,11 @@ void DeclarationParser::parseVarInit(VarDecl& d) {
     d.init = parseInit();
   } else if (accept(Tok::Assign)) {
     d.init = parseDeclaredInit(d.type);
+  } else if (at(Tok::RefModifier) && peek() == Tok::Equal && dialect_ == Dialect::Codesys) {  // REF= x
+    advance();
+    advance();
+    d.h.bits = kReferenceInit;
+    d.init = parseExpr();
   } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::StringLiteral) || at(Tok::Duration)) &&
              !atLineStart()) {
     slip(diag::MissingToken, t_, {":=", describe(t_)});

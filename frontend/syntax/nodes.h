@@ -156,6 +156,7 @@ struct IndexExpr {  // base[i, j]; h.bits of a character of a string: kWritesCha
 constexpr uint8_t kWritesCharacter = 1;    // annotation
 constexpr uint8_t kBitMember = 1;          // annotation
 constexpr uint8_t kMustLeadSomewhere = 1;  // annotation
+constexpr uint8_t kIntermediate = 2;  // annotation of operations and of conversions of operands: sema/intermediate.h
 struct ThisExpr {
   ExprHeader h;
 };
@@ -375,8 +376,9 @@ struct NamedTypeExpr {
   Slice<Ident> path;
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
-  Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
-};                         // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+  Slice<ExprId> elements;    // of an array's elements, a CallExpr without callee each
+  Slice<Argument> generics;  // of VAR_GENERIC CONSTANT
+};                           // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]   Ring<20>
 enum class StringEncoding : uint8_t { Bytes, Wide, Utf8 };  // STRING, WSTRING, USTRING
 struct StringTypeExpr {
   TypeExprHeader h;
@@ -521,7 +523,8 @@ struct UsingDecl {
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
 // kHidden: of variables that a scheduler needs and the source does not declare.
-enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16 };
+// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives.
+enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16, kGeneric = 32 };
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
   SectionKind section;
@@ -529,6 +532,7 @@ struct SectionDecl {
   Slice<DeclId> vars;
 };
 
+constexpr uint16_t kReferenceInit = 2;  // VarDecl: `REF= x` instead of `:= x`
 struct VarDecl {
   DeclHeader h;
   Slice<Ident> names;  // empty: unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name (`init`: the path)

@@ -113,7 +113,7 @@ class TreeBuilder {
   // ---- types and declarations
   TypeExprId namedType(std::span<const Ident> path, Loc loc) {
     return tree_.add<TypeExprId>(
-        NamedTypeExpr{header(TypeExprKind::Named, loc), tree_.addList<Ident>(path), {}, false, {}});
+        NamedTypeExpr{header(TypeExprKind::Named, loc), tree_.addList<Ident>(path), {}, false, {}, {}});
   }
   TypeExprId errorType(Loc loc) { return tree_.add<TypeExprId>(ErrorTypeExpr{header(TypeExprKind::Error, loc)}); }
   // name : type;  Without a type: a temporary.

@@ -232,6 +232,7 @@ void Printer::typeExpr(TypeExprId id, int depth) {
 void Printer::print(const NamedTypeExpr& t, int) {
   out += ' ';
   path(t.path, ".");
+  if (!t.generics.empty()) arguments(t.generics, 0);
   if (t.has_arguments) arguments(t.arguments, 0);
   for (ExprId element : tree_.list(t.elements)) arguments(tree_.as<CallExpr>(element).arguments, 0);
 }
@@ -291,6 +292,7 @@ void Printer::sectionBits(uint8_t b) {
   if ((b & kRetain) != 0) out += " retain";
   if ((b & kPersistent) != 0) out += " persistent";
   if ((b & kNonRetain) != 0) out += " non_retain";
+  if ((b & kGeneric) != 0) out += " generic";
 }
 
 void Printer::decl(DeclId id, int depth) {

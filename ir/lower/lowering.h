@@ -107,6 +107,8 @@ struct ModuleLowering {
 
 // The scalar or string value of a checked constant expression; none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
+// The same of an intermediate result (sema/intermediate.h) in its own type.
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId expr);
 
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
@@ -133,6 +135,7 @@ class PlaceLowering : public BodyPart {
   ExprId lowerPlace(rung::ExprId expr);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
+  ExprId seenAs(ExprId place, TypeId type, Loc loc);
   ExprId programPlace(uint32_t program, Loc loc);
   ExprId instancePlace(uint32_t program, const sema::InstancePath& place);
   ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
@@ -169,6 +172,11 @@ class ValueLowering : public BodyPart {
   using BodyPart::BodyPart;
 
   ExprId lowerValue(rung::ExprId expr);
+  // An operand of an operation in the type `native`, where the value may be wider than its type; none: in its own type.
+  ExprId lowerOperand(rung::ExprId expr, TypeId native) { return native ? lowerIn(expr, native) : lowerValue(expr); }
+  // The last bits of an intermediate result that fit an integer type; intermediate_results.cpp.
+  ExprId lowerIn(rung::ExprId expr, TypeId type);
+  ExprId lowerUncut(rung::ExprId expr);
   void lowerDelete(const sema::Call& call, Loc loc);
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
 
@@ -180,11 +188,15 @@ class ValueLowering : public BodyPart {
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
+  ExprId convertUncut(const rung::ConvertExpr& node);
+  ExprId operate(rung::ExprId expr, TypeId type);
+  bool hasUncut(rung::ExprId expr) const;
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
   ExprId lowerNew(rung::ExprId expr);
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId lowerObjectConversion(const rung::ConvertExpr& node);
+  ExprId lowerPart(const rung::ConvertExpr& node);
   ExprId checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
 };
@@ -198,6 +210,7 @@ class CallLowering : public BodyPart {
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
   // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
@@ -221,9 +234,10 @@ class CallLowering : public BodyPart {
   void spillArguments(FunctionCall& plan, InsertionPoint point);
   ExprId emitFunctionCall(FunctionCall& plan, ExprId object, ExprId result);
   void faultUnlessZero(ExprId result, Loc loc);
+  // Sorts numbers of pins so that those with a value come in the order in which the values were written.
+  void writtenOrder(std::vector<uint32_t>& pins, FunctionRef<rung::ExprId(uint32_t)> value) const;
 
   ExprId lowerOperator(const sema::Call& call, const rung::CallExpr& node);
-  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const rung::CallExpr& node);
   ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);

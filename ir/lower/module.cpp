@@ -467,6 +467,7 @@ void ModuleLowering::addPrograms() {
     created.name = instance.name;
     created.record = pou.record;
     created.task = instance.task;
+    created.retain = instance.retain;
     created.resource = instance.resource;
     created.configuration = instance.configuration;
     instance_of_.insert({instance.program.index, static_cast<uint32_t>(module.programs.size())});

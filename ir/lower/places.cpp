@@ -57,6 +57,19 @@ ExprId PlaceLowering::memberPlace(rung::ExprId id) {
 
 TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }
 
+// The memory of a place as a variable of another type: a structure as the one that it extends, an enumeration as its
+// base.
+ExprId PlaceLowering::seenAs(ExprId place, TypeId type, Loc loc) {
+  const TypeKind from = types_.kind(typeOf(place)), to = types_.kind(type);
+  const bool structure = from == TypeKind::Record && to == TypeKind::Record && typeOf(place) != type;
+  if (!structure && (from != TypeKind::Enum || to == TypeKind::Enum)) return place;
+  const TypeId own = types_.pointer(typeOf(place)), wanted = types_.pointer(type);
+  types_.layout(own);
+  types_.layout(wanted);
+  const ExprId address = add(loc, own, AddressExpr{.place = place});
+  return add(loc, type, DerefExpr{.pointer = add(loc, wanted, ConvertExpr{.operand = address})});
+}
+
 ExprId PlaceLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
   if (!pin.bits.is_bit) return place;
@@ -109,7 +122,7 @@ ExprId PlaceLowering::indexed(const rung::IndexExpr& node) {
   std::vector<ExprId> indices;
   for (rung::ExprId index : tree_.list(node.indices)) {
     InsertionPoint point = here();
-    ExprId value = values().lowerValue(index);
+    ExprId value = values().lowerUncut(index);
     spillPlace(point, base);
     for (ExprId& earlier : indices) spill(point, {&earlier});
     indices.push_back(value);

@@ -3,12 +3,20 @@
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 #include "ir/string_end.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+static std::optional<Value> constantOperand(const sema::Project& project, rung::ExprId id, TypeId native) {
+  const auto value = native ? uncutConstant(project, id) : constantOf(project, id);
+  if (!value || !TypeTable::isScalar(project.types.plainKind(value->type))) return std::nullopt;
+  return native ? types::convert(project.types, *value, native).value : value;
+}
+
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id) {
   const Tree& tree = project.tree;
   const TypeTable& types = project.types;
+  const TypeId native = sema::uncutType(project, id);
   switch (tree.kind(id)) {
     case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
     case rung::ExprKind::Name:
@@ -28,8 +36,9 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return Value{types.resolve(var->value.type), var->value.bits};
     }
     case rung::ExprKind::Convert: {
-      auto operand = constantOf(project, tree.as<rung::ConvertExpr>(id).operand);
+      auto operand = uncutConstant(project, tree.as<rung::ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
+      if (native) return types::convert(types, *operand, native).value;
       TypeId to = types.resolve(tree.expr(id).type);
       bool from_string = TypeTable::isString(types.plainKind(operand->type));
       if (from_string) {
@@ -43,8 +52,8 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Unary: {
       const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
-      auto operand = constantOf(project, node.operand);
-      if (!operand || !TypeTable::isScalar(types.plainKind(operand->type))) return std::nullopt;
+      auto operand = constantOperand(project, node.operand, native);
+      if (!operand) return std::nullopt;
       switch (node.op()) {
         case UnaryOp::Plus: return operand;
         case UnaryOp::Not: return types::apply(types, project.names, Op::Not, *operand).value;
@@ -54,11 +63,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Binary: {
       const rung::BinaryExpr& node = tree.as<rung::BinaryExpr>(id);
-      auto left = constantOf(project, node.left);
-      if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
-      auto right = constantOf(project, node.right);
-      if (!right || !TypeTable::isScalar(types.plainKind(right->type))) return std::nullopt;
-      types::Outcome outcome = types::apply(types, project.names, sema::operatorOf(node.op()), *left, *right);
+      const Op op = sema::operatorOf(node.op());
+      const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
+      auto left = constantOperand(project, node.left, type);
+      auto right = constantOperand(project, node.right, type);
+      if (!left || !right) return std::nullopt;
+      types::Outcome outcome = types::apply(types, project.names, op, *left, *right);
       if (outcome.fault != types::Fault::None) return std::nullopt;
       return outcome.value;
     }
@@ -80,6 +90,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::StructInit: return std::nullopt;
   }
   return std::nullopt;
+}
+
+std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+  const auto value = uncutConstant(project, id);
+  if (!value || !sema::uncutType(project, id)) return value;
+  return types::convert(project.types, *value, project.types.resolve(project.tree.expr(id).type)).value;
 }
 
 ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
@@ -121,7 +137,8 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return places().openArrayBound(node.array, node.index, node.h.loc);
     }
-    case rung::ExprKind::Call: return calls().lowerCall(id);
+    case rung::ExprKind::Call:
+      return sema::uncutType(project_, id) ? lowerIn(id, strip(tree_.expr(id).type)) : calls().lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -141,6 +158,7 @@ ExprId ValueLowering::closed(ExprId place) {
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
   ExprId operand = lowerValue(node.operand);
   TypeId type = strip(node.h.type);
   switch (node.op()) {
@@ -161,8 +179,11 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
         op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.dialect != Dialect::Codesys;
     return lowerLogical(id, is_and, short_circuit);
   }
-  ExprId left = lowerValue(node.left);
-  ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
+  const TypeId compared =
+      types::isComparison(sema::operatorOf(op)) ? sema::comparedType(project_, node.left, node.right) : TypeId{};
+  ExprId left = lowerOperand(node.left, compared);
+  ExprId right = lowerAfter({&left}, [&] { return lowerOperand(node.right, compared); });
   return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
@@ -258,8 +279,29 @@ ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circ
 ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
+  if (types_.kind(strip(node.h.type)) == TypeKind::Record) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
+  if (sema::uncutType(project_, node.operand)) return convertUncut(node);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+// The value of an object or structure as one of what it extends: a copy, which is an object of that kind.
+ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
+  const Loc loc = node.h.loc;
+  const TypeId type = strip(node.h.type);
+  const sema::PouId base = in_.pouOfRecord(type);
+  ExprId place = places().lowerPlace(node.operand);
+  place = base ? asBase(place, base, loc) : places().seenAs(place, type, loc);
+  const ExprId part = temp(type, loc);
+  assign(copy(part), place, loc);
+  if (base && project_.pou(base).object.dispatched) {
+    sema::PouId first = base;
+    while (!project_.pou(first).object.id_var) first = project_.pou(first).base;
+    const uint32_t id = project_.var(project_.pou(first).object.id_var).field;
+    assign(field(asBase(copy(part), first, loc), id, types::kUDInt, loc),
+           add(loc, types::kUDInt, ConstExpr{.number_of = type}), loc);
+  }
+  return part;
 }
 
 // The address of the target of a pointer or reference is its value: nothing is read.

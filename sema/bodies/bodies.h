@@ -18,7 +18,8 @@ using types::TypeKind;
 enum class Access : uint8_t {
   Read,
   Write,      // the target of an assignment or an output binding
-  ReadWrite,  // an in-out argument, an instance that is called
+  ReadWrite,  // an instance that is called, a compound assignment
+  InOut,      // an in-out argument: read and written, too
   Qualifier,  // the base of a member: may be a list, a library, a type or a program
   Bind,       // the target of REF=: the reference itself
   Address,    // ADR, SIZEOF: neither read nor written here
@@ -139,6 +140,7 @@ enum class Fit : uint8_t {
   No,
 };
 Fit fit(const Context& context, TypeId from, TypeId to);
+bool extendsStructure(const Context& context, TypeId derived, TypeId base);
 // One is a type with named values, the other its base type. IEC 61131-3 ed. 3, 6.4.4.3.
 bool isNamedValueOf(const Context& context, TypeId a, TypeId b);
 bool sameType(const Context& context, TypeId a, TypeId b);
@@ -242,6 +244,12 @@ ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
 ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);
 // An integer of either sign.
 ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
+
+// ---- implicit_checks.cpp: calls of the project's own CheckBounds and its kin around a value, where it has them
+void callBoundsCheck(Context& context, ExprId& index, const types::Dimension& dimension);
+void callDivisorCheck(Context& context, ExprId& divisor);
+void callRangeCheck(Context& context, ExprId& value, TypeId subrange);
+void callPointerCheck(Context& context, ExprId& pointer, TypeId target, bool writes);
 
 // ---- any_inputs.cpp
 // The item of __SYSTEM.TYPE_CLASS for a type.

@@ -2,6 +2,8 @@
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
+#include <algorithm>
+
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
@@ -56,6 +58,37 @@ int extensibleSlot(Context& context, PouId pou, NameId written) {
     return static_cast<int>(pins.size()) + number - first - 1;
   }
   return -1;
+}
+
+// Forbids, in iec, a list of arguments that has names for some of them, and one without names that leaves pins open.
+// IEC 61131-3 ed. 3, 6.6.1.4.2: all names or none, and a non-formal call has exactly the parameters of the function.
+//   passes  limited := Scale(x := 3, factor := 2);  limited := Scale(3, 2);
+//   fails   limited := Scale(x := 3, 2);      E0640
+//   fails   limited := Scale(3);              E0605
+bool checkFormality(Context& context, const CallExpr& node, PouId pou) {
+  if (!context.iec()) return true;
+  const Pou& callee = context.symbols.pou(pou);
+  const std::span<const Argument> arguments = context.tree().list(node.arguments);
+  const auto isFormal = [](const Argument& argument) { return static_cast<bool>(argument.pin.name); };
+  const auto formal = static_cast<size_t>(std::count_if(arguments.begin(), arguments.end(), isFormal));
+  if (formal != 0 && formal != arguments.size()) {
+    const auto other = std::find_if_not(arguments.begin(), arguments.end(), isFormal);
+    context.report(diag::MixedArguments, other->loc, {string(context, callee.name)});
+    return false;
+  }
+  const bool takes_all = callee.kind == PouKind::Function || callee.kind == PouKind::Method;
+  if (formal != 0 || arguments.empty() || !takes_all || callee.library) return true;
+  size_t given = arguments.size();
+  for (const VarId id : pinsOf(context, pou)) {
+    const Var& pin = context.symbols.var(id);
+    if (pin.section == SectionKind::Output || given > 0) {
+      given -= pin.section == SectionKind::Output ? 0 : 1;
+      continue;
+    }
+    context.report(diag::MissingArgument, node.h.loc, {string(context, callee.name), string(context, pin.name)});
+    return false;
+  }
+  return true;
 }
 
 struct Slots {
@@ -113,7 +146,12 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     Context here = context;
     const PouId base = pouOf(here, pin), object = pouOf(here, actual);
     if (base && object && isKindOf(here, object, base)) return true;
+    if (extendsStructure(context, actual, pin)) return true;
   }
+  // The variable of an enumeration is one of its base type, which codesys allows where it is not strict.
+  if (given.kind == TypeKind::Enum && !given.strict && !context.iec() &&
+      table.resolve(given.base) == table.resolve(pin))
+    return true;
   if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }
@@ -153,7 +191,8 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
 
 void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& binding, bool checked) {
   const Purpose purpose{Use::BoundToInOut, pin.name, pou.name};
-  const TypeId actual = checkArgument(context, binding.value, pin.type, Access::ReadWrite, checked);
+  const Access access = pin.constant ? Access::Read : Access::InOut;
+  const TypeId actual = checkArgument(context, binding.value, pin.type, access, checked);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) finalizeUntyped(context, binding.value);
   if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
@@ -188,7 +227,14 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     return;
   }
   const Purpose purpose{Use::Passed, pin.name, pou.name};
-  if (binding.value && checkArgument(context, binding.value, pin.type, Access::Read, checked) != types::kError)
+  if (!binding.value) return;
+  const TypeId actual = checkArgument(context, binding.value, pin.type, Access::Read, checked);
+  if (actual == types::kError) return;
+  const bool shortens = pin.pragmas.long_time && context.symbols.dialect == Dialect::Iec3 &&
+                        context.types().plainKind(actual) == TypeKind::LTime;
+  if (shortens)
+    wrapConvert(context, binding.value, pin.type);
+  else
     convert(context, binding.value, pin.type, purpose);
 }
 
@@ -411,6 +457,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   const auto isNamedAlready = [&](size_t i) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
   };
+  if (!checkFormality(context, node, pou)) out.ok = false;
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument& argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
@@ -513,18 +560,34 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
 
 namespace {
 
-// `name;` calls an action or a method without parameters (codesys). Anything else does nothing.
-bool isBareCall(Context& context, const CallExpr& node) {
-  if (context.tree().kind(node.callee) == ExprKind::Name) {
-    const Entity found = lookUp(context, context.tree().as<NameExpr>(node.callee).name);
-    if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
+// `pump.Level;` reads a property, so its GET runs; TwinCAT accepts it with a warning.
+void readProperty(Context& context, ExprId& expr, ExprId value) {
+  while (context.tree().kind(value) == ExprKind::Deref) value = context.tree().as<DerefExpr>(value).base;
+  if (context.tree().kind(value) != ExprKind::Call) return;  // reported
+  const NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
+  context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)});
+  context.replace(expr, value);
+}
+
+// `name;` calls an action or a method without parameters, or reads a property (codesys). Anything else does nothing.
+// False: not a call.
+bool isBareCall(Context& context, ExprId& expr) {
+  const CallExpr& node = context.tree().as<CallExpr>(expr);
+  ExprId callee = node.callee;
+  Entity found;
+  if (context.tree().kind(callee) == ExprKind::Name) {
+    found = lookUp(context, context.tree().as<NameExpr>(callee).name);
+    if (found.entityKind() == EntityKind::Property) check(context, callee, {}, Access::Read);
   } else {
-    ExprId callee = node.callee;
     const uint32_t errors = context.symbols.diagnostics.errorCount();
     check(context, callee, {}, Access::Qualifier);
-    const Entity found = entityOf(context, node.callee);
-    if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
-    if (context.symbols.diagnostics.errorCount() != errors) return false;
+    found = entityOf(context, node.callee);
+    if (context.symbols.diagnostics.errorCount() != errors && found.entityKind() != EntityKind::Pou) return false;
+  }
+  if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
+  if (found.entityKind() == EntityKind::Property) {
+    readProperty(context, expr, callee);
+    return false;
   }
   const Loc begin = context.tree().begin(node.callee);
   const std::string_view source = context.symbols.sources.sourceText(context.symbols.sources.fileOf(begin));
@@ -538,7 +601,7 @@ bool isBareCall(Context& context, const CallExpr& node) {
 
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, node)) return node.h.type = types::kError;
+  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return node.h.type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name, callee.h.loc);

@@ -4,6 +4,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
+#include "sema/checks/widened_result.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
@@ -116,8 +117,6 @@ static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
   return sameType(context, from, to);
 }
 
-namespace {
-
 // A structure that extends another one begins with its members.
 bool extendsStructure(const Context& context, TypeId derived, TypeId base) {
   base = context.types().resolve(base);
@@ -131,6 +130,8 @@ bool extendsStructure(const Context& context, TypeId derived, TypeId base) {
     if (context.types().resolve(derived) == base) return true;
   }
 }
+
+namespace {
 
 bool isInterface(const Context& context, const types::TypeInfo& type) {
   if (type.kind != TypeKind::Pointer) return false;
@@ -148,6 +149,16 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
   if (!wanted || !given || wanted == given) return false;
   if (source.kind == TypeKind::Record && context.symbols.pou(wanted).kind != PouKind::Interface) return false;
   return isKindOf(context, given, wanted);
+}
+
+// codesys: the value of an object or structure that extends another one contains a value of that.
+bool isPartOf(const Context& constant, TypeId from, TypeId to) {
+  Context context = constant;
+  if (context.iec() || context.types().kind(from) != TypeKind::Record || context.types().kind(to) != TypeKind::Record)
+    return false;
+  const PouId base = pouOf(context, to), object = pouOf(context, from);
+  const bool is_block = base && context.symbols.pou(base).kind == PouKind::FunctionBlock;
+  return is_block ? object && isKindOf(context, object, base) : extendsStructure(context, from, to);
 }
 
 }  // namespace
@@ -185,6 +196,9 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     return plain == Fit::Lossy && types::isLossless(table, from, to) ? Fit::Lossless : plain;
   }
   if (TypeTable::isNumber(a) && TypeTable::isNumber(b)) return fitNumbers(context, from, to);
+  // Figure 12 of edition 3.
+  if (a == TypeKind::Bool && TypeTable::isBits(b) && context.symbols.dialect == Dialect::Iec3 && !context.library)
+    return Fit::Lossless;
   if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
   if (TypeTable::isString(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
   // An addition of edition 4.
@@ -208,7 +222,8 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     const bool narrow = source.kind == TypeKind::Pointer && TypeTable::bitWidth(b) < bits;
     return narrow ? Fit::Lossy : Fit::Lossless;
   }
-  return sameType(context, from, to) ? Fit::Same : Fit::No;
+  if (sameType(context, from, to)) return Fit::Same;
+  return isPartOf(context, from, to) ? Fit::Lossless : Fit::No;
 }
 
 TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
@@ -350,6 +365,31 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
   return true;
 }
 
+// Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.
+// IEC 61131-3 ed. 3, 6.4.4.4.
+//   passes  percent := INT#50;      fails  percent := INT#150;      E0565
+bool checkSubrange(Context& context, ExprId expr, TypeId to) {
+  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
+  if (target.kind != TypeKind::Subrange || !context.tree().expr(expr).is_constant) return true;
+  const TypeKind from = context.types().plainKind(context.tree().expr(expr).type);
+  const std::optional<types::Value> value = isWholeKind(from) ? evaluate(context, expr) : std::nullopt;
+  if (!value) return true;
+  const bool is_signed = context.types().isSigned(context.types().plainKind(to));
+  const auto exact = [](uint64_t bits, bool with_sign) {
+    return with_sign ? __int128{static_cast<int64_t>(bits)} : __int128{bits};
+  };
+  const __int128 number = exact(value->bits, context.types().isSigned(from));
+  const __int128 low = exact(static_cast<uint64_t>(target.low), is_signed);
+  const __int128 high = exact(static_cast<uint64_t>(target.high), is_signed);
+  if (number >= low && number <= high) return true;
+  const auto text = [](__int128 of) {
+    return of < 0 ? "-" + std::to_string(static_cast<uint64_t>(-of)) : std::to_string(static_cast<uint64_t>(of));
+  };
+  context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
+                 {text(number), context.types().toString(to), text(low), text(high)});
+  return !context.iec();
+}
+
 }  // namespace
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
@@ -386,9 +426,15 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
+  if (fitness == Fit::Lossless) checkWidenedResult(context, expr, to);
+  if (!checkSubrange(context, expr, to)) {
+    context.tree().expr(expr).type = types::kError;
+    return false;
+  }
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
     if (const Entity object = entityOf(context, expr); object.entityKind() == EntityKind::Var)
       markAccess(context, VarId{object.index}, Access::Address);
+  callRangeCheck(context, expr, to);
   wrapConvert(context, expr, to);
   return true;
 }

@@ -460,8 +460,9 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
         const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
         const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
         if (value < low || value > high) {
-          context.report(diag::OutsideSubrange, context.tree().begin(expr),
+          context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
                          {toString(value), context.types().toString(to), toString(low), toString(high)});
+          if (context.iec()) return false;
           if (!adaptInteger(context, expr, info.base, bounds)) return false;
           wrapConvert(context, expr, to);
           return true;

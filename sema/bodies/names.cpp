@@ -83,8 +83,8 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
     if (context.scopes.named(item.type)->resolved == State::Busy) header.type = info.base;
     return header.type;
   }
-  if (bare && info.name && (context.iec() || info.qualified)) {
-    context.report(context.iec() ? diag::BareEnumItem : diag::QualifiedEnumItem, header.loc,
+  if (bare && info.name && info.qualified) {
+    context.report(diag::QualifiedEnumItem, header.loc,
                    {string(context, item.name), string(context, context.types().info(item.type).name)});
     return header.type = types::kError;
   }
@@ -253,13 +253,22 @@ PouId pouOf(Context& context, TypeId record) {
   return named == nullptr ? PouId{} : named->pou;
 }
 
+// `state := Start` with a method Start, and in this method, where Start is a result of another type: as a value of an
+// enumeration only its item can be meant.
+static bool isMember(const Context& context, Entity entity, TypeId wanted) {
+  if (entity.entityKind() == EntityKind::Pou) return static_cast<bool>(context.symbols.pous[entity.index].owner);
+  if (entity.entityKind() != EntityKind::Var || !context.pou) return false;
+  const Pou& pou = context.symbols.pou(context.pou);
+  return pou.owner && pou.result_var == VarId{entity.index} && context.types().resolve(pou.result) != wanted;
+}
+
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
     const bool other_item = entity.entityKind() == EntityKind::EnumValue &&
                             context.types().resolve(context.symbols.enum_values[entity.index].type) != wanted;
-    if (!entity || other_item) {
+    if (!entity || other_item || isMember(context, entity, wanted)) {
       if (const Entity item = lookUpIn(context, Entity::of(EntityKind::Type, wanted.index), name)) entity = item;
     }
   }

@@ -9,6 +9,22 @@
 
 namespace rung::sema {
 
+// Forbids, in iec, a reference to a variable of one call: VAR_TEMP, and those of functions and methods.
+// IEC 61131-3 ed. 3, 6.4.4.10.2.
+//   passes  r := REF(level) where level is a VAR of the block      fails  the same in a function      E0641
+static bool checkReferable(Context& context, ExprId lvalue, NameId function) {
+  if (!context.iec() || !isNamed(context, function, "REF")) return true;
+  const Tree& tree = context.tree();
+  ExprId root = lvalue;
+  while (shape(tree.kind(root)) == ExprShape::Step && tree.kind(root) != ExprKind::Deref) root = tree.base(root);
+  const Entity found = entityOf(context, root);
+  if (found.entityKind() != EntityKind::Var) return true;
+  const Var& var = context.symbols.vars[found.index];
+  if (var.storage != Storage::Local || var.section == SectionKind::InOut) return true;
+  context.report(diag::RefOfCall, tree.begin(lvalue), {string(context, var.name)});
+  return false;
+}
+
 // ADR(x), REF(x): the type is that of the operand, so that the target of the assignment decides whether it fits.
 TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
   ExprId lvalue = call.arguments[0].value;
@@ -25,7 +41,7 @@ TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
   }
   if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) && !context.iec())
     type = context.tree().expr(lvalue = storageOfLiteral(context, lvalue)).type;
-  if (!checkAddressable(context, lvalue)) return types::kError;
+  if (!checkAddressable(context, lvalue) || !checkReferable(context, lvalue, call.name)) return types::kError;
   context.replace(expr, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
   return context.tree().expr(expr).type;
 }

@@ -16,12 +16,20 @@ struct Row {
   PseudoHandler* check;
   bool only_codesys = false;
 };
+// CODESYS: "the operator INDEXOF is not supported any longer; use ADR instead" (C0191).
+TypeId refuseIndexOf(Context& context, ExprId& expr, const PseudoCall&) {
+  const CallExpr& node = context.tree().as<CallExpr>(expr);
+  context.report(diag::IndexOf, node.h.loc);
+  return types::kError;
+}
+
 constexpr Row kFunctions[] = {
     {"ADR", 1, checkAdr},
     {"ASSERT", kAny, checkAssert},
     {"ASSERT_EQ", kAny, checkAssertEq},
     {"ASSERT_NEAR", kAny, checkAssertNear},
     {"BITADR", 1, checkBitAdr},
+    {"INDEXOF", kAny, refuseIndexOf, true},
     {"LEN_MAX", 1, checkLengthLimit},
     {"LOWER_BOUND", 2, checkLowerBound},
     {"REF", 1, checkAdr},

@@ -1,7 +1,7 @@
-// Forbids the address of an expression without memory: one bit, a value, a constant number. Arrays, structures and
-// strings have memory even when they are constant. TM/TP manual 5.2 (ADR).
+// Forbids the address of an expression without memory: one bit, a value, and in iec a constant number. Arrays,
+// structures and strings have memory even when they are constant. TM/TP manual 5.2 (ADR).
 //   passes  p := ADR(level);  p := ADR(motors[2].speed);  p := ADR(table) where table is VAR CONSTANT
-//   fails   p := ADR(word.3);  p := ADR(a + b);  p := ADR(limit) where limit : INT is VAR CONSTANT      E0537
+//   fails   p := ADR(word.3);  p := ADR(a + b);  p := REF(limit) where limit : INT is VAR CONSTANT      E0537
 // Called for the operand of ADR and REF, and for the target of a reference.
 #include "sema/checks/addressable.h"
 
@@ -18,7 +18,7 @@ const char* whyNotAddressable(const Context& context, VarId id) {
   if (var->storage == Storage::Image && var->image.is_bit) return "one bit of the process image";
   if (var->storage == Storage::Constant) return "a constant";
   const bool number = types::TypeTable::isScalar(context.types().plainKind(var->type));
-  return var->constant && number && var->section != SectionKind::InOut ? "a constant" : nullptr;
+  return context.iec() && var->constant && number && var->section != SectionKind::InOut ? "a constant" : nullptr;
 }
 
 const char* whyNotAddressable(const Context& context, ExprId lvalue) {

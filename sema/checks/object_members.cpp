@@ -1,7 +1,8 @@
 // Forbids objects that break the contract of their bases and interfaces: a missing method of an interface or an
 // abstract base; an override with another signature; overriding a FINAL method; OVERRIDE without a method to override,
 // and in edition 3 overriding without OVERRIDE; an abstract method in an object that is not ABSTRACT; a redeclared
-// variable of the base; halves of a property that differ. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
+// variable of the base, in iec also by a method; halves of a property that differ. IEC 61131-3 ed.
+// 3, 6.6.5.5.4, 6.6.6.6.
 //   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
 //   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
 // Called once for each object of the project, when everything is declared.
@@ -137,6 +138,11 @@ void checkMethod(Context& context, PouId object, PouId id) {
   if ((method.object.modifiers & kAbstract) != 0 && (owner.object.modifiers & kAbstract) == 0) {
     context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
+  }
+  if (owner.base && context.iec()) {
+    const Entity first = findInObject(context, owner.base, method.name);
+    if (first.entityKind() == EntityKind::Var)
+      return reportTwice(context, method.name, method.loc, context.symbols.vars[first.index].loc);
   }
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {

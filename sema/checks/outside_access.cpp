@@ -4,6 +4,7 @@
 // and sema does not know the language of a body.
 //   passes  x := timer.Q;   timer.PT := T#5s (codesys);
 //   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
+//   warns   sort(table := source.table) where both are pins, an in-out and an output: codesys
 // Called by names.cpp for each `instance.pin`.
 #include "sema/checks/outside_access.h"
 
@@ -23,7 +24,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
   const bool sets = access == Access::Write || access == Access::Bind;
-  const bool writes = sets || access == Access::ReadWrite;
+  const bool writes = sets || access == Access::ReadWrite || access == Access::InOut;
   const std::string_view pin = string(context, var.name);
   const std::string block = context.types().toString(record);
   const auto refuse = [&](Diag diag) {
@@ -34,7 +35,11 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::Input:  // set for the next call: ed. 3 table 42, 6a, table 69, 2
       if (!context.iec() || program || sets || access == Access::Qualifier) return true;
       return refuse(diag::InputReadOutside);
-    case SectionKind::Output: return writes ? refuse(diag::OutputWrittenOutside) : true;
+    case SectionKind::Output:
+      if (!writes) return true;
+      if (access != Access::InOut || context.iec()) return refuse(diag::OutputWrittenOutside);
+      context.report(diag::OutputPassed, node.h.loc, {pin, block}).declaredHere(var.loc);
+      return true;
     case SectionKind::InOut: return writes ? refuse(diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
     case SectionKind::Inst:

@@ -63,6 +63,7 @@ TypeId addressType(const DirectAddress& address) {
 //   passes  v AT %QX5.1 : BOOL; w AT %QW28 : INT;
 //   fails   v AT %QX5.9 : BOOL;                         E0340
 //   fails   v AT %QX5.1 : INT;                          E0341
+//   fails   v AT %QW5 : BOOL; in iec                    E0374
 //   fails   VAR_CONFIG Main.v AT %QW5.1 : INT;          E0344 (see isHierarchical)
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type) {
   const std::string text = toString(context, address);
@@ -98,7 +99,11 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
       context.report(diag::AddressType, loc, {text, context.types().toString(type)});
       return std::nullopt;
     }
-    if (is_bool) view.is_bit = true;  // BOOL at %QB0: its bit 0
+    if (is_bool && !is_bit && context.iec()) {
+      context.report(diag::AddressOfBool, loc, {text});
+      return std::nullopt;
+    }
+    if (is_bool) view.is_bit = true;  // codesys: BOOL at %QB0 is its bit 0
     if (!is_bool) {
       if (!ensureLayout(context, type)) return std::nullopt;  // reported with the variable
       bytes = context.types().info(context.types().resolve(type)).size;

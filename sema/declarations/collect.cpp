@@ -31,6 +31,7 @@ void internKnownNames(Context& context) {
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},
+      {&Known::long_time, "long_time"},
       {&Known::extensible, "extensible"},
       {&Known::prefix, "prefix"},
       {&Known::sized, "sized"},
@@ -44,6 +45,7 @@ void internKnownNames(Context& context) {
       {&Known::fault, "fault"},
       {&Known::no_copy, "no_copy"},
       {&Known::bytes, "bytes"},
+      {&Known::attribute_no_check, "no_check"},
   };
   for (const Row& row : kRows)
     context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
@@ -135,6 +137,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
   pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
   pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
+  pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {

@@ -2,6 +2,8 @@
 // a project without a configuration. docs/language.md "Tasks and configuration".
 #include "sema/declarations/configuration.h"
 
+#include <algorithm>
+
 #include "frontend/source/scanner.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -13,6 +15,8 @@ using types::TypeKind;
 using types::TypeTable;
 
 namespace {
+
+constexpr int64_t kUsualPriority = 31, kLowestPriority = 65535;
 
 // A part of a configuration with its own globals: the configuration itself, or a resource.
 struct Part {
@@ -104,6 +108,15 @@ struct TaskReader {
     }
   }
 
+  // CODESYS has the priorities 0 to 31; the standard gives no limit (ed. 3, 6.8.2).
+  void priority(ExprId& expr) {
+    const auto value = number(expr, "PRIORITY", 0, context.iec() ? kLowestPriority : kUsualPriority);
+    if (!value) return;
+    task.priority = static_cast<uint32_t>(*value);
+    if (*value > kUsualPriority)
+      context.report(diag::PriorityUnusual, context.tree().begin(expr), {std::to_string(*value)});
+  }
+
   // Forbids settings that a task does not have.
   //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
   void setting(Argument& argument) {
@@ -119,7 +132,7 @@ struct TaskReader {
         }
       }
     } else if (name == "PRIORITY") {
-      if (const auto value = number(argument.value, name, 0, 31)) task.priority = static_cast<uint32_t>(*value);
+      priority(argument.value);
     } else if (name == "SINGLE") {
       has_single = true;
       trigger = argument.value;
@@ -252,7 +265,8 @@ uint32_t backgroundTask(Context& context) {
   Task task;
   task.name = context.names().intern(name);
   task.kind = TaskKind::Freewheeling;
-  task.priority = 31;
+  task.priority = kUsualPriority;
+  for (const Task& other : tasks) task.priority = std::max(task.priority, other.priority);
   tasks.push_back(task);
   return static_cast<uint32_t>(tasks.size());
 }
@@ -264,6 +278,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
                  const std::vector<DeclaredTask>& tasks) {
   Project& project = context.project;
   ProgramInstance instance;
+  instance.retain = (decl.section_bits & kRetain) != 0;
   instance.name = decl.name;
   instance.resource = part.resource;
   instance.configuration = part.configuration;

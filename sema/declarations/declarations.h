@@ -150,6 +150,10 @@ bool ensureLayout(Context& context, TypeId type);
 // A constant integer, as in bounds and lengths; reports an expression that is not one.
 std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 
+// The instance of a block with VAR_GENERIC CONSTANT for the values in `Ring<20>`, created on first use; a block without
+// them is its own instance. None: reported.
+PouId instantiateBlock(Context& context, PouId block, const NamedTypeExpr& written);
+
 // ---- initial_values.cpp
 // What an initial value may read in codesys: only constants, variables with the same lifetime, also those of the call.
 enum class InitialReads : uint8_t { Constants, Variables, Call };

@@ -1,8 +1,10 @@
-// Instances of generic library functions: the source of the function is parsed again for each tuple of types, so that
-// its body is checked and lowered like any other.
+// Instances of generic library functions and of blocks with VAR_GENERIC CONSTANT: the source is parsed again for each
+// tuple of types or values, so that the instance is checked and lowered like any other POU.
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/scopes.h"
 
 namespace rung::sema {
 
@@ -23,7 +25,139 @@ std::string identifierOf(const types::TypeTable& table, TypeId type) {
   return name;
 }
 
+// ---- VAR_GENERIC CONSTANT
+
+bool isGenericSection(const Tree& tree, DeclId section) {
+  return (tree.as<SectionDecl>(section).h.bits & kGeneric) != 0;
+}
+
+std::vector<Ident> genericsOf(const Tree& tree, const PouDecl& block) {
+  std::vector<Ident> names;
+  for (const DeclId section : tree.list(block.sections)) {
+    if (!isGenericSection(tree, section)) continue;
+    for (const DeclId decl : tree.list(tree.as<SectionDecl>(section).vars))
+      for (const Ident& name : tree.list(tree.as<VarDecl>(decl).names)) names.push_back(name);
+  }
+  return names;
+}
+
+struct GenericValue {
+  std::optional<int64_t> value;
+  Loc loc;
+};
+
+// The values in `Ring<20>`, in the order of the constants. Forbids values for constants that a block does not have, and
+// a constant without a value. CODESYS, "Variable: VAR_GENERIC CONSTANT", C0586, C0587.
+//   passes  a : Ring<20>;  b : Ring<(size := 2 * n)>;      fails  c : Ring;      E0375
+bool readGenerics(Context& context, const Pou& block, const std::vector<Ident>& names, const NamedTypeExpr& written,
+                  std::vector<GenericValue>& values) {
+  Tree& tree = context.tree();
+  const std::string_view name = context.names().string(block.name);
+  values.resize(names.size());
+  size_t next = 0;
+  for (Argument& given : tree.list(written.generics)) {
+    size_t at = next++;
+    if (given.pin.name)
+      for (at = 0; at < names.size() && !context.names().same(names[at].name, given.pin.name);) ++at;
+    if (at >= names.size()) {
+      const std::string count = std::to_string(names.size());
+      if (given.pin.name)
+        context.report(diag::UnknownGeneric, given.pin.loc, {name, context.names().string(given.pin.name)});
+      else
+        context.report(diag::SurplusGeneric, given.loc, {name, count});
+      return false;
+    }
+    values[at] = {constantBound(context, given.value), tree.begin(given.value)};
+    if (!values[at].value) return false;
+  }
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (values[i].value) continue;
+    context.report(diag::GenericWithoutValue, written.h.loc, {name, context.names().string(names[i].name)});
+    return false;
+  }
+  return true;
+}
+
+ExprId literalOf(Context& context, const GenericValue& given) {
+  TreeBuilder build = context.build();
+  const uint64_t bits = static_cast<uint64_t>(*given.value);
+  if (*given.value >= 0) return build.literal(LiteralKind::Integer, bits, given.loc);
+  return build.unary(UnaryOp::Negate, build.literal(LiteralKind::Integer, 0 - bits, given.loc), given.loc);
+}
+
+// Each generic constant gets a declaration of its own, with the value of the instance.
+void setGenerics(Context& context, const PouDecl& block, const std::vector<GenericValue>& values) {
+  Tree& tree = context.tree();
+  size_t next = 0;
+  for (const DeclId section : tree.list(block.sections)) {
+    if (!isGenericSection(tree, section)) continue;
+    std::vector<DeclId> vars;
+    for (const DeclId decl : tree.list(tree.as<SectionDecl>(section).vars)) {
+      const VarDecl shared = tree.as<VarDecl>(decl);
+      for (const Ident& name : std::vector<Ident>(tree.list(shared.names).begin(), tree.list(shared.names).end())) {
+        VarDecl own = shared;
+        own.names = tree.addList<Ident>({&name, 1});
+        own.init = literalOf(context, values[next++]);
+        vars.push_back(tree.add<DeclId>(own));
+      }
+    }
+    tree.as<SectionDecl>(section).vars = tree.addList<DeclId>(vars);
+  }
+}
+
+// Where the source of a block ends: members may follow its END_FUNCTION_BLOCK.
+Loc endOfBlock(const Tree& tree, const PouDecl& block) {
+  Loc end = block.h.end;
+  for (const DeclId member : tree.list(block.members))
+    if (const Range range = tree.range(member); range.end.offset > end.offset) end = range.end;
+  return end;
+}
+
+uint32_t libraryNamed(const Context& context, NameId name) {
+  const auto& list = context.scopes.libraries.list;
+  for (uint32_t i = 0; i < list.size(); ++i)
+    if (name && list[i].name == name) return i;
+  return kNoLibrary;
+}
+
 }  // namespace
+
+PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& written) {
+  Symbols& symbols = context.symbols;
+  Tree& tree = context.tree();
+  const Pou& block = symbols.pou(block_id);
+  if (!block.decl) return block_id;
+  const std::vector<Ident> names = genericsOf(tree, tree.as<PouDecl>(block.decl));
+  if (names.empty() && written.generics.empty()) return block_id;
+  const PouId around = objectOf(context);
+  const bool own = around && (around == block_id || symbols.pou(around).generic_of == block_id);
+  if (own && written.generics.empty()) return around;
+  std::vector<GenericValue> values;
+  if (!readGenerics(context, block, names, written, values)) return {};
+  std::string unique = toString(context, block.name) + "_";
+  for (const GenericValue& given : values)
+    unique += *given.value < 0 ? "_m" + std::to_string(0 - static_cast<uint64_t>(*given.value))
+                               : "_" + std::to_string(*given.value);
+  const NameId name = context.names().intern(unique);
+  const NameId key = context.names().key(context.names().intern(toString(context, block.unique_name) + "<" + unique));
+  if (const Entity known = context.scopes.instances.find(key)) return PouId{known.index};
+
+  const PouDecl& source = tree.as<PouDecl>(block.decl);
+  const Slice<DeclId> decls = text::parseDeclarations(tree, symbols.names, symbols.sources, source.h.begin,
+                                                      endOfBlock(tree, source), Dialect::Codesys, symbols.diagnostics);
+  for (const DeclId decl : tree.list(decls)) {
+    if (tree.kind(decl) != DeclKind::Pou) continue;
+    tree.as<PouDecl>(decl).name = name;
+    setGenerics(context, tree.as<PouDecl>(decl), values);
+    const PouId id{static_cast<uint32_t>(symbols.pous.size())};
+    context.scopes.instances.insert(key, entity(id));
+    Context there = at(context, {}, block.file, block.library, context.scopes.pous[block_id.index].region);
+    collectDecl(there, decl, block.file, block.library ? libraryNamed(context, block.library_name) : kNoLibrary);
+    symbols.pou(id).generic_of = block_id;
+    return id;
+  }
+  return block_id;
+}
 
 PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> types_by_pin, TypeId result) {
   Symbols& symbols = context.symbols;

@@ -255,6 +255,10 @@ struct InstancePathResolver {
           .declaredHere(var.loc);
       return;
     }
+    if (var.constant) {
+      context.report(diag::ConfigConstant, last.loc, {string(last.name)}).declaredHere(var.loc);
+      return;
+    }
     if (decl.located && !var.open_address) {
       context.report(diag::ConfigNotOpen, decl.address_loc, {string(last.name)}).declaredHere(var.loc);
       return;

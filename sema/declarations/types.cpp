@@ -114,9 +114,15 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   if (length == 0) return types::kError;  // reported by the parser
   const Ident first = context.tree().list(expr.path)[0];
   const Ident last = context.tree().list(expr.path)[length - 1];
+  const auto refuseGenerics = [&] {
+    if (!expr.generics.empty())
+      context.report(diag::SurplusGeneric, context.tree().list(expr.generics)[0].loc,
+                     {context.names().string(last.name), "0"});
+  };
   Entity found;
   if (length == 1) {
     if (const TypeId elementary = context.types().elementary(first.name)) {
+      refuseGenerics();
       const TypeKind kind = context.types().info(elementary).kind;
       if (const TypeId own = ownTypeOfLateName(context, first.name, kind)) return own;
       if (!TypeTable::isGeneric(kind) || !context.pou) return elementary;
@@ -134,6 +140,15 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
     context.report(diag::BitOutside, last.loc);
     return types::kError;
+  }
+  const bool is_block =
+      found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
+  if (is_block) {
+    const PouId instance = instantiateBlock(context, PouId{found.index}, expr);
+    if (!instance) return types::kError;
+    found = entity(instance);
+  } else {
+    refuseGenerics();
   }
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;

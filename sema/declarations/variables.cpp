@@ -94,13 +94,17 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.access = section.access;
   var.storage = storageOf(context, section.section, pou, decl);
   var.edge = decl.edge;
-  var.constant = (section.h.bits & kConstant) != 0;
+  // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
+  const bool settable = section.section == SectionKind::Input && !context.iec() && !context.library;
+  var.constant = (section.h.bits & kConstant) != 0 && !settable;
   var.persistent = (section.h.bits & kPersistent) != 0;
   var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
+  var.non_retain = (section.h.bits & kNonRetain) != 0;
   var.pou = pou;
   var.list = list;
   if (!decl.h.pragmas.empty()) {
     var.pragmas.required = findPragma(context, decl.h, known.required) != nullptr;
+    var.pragmas.long_time = findPragma(context, decl.h, known.long_time) != nullptr;
     var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
     var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
     var.pragmas.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
@@ -158,6 +162,7 @@ void addField(Context& context, TypeId record, VarId id) {
     field.by_reference = false;
   }
   field.retain = var.retain;
+  field.non_retain = var.non_retain;
   field.persistent = var.persistent;
   field.constant = var.constant;
   types::TypeInfo& info = context.types().edit(record);
@@ -212,6 +217,8 @@ void matchExternal(Context& context, VarId id) {
     var.type = types::kError;
     return;
   }
+  if (global.constant && !var.constant && context.iec())
+    context.report(diag::ExternalConstant, loc, {context.names().string(name)}).declaredHere(global.loc);
   if (global.constant) var.constant = true;
   var.external = global_id;
   var.storage = global.storage;
@@ -320,7 +327,15 @@ void ensureVarType(Context& context, VarId id) {
   }
 }
 
-// Forbids a constant without a value, and one whose value depends on itself. IEC 61131-3 ed. 3, 6.5.1.
+// A constant without a value has that of its type, which of a number is most likely not meant. IEC 61131-3 ed.
+// 3, 6.5.1.
+static void warnOfDefault(Context& context, const Var& var) {
+  const types::Value value = types::defaultValue(context.types(), context.names(), var.type);
+  context.report(diag::ConstantDefault, var.loc,
+                 {context.names().string(var.name), types::toString(context.types(), context.names(), value)});
+}
+
+// Forbids a constant whose value depends on itself. IEC 61131-3 ed. 3, 6.5.1.
 //   passes  VAR CONSTANT a : INT := b + 1; b : INT := 2; END_VAR
 //   fails   VAR CONSTANT a : INT := b; b : INT := a; END_VAR       E0321
 void ensureInitialValue(Context& context, VarId id) {
@@ -355,10 +370,9 @@ void ensureInitialValue(Context& context, VarId id) {
   const TypeId type = symbols.var(id).type;
   ExprId init = decl.init;
   const Var& var = symbols.var(id);
-  if (!init && var.constant && var.section != SectionKind::External && var.section != SectionKind::Input &&
-      var.section != SectionKind::InOut && type != types::kError) {
-    context.report(diag::ConstantWithoutValue, var.loc, {context.names().string(var.name)});
-  }
+  const bool defaults = !init && var.constant && var.section != SectionKind::External &&
+                        var.section != SectionKind::Input && var.section != SectionKind::InOut;
+  if (defaults && types::TypeTable::isElementary(context.types().plainKind(type))) warnOfDefault(there, var);
   bool ok = true, reads = false;
   if (init && !mayHaveInitialValue(there, var, init)) init = {};
   if (init) {
@@ -387,6 +401,8 @@ void ensureInitialValue(Context& context, VarId id) {
   if (var.constant && init && types::TypeTable::isElementary(kind)) {
     if (ok) value = evaluate(there, init);
     if (value) value->type = type;
+  } else if (defaults && types::TypeTable::isElementary(kind)) {
+    value = types::defaultValue(there.types(), there.names(), type);
   }
   for (uint32_t i = firstOfDecl(symbols, id.index);
        i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
@@ -464,6 +480,29 @@ static void declareEno(Context& context, PouId id) {
   symbols.pou(id).vars.push_back(created);
 }
 
+// Forbids, in iec, modifiers that contradict their section: a constant is not retained; an in-out, and a variable of
+// one call, has no memory to keep; an output is written by its block. IEC 61131-3 ed. 3 table 14 and figure 9.
+//   passes  VAR RETAIN n : INT; END_VAR      fails  VAR_TEMP RETAIN n : INT; END_VAR      E0372
+static void checkModifiers(Context& context, const SectionDecl& section) {
+  const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0;
+  const bool constant = (section.h.bits & kConstant) != 0;
+  const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
+  if (retain && constant)
+    context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
+  else if (retain && is_pin_or_temp)
+    context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "RETAIN"});
+  else if (constant && section.section == SectionKind::Output)
+    context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "CONSTANT"});
+}
+
+// VAR_GENERIC CONSTANT: the values of the block itself only serve its check, so any value will do.
+static void giveGenericsValues(Context& context, const SectionDecl& section) {
+  for (const DeclId id : context.tree().list(section.vars)) {
+    VarDecl& decl = context.tree().as<VarDecl>(id);
+    if (!decl.init) decl.init = context.build().literal(LiteralKind::Integer, 1, decl.h.loc);
+  }
+}
+
 // The variables of one section of a POU.
 static void declareSection(Context& there, PouId id, const PouDecl& decl, const SectionDecl& section) {
   Symbols& symbols = there.symbols;
@@ -481,6 +520,8 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
+  if (there.iec()) checkModifiers(there, section);
+  if ((section.h.bits & kGeneric) != 0) giveGenericsValues(there, section);
   const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {

@@ -18,7 +18,7 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std libraries checks optimize warnings defines"},
+    {"project", false, "name sources std native-width libraries checks optimize warnings defines"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
     {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
@@ -160,6 +160,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "std") {
       project.has_dialect = true;
       error = parseDialect(entry.value, project.dialect);
+    } else if (entry.key == "native-width") {
+      project.has_native_width = true;
+      error = parseNativeWidth(entry.value, project.native_width);
     } else if (entry.key == "checks") {
       project.has_checks = true;
       std::string checks;
@@ -317,6 +320,7 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
 
 void applyProjectFile(const ProjectFile& project, Options& options) {
   if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
+  if (project.has_native_width && !options.native_width_given) options.native_width = project.native_width;
   if (project.has_checks && !options.checks_given) options.checks = project.checks;
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;

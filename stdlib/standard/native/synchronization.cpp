@@ -47,4 +47,20 @@ uint32_t rung_standard_HOST_RELEASE(rung_context*, uint32_t* count) {
   return RUNG_SEMA_FULL;
 }
 
+uint32_t rung_standard_TEST_AND_SET(rung_context*, uint32_t* flag) {
+  return __atomic_exchange_n(flag, 1, __ATOMIC_ACQ_REL);
+}
+
+int32_t rung_standard_HOST_ADD(rung_context*, int32_t* value, int32_t summand) {
+  return static_cast<int32_t>(__atomic_fetch_add(value, summand, __ATOMIC_ACQ_REL));
+}
+
+uint8_t rung_standard_HOST_SWAP_DWORD(rung_context*, uint32_t* value, uint32_t old, uint32_t wanted) {
+  return __atomic_compare_exchange_n(value, &old, wanted, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE) ? 1 : 0;
+}
+
+uint8_t rung_standard_HOST_SWAP_LWORD(rung_context*, uint64_t* value, uint64_t old, uint64_t wanted) {
+  return __atomic_compare_exchange_n(value, &old, wanted, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE) ? 1 : 0;
+}
+
 }  // extern "C"
