@@ -1,4 +1,4 @@
-// Strings that other variables may overlap: in a UNION, in a memory area, behind a pointer. What is written there can
+// Strings that other variables may overlap: in a UNION, in a memory area, through a pointer. What is written there can
 // take the final zero away, so a string read from there is at most as long as its type, whatever follows it. Called by
 // lowering, which reads such a string through a temporary, and by codegen.
 #pragma once

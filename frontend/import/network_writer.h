@@ -65,7 +65,7 @@ class NetworkWriter {
   void beginBody(Loc loc, NetworkLanguage language);
   void endBody(Loc loc) { out_.put(loc, "{end_network}\n"); }
   void beginNetwork(Loc loc, uint64_t number, bool disabled = false, std::string_view title = {});
-  void write(const NetworkElement& element);
+  void write(NetworkElement element);
   // An Execute whose statements the caller writes in between.
   void beginStatements(const NetworkElement& element);
   void endStatements(Loc loc) { out_.put(loc, "{end_network};\n"); }

@@ -303,6 +303,15 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
   giveResult(element, result, value);
 }
 
+// Forbids a box of a block that is not that of its variable.
+//   fails   box 1 TOF (t) […];  with t : TON          E1019
+bool Scheduler::checkBlock(const DiagramElement& e) {
+  if (!e.path || signatures_.fits(e.operand, e.path)) return true;
+  const std::string_view block = names_.string(e.name.name);
+  diagnostics_.report(diag::OtherBlock, e.name.loc, {block});
+  return false;
+}
+
 void Scheduler::resolveBox(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
   Call call;
@@ -313,6 +322,10 @@ void Scheduler::resolveBox(uint32_t element) {
     return;
   }
   if (e.operand) {
+    if (!checkBlock(e)) {
+      failed_[element] = true;
+      return;
+    }
     call.signature = signatures_.of(e.operand);
   } else if (e.hidden) {
     call.signature = signatures_.of(e.hidden);

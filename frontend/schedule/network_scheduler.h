@@ -57,6 +57,7 @@ class Scheduler {
   struct Call;
   void resolveBox(uint32_t element);
   bool isOperator(const DiagramElement& e) const;
+  bool checkBlock(const DiagramElement& e);
   void resolveOperator(uint32_t element, Call& call);
   void resolveCall(uint32_t element, Call& call);
   void giveResult(uint32_t element, uint32_t result, ExprId value);

@@ -49,6 +49,8 @@ class Signatures {
   virtual Signature of(NameId name) = 0;  // points separate the names of members
   // Of `valve`, `valves[i].timer`, `station.Start`: a path as parsed, which is not changed.
   virtual Signature of(ExprId path) = 0;
+  // False: `instance` is of a function block, and not of `block` or one derived from it.
+  virtual bool fits(ExprId instance, ExprId block) = 0;
 
  protected:
   ~Signatures() = default;

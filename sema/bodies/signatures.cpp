@@ -157,4 +157,16 @@ Signature ProjectSignatures::of(NameId name) {
 }
 Signature ProjectSignatures::of(ExprId path) { return signatureOf(resolve(path)); }
 
+bool ProjectSignatures::fits(ExprId instance, ExprId block) {
+  const Entity drawn = resolve(block).entity;
+  const TypeId type = resolve(instance).type;
+  const PouId own = type && type != types::kError ? pouOf(context_, type) : PouId{};
+  if (drawn.entityKind() != EntityKind::Pou || !own) return true;
+  const Pou& pou = context_.project.pou(own);
+  const Pou& shown = context_.project.pous[drawn.index];
+  if (pou.kind != PouKind::FunctionBlock || shown.kind != PouKind::FunctionBlock) return true;
+  // Two libraries may have blocks of one name: a box shows it without the library's.
+  return pou.generic_of || context_.names().same(pou.name, shown.name) || isKindOf(context_, own, PouId{drawn.index});
+}
+
 }  // namespace rung::sema

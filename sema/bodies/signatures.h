@@ -17,6 +17,7 @@ class ProjectSignatures final : public Signatures {
   explicit ProjectSignatures(Context& context) : context_(context) {}
   Signature of(NameId name) override;
   Signature of(ExprId path) override;
+  bool fits(ExprId instance, ExprId block) override;
 
  private:
   // The meaning of a part of a path: a named entity, or a value of a type.

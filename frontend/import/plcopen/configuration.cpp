@@ -81,7 +81,8 @@ std::optional<uint64_t> clockDuration(std::string_view text) {
   return ns;
 }
 
-// A time in ST notation, from `PT0.05S`, `00:00:00.05`, `T#50ms` or `50` with a unit; empty: not a time, which was reported.
+// A time in ST notation, from `PT0.05S`, `00:00:00.05`, `T#50ms` or `50` with a unit; empty: not a time, which was
+// reported.
 std::string timeOf(Import& import, const xml::Attribute& attribute, std::string unit) {
   std::string text = import.document.decoded(attribute);
   if (const auto duration = isoDuration(text)) return "T#" + std::to_string(*duration) + "ns";
