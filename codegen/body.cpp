@@ -11,7 +11,6 @@
 namespace rung::codegen {
 
 using ir::LocalKind;
-using types::TypeTable;
 
 void FunctionWriter::declareVariables() {
   const Variables& variables = analysis_->uses.variables;

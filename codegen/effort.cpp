@@ -9,8 +9,6 @@ namespace rung::codegen {
 
 namespace {
 
-using ir::ExprId;
-using ir::ExprKind;
 using ir::Stmt;
 using ir::StmtId;
 using ir::StmtKind;

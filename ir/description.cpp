@@ -120,19 +120,25 @@ class Describer {
 
   // ---- blocks and the ranges of them that are kept
 
-  bool keeps(TypeId id) {
+  // What the variables in a type ask for themselves: to be kept, or not to be.
+  struct Kept {
+    bool keeps = false, excludes = false;
+  };
+  Kept keptIn(TypeId id) {
     id = types_.resolve(id);
     const TypeInfo& info = types_.info(id);
-    if (info.kind == TypeKind::Array) return keeps(info.base);
-    if (info.kind != TypeKind::Record) return false;
-    const auto known = keeps_.find(id.index);
-    if (known != keeps_.end()) return known->second;
-    keeps_[id.index] = false;
-    bool found = false;
+    if (info.kind == TypeKind::Array) return keptIn(info.base);
+    if (info.kind != TypeKind::Record) return {};
+    const auto known = kept_.find(id.index);
+    if (known != kept_.end()) return known->second;
+    kept_[id.index] = {};
+    Kept found;
     for (const Field& field : info.fields) {
-      found = found || field.retain || field.persistent || (!field.by_reference && keeps(field.type));
+      const Kept inside = field.by_reference ? Kept{} : keptIn(field.type);
+      found.keeps = found.keeps || field.retain || field.persistent || inside.keeps;
+      found.excludes = found.excludes || field.non_retain || inside.excludes;
     }
-    return keeps_[id.index] = found;
+    return kept_[id.index] = found;
   }
 
   static void add(std::vector<rung_range>& ranges, uint32_t block, uint64_t offset, uint64_t size) {
@@ -143,21 +149,25 @@ class Describer {
     }
   }
 
-  void collectKept(TypeId id, uint32_t block, uint64_t offset) {
+  // RETAIN and NON_RETAIN of a variable hold for what is in it, except where a variable of a block says otherwise.
+  void collectKept(TypeId id, uint32_t block, uint64_t offset, bool is_retained) {
     id = types_.resolve(id);
-    if (!keeps(id)) return;
     const TypeInfo& info = types_.info(id);
+    const Kept inside = keptIn(id);
+    if (is_retained && !inside.excludes) return add(out_.retain, block, offset, info.size);
+    if (!is_retained && !inside.keeps) return;
     if (info.kind == TypeKind::Array) {
       const uint64_t size = types_.info(types_.resolve(info.base)).size;
-      for (uint64_t at = 0; size > 0 && at < info.size; at += size) collectKept(info.base, block, offset + at);
+      for (uint64_t at = 0; size > 0 && at < info.size; at += size)
+        collectKept(info.base, block, offset + at, is_retained);
       return;
     }
     for (const Field& field : info.fields) {
       if (field.by_reference) continue;
       const uint64_t size = types_.info(types_.resolve(field.type)).size;
-      if (field.retain) add(out_.retain, block, offset + field.offset, size);
       if (field.persistent) add(out_.persistent, block, offset + field.offset, size);
-      if (!field.retain && !field.persistent) collectKept(field.type, block, offset + field.offset);
+      const bool kept = field.retain || (is_retained && !field.non_retain);
+      collectKept(field.type, block, offset + field.offset, kept);
     }
   }
 
@@ -166,7 +176,7 @@ class Describer {
     const TypeInfo& info = types_.info(types_.resolve(block.record));
     out_.blocks.push_back({string(block.name), static_cast<uint32_t>(info.size), info.align});
     type(block.record);
-    collectKept(block.record, index, 0);
+    collectKept(block.record, index, 0, block.retain);
   }
 
   // ---- symbols
@@ -329,7 +339,7 @@ class Describer {
   const MemoryBlocks& blocks_;
   Description& out_;
   std::unordered_map<uint32_t, uint32_t> type_number_;
-  std::unordered_map<uint32_t, bool> keeps_;
+  std::unordered_map<uint32_t, Kept> kept_;
 };
 
 }  // namespace
@@ -353,7 +363,8 @@ MemoryBlocks::MemoryBlocks(const Module& module) {
   for (const Row& row : rows) {
     (row.is_program ? program_block : list_block)[row.index] = block_count++;
     if (row.is_program) {
-      blocks.push_back({module.programs[row.index].name, module.programs[row.index].record});
+      const ProgramInstance& program = module.programs[row.index];
+      blocks.push_back({program.name, program.record, program.retain});
     } else {
       blocks.push_back({module.lists[row.index].name, module.lists[row.index].record});
     }

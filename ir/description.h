@@ -23,6 +23,7 @@ struct MemoryBlocks {
   struct Block {
     NameId name;
     TypeId record;
+    bool retain = false;  // all of it, except what is NON_RETAIN
   };
   std::vector<Block> blocks;
 };

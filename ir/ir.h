@@ -324,7 +324,8 @@ struct ProgramInstance {
   NameId name;
   TypeId record;
   BodyId init, body;
-  uint32_t task = 0; /* index + 1; 0: none */
+  uint32_t task = 0;   /* index + 1; 0: none */
+  bool retain = false; /* PROGRAM RETAIN: all its variables */
   NameId resource, configuration;
   // Functions without parameters, or none. `run` is what the task calls instead of `body`: it also copies connected
   // variables and open addresses. `setup` is called after all `init`: initial values of VAR_CONFIG.

@@ -177,6 +177,7 @@ void Reader::recordFields(TypeId type_id) {
     else if (accept("value"))
       field.by_reference = false;
     field.retain = accept("retain");
+    field.non_retain = accept("non_retain");
     field.persistent = accept("persistent");
     field.constant = accept("constant");
     field.name = name();
@@ -265,6 +266,7 @@ void Reader::instance() {
   expect(":");
   created.record = type();
   if (accept("task")) created.task = numberOf(task_by_name_, "task") + 1;
+  created.retain = accept("retain");
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();
   if (accept("configuration")) created.configuration = name();

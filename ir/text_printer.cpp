@@ -140,6 +140,7 @@ void Printer::record(TypeId id, const Record* listed) {
     }
     if (field.by_reference != (field.role == FieldRole::InOut)) put(field.by_reference ? "ref " : "value ");
     if (field.retain) put("retain ");
+    if (field.non_retain) put("non_retain ");
     if (field.persistent) put("persistent ");
     if (field.constant) put("constant ");
     name(field.name);
@@ -271,6 +272,7 @@ void Printer::instance(const ProgramInstance& instance) {
   put(": ");
   type(instance.record);
   if (instance.task != 0) clause(" task ", module_.tasks[instance.task - 1].name);
+  if (instance.retain) put(" retain");
   if (instance.is_test) put(" test");
   clause(" resource ", instance.resource);
   clause(" configuration ", instance.configuration);

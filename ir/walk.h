@@ -6,6 +6,7 @@
 
 namespace rung::ir {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the fields of a row become statements.
 // Each row of instructions.def becomes a case: its fields that play no part in the walk expand to nothing.
 #define RUNG_OPERAND(name)
 #define RUNG_OPERANDS(name)
@@ -119,6 +120,7 @@ void forEachBlock(BodyT& body, StmtT& stmt, F&& f) {
 #undef RUNG_BLOCK
 #undef RUNG_CASES
 #undef RUNG_VALUE
+// NOLINTEND(bugprone-macro-parentheses)
 
 // f(StmtId): every statement from `first` on, and those in their blocks, each before its blocks.
 template <class F>

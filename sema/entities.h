@@ -43,6 +43,7 @@ struct Var {
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
   bool constant = false, retain = false, persistent = false;
+  bool non_retain = false;    // NON_RETAIN, which also holds inside of a retained instance
   bool has_value = false;     // constant scalar or string with a known value: see `value`
   bool hierarchical = false;  // AT %QW0.1.2: placed after all others when these are known
   bool open_address = false;  // AT %I*: the number comes from VAR_CONFIG or from the system
@@ -94,6 +95,21 @@ struct Property {
 
 enum class OperatorKind : uint8_t { None, Op, Select, Mux, Convert, Move };
 enum class AccessorKind : uint8_t { None, Get, Set };
+// What a project may check by functions of its own (bodies/implicit_checks.cpp).
+enum class ImplicitCheck : uint8_t {
+  Bounds,
+  DivDInt,
+  DivLInt,
+  DivReal,
+  DivLReal,
+  RangeSigned,
+  RangeUnsigned,
+  LRangeSigned,
+  LRangeUnsigned,
+  Pointer,
+  Count_
+};
+
 struct Pou {
   NameId name;
   Loc loc;
@@ -119,9 +135,10 @@ struct Pou {
     bool slice = false;      // {slice}: and a third that only returns which part of the first input the result is
     bool prefix =
         false;  // {prefix}: the first n characters of the result depend only on the first n of the first input
-    bool faults = false;   // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
-    bool no_copy = false;  // {no_copy}: an instance cannot be copied
-    bool bytes = false;    // {bytes}: its generic type is ARRAY OF BYTE
+    bool faults = false;    // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
+    bool no_copy = false;   // {no_copy}: an instance cannot be copied
+    bool bytes = false;     // {bytes}: its generic type is ARRAY OF BYTE
+    bool no_check = false;  // {attribute 'no_check'}: without the implicit checks of the project
     types::Op op = types::Op::Add;
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X

@@ -28,7 +28,8 @@ struct ProgramInstance {  // without a task it never runs (warned)
   NameId name;
   NameId resource, configuration;
   PouId program;
-  uint32_t task = 0;  // index into Project::tasks + 1; 0: none
+  uint32_t task = 0;    // index into Project::tasks + 1; 0: none
+  bool retain = false;  // PROGRAM RETAIN
   Loc loc;
   ExprId connections;  // PROGRAM p : Main(in := x, out => y): a checked CallExpr of the program; or none
 };

@@ -183,8 +183,11 @@ struct Scopes {
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
         required, lazy, extensible, long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault,
-        no_copy, bytes;
+        no_copy, bytes, attribute_no_check, attribute_obsolete, attribute_to_string, attribute_call_after_init;
   } known_names;
+
+  std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> implicit_checks;  // the project's functions
+  bool implicit_checks_found = false;
 
   NamedType* named(TypeId type) {
     const uint32_t index = type.index < named_of_type.size() ? named_of_type[type.index] : 0;

@@ -40,9 +40,10 @@ std::string_view wordOf(NetworkLanguage language) {
 
 std::string clauseOf(const Area& area) {
   if (!area.placed) return {};
-  const std::string position = " AT " + std::to_string(area.x) + ", " + std::to_string(area.y);
-  if (area.width == 0 && area.height == 0) return position;
-  return position + ", " + std::to_string(area.width) + ", " + std::to_string(area.height);
+  std::string clause = " AT " + std::to_string(area.x) + ", " + std::to_string(area.y);
+  if (area.width != 0 || area.height != 0)
+    clause += ", " + std::to_string(area.width) + ", " + std::to_string(area.height);
+  return clause;
 }
 
 void NetworkWriter::beginBody(Loc loc, NetworkLanguage language) {

@@ -6,7 +6,6 @@
 namespace rung::ir::interpreter {
 
 using types::Dimension;
-using types::Field;
 using types::TypeInfo;
 using types::TypeTable;
 

@@ -263,6 +263,7 @@ bool ModuleLowering::isZero(TypeId declared) {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
           if (project.pou(pou).kind == PouKind::Interface) return true;
           if (project.pou(pou).object.dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
+          if (!calledAfterInit(pou).empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;
@@ -465,6 +466,7 @@ void ModuleLowering::addPrograms() {
     created.name = instance.name;
     created.record = pou.record;
     created.task = instance.task;
+    created.retain = instance.retain;
     created.resource = instance.resource;
     created.configuration = instance.configuration;
     instance_of_.insert({instance.program.index, static_cast<uint32_t>(module.programs.size())});

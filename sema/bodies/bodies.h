@@ -244,6 +244,12 @@ ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);
 // An integer of either sign.
 ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
 
+// ---- implicit_checks.cpp: calls of the project's own CheckBounds and its kin around a value, where it has them
+void callBoundsCheck(Context& context, ExprId& index, const types::Dimension& dimension);
+void callDivisorCheck(Context& context, ExprId& divisor);
+void callRangeCheck(Context& context, ExprId& value, TypeId subrange);
+void callPointerCheck(Context& context, ExprId& pointer, TypeId target, bool writes);
+
 // ---- any_inputs.cpp
 // The item of __SYSTEM.TYPE_CLASS for a type.
 uint32_t typeClassOf(const Context& context, TypeId type);

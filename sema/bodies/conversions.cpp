@@ -432,6 +432,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
     if (const Entity object = entityOf(context, expr); object.entityKind() == EntityKind::Var)
       markAccess(context, VarId{object.index}, Access::Address);
+  callRangeCheck(context, expr, to);
   wrapConvert(context, expr, to);
   return true;
 }

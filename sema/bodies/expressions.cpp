@@ -77,6 +77,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
       ok = false;
     } else if (ok) {
       checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
+      if (!info->dimensions.empty()) callBoundsCheck(context, index, info->dimensions[i]);
     }
   }
   if (!ok) return node.h.type = types::kError;
@@ -84,7 +85,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   return node.h.type = info->base;
 }
 
-TypeId checkDeref(Context& context, ExprId& expr) {
+TypeId checkDeref(Context& context, ExprId& expr, Access access) {
   DerefExpr& node = context.tree().as<DerefExpr>(expr);
   if (node.h.type) return node.h.type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
@@ -95,6 +96,8 @@ TypeId checkDeref(Context& context, ExprId& expr) {
     return node.h.type = types::kError;
   }
   node.h.writable = 1;
+  const bool writes = access == Access::Write || access == Access::ReadWrite;
+  if (writes || access == Access::Read) callPointerCheck(context, node.base, info.base, writes);
   return node.h.type = info.base;
 }
 
@@ -142,7 +145,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Index: return checkIndex(context, expr, access);
     case ExprKind::This:
     case ExprKind::Super: return checkThisOrSuper(context, expr, expected, access);
-    case ExprKind::Deref: return checkDeref(context, expr);
+    case ExprKind::Deref: return checkDeref(context, expr, access);
     case ExprKind::BitAccess: return checkBitAccess(context, expr, access);
     case ExprKind::Address: return checkAddress(context, expr);
     case ExprKind::Unary: return checkUnary(context, expr, expected);

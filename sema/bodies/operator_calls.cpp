@@ -119,6 +119,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
         operands.values[1]) {
       const BinaryOp op = pou.pragmas.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
       if (!checkDivisor(context, operands.values[1], op)) return node.h.type = types::kError;
+      callDivisorCheck(context, operands.values[1]);
     }
   }
   if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {

@@ -371,6 +371,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   }
   if (op == BinaryOp::Divide || op == BinaryOp::Modulo) {
     if (!checkDivisor(context, node.right, op)) return node.h.type = types::kError;
+    callDivisorCheck(context, node.right);
   }
   return node.h.type = common;
 }

@@ -45,6 +45,10 @@ void internKnownNames(Context& context) {
       {&Known::fault, "fault"},
       {&Known::no_copy, "no_copy"},
       {&Known::bytes, "bytes"},
+      {&Known::attribute_no_check, "no_check"},
+      {&Known::attribute_obsolete, "obsolete"},
+      {&Known::attribute_to_string, "to_string"},
+      {&Known::attribute_call_after_init, "call_after_init"},
   };
   for (const Row& row : kRows)
     context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
@@ -136,6 +140,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
   pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
   pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
+  pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
@@ -275,6 +280,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   const SectionDecl& section = context.tree().as<SectionDecl>(section_id);
   GlobalList& list = project.global_lists[list_id.index];
   ListScope& scope = scopes.lists[list_id.index];
+  checkModifiers(context, section);
   const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();

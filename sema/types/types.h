@@ -100,6 +100,7 @@ struct Field {
   FieldRole role = FieldRole::Member;
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
+  bool non_retain = false;    // not kept, even where the instance is retained
   uint32_t given_offset = 0;  // of a union whose members have AT positions
   uint32_t offset = 0;        // after layout
 };

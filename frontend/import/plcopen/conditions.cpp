@@ -215,6 +215,7 @@ void Chart::writeExpression(const Condition& condition) {
 
 std::vector<xml::Excerpt> Chart::namesOf(const std::vector<uint32_t>& steps) const {
   std::vector<xml::Excerpt> names;
+  names.reserve(steps.size());
   for (const uint32_t step : steps) names.push_back(stepName(step));
   return names;
 }
