@@ -35,6 +35,7 @@ struct Context {
   TypeId items_of = {};       // an enumeration that is being declared: its items need no qualifier
   bool library = false;       // inside a library: read as codesys, names of the project are not visible
   RegionId region = {};       // the namespaces around the current location
+  TypeId record = {};         // a structure whose members get their initial values: THIS
   ListId list = {};           // a list of globals that is being declared: its variables need no qualifier
 
   Tree& tree() const { return symbols.tree; }

@@ -183,7 +183,7 @@ struct Scopes {
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
         required, lazy, extensible, long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault,
-        no_copy, bytes, attribute_no_check;
+        no_copy, bytes, attribute_no_check, attribute_obsolete, attribute_to_string, attribute_call_after_init;
   } known_names;
 
   std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> implicit_checks;  // the project's functions

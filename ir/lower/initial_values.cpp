@@ -187,6 +187,31 @@ void ObjectLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId 
     append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = copy(place)});
   construct(place, type);
   if (init) storeMembers(place, init);
+  callAfterInit(place, type);
+}
+
+// The base of an object that is being made: the whole is not made yet.
+bool ObjectLowering::isBasePart(ExprId place) const {
+  while (const auto* index = body_.expr(place).tryAs<IndexExpr>()) place = index->base;
+  const auto* part = body_.expr(place).tryAs<FieldExpr>();
+  if (part == nullptr) return false;
+  const sema::PouId derived = in_.pouOfRecord(typeOf(part->base));
+  return derived && project_.pou(derived).object.base_var &&
+         project_.var(project_.pou(derived).object.base_var).field == part->field;
+}
+
+// When FB_Init has run and the values of the declaration are set. CODESYS, "Attribute: call_after_init".
+void ObjectLowering::callAfterInit(ExprId place, TypeId type) {
+  const sema::PouId object = in_.pouOfRecord(type);
+  if (!object || isBasePart(place)) return;
+  rung::CallExpr node{};
+  node.h.loc = body_.expr(place).loc;
+  for (const sema::PouId method : in_.calledAfterInit(object)) {
+    sema::Call call;
+    call.kind = sema::CallKind::Method;
+    call.pou = method;
+    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(method).owner, node.h.loc));
+  }
 }
 
 // The variable to which a place belongs, if its declaration gives arguments to FB_Init.
@@ -211,15 +236,10 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
   if (!object) return;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(object, "FB_Init");
   if (methods.empty()) return;
+  if (isBasePart(place)) return;
   ExprId whole = place;
   while (const auto* index = body_.expr(whole).tryAs<IndexExpr>()) whole = index->base;
   const Expr at = body_.expr(whole);
-  if (const auto* part = at.tryAs<FieldExpr>()) {
-    const sema::PouId derived = in_.pouOfRecord(typeOf(part->base));
-    if (derived && project_.pou(derived).object.base_var &&
-        project_.var(project_.pou(derived).object.base_var).field == part->field)
-      return;  // the whole is not made yet
-  }
   CallId given;
   if (at.kind == ExprKind::Deref) {
     given = state_.given;

@@ -36,6 +36,7 @@ struct ModuleLowering {
   BodyId blockCallOf(sema::PouId block);
   // FB_Init or FB_Exit of an object and of the objects that it extends, the outermost base first.
   std::vector<sema::PouId> lifeMethodsOf(sema::PouId object, std::string_view name) const;
+  std::vector<sema::PouId> calledAfterInit(sema::PouId object) const;
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
   // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
@@ -268,6 +269,8 @@ class ObjectLowering : public BodyPart {
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
   void construct(ExprId place, TypeId type);
+  bool isBasePart(ExprId place) const;
+  void callAfterInit(ExprId place, TypeId type);
   const sema::Var* constructedVar(ExprId place) const;
   ExprId elementAt(ExprId array, uint64_t number, Loc loc);
   void forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,

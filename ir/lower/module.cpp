@@ -265,6 +265,7 @@ bool ModuleLowering::isZero(TypeId declared) {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
           if (project.pou(pou).kind == PouKind::Interface) return true;
           if (project.pou(pou).object.dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
+          if (!calledAfterInit(pou).empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;

@@ -10,9 +10,11 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
 #include "sema/bodies/pseudo_functions.h"
+#include "sema/checks/obsolete.h"
 #include "sema/checks/required_pins.h"
 #include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
+#include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"
 
@@ -265,6 +267,31 @@ TypeId resultOf(Context& context, CallExpr& node, const Pou& callee, bool as_sta
 
 namespace {
 
+// TO_STRING and TO_WSTRING of an enumeration with {attribute 'to_string'} call the function from its numbers to its
+// items.
+TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type) {
+  const bool wide = isNamed(context, callee.name, "TO_WSTRING");
+  if (context.iec() || !callee.library || (!wide && !isNamed(context, callee.name, "TO_STRING"))) return type;
+  if (type == types::kError || context.tree().kind(expr) != ExprKind::Call) return type;
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (!node.call || context.symbols.call(node.call).bindings.size() != 1) return type;
+  ExprId value = context.symbols.call(node.call).bindings[0].value;
+  while (value && context.tree().kind(value) == ExprKind::Convert)
+    value = context.tree().as<ConvertExpr>(value).operand;
+  const PouId names = value ? itemNamesOf(context, context.tree().expr(value).type) : PouId{};
+  if (!names) return type;
+  wrapConvert(context, value, types::kLInt);
+  const VarId pin = pinsOf(context, names)[0];
+  noteCall(context, names, node.h.loc);
+  Call& call = context.symbols.call(node.call);
+  call.pou = names;
+  call.bindings[0].pin = pin;
+  call.bindings[0].value = value;
+  node.h.type = types::idOf(TypeKind::String);
+  if (wide) wrapConvert(context, expr, types::idOf(TypeKind::WString));
+  return context.tree().expr(expr).type;
+}
+
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   bool checked = false;
@@ -273,7 +300,8 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   const Pou& callee = context.symbols.pou(pou);
   checkTestOnly(context, pou, node.h.loc);
   if (callee.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, pou, expected, {});
-  if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
+  if (callee.generic || callee.extensible)
+    return nameOfItem(context, expr, callee, checkGenericCall(context, expr, pou, expected, {}));
   Arguments arguments = matchArguments(context, node, pou);
   arguments.checked = checked;
   Call call;
@@ -429,6 +457,7 @@ std::span<const VarId> pinsOf(Context& context, PouId id) {
 void noteCall(Context& context, PouId callee, Loc loc) {
   Pou& pou = context.symbols.pou(callee);
   pou.progress.used = true;
+  if (pou.decl) checkObsolete(context, context.tree().decl(pou.decl), pou.name, loc);
   if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
 

@@ -85,7 +85,8 @@ bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, L
 
 namespace {
 
-// Forbids THIS and SUPER outside of objects.   fails   FUNCTION f … x := THIS^.y;       E0550
+// Forbids THIS and SUPER outside of objects; in the initial values of a structure's members THIS is the structure.
+//   fails   FUNCTION f … x := THIS^.y;       E0550
 PouId wantObject(Context& context, Loc loc, const char* word) {
   const PouId object = objectOf(context);
   if (object && context.symbols.pou(object).kind != PouKind::Program) return object;
@@ -95,6 +96,7 @@ PouId wantObject(Context& context, Loc loc, const char* word) {
 
 TypeId checkThis(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
+  if (context.record) return header.type = context.types().pointer(context.record);
   const PouId object = wantObject(context, header.loc, "THIS");
   if (!object) return header.type = types::kError;
   return header.type = context.types().pointer(context.symbols.pou(object).record);

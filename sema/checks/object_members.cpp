@@ -12,6 +12,7 @@
 
 #include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/scopes.h"
 
 namespace rung::sema {
 
@@ -131,6 +132,21 @@ void checkPrototypes(Context& context, PouId interface) {
   }
 }
 
+// Forbids inputs of a method that is called after the initialization of its object: nothing gives them values.
+// CODESYS, "Attribute: call_after_init".
+//   fails   {attribute 'call_after_init'} METHOD Prepare VAR_INPUT x : INT; END_VAR …        E0649
+void checkCalledAfterInit(Context& context, PouId id) {
+  const Pou& method = context.symbols.pou(id);
+  const DeclHeader& header = context.tree().decl(method.decl);
+  if (findPragma(context, header, context.scopes.known_names.attribute_call_after_init) == nullptr) return;
+  for (const VarId pin : pinsOf(context, id)) {
+    const Var& var = context.symbols.var(pin);
+    if (var.section == SectionKind::Output) continue;
+    context.report(diag::InputAfterInit, var.loc, {string(context, var.name), string(context, method.name)});
+    return;
+  }
+}
+
 void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.symbols.pou(id);
   const Pou& owner = context.symbols.pou(object);
@@ -144,6 +160,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
     if (first.entityKind() == EntityKind::Var)
       return reportTwice(context, method.name, method.loc, context.symbols.vars[first.index].loc);
   }
+  checkCalledAfterInit(context, id);
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.object.modifiers & kOverride) != 0)

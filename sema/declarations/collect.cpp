@@ -46,6 +46,9 @@ void internKnownNames(Context& context) {
       {&Known::no_copy, "no_copy"},
       {&Known::bytes, "bytes"},
       {&Known::attribute_no_check, "no_check"},
+      {&Known::attribute_obsolete, "obsolete"},
+      {&Known::attribute_to_string, "to_string"},
+      {&Known::attribute_call_after_init, "call_after_init"},
   };
   for (const Row& row : kRows)
     context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
@@ -277,6 +280,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   const SectionDecl& section = context.tree().as<SectionDecl>(section_id);
   GlobalList& list = project.global_lists[list_id.index];
   ListScope& scope = scopes.lists[list_id.index];
+  checkModifiers(context, section);
   const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();

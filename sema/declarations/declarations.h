@@ -96,6 +96,7 @@ void ensureVarType(Context& context, VarId id);
 void ensureInitialValue(Context& context, VarId id);
 void declarePou(Context& context, PouId pou);
 void resolveList(Context& context, ListId list);
+void checkModifiers(Context& context, const SectionDecl& section);
 // The field of a record that holds a variable.
 void addField(Context& context, TypeId record, VarId id);
 // The record type of a STRUCT or UNION, without its members. (types.cpp)
@@ -153,6 +154,9 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 // The instance of a block with VAR_GENERIC CONSTANT for the values in `Ring<20>`, created on first use; a block without
 // them is its own instance. None: reported.
 PouId instantiateBlock(Context& context, PouId block, const NamedTypeExpr& written);
+
+// The function from a number to the name of the item, of an enumeration with {attribute 'to_string'}; else none.
+PouId itemNamesOf(Context& context, TypeId type);
 
 // ---- initial_values.cpp
 // What an initial value may read in codesys: only constants, variables with the same lifetime, also those of the call.

@@ -2,6 +2,7 @@
 // pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
 // blocks within blocks need no deep recursion.
 #include "frontend/syntax/diagnostics.h"
+#include "sema/checks/obsolete.h"
 #include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -151,6 +152,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     refuseGenerics();
   }
   const TypeId type = typeOf(context, found);
+  if (const NamedType* named = type ? context.scopes.named(type) : nullptr) {
+    const DeclId decl = named->pou ? context.symbols.pou(named->pou).decl : named->decl;
+    if (decl) checkObsolete(context, context.tree().decl(decl), last.name, last.loc);
+  }
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);
   return types::kError;

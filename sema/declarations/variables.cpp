@@ -69,7 +69,9 @@ Context contextOf(Context& context, VarId id) {
   const Var& var = context.symbols.var(id);
   if (var.pou) return atPou(context, var.pou);
   if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
-    return at(context, named->owner, named->file, named->library, named->region);
+    Context there = at(context, named->owner, named->file, named->library, named->region);
+    if (!named->owner) there.record = var.record;
+    return there;
   }
   const NamedType* list = nullptr;
   if (var.list) list = context.scopes.named(context.symbols.global_lists[var.list.index].record);
@@ -483,7 +485,8 @@ static void declareEno(Context& context, PouId id) {
 // Forbids, in iec, modifiers that contradict their section: a constant is not retained; an in-out, and a variable of
 // one call, has no memory to keep; an output is written by its block. IEC 61131-3 ed. 3 table 14 and figure 9.
 //   passes  VAR RETAIN n : INT; END_VAR      fails  VAR_TEMP RETAIN n : INT; END_VAR      E0372
-static void checkModifiers(Context& context, const SectionDecl& section) {
+void checkModifiers(Context& context, const SectionDecl& section) {
+  if (!context.iec()) return;
   const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0;
   const bool constant = (section.h.bits & kConstant) != 0;
   const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
@@ -520,7 +523,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
-  if (there.iec()) checkModifiers(there, section);
+  checkModifiers(there, section);
   if ((section.h.bits & kGeneric) != 0) giveGenericsValues(there, section);
   const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
   const size_t first_var = symbols.vars.size();

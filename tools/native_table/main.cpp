@@ -106,7 +106,7 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   for (const rung::sema::LibraryFile& file : libraries.files) {
     for (const rung::sema::IndexedBlock& block : rung::sema::indexLibrary(file.source)) {
       for (const std::string_view name : block.names) {
-        rung::sema::lookUpLibrary(context, names.intern(name));
+        rung::sema::lookUpLibrary(context, names.key(names.intern(name)));
         rung::sema::resolveDeclarations(context);
       }
     }
