@@ -301,9 +301,20 @@ class StatementLowering : public BodyPart {
   void lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc);
   void lowerCase(const CaseStmt& stmt);
   void lowerFor(const rung::ForStmt& stmt);
+  // The end value of a FOR loop, with the statements that calculate it, if they are to run before every turn.
+  struct Limit {
+    Block statements;
+    ExprId value;
+    bool is_variable = false;
+  };
+  void link(Block statements);
+  Block lowerBlock(Slice<rung::StmtId> statements);
+  bool mayChange(ExprId value, StmtId loop, ExprId control) const;
+  void lowerForWithVariableLimit(ExprId control, ExprId from, const Limit& limit, const Value& step, Block body,
+                                 Loc loc);
   void lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                          const std::optional<Value>& step);
-  void lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                          const std::optional<Value>& step, Block statements);
+  void lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, const Limit& limit,
                                 FunctionRef<void()> iteration);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);

@@ -1,5 +1,8 @@
 // Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body. An assignment
 // evaluates the calls of its right side first, then the place, then stores: `a[i] := f()` uses the `i` that `f` left.
+#include <utility>
+
+#include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 #include "sema/intermediate.h"
 
@@ -230,26 +233,80 @@ void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   TypeId type = typeOf(control), plain = types_.plain(type);
   std::optional<Value> step = Value{plain, 1};
   if (stmt.step) step = constantOf(project_, stmt.step);
-  ExprId from = values().lowerValue(stmt.from);
-  ExprId to = lowerAfter({&from}, [&] { return values().lowerValue(stmt.to); });
-  from = convertValue(from, type, loc);
-  to = convertValue(to, type, loc);
+  ExprId from = convertValue(values().lowerValue(stmt.from), type, loc);
+  Limit limit;
+  const Block outer = build_.open();
+  limit.value = convertValue(values().lowerValue(stmt.to), type, loc);
+  limit.statements = build_.block();
+  build_.close(outer);
+  const Block body = lowerBlock(stmt.body);
+  const bool once =
+      project_.dialect != Dialect::Codesys || project_.pou(pou_).library || types_.kind(type) == TypeKind::Subrange;
+  limit.is_variable = !once && (mayChange(limit.value, body.first, control) || limit.statements.first);
+  if (!limit.is_variable && limit.statements.first) {
+    if (!isStable(from)) from = toTemp(from, loc);
+    link(std::exchange(limit.statements, {}));
+  }
   // An unsigned variable that counts down by a constant (codesys) needs the test of the direction, like an unknown
   // step: the step keeps its sign, and the loop stops before the variable wraps.
   if (stmt.step && types_.isSigned(types_.plainKind(tree_.expr(stmt.step).type)) != types_.isSigned(types_.kind(plain)))
     step.reset();
-  if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, to, step);
-  if (!step) return lowerForWithVariableStep(stmt, control, from, to, [&] { lowerStatements(stmt.body); });
-  StmtId body = block([&] { lowerStatements(stmt.body); });
-  append(
-      loc,
-      ForStmt{.control = control, .from = from, .to = to, .step = constant(type, step->bits, loc), .body_block = body});
+  if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, limit.value, step, body);
+  if (!step) return lowerForWithVariableStep(stmt, control, from, limit, [&] { link(body); });
+  if (limit.is_variable) return lowerForWithVariableLimit(control, from, limit, *step, body, loc);
+  append(loc, ForStmt{.control = control,
+                      .from = from,
+                      .to = limit.value,
+                      .step = constant(type, step->bits, loc),
+                      .body_block = body.first});
+}
+
+Block StatementLowering::lowerBlock(Slice<rung::StmtId> statements) {
+  const Block outer = build_.open();
+  lowerStatements(statements);
+  const Block lowered = build_.block();
+  build_.close(outer);
+  return lowered;
+}
+
+// Appends statements that were lowered before.
+void StatementLowering::link(Block statements) {
+  if (!statements.first) return;
+  Block& open = build_.block();
+  if (open.last)
+    body_.stmt(open.last).next = statements.first;
+  else
+    open.first = statements.first;
+  open.last = statements.last;
+}
+
+// codesys: the end value is evaluated before every turn. The loop counts to the limit of the type, and leaves as soon
+// as the control variable is past the end value.
+void StatementLowering::lowerForWithVariableLimit(ExprId control, ExprId from, const Limit& limit, const Value& step,
+                                                  Block body, Loc loc) {
+  const TypeId type = typeOf(control);
+  const TypeKind kind = types_.plainKind(type);
+  const bool is_signed = types_.isSigned(kind), upward = !is_signed || step.asSigned() > 0;
+  const uint64_t highest = ~uint64_t{0} >> (64 - TypeTable::bitWidth(kind) + (is_signed ? 1 : 0));
+  const uint64_t last = upward ? highest : ~highest;
+  const StmtId block_of = block([&] {
+    link(limit.statements);
+    const StmtId leave = block([&] { append(loc, BreakStmt{}); });
+    append(loc, IfStmt{.condition = binary(upward ? Op::Gt : Op::Lt, types::kBool, copy(control), limit.value, loc),
+                       .then_block = leave});
+    link(body);
+  });
+  append(loc, ForStmt{.control = control,
+                      .from = from,
+                      .to = constant(type, last, loc),
+                      .step = constant(type, step.bits, loc),
+                      .body_block = block_of});
 }
 
 // FOR with a control variable of a subrange type counts in the plain type, since the first value that fails the test
 // may be outside the subrange. Then the variable is left at the limit.
 void StatementLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                           const std::optional<Value>& step) {
+                                           const std::optional<Value>& step, Block statements) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control), plain = types_.plain(type);
   ExprId count = temp(plain, loc);
@@ -259,7 +316,7 @@ void StatementLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId con
   };
   auto iteration = [&] {
     store(copy(count));
-    lowerStatements(stmt.body);
+    link(statements);
   };
   if (step) {
     StmtId body = block(iteration);
@@ -269,7 +326,7 @@ void StatementLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId con
                         .step = constant(plain, step->bits, loc),
                         .body_block = body});
   } else {
-    lowerForWithVariableStep(stmt, copy(count), first, copy(last), iteration);
+    lowerForWithVariableStep(stmt, copy(count), first, {.statements = {}, .value = copy(last)}, iteration);
   }
   const TypeInfo& range = types_.info(type);
   auto bound = [&](int64_t value) { return constant(plain, static_cast<uint64_t>(value), loc); };
@@ -282,12 +339,12 @@ void StatementLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId con
 
 // FOR with a step that is only known at run time: the direction is tested in each iteration, and the loop ends when the
 // next value does not fit the type.
-void StatementLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                                 FunctionRef<void()> iteration) {
+void StatementLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from,
+                                                 const Limit& limit, FunctionRef<void()> iteration) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control);
   from = toTemp(from, loc);
-  to = toTemp(to, loc);
+  const ExprId to = limit.is_variable ? temp(type, loc) : toTemp(limit.value, loc);
   ExprId step = toTemp(values().lowerValue(stmt.step), loc);
   TypeId step_type = typeOf(step);  // of an unsigned variable perhaps the signed type of its width
   assign(copy(control), from, loc);
@@ -305,6 +362,10 @@ void StatementLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, Expr
     return add(loc, types::kBool, SelectExpr{.condition = copy(upward), .when_true = when_up, .when_false = when_down});
   };
   StmtId body = block([&] {
+    if (limit.is_variable) {
+      link(limit.statements);
+      assign(copy(to), limit.value, loc);
+    }
     ExprId past = chosen(comparison(Op::Gt, control, to), comparison(Op::Lt, control, to));
     append(loc, IfStmt{.condition = past, .then_block = leave});
     iteration();

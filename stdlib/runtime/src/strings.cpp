@@ -321,10 +321,7 @@ uint64_t rung_scalar_of_string(uint8_t kind, const char* string) {
   size_t size = strlen(string);
   while (size > 0 && isBlank(string[size - 1])) --size;
   switch (static_cast<rung_type_kind>(kind)) {
-    case RUNG_BOOL: {
-      uint8_t value = 0;
-      return rung_parse(RUNG_BOOL, false, 0, string, size, &value) ? value : 0;
-    }
+    case RUNG_BOOL: return size == 4 && (memcmp(string, "TRUE", 4) == 0 || memcmp(string, "true", 4) == 0) ? 1 : 0;
     case RUNG_REAL: return rung_bits_of_f64(readLeadingReal<float>(string));
     case RUNG_LREAL: return rung_bits_of_f64(readLeadingReal<double>(string));
     case RUNG_TIME:
