@@ -42,9 +42,9 @@ class TreeExprPrinter {
     out += ' ';
     expr(id, depth);
   }
-  // Nothing where the expression is missing.
+  // Nothing where no expression is written.
   void optional(const char* before, ExprId id) {
-    if (!id) return;
+    if (!id || !tree_.written(id)) return;
     out += before;
     expr(id);
   }

@@ -73,8 +73,8 @@ class RangeCheck {
     const ExprKind kind = tree_.kind(id);
     if (shape(kind) == ExprShape::Initializer || kind == ExprKind::Range || kind == ExprKind::Error) return;
     if (kind == ExprKind::Call && (!tree_.as<CallExpr>(id).callee || hasNestedIl(range))) return;
-    const bool operator_name = kind == ExprKind::Name && isOperatorName(textOf(range));  // AND(a, b), a box ADD
-    if (operator_name) return;
+    const bool depends = kind == ExprKind::Name && isNameBesideOthers(textOf(range));  // AND(a, b); a variable `to`
+    if (depends) return;
     reparse(std::string(textOf(range)), [&](FileId file) {
       const ExprId again = text::parseExpression(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
       EXPECT_TRUE(again) << where(range);
@@ -118,8 +118,9 @@ class RangeCheck {
     EXPECT_EQ(diagnostics_.errorCount(), errors) << path_ << ": `" << shown << "`";
   }
   bool hasNestedIl(Range range) const { return textOf(range).find("(LD ") != std::string_view::npos; }
-  static bool isOperatorName(std::string_view name) {
-    for (const char* word : {"AND", "OR", "XOR", "MOD", "NOT"})
+  static bool isNameBesideOthers(std::string_view name) {
+    for (const char* word : {"AND", "OR", "XOR", "MOD", "NOT", "TO", "BY", "CONTINUE", "CHAR", "WCHAR", "REF_TO",
+                             "LTIME", "LDATE", "LTOD", "LDT"})
       if (sameIdentifier(name, word)) return true;
     return false;
   }
