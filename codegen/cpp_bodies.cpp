@@ -291,7 +291,7 @@ class Writer {
         take_back += "    " + place + " = rung_before_" + pin + ";\n";
         continue;
       }
-      members += std::string("  ") + (field.role == FieldRole::Output ? "const " : "") + seen + "& " + pin + ";\n";
+      members += "  " + (field.role == FieldRole::Output ? constantOf(seen) : seen) + "& " + pin + ";\n";
       init += ", " + pin + "(rung::cpp::view<" + seen + ">(" + place + "))";
     }
     const std::string body = isBlock(type) ? bodyOf(type, lend, take_back) + methodsOf(type) : "";
@@ -379,7 +379,7 @@ class Writer {
       created.parameters += (created.parameters.empty() ? "" : ", ");
       created.names += (created.names.empty() ? "" : ", ") + name;
       if (local.kind == LocalKind::Input) {
-        created.parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
+        created.parameters += (local.by_reference ? constantOf(seen) + "& " : seen + ' ') + name;
         arguments += ", " + (local.by_reference ? pointer(local.type, "&" + name, true)
                                                 : "rung::cpp::bits<" + std::string(scalarType(types_, local.type)) +
                                                       ">(" + name + ")");
@@ -494,8 +494,8 @@ class Writer {
     if (!holdsBlock(type)) {
       const std::string seen = view(type);
       if (seen.empty()) return {};
-      return std::string("    ") + (constant ? "const " : "") + seen + "& " + called + " = rung::cpp::view<" + seen +
-             ">(" + place + ");\n";
+      return "    " + (constant ? constantOf(seen) : seen) + "& " + called + " = rung::cpp::view<" + seen + ">(" +
+             place + ");\n";
     }
     const Objects objects = objectsOf(called, type, place);
     return objects.declaration.empty() ? "" : "    " + objects.declaration + objects.begin + ";\n";

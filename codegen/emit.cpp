@@ -181,7 +181,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   }
   setPhaseSubject("", 0);
 
-  RecordDefinitions records(module, facts, name_space);
+  RecordDefinitions records(module, facts, name_space, options.bundled);
   for (const Group& group : groups) records.need(group.records, false);
   for (const Group& header : headers) records.need(header.records, true);
   for (const CppFile& file : cpp_files) records.need(file.group.records, false);

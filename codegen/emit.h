@@ -15,7 +15,8 @@ struct EmitOptions {
   bool line_directives = true;
   bool optimize_all = false;  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h)
   bool (*is_native_of_rung)(std::string_view function) = nullptr;  // the others get a header; none: no header
-  bool with_tests = false;                                         // `rung test`: entries of the tests instead of tasks
+  bool bundled = false;     // a C++ file may include several sources: what two of them define is in a header
+  bool with_tests = false;  // `rung test`: entries of the tests instead of tasks
 };
 
 struct OutputFile {

@@ -28,8 +28,9 @@ const char* keyword(RecordKind kind) {
 
 }  // namespace
 
-RecordDefinitions::RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space)
-    : module_(module), facts_(facts), name_space_(name_space) {
+RecordDefinitions::RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space,
+                                     bool bundled)
+    : module_(module), facts_(facts), name_space_(name_space), max_copies_(bundled ? 1 : kMaxCopies) {
   row_of_.resize(module.types.count());
   for (uint32_t i = 0; i < module.records.size(); ++i) {
     row_of_[module.types.resolve(module.records[i].type).index] = i + 1;

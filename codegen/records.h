@@ -4,7 +4,8 @@
 // A record that few sources use is written into each of them, after the records that it holds: a change of its fields
 // then recompiles exactly its users, g++ opens no file for it, and a project of thousands of blocks makes few files
 // (39 instead of 989 for 100 000 lines, and g++ parses a fifth less). A record that more than kMaxCopies sources use
-// has its own header, so that the code stays linear in the project. The layout is asserted once, beside its code.
+// has its own header, so that the code stays linear in the project. Where sources are bundled (EmitOptions), a record
+// that two use has a header too. The layout is asserted once, beside its code.
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ namespace rung::codegen {
 
 class RecordDefinitions {
  public:
-  RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space);
+  RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space, bool bundled);
 
   // A source needs these complete. `shared`: it is itself a header, which must not repeat their definitions.
   void need(const std::vector<TypeId>& records, bool shared);
@@ -28,7 +29,7 @@ class RecordDefinitions {
 
  private:
   static constexpr uint32_t kMaxCopies = 4;
-  bool hasHeader(uint32_t row) const { return copies_[row] > kMaxCopies; }
+  bool hasHeader(uint32_t row) const { return copies_[row] > max_copies_; }
   template <class F>
   void forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f);  // each once, held records first
   template <class F>
@@ -39,6 +40,7 @@ class RecordDefinitions {
   const ir::Module& module_;
   const Facts& facts_;
   std::string name_space_;
+  uint32_t max_copies_;
   std::vector<uint32_t> row_of_;  // by type: index into module.records + 1
   std::vector<uint32_t> copies_, seen_, held_seen_;
   std::vector<std::vector<uint32_t>> held_;

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "ir/builder.h"
+#include "ir/string_end.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -48,7 +50,7 @@ uint32_t StringWriter::literalLength(const Expr& e) const {
 bool StringWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
-  if (isSlice(id)) return false;
+  if (isSlice(id) || (ir::isPlace(e.kind) && ir::mayLackEnd(types_, *body_, id))) return false;
   switch (e.kind) {
     case ExprKind::Local: return !body_->locals[e.as<ir::LocalExpr>().local].by_reference;
     case ExprKind::Field: return !fieldOf(e.as<ir::FieldExpr>()).by_reference;

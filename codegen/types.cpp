@@ -248,9 +248,12 @@ void appendDeclaration(std::string& out, const TypeTable& types, TypeId type, st
   appendDimensions(out, types, type);
 }
 
+std::string constantOf(const std::string& type) { return type.back() == '*' ? type + " const" : "const " + type; }
+
 void appendPointer(std::string& out, const TypeTable& types, TypeId type, std::string_view name, bool constant) {
-  if (constant) out += "const ";
-  appendBase(out, types, type);
+  std::string base;
+  appendBase(base, types, type);
+  out += constant ? constantOf(base) : base;
   if (types.kind(type) != TypeKind::Array) {
     out += "* ";
     out += name;

@@ -18,6 +18,7 @@ const char* typeKindName(const types::TypeTable& types, TypeId type);
 
 // `int16_t x_`, `float x_[3][4]`, `char x_[81]`, `struct Ramp_type x_`.
 void appendDeclaration(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name);
+std::string constantOf(const std::string& type);  // `const float`, `void* const`
 // A pointer to such a variable: `int16_t* x_`, `float (*x_)[3][4]`, `char* x_`, `struct Ramp_type* x_`.
 void appendPointer(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name,
                    bool constant = false);

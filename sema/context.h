@@ -48,6 +48,8 @@ struct Context {
     return symbols.diagnostics.report(diag, loc, args);
   }
   bool iec() const { return !library && symbols.dialect != Dialect::Codesys; }
+  // Integers compute in the native width: sema/intermediate.h.
+  bool isWide() const { return !library && symbols.dialect == Dialect::Codesys; }
 };
 
 // ---- declarations (declarations/)

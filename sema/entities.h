@@ -227,6 +227,7 @@ struct Symbols {
   Diagnostics& diagnostics;
   Tree& tree;
   Dialect dialect;
+  uint32_t native_width;  // 32 or 64: intermediate.h
   types::TypeTable types;
 
   std::deque<Var> vars = std::deque<Var>(1);

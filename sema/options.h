@@ -43,8 +43,10 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   Dialect dialect = Dialect::Codesys;
   uint32_t pointer_size = 8;
+  uint32_t native_width = 32;                  // codesys: intermediate results have at least so many bits, 32 or 64
   std::string_view name = "plc";               // of the module: instance paths begin with it
   std::span<const LibraryFile> libraries;      // sources that outlive the project; declarations are parsed on first use
+  std::vector<FileId> library_files;           // of a library among the sources: no task runs their programs
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;  // none: calls of functions are not constant

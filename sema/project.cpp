@@ -17,8 +17,13 @@ namespace rung::sema {
 
 Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagnostics, Tree& the_tree,
                  Options the_options)
-    : Symbols{the_sources, the_names,           the_diagnostics,
-              the_tree,    the_options.dialect, types::TypeTable(the_names, the_options.pointer_size)},
+    : Symbols{the_sources,
+              the_names,
+              the_diagnostics,
+              the_tree,
+              the_options.dialect,
+              the_options.native_width,
+              types::TypeTable(the_names, the_options.pointer_size)},
       options(std::move(the_options)) {
   for (const types::MemoryArea& area : options.areas) area_bytes.push_back(area.bytes);
   types.time_is_signed = dialect != Dialect::Codesys;

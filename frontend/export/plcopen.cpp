@@ -6,6 +6,7 @@
 
 #include "frontend/export/diagnostics.h"
 #include "frontend/export/exporter.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::exporter {
@@ -369,11 +370,22 @@ class ProjectExport {
   std::deque<SourceText> texts_;
 };
 
+// The first byte outside of comments that is not UTF-8. In comments it is Latin-1, of which the writer makes UTF-8.
+size_t findInvalidCode(std::string_view text) {
+  if (findInvalidUtf8(text) == std::string_view::npos) return text.size();
+  Scanner scanner(text);
+  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+    const size_t bad = findInvalidUtf8(scanner.textOf(unit));
+    if (bad != std::string_view::npos) return unit.begin + bad;
+  }
+  return text.size();
+}
+
 // Forbids characters that XML cannot contain: bytes that are not UTF-8, and control characters. XML 1.0, 2.2.
 void ProjectExport::checkTexts() {
   for (const FileUnit& unit : files_) {
     const std::string_view text = to_.sources.sourceText(unit.file);
-    size_t bad = std::min(findInvalidUtf8(text), text.size());
+    size_t bad = findInvalidCode(text);
     for (size_t p = 0; p < bad; ++p)
       if (static_cast<unsigned char>(text[p]) < ' ' && text[p] != '\t' && text[p] != '\n' && text[p] != '\r') bad = p;
     if (bad == text.size()) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/source/files.h"
+
 namespace rung::xml {
 
 void Writer::endTag() {
@@ -17,8 +19,25 @@ Writer& Writer::open(std::string_view name) {
   return *this;
 }
 
+namespace {
+
+// The text with bytes that are not UTF-8 read as Latin-1. `storage` holds it where it differs.
+std::string_view asUtf8(std::string_view text, std::string& storage) {
+  for (size_t bad = findInvalidUtf8(text); bad != std::string_view::npos; bad = findInvalidUtf8(text)) {
+    storage += text.substr(0, bad);
+    appendUtf8(storage, static_cast<unsigned char>(text[bad]));
+    text.remove_prefix(bad + 1);
+  }
+  if (storage.empty()) return text;
+  storage += text;
+  return storage;
+}
+
+}  // namespace
+
 void Writer::escaped(std::string_view text, bool in_attribute) {
-  for (const char c : text) {
+  std::string storage;
+  for (const char c : asUtf8(text, storage)) {
     switch (c) {
       case '&': out_ += "&amp;"; break;
       case '<': out_ += "&lt;"; break;
@@ -69,6 +88,8 @@ void Writer::formatted(std::string_view name, std::string_view content) {
   open(name);
   text({});
   out_ += "<xhtml:p><![CDATA[";
+  std::string storage;
+  content = asUtf8(content, storage);
   for (size_t p = 0; p < content.size();) {
     const size_t end = std::min(content.find("]]>", p), content.size());
     for (const char c : content.substr(p, end - p))

@@ -31,11 +31,13 @@ class ChartParser : public NetworkParser {
   bool atCondition() const;
   bool atOwnAction() const;
   void openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps);
+  void skipMacro();
   void closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, std::span<const SfcStep> steps);
   void inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
                     std::vector<SfcTransition>& transitions);
   void parseStep(std::vector<SfcStep>& out);
   void parseStepTimes(SfcStep& step);
+  bool parseActionName(Ident& out);
   bool parseAssociation(std::vector<SfcAssociation>& out);
   bool parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members);
   bool parseSteps(Slice<Ident>& out);

@@ -46,7 +46,9 @@ void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
     if (atSection()) {
       member = parseSection();
     } else if (at(Tok::Resource)) {
+      if (!enterDecl(Tok::EndResource)) continue;
       member = parseResource();
+      --decl_depth_;
     } else if (at(Tok::Task)) {
       member = parseTask();
     } else if (at(Tok::Program)) {

@@ -48,6 +48,8 @@ ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
     last_error_ = token;
     return build_.error(start);
   }
+  if (value.has_underscore_pair && dialect_ != Dialect::Codesys)
+    diagnostics_.report(diag::NumberUnderscore, loc(token), {textOf(token)});
   uint8_t bits = static_cast<uint8_t>((negative ? kLiteralNegative : 0) | (value.is_based ? kLiteralBased : 0));
   if (prefix) {
     const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);

@@ -17,15 +17,18 @@ int hexDigit(char c) {
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-// `_` only between digits.
-bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics) {
+// `_` only between digits; several in a row are left to the caller.
+bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics,
+                      NumberValue& value) {
+  const auto isUnderscoreOrDigit = [](char c) { return c == '_' || hexDigit(c) >= 0; };
   for (size_t i = 0; i < digits.size(); ++i) {
     if (digits[i] != '_') continue;
-    if (i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && hexDigit(digits[i - 1]) >= 0 &&
-        hexDigit(digits[i + 1]) >= 0)
-      continue;
-    diagnostics.report(diag::NumberUnderscore, loc, {text});
-    return false;
+    if (i == 0 || i + 1 == digits.size() || !isUnderscoreOrDigit(digits[i - 1]) ||
+        !isUnderscoreOrDigit(digits[i + 1])) {
+      diagnostics.report(diag::NumberUnderscore, loc, {text});
+      return false;
+    }
+    value.has_underscore_pair = value.has_underscore_pair || digits[i + 1] == '_';
   }
   return true;
 }
@@ -166,7 +169,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
         return false;
       }
     }
-    return checkUnderscores(digits, text, loc, diagnostics);
+    return checkUnderscores(digits, text, loc, diagnostics, value);
   }
   size_t i = 0;
   while (i < text.size() && (isDigit(text[i]) || text[i] == '_')) ++i;
@@ -190,7 +193,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
         return false;
       }
     }
-    return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics);
+    return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics, value);
   }
   if (i != text.size()) {
     diagnostics.report(diag::NumberSuffix, loc, {text});
@@ -204,7 +207,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       return false;
     }
   }
-  return checkUnderscores(text, text, loc, diagnostics);
+  return checkUnderscores(text, text, loc, diagnostics, value);
 }
 
 // duration = ["-"] number unit {["_"] number unit}; every unit may exceed its range (T#100s12ms, T#29h90m).
@@ -271,7 +274,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     last_text = part_text.substr(0, part_text.size() - rest.size());
     next_unit = u + 1;
     uint64_t amount = 0, product = 0;
-    if (!checkUnderscores(digits, text, loc, diagnostics)) return false;
+    NumberValue grouped;
+    if (!checkUnderscores(digits, text, loc, diagnostics, grouped)) return false;
     fits = fits && takeNumber(digits, amount) && !__builtin_mul_overflow(amount, kUnits[u].nanoseconds, &product) &&
            !__builtin_add_overflow(sum, product, &sum) &&
            !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);

@@ -13,7 +13,8 @@ namespace rung::text {
 struct NumberValue {
   bool is_real = false;
   bool is_based = false;
-  uint64_t integer = 0;  // magnitude
+  bool has_underscore_pair = false;  // 1__000, an error in the standard
+  uint64_t integer = 0;              // magnitude
   double real = 0;
 };
 // 12  1_000  16#FF  1.5e3. False: an error was reported.

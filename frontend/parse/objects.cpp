@@ -37,12 +37,15 @@ void Parser::parseMember(std::vector<DeclId>& out) {
   const Tok pou_end = pou_end_;
   const Known pou_closes = pou_closes_;
   panic_ = false;
+  const Tok end = at(Tok::Property) ? Tok::EndProperty : at(Tok::Method) ? Tok::EndMethod : Tok::EndAction;
+  if (!enterDecl(end)) return;
   if (!at(Tok::Property))
     out.push_back(parsePou());
   else if (is(t_, "PROPERTY"))
     out.push_back(parseProperty());
   else
     parseHalfProperty(out);
+  --decl_depth_;
   panic_ = false;
   declared_in_body_ = declared_in_body;
   lost_ = lost;
@@ -181,6 +184,7 @@ DeclId Parser::parseNamespace() {
   } else {
     missingEnd("END_NAMESPACE", open, "NAMESPACE");
   }
+  --decl_depth_;
   return finish(d);
 }
 

@@ -43,6 +43,7 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
   static constexpr TokSet kPous = {Tok::Function, Tok::FunctionBlock, Tok::Interface, Tok::Class, Tok::Program};
   static constexpr TokSet kSections = {Tok::VarGlobal, Tok::VarConfig, Tok::VarAccess, Tok::VarExternal};
   DeclId decl;
+  if (at(Tok::Namespace) && !enterDecl(Tok::EndNamespace)) return;
   if (kPous.has(kind()))
     decl = parsePou();
   else if (kSections.has(kind()))
@@ -79,6 +80,24 @@ void Parser::parseUnknownTopLevel() {
 
 void Parser::skipToTopLevel() {
   while (!at(Tok::End) && !atTopLevelWord()) advance();
+}
+
+// Before a declaration that may hold others of its kind. False: too deep, it was skipped up to its `end`.
+bool Parser::enterDecl(Tok end) {
+  if (++decl_depth_ <= kMaxDeclDepth) return true;
+  tooDeep("declarations", kMaxDeclDepth);
+  const Tok begin = kind();
+  uint32_t open = 0;
+  do {
+    if (at(begin)) ++open;
+    if (at(end)) --open;
+    advance();
+  } while (open > 0 && !at(Tok::End));
+  accept(Tok::Semicolon);
+  tree_.lost_names = true;
+  panic_ = false;
+  --decl_depth_;
+  return false;
 }
 
 namespace {

@@ -22,6 +22,7 @@ class Parser final : public ChartParser {
   void parseTopLevel(std::vector<DeclId>& out);
   void parseUnknownTopLevel();
   void skipToTopLevel();
+  bool enterDecl(Tok end);
   DeclId parsePou();
   void parsePouName(PouDecl& d);
   void parsePouResult(PouDecl& d, Tok word);
@@ -48,6 +49,10 @@ class Parser final : public ChartParser {
   DeclId parseAccessorBody(PouDecl& d, const Ident& property, const PropertyDecl& of, bool is_set, Tok end);
   DeclId parseNamespace();
   void parseUsing(std::vector<DeclId>& out);
+
+  uint32_t decl_depth_ = 0;  // namespaces, resources and members around the current token
 };
+
+constexpr uint32_t kMaxDeclDepth = 200;
 
 }  // namespace rung::text

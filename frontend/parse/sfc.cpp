@@ -191,13 +191,28 @@ SfcExpr ChartParser::parseSfcExpr() {
   return e;
 }
 
-// [{entry} | {active} | {exit}] name ["(" [qualifier ["," time]] {"," indicator} ")"]
+// name {"." name}: an action or variable of the chart's block, or of an instance. One name with points.
+bool ChartParser::parseActionName(Ident& out) {
+  if (!parseName(out)) return false;
+  if (!at(Tok::Dot)) return true;
+  std::string path(names_.string(out.name));
+  while (accept(Tok::Dot)) {
+    Ident member;
+    if (!parseName(member)) return false;
+    path += '.';
+    path += names_.string(member.name);
+  }
+  out.name = names_.intern(path);
+  return true;
+}
+
+// [{entry} | {active} | {exit}] action ["(" [qualifier ["," time]] {"," indicator} ")"]
 bool ChartParser::parseAssociation(std::vector<SfcAssociation>& out) {
   const Token* first = t_;
   SfcAssociation a{};
   a.loc = here();
   const Slice<Pragma> pragmas = takePragmas();
-  if (!parseName(a.action)) return false;
+  if (!parseActionName(a.action)) return false;
   bool timed = false;
   std::vector<Ident> indicators;
   if (accept(Tok::LeftParen)) {
@@ -308,7 +323,7 @@ bool ChartParser::parseTransition(std::vector<SfcTransition>& out, std::vector<D
   return ok;
 }
 
-// ":=" expression [";"] | ":" statements | ":" instructions | nothing: the transition or variable of its name
+// ":=" expression ";" [";"] | ":" statements | ":" instructions | nothing: the transition or variable of its name
 void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   const Token* first = t_;
   PouDecl d{};
@@ -325,6 +340,7 @@ void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members)
     t.condition = parseSfcExpr();
     if (panic_) return;
     if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
+    accept(Tok::Semicolon);  // a condition of a drawing may end with its own
     if (!t.from.empty()) return;
     const StmtId id = build_.assign(AssignOp::Assign, target(), t.condition.value, t.condition.begin);
     d.body = tree_.addList<StmtId>({&id, 1});

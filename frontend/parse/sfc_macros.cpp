@@ -11,7 +11,22 @@
 
 namespace rung::text {
 
+constexpr size_t kMaxMacroDepth = 200;
+
+void ChartParser::skipMacro() {
+  uint32_t open = 0;
+  do {
+    if (is(t_, "MACRO_STEP")) ++open;
+    if (atMacroEnd()) --open;
+    advance();
+  } while (open > 0 && !at(Tok::End));
+}
+
 void ChartParser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps) {
+  if (open.size() == kMaxMacroDepth) {
+    tooDeep("macro steps", kMaxMacroDepth);
+    return skipMacro();
+  }
   SfcMacro macro{};
   macro.open = t_;
   macro.errors = diagnostics_.errorCount();

@@ -82,6 +82,12 @@ uint32_t Chart::actionOf(NameId name) const {
       ->second;
 }
 
+std::string Chart::controlOf(const Ident& action) const {
+  std::string name = "_" + std::string(string(action.name));
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
 std::string Chart::initialSteps() const {
   std::string list;
   for (uint32_t first = 0; first < steps_.size(); first += kWord) {

@@ -91,6 +91,7 @@ class Chart {
   std::string_view name(uint32_t step) const { return string(steps_[step].name.name); }
   uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
   uint32_t actionOf(NameId name) const;
+  std::string controlOf(const Ident& action) const;  // `_Turn`; of `motor.Turn`: `_motor_Turn`
   // Looks up the flags among the variables visible to the chart; until then there are none.
   void findFlags(Signatures& signatures);
   const Ident* flag(SfcFlag word) const {

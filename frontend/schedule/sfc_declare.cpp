@@ -24,7 +24,8 @@ void writeSections(const Chart& chart, Writer& out) {
   }
   for (const Ident& action : chart.actions_) {
     out.at(action.loc);
-    out.line(1, "_", action, " : SFCActionControl", chart.context_.final_scan ? ";" : " := (final_scan := FALSE);");
+    out.line(1, chart.controlOf(action), " : SFCActionControl",
+             chart.context_.final_scan ? ";" : " := (final_scan := FALSE);");
   }
   for (size_t i = 0; i < chart.transitions_.size(); ++i) {
     const SfcTransition& t = chart.transitions_[i];

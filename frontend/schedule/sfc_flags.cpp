@@ -20,8 +20,9 @@ void SfcScheduler::reset(uint32_t depth) {
   }
   for (const Ident& action : chart_.actions_) {
     out_.at(action.loc);
-    out_.line(depth, "_", action, ".clear := TRUE;");
-    out_.line(depth, "_", action, "();");
+    const std::string control = chart_.controlOf(action);
+    out_.line(depth, control, ".clear := TRUE;");
+    out_.line(depth, control, "();");
     if (!callsAction(action)) out_.line(depth, action, " := FALSE;");
   }
   out_.at(chart_.pou_.body_begin);

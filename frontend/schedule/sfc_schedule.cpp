@@ -96,9 +96,10 @@ void SfcScheduler::activeStep(uint32_t i, uint32_t depth) {
   for (const SfcAssociation& a : tree_.list(step.actions)) {
     if (!isControlled(a.qualifier)) continue;
     out_.at(a.loc);
-    out_.line(depth, "_", a.action, ".", keywordOf(a.qualifier), " := TRUE;");
+    const std::string control = chart_.controlOf(a.action);
+    out_.line(depth, control, ".", keywordOf(a.qualifier), " := TRUE;");
     if (a.time.value) {
-      out_.line(depth, "_", a.action, ".T := ", a.time, ";");
+      out_.line(depth, control, ".T := ", a.time, ";");
       out_.at(a.loc);
     }
     const uint32_t action = chart_.actionOf(a.action.name);
@@ -115,15 +116,16 @@ void SfcScheduler::actions() {
         const Ident& action = chart_.actions_[i];
         const std::string set = word("sfc_actions", count, i);
         out_.at(action.loc);
-        out_.line(depth, "_", action, "(now := sfc_now);");
+        const std::string control = chart_.controlOf(action);
+        out_.line(depth, control, "(now := sfc_now);");
         if (callsAction(action)) {
-          out_.line(depth, "IF _", action, ".x AND NOT _", action, "._x THEN");
+          out_.line(depth, "IF ", control, ".x AND NOT ", control, "._x THEN");
           out_.line(depth + 1, action, "();");
           out_.line(depth, "END_IF");
         } else {
-          out_.line(depth, action, " := _", action, "._x;");
+          out_.line(depth, action, " := ", control, "._x;");
         }
-        out_.line(depth, "IF NOT _", action, ".busy THEN");
+        out_.line(depth, "IF NOT ", control, ".busy THEN");
         out_.line(depth + 1, set, " := ", set, " AND NOT ", maskOf(i), ";");
         out_.line(depth, "END_IF");
       });
@@ -132,7 +134,7 @@ void SfcScheduler::actions() {
       [&](uint32_t i, uint32_t depth) {
         const Ident& action = chart_.actions_[i];
         out_.at(action.loc);
-        out_.line(depth, "IF _", action, "._x THEN");
+        out_.line(depth, "IF ", chart_.controlOf(action), "._x THEN");
         out_.line(depth + 1, action, "();");
         out_.line(depth, "END_IF");
       });

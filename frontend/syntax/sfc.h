@@ -27,7 +27,7 @@ struct SfcPosition {  // AT 100, 40, 60, 30: in the file in which the chart was 
   int32_t x, y, width, height;
 };
 struct SfcAssociation {  // open(D, T#5s, opened);  {entry} prepare;
-  Ident action;
+  Ident action;          // of an instance: one name with points, `motor.Turn`
   SfcQualifier qualifier;
   NameId word;  // the qualifier as written
   SfcExpr time;

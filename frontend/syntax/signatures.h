@@ -46,7 +46,7 @@ struct Signature {
 
 class Signatures {
  public:
-  virtual Signature of(NameId name) = 0;
+  virtual Signature of(NameId name) = 0;  // points separate the names of members
   // Of `valve`, `valves[i].timer`, `station.Start`: a path as parsed, which is not changed.
   virtual Signature of(ExprId path) = 0;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
@@ -68,8 +69,9 @@ void CallLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& 
   if (stmt.shown) {
     const rung::BinaryExpr& compared = tree_.as<rung::BinaryExpr>(condition);
     const auto once = [&](ExprId value) { return isStable(value) ? value : toTemp(value, compared.h.loc); };
-    b = values().lowerValue(compared.left);
-    c = lowerAfter({&b}, [&] { return values().lowerValue(compared.right); });
+    const TypeId wide = sema::comparedType(project_, compared.left, compared.right);
+    b = values().lowerOperand(compared.left, wide);
+    c = lowerAfter({&b}, [&] { return values().lowerOperand(compared.right, wide); });
     b = once(b);
     c = once(c);
     a = binary(sema::operatorOf(compared.op()), types::kBool, copy(b), copy(c), compared.h.loc);

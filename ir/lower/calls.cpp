@@ -1,5 +1,8 @@
 // Lowering of calls: EN and ENO, function blocks and programs. In: calls that sema has resolved. Out: Call statements.
 // Functions are in function_calls.cpp, operators in operator_calls.cpp, assertions in assertions.cpp.
+#include <algorithm>
+#include <numeric>
+
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -101,6 +104,19 @@ ExprId CallLowering::lowerMethodCall(const sema::Call& call, const rung::CallExp
   return lowerFunctionCall(call, node, target, asBase(object, owner, node.h.loc));
 }
 
+void CallLowering::writtenOrder(std::vector<uint32_t>& pins, FunctionRef<rung::ExprId(uint32_t)> value) const {
+  std::vector<std::pair<uint32_t, uint32_t>> written;  // place in the source, pin
+  std::vector<uint32_t*> slots;
+  for (uint32_t& pin : pins) {
+    const rung::ExprId given = value(pin);
+    if (!given) continue;
+    written.push_back({tree_.begin(given).offset, pin});
+    slots.push_back(&pin);
+  }
+  std::sort(written.begin(), written.end());
+  for (size_t i = 0; i < slots.size(); ++i) *slots[i] = written[i].second;
+}
+
 // ---- function blocks and programs ------------------------------------------------------------------------------
 
 void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
@@ -112,7 +128,11 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
   std::vector<CopyBack> copies;
   std::vector<ExprId> short_lived;  // in-outs of an instance that outlives their variable
   const auto isLocal = [&](ExprId place) { return body_.expr(rootOf(body_, place)).kind == ExprKind::Local; };
-  for (const sema::Binding& binding : call.bindings) {
+  std::vector<uint32_t> order(call.bindings.size());
+  std::iota(order.begin(), order.end(), 0);
+  writtenOrder(order, [&](uint32_t i) { return call.bindings[i].value; });
+  for (const uint32_t number : order) {
+    const sema::Binding& binding = call.bindings[number];
     if (binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
     TypeId type = strip(pin.type);
@@ -154,7 +174,8 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
   // The variables that they refer to end with this body or sooner, and a trace must not follow them there.
   for (const ExprId field : short_lived) append(loc, BindStmt{.field = field});
   for (const CopyBack& back : copies) storeOutput(back.target, back.value, false, loc);
-  for (const sema::Binding& binding : call.bindings) {
+  for (const uint32_t number : order) {
+    const sema::Binding& binding = call.bindings[number];
     if (!binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
     storeOutput(binding.value, places().pinPlace(copy(instance), pin, loc), binding.negated, loc);

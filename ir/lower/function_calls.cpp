@@ -4,7 +4,11 @@
 // inputs (arrays, structures, strings of functions) are copied by the caller unless the callee is pure or nothing can
 // change them during the call. Only a callee that writes such an input copies it, at its entry (statements.cpp), so
 // callers never pay for callees that only read.
+#include <algorithm>
+#include <numeric>
+
 #include "ir/lower/lowering.h"
+#include "ir/string_end.h"
 
 namespace rung::ir {
 
@@ -27,7 +31,8 @@ struct CallLowering::FunctionCall {
   };
   struct Argument {
     ExprId value;
-    bool is_variable;  // an in-out: reached through temporaries only
+    bool is_variable = false;         // an in-out: reached through temporaries only
+    std::vector<ExprId> bounds = {};  // of an ARRAY[*]
   };
   struct Output {
     rung::ExprId target;
@@ -42,9 +47,10 @@ struct CallLowering::FunctionCall {
 
   // the plan
   std::vector<Pin> pins = {};
-  bool is_pure = false;          // the callee
-  bool may_alias = false;        // the call could change the memory of an input
-  TypeId result_type = {};       // none: no result
+  std::vector<uint32_t> order = {};  // of `pins` as their arguments were written
+  bool is_pure = false;              // the callee
+  bool may_alias = false;            // the call could change the memory of an input
+  TypeId result_type = {};           // none: no result
   bool makes_string = false;     // a native string function writes directly into the target, which may be an input too
   Target* wanted = nullptr;      // the caller's target of such a string
   Target own = {};               // else a temporary
@@ -52,7 +58,6 @@ struct CallLowering::FunctionCall {
 
   // what the arguments became
   std::vector<Argument> arguments = {};
-  std::vector<ExprId> bounds = {};
   std::vector<Output> outputs = {};
 
   Target& target() { return wanted != nullptr ? *wanted : own; }
@@ -108,6 +113,12 @@ void CallLowering::planPins(FunctionCall& plan) {
                                                                 : Passing::Value;
     plan.pins.push_back({id, binding, passing});
   }
+  plan.order.resize(plan.pins.size());
+  std::iota(plan.order.begin(), plan.order.end(), 0);
+  writtenOrder(plan.order, [&](uint32_t pin) {
+    const sema::Binding* binding = plan.pins[pin].binding;
+    return binding != nullptr ? binding->value : rung::ExprId{};
+  });
 }
 
 // Whether the first input of a native string function may be built in the target of its result, as in
@@ -158,7 +169,12 @@ ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = places().lowerPlace(argument);
   if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
-  if (isPlace(body_.expr(place).kind)) return places().seenAs(stable(place), strip(pin_type), loc);
+  if (isPlace(body_.expr(place).kind)) {
+    place = stable(place);
+    const bool is_string = TypeTable::isString(types_.kind(typeOf(place)));
+    if (is_string && mayLackEnd(types_, body_, place)) assign(copy(place), toTemp(copy(place), loc), loc);
+    return places().seenAs(place, strip(pin_type), loc);
+  }
   const ExprId own = temp(strip(pin_type), loc);
   assign(copy(own), convertValue(place, strip(pin_type), loc), loc);
   return own;
@@ -167,7 +183,7 @@ ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
 ExprId CallLowering::passAggregate(FunctionCall& plan, TypeId type, rung::ExprId given) {
   const Loc loc = tree_.loc(given);
   ExprId value;
-  if (plan.builds_in_place && plan.arguments.empty() && isPlainCall(given)) {
+  if (plan.builds_in_place && given == plan.pins.front().binding->value && isPlainCall(given)) {
     Target inner = plan.target();
     value = lowerCall(given, &inner);
     if (inner.stored) value = copy(inner.place);
@@ -215,7 +231,7 @@ ExprId CallLowering::passArgument(FunctionCall& plan, uint32_t number) {
       const bool copies = pin.section == SectionKind::Input && !plan.is_pure;
       const OpenArray array = binding == nullptr ? places().noOpenArray(type, plan.loc)
                                                  : places().passOpenArray(binding->value, type, copies);
-      plan.bounds.insert(plan.bounds.end(), array.bounds.begin(), array.bounds.end());
+      plan.arguments[number].bounds = array.bounds;
       return array.pointer;
     }
   }
@@ -236,15 +252,18 @@ ExprId CallLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
     plan.own = {.place = temp(plan.result_type, plan.loc), .early = true};
   if (plan.makes_string && plan.is_pure && plan.target().early) {
     lowerTarget(plan.target());
-    plan.builds_in_place = mayChain(call, plan.target());
+    plan.builds_in_place = plan.order.front() == 0 && mayChain(call, plan.target());
   }
-  for (uint32_t i = 0; i < plan.pins.size(); ++i) {
+  plan.arguments.resize(plan.pins.size());
+  for (const uint32_t i : plan.order) {
     const InsertionPoint point = here();
     const ExprId value = passArgument(plan, i);
     spillArguments(plan, point);
-    plan.arguments.push_back({value, plan.pins[i].passing == Passing::Variable});
+    plan.arguments[i].value = value;
+    plan.arguments[i].is_variable = plan.pins[i].passing == Passing::Variable;
   }
-  for (const ExprId bound : plan.bounds) plan.arguments.push_back({bound, false});
+  for (size_t i = 0; i < plan.pins.size(); ++i)
+    for (const ExprId bound : std::vector(plan.arguments[i].bounds)) plan.arguments.push_back({.value = bound});
   ExprId result;
   if (plan.makes_string) {
     const InsertionPoint point = here();

@@ -315,6 +315,7 @@ void ObjectLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId i
       if (!place_is_zero) assign(place, zero(type, loc), loc);
       return;
     }
+    if (storeRepeated(place, type, bytes, place_is_zero)) return;
     in_.module.data.push_back({type, std::move(bytes)});
     uint32_t index = static_cast<uint32_t>(in_.module.data.size() - 1);
     assign(place, add(loc, type, DataExpr{.index = index}), loc);

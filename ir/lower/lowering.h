@@ -66,6 +66,7 @@ struct ModuleLowering {
  private:
   void declareRecord(TypeId type);
   void addRecord(TypeId record);
+  Record* recordOf(TypeId type);
   void addPrograms();
   void addLists();
   void markFaulting();
@@ -85,11 +86,12 @@ struct ModuleLowering {
   void addBlockTasks();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                   // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;  // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;  // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;   // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;      // by TypeId
+  std::vector<BodyId> body_of_;                            // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;           // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;           // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;            // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;               // by TypeId
+  std::unordered_map<uint32_t, uint32_t> record_of_type_;  // by TypeId: indices of module.records
   std::vector<TypeId> to_declare_;
   bool is_declaring_ = false;
   std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
@@ -106,6 +108,8 @@ struct ModuleLowering {
 
 // The scalar or string value of a checked constant expression; none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
+// The same of an intermediate result (sema/intermediate.h) in its own type.
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId expr);
 
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
@@ -169,16 +173,25 @@ class ValueLowering : public BodyPart {
   using BodyPart::BodyPart;
 
   ExprId lowerValue(rung::ExprId expr);
+  // An operand of an operation in the type `native`, where the value may be wider than its type; none: in its own type.
+  ExprId lowerOperand(rung::ExprId expr, TypeId native) { return native ? lowerIn(expr, native) : lowerValue(expr); }
+  // The last bits of an intermediate result that fit an integer type; intermediate_results.cpp.
+  ExprId lowerIn(rung::ExprId expr, TypeId type);
+  ExprId lowerUncut(rung::ExprId expr);
   void lowerDelete(const sema::Call& call, Loc loc);
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
 
  private:
+  ExprId closed(ExprId place);
   ExprId lowerLiteral(rung::ExprId expr);
   ExprId lowerUnary(rung::ExprId expr);
   ExprId lowerBinary(rung::ExprId expr);
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
+  ExprId convertUncut(const rung::ConvertExpr& node);
+  ExprId operate(rung::ExprId expr, TypeId type);
+  bool hasUncut(rung::ExprId expr) const;
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
   ExprId lowerNew(rung::ExprId expr);
@@ -198,6 +211,7 @@ class CallLowering : public BodyPart {
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
   // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
@@ -221,9 +235,10 @@ class CallLowering : public BodyPart {
   void spillArguments(FunctionCall& plan, InsertionPoint point);
   ExprId emitFunctionCall(FunctionCall& plan, ExprId object, ExprId result);
   void faultUnlessZero(ExprId result, Loc loc);
+  // Sorts numbers of pins so that those with a value come in the order in which the values were written.
+  void writtenOrder(std::vector<uint32_t>& pins, FunctionRef<rung::ExprId(uint32_t)> value) const;
 
   ExprId lowerOperator(const sema::Call& call, const rung::CallExpr& node);
-  ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const rung::CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const rung::CallExpr& node);
   ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);
@@ -232,7 +247,7 @@ class CallLowering : public BodyPart {
   NameId comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition);
 };
 
-// The life of objects: initial_values.cpp, and FB_Exit in exits.cpp.
+// The life of objects: initial_values.cpp, repeated_values.cpp, and FB_Exit in exits.cpp.
 class ObjectLowering : public BodyPart {
  public:
   using BodyPart::BodyPart;
@@ -247,6 +262,10 @@ class ObjectLowering : public BodyPart {
  private:
   void exitParts(ExprId place, TypeId record);
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
+  bool storeRepeated(ExprId place, TypeId type, std::span<const uint8_t> bytes, bool place_is_zero);
+  void storeRows(ExprId array, TypeId type, std::span<const uint8_t> bytes, std::vector<ExprId>& indices,
+                 bool place_is_zero);
+  void storeBytes(ExprId place, TypeId declared, std::span<const uint8_t> bytes);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
   void construct(ExprId place, TypeId type);

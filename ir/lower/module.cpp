@@ -154,10 +154,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
         {pou.name, type, LocalKind::Result, isPassedByReference(types, LocalKind::Result, type), pou.loc});
   }
   to_lower_.push_back(id);
-  if (pou.record) {
-    for (Record& record : module.records)
-      if (record.type == pou.record) record.body = known;
-  }
+  if (Record* record = recordOf(pou.record)) record->body = known;
   if (pou.pragmas.test && !pou.excluded) module.tests.push_back(known);
   return known;
 }
@@ -238,13 +235,18 @@ void ModuleLowering::addRecord(TypeId type) {
   if (sema::PouId pou = pou_of_record_[type.index]) {
     takeHeader(record, project.pou(pou));
   }
+  record_of_type_[type.index] = static_cast<uint32_t>(module.records.size());
   module.records.push_back(record);
   if (info.record_kind == types::RecordKind::Interface) return;
   if (sema::PouId pou = pou_of_record_[type.index]) {
-    BodyId body = bodyOf(pou);
-    for (Record& created : module.records)
-      if (created.type == type) created.body = body;
+    BodyId body = bodyOf(pou);  // may add records
+    recordOf(type)->body = body;
   }
+}
+
+Record* ModuleLowering::recordOf(TypeId type) {
+  const auto found = record_of_type_.find(type.index);
+  return found == record_of_type_.end() ? nullptr : &module.records[found->second];
 }
 
 bool ModuleLowering::isZero(TypeId declared) {

@@ -1,6 +1,9 @@
 // Lowering of operators in call form: ADD, GT, SEL, MUX, MOVE and conversions. In: calls that sema has resolved to an
 // operator. Out: values; `if` and `switch` where an input is evaluated only when it is chosen. Called by calls.cpp.
+#include <numeric>
+
 #include "ir/lower/lowering.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
@@ -12,7 +15,7 @@ ExprId CallLowering::operandOr0(const sema::Binding& binding, TypeId type, Loc l
 ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr& node) {
   const sema::Pou& pou = project_.pou(call.pou);
   switch (pou.pragmas.operator_kind) {
-    case sema::OperatorKind::Op: return lowerArithmeticOperator(call, node);
+    case sema::OperatorKind::Op: return lowerArithmeticOperator(call, node, {});
     case sema::OperatorKind::Select: return lowerSelect(call, node);
     case sema::OperatorKind::Mux: return lowerMux(call, node);
     case sema::OperatorKind::Move:
@@ -23,22 +26,28 @@ ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr&
   return {};
 }
 
-ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node) {
+// `native`: the type in which an intermediate result is computed; none: the operands' own.
+ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native) {
   Op op = project_.pou(call.pou).pragmas.op;
   Loc loc = node.h.loc;
-  TypeId type = strip(node.h.type);
-  TypeId operand_type = type;
+  TypeId type = native ? native : strip(node.h.type);
+  TypeId operand_type = native;
   for (const sema::Binding& binding : call.bindings)
-    if (binding.value) {
-      operand_type = strip(tree_.expr(binding.value).type);
-      break;
-    }
-  std::vector<ExprId> operands;
-  for (const sema::Binding& binding : call.bindings) {
+    if (types::isComparison(op) && binding.value && !native) native = sema::uncutType(project_, binding.value);
+  for (const sema::Binding& binding : call.bindings)
+    if (binding.value && !operand_type) operand_type = native ? native : strip(tree_.expr(binding.value).type);
+  if (!operand_type) operand_type = type;
+  std::vector<uint32_t> order(call.bindings.size());
+  std::iota(order.begin(), order.end(), 0);
+  writtenOrder(order, [&](uint32_t i) { return call.bindings[i].value; });
+  std::vector<ExprId> operands(call.bindings.size());
+  for (const uint32_t number : order) {
+    const sema::Binding& binding = call.bindings[number];
     InsertionPoint point = here();
-    ExprId operand = operandOr0(binding, operand_type, loc);
+    ExprId operand =
+        native && binding.value ? values().lowerIn(binding.value, native) : operandOr0(binding, operand_type, loc);
     for (size_t i = operands.size(); i-- > 0;) spill(point, {&operands[i]});
-    operands.push_back(operand);
+    operands[number] = operand;
   }
   if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
   if (!types::isComparison(op) || operands.size() == 2) {

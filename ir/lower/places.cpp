@@ -122,7 +122,7 @@ ExprId PlaceLowering::indexed(const rung::IndexExpr& node) {
   std::vector<ExprId> indices;
   for (rung::ExprId index : tree_.list(node.indices)) {
     InsertionPoint point = here();
-    ExprId value = values().lowerValue(index);
+    ExprId value = values().lowerUncut(index);
     spillPlace(point, base);
     for (ExprId& earlier : indices) spill(point, {&earlier});
     indices.push_back(value);

@@ -1,6 +1,7 @@
 // Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body. An assignment
 // evaluates the calls of its right side first, then the place, then stores: `a[i] := f()` uses the `i` that `f` left.
 #include "ir/lower/lowering.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
@@ -146,10 +147,13 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
               : stmt.effect() == AssignOp::Subtract ? Op::Sub
               : stmt.effect() == AssignOp::Multiply ? Op::Mul
                                                     : Op::Div;
-      ExprId value = values().lowerValue(stmt.value);
+      const TypeId wide = op == Op::Div ? sema::uncutType(project_, stmt.value) : TypeId{};
+      ExprId value = values().lowerOperand(stmt.value, wide);
       ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
-      TypeId type = typeOf(target);
-      assign(target, binary(op, type, copy(target), convertValue(value, type, loc), loc), loc);
+      TypeId type = wide ? wide : typeOf(target);
+      ExprId operand = convertValue(copy(target), type, loc);
+      assign(target, convertValue(binary(op, type, operand, convertValue(value, type, loc), loc), typeOf(target), loc),
+             loc);
       return;
     }
     case AssignOp::Attempt: break;  // sema made a call of it
@@ -194,7 +198,7 @@ void StatementLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<ru
 }
 
 void StatementLowering::lowerCase(const CaseStmt& stmt) {
-  ExprId selector = values().lowerValue(stmt.selector);
+  ExprId selector = values().lowerUncut(stmt.selector);
   std::vector<Case> cases;
   for (const CaseBranch& branch : tree_.list(stmt.branches)) {
     StmtId body = block([&] { lowerStatements(branch.body); });

@@ -2,12 +2,21 @@
 // become statements before, and values that were read before a call move to a temporary (evaluation_order.cpp).
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
+#include "ir/string_end.h"
+#include "sema/intermediate.h"
 
 namespace rung::ir {
 
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+static std::optional<Value> constantOperand(const sema::Project& project, rung::ExprId id, TypeId native) {
+  const auto value = native ? uncutConstant(project, id) : constantOf(project, id);
+  if (!value || !TypeTable::isScalar(project.types.plainKind(value->type))) return std::nullopt;
+  return native ? types::convert(project.types, *value, native).value : value;
+}
+
+std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id) {
   const Tree& tree = project.tree;
   const TypeTable& types = project.types;
+  const TypeId native = sema::uncutType(project, id);
   switch (tree.kind(id)) {
     case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
     case rung::ExprKind::Name:
@@ -27,8 +36,9 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return Value{types.resolve(var->value.type), var->value.bits};
     }
     case rung::ExprKind::Convert: {
-      auto operand = constantOf(project, tree.as<rung::ConvertExpr>(id).operand);
+      auto operand = uncutConstant(project, tree.as<rung::ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
+      if (native) return types::convert(types, *operand, native).value;
       TypeId to = types.resolve(tree.expr(id).type);
       bool from_string = TypeTable::isString(types.plainKind(operand->type));
       if (from_string) {
@@ -42,8 +52,8 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Unary: {
       const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
-      auto operand = constantOf(project, node.operand);
-      if (!operand || !TypeTable::isScalar(types.plainKind(operand->type))) return std::nullopt;
+      auto operand = constantOperand(project, node.operand, native);
+      if (!operand) return std::nullopt;
       switch (node.op()) {
         case UnaryOp::Plus: return operand;
         case UnaryOp::Not: return types::apply(types, project.names, Op::Not, *operand).value;
@@ -53,11 +63,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     }
     case rung::ExprKind::Binary: {
       const rung::BinaryExpr& node = tree.as<rung::BinaryExpr>(id);
-      auto left = constantOf(project, node.left);
-      if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
-      auto right = constantOf(project, node.right);
-      if (!right || !TypeTable::isScalar(types.plainKind(right->type))) return std::nullopt;
-      types::Outcome outcome = types::apply(types, project.names, sema::operatorOf(node.op()), *left, *right);
+      const Op op = sema::operatorOf(node.op());
+      const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
+      auto left = constantOperand(project, node.left, type);
+      auto right = constantOperand(project, node.right, type);
+      if (!left || !right) return std::nullopt;
+      types::Outcome outcome = types::apply(types, project.names, op, *left, *right);
       if (outcome.fault != types::Fault::None) return std::nullopt;
       return outcome.value;
     }
@@ -81,6 +92,12 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
   return std::nullopt;
 }
 
+std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+  const auto value = uncutConstant(project, id);
+  if (!value || !sema::uncutType(project, id)) return value;
+  return types::convert(project.types, *value, project.types.resolve(project.tree.expr(id).type)).value;
+}
+
 ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
   return ofValue(sema::valueOf(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
 }
@@ -97,7 +114,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
         const MemberExpr& node = tree_.as<MemberExpr>(id);
         RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
       }
-      return places().lowerPlace(id);
+      return closed(places().lowerPlace(id));
     }
     case rung::ExprKind::This:
     case rung::ExprKind::Super: {
@@ -109,7 +126,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
-    case rung::ExprKind::Address: return places().lowerPlace(id);
+    case rung::ExprKind::Address: return closed(places().lowerPlace(id));
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
@@ -120,7 +137,8 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return places().openArrayBound(node.array, node.index, node.h.loc);
     }
-    case rung::ExprKind::Call: return calls().lowerCall(id);
+    case rung::ExprKind::Call:
+      return sema::uncutType(project_, id) ? lowerIn(id, strip(tree_.expr(id).type)) : calls().lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -131,9 +149,16 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
   return {};
 }
 
+// A string that other variables may overlap, cut at its capacity.
+ExprId ValueLowering::closed(ExprId place) {
+  if (!TypeTable::isString(types_.kind(typeOf(place))) || !mayLackEnd(types_, body_, place)) return place;
+  return toTemp(place, body_.expr(place).loc);
+}
+
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
   ExprId operand = lowerValue(node.operand);
   TypeId type = strip(node.h.type);
   switch (node.op()) {
@@ -154,8 +179,11 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
         op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.dialect != Dialect::Codesys;
     return lowerLogical(id, is_and, short_circuit);
   }
-  ExprId left = lowerValue(node.left);
-  ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
+  const TypeId compared =
+      types::isComparison(sema::operatorOf(op)) ? sema::comparedType(project_, node.left, node.right) : TypeId{};
+  ExprId left = lowerOperand(node.left, compared);
+  ExprId right = lowerAfter({&left}, [&] { return lowerOperand(node.right, compared); });
   return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
@@ -253,6 +281,7 @@ ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
   if (types_.kind(strip(node.h.type)) == TypeKind::Record) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
+  if (sema::uncutType(project_, node.operand)) return convertUncut(node);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
 }
 

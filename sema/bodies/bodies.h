@@ -21,6 +21,7 @@ enum class Access : uint8_t {
   ReadWrite,  // an instance that is called, a compound assignment
   InOut,      // an in-out argument: read and written, too
   Qualifier,  // the base of a member: may be a list, a library, a type or a program
+  Bind,       // the target of REF=: the reference itself
   Address,    // ADR, SIZEOF: neither read nor written here
 };
 

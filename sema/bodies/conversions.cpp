@@ -4,6 +4,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
+#include "sema/checks/widened_result.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
@@ -425,6 +426,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
+  if (fitness == Fit::Lossless) checkWidenedResult(context, expr, to);
   if (!checkSubrange(context, expr, to)) {
     context.tree().expr(expr).type = types::kError;
     return false;

@@ -224,7 +224,7 @@ void markAccess(Context& context, VarId id, Access access) {
   if (access == Access::Qualifier) return;
   for (VarId at = id; at; at = context.symbols.var(at).external) {
     Var& var = context.symbols.var(at);
-    if (access != Access::Write) var.use.read = true;
+    if (access != Access::Write && access != Access::Bind) var.use.read = true;
     if (access == Access::Read) continue;
     var.use.written = true;
     if (access == Access::Address || !context.body || !var.name || var.external) continue;

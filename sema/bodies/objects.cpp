@@ -187,12 +187,13 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   const PouId accessor = property.get ? property.get : property.set;
   if (!accessor) return header.type = types::kError;
   resolvePou(context, accessor);
-  if (access == Access::Write || access == Access::ReadWrite ||
-      access == Access::InOut) {  // an assignment handles it; other uses need a variable
-    header.type = property.get ? context.symbols.pou(property.get).result
-                               : context.symbols.var(pinsOf(context, property.set)[0]).type;
-    return header.type;
-  }
+  const TypeId declared = property.get ? context.symbols.pou(property.get).result
+                                       : context.symbols.var(pinsOf(context, property.set)[0]).type;
+  const bool writes = access == Access::Write || access == Access::ReadWrite || access == Access::InOut;
+  // A value written to a REFERENCE goes to the variable that GET gives. An assignment handles the others; what else
+  // writes needs a variable.
+  const bool through = context.types().kind(declared) == TypeKind::Reference;
+  if (access == Access::Bind || (writes && !through)) return header.type = declared;
   if (!property.get) {
     context.report(diag::PropertyWithoutGet, loc, {string(context, property.name)});
     return header.type = types::kError;

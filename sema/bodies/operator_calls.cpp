@@ -7,6 +7,7 @@
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
 #include "sema/checks/required_pins.h"
+#include "sema/intermediate.h"
 
 namespace rung::sema {
 
@@ -42,6 +43,11 @@ bool infixOf(types::Op op, BinaryOp& out) {
     case types::Op::Abs: return false;
   }
   return false;
+}
+
+bool isArithmetic(const auto& pragmas) {
+  BinaryOp infix;
+  return pragmas.operator_kind == OperatorKind::Op && (pragmas.op == types::Op::Abs || infixOf(pragmas.op, infix));
 }
 
 bool isTime(const Context& context, TypeId type) {
@@ -141,6 +147,8 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   bool constant = arguments.en == 0 && arguments.eno == 0;
   for (const ExprId value : operands.values) constant &= !value || context.tree().expr(value).is_constant;
   node.h.is_constant = constant;
+  const bool is_conditional = arguments.en != 0 || arguments.eno != 0;
+  markIntermediate(context.symbols, node.h, result, context.isWide() && !is_conditional && isArithmetic(pou.pragmas));
   node.call = addCall(context, std::move(call));
   return node.h.type = result;
 }

@@ -1,11 +1,13 @@
 // Operators: the common type of both sides, and the type of the result. In: UnaryExpr, BinaryExpr, and the operands of
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
-// Integers keep their own width in every subexpression; the target of an assignment does not widen it.
+// The type of an integer operation is that of its operands; the target of an assignment does not widen it. In codesys
+// the value may be wider until it is stored: sema/intermediate.h.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
+#include "sema/intermediate.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -267,7 +269,10 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
       wrapConvert(context, operand, common);
       continue;
     }
+    const ExprId given = operand;
     if (!convert(context, operand, common, kOperand)) return types::kError;
+    if (operand != given && context.tree().kind(operand) == ExprKind::Convert)
+      context.tree().expr(operand).bits |= kIntermediate;
   }
   return common;
 }
@@ -373,6 +378,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
     if (!checkDivisor(context, node.right, op)) return node.h.type = types::kError;
     callDivisorCheck(context, node.right);
   }
+  markIntermediate(context.symbols, node.h, common, context.isWide() && operandsOf(op) != Operands::Bits);
   return node.h.type = common;
 }
 
@@ -419,6 +425,7 @@ TypeId checkUnary(Context& context, ExprId& expr, TypeId expected) {
                                             : accepts(context, Operands::NumberOrTime, type);
   if (!ok) return node.h.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
   if (plain != type) convert(context, node.operand, plain, kOperand);
+  markIntermediate(context.symbols, node.h, plain, context.isWide() && node.op() != UnaryOp::Not);
   return node.h.type = plain;
 }
 

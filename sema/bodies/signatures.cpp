@@ -143,7 +143,18 @@ Signature ProjectSignatures::signatureOf(const Resolved& resolved) {
   return {};
 }
 
-Signature ProjectSignatures::of(NameId name) { return signatureOf(resolve(lookUp(context_, name))); }
+Signature ProjectSignatures::of(NameId name) {
+  const std::string path(context_.names().string(name));
+  size_t end = path.find('.');
+  if (end == std::string::npos) return signatureOf(resolve(lookUp(context_, name)));
+  Resolved resolved = resolve(lookUp(context_, context_.names().find(path.substr(0, end))));
+  while (end != std::string::npos) {
+    const size_t begin = end + 1;
+    end = path.find('.', begin);
+    resolved = memberOf(resolved, context_.names().find(path.substr(begin, end - begin)));
+  }
+  return signatureOf(resolved);
+}
 Signature ProjectSignatures::of(ExprId path) { return signatureOf(resolve(path)); }
 
 }  // namespace rung::sema

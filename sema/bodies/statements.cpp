@@ -52,7 +52,7 @@ TypeId checkTarget(Context& context, ExprId& target, Access access) {
 
 // x REF= y: the reference itself is the target.
 void checkReferenceAssign(Context& context, AssignStmt& node) {
-  const TypeId type = check(context, node.target, {}, Access::Write);
+  const TypeId type = check(context, node.target, {}, Access::Bind);
   if (type == types::kError) {
     check(context, node.value, {}, Access::Address);
     return;

@@ -23,7 +23,8 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   if (var.access != AccessLevel::None && !mayAccess(context, var.access, var.pou, var.name, node.h.loc)) return false;
   if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
-  const bool writes = access == Access::Write || access == Access::ReadWrite || access == Access::InOut;
+  const bool sets = access == Access::Write || access == Access::Bind;
+  const bool writes = sets || access == Access::ReadWrite || access == Access::InOut;
   const std::string_view pin = string(context, var.name);
   const std::string block = context.types().toString(record);
   const auto refuse = [&](Diag diag) {
@@ -32,7 +33,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   };
   switch (var.section) {
     case SectionKind::Input:  // set for the next call: ed. 3 table 42, 6a, table 69, 2
-      if (!context.iec() || program || access == Access::Write || access == Access::Qualifier) return true;
+      if (!context.iec() || program || sets || access == Access::Qualifier) return true;
       return refuse(diag::InputReadOutside);
     case SectionKind::Output:
       if (!writes) return true;
@@ -42,7 +43,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::InOut: return writes ? refuse(diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
     case SectionKind::Inst:
-      if (!context.iec() && access != Access::Write && !context.symbols.pou(var.pou).library) return true;
+      if (!context.iec() && !sets && !context.symbols.pou(var.pou).library) return true;
       [[fallthrough]];
     case SectionKind::Temp:
     case SectionKind::External:

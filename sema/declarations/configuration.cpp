@@ -336,18 +336,21 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
 // PLC_PRG or MAIN if there is one, else every PROGRAM in source order, in one cyclic task.
 void addDefaultTask(Context& context) {
   Project& project = context.project;
+  const auto runs = [&](const Pou& pou) {
+    const std::vector<FileId>& others = project.options.library_files;
+    return pou.kind == PouKind::Program && !pou.pragmas.test && !pou.library && pou.name &&
+           std::find(others.begin(), others.end(), pou.file) == others.end();
+  };
   PouId only;
   for (const char* name : {"PLC_PRG", "MAIN"}) {
     const NameId id = context.names().find(name);
     const Entity found = id ? context.scopes.pous_and_types.find(keyOf(context, id)) : Entity{};
     if (only || found.entityKind() != EntityKind::Pou) continue;
-    const Pou& pou = project.pous[found.index];
-    if (pou.kind == PouKind::Program && !pou.pragmas.test) only = PouId{found.index};
+    if (runs(project.pous[found.index])) only = PouId{found.index};
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.kind != PouKind::Program || pou.pragmas.test || pou.library || !pou.name) continue;
-    if (only && only.index != i) continue;
+    if (!runs(pou) || (only && only.index != i)) continue;
     if (project.tasks.empty()) {
       Task task;
       task.name = context.names().intern("MainTask");

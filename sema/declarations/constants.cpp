@@ -4,6 +4,7 @@
 
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/intermediate.h"
 #include "sema/project.h"
 
 namespace rung::sema {
@@ -107,6 +108,13 @@ std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, 
 }
 
 std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth);
+std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth);
+
+// An operand of an operation that computes in the type `native`; none: in the operands' own.
+std::optional<Value> evaluateOperand(Context& context, ExprId id, TypeId native, uint32_t depth) {
+  const auto value = native ? evaluateUncut(context, id, depth) : evaluateAt(context, id, depth);
+  return value && native ? types::convert(context.types(), *value, native).value : value;
+}
 
 bool isOperand(const TypeTable& table, TypeId type) {
   const TypeKind kind = table.plainKind(type);
@@ -162,7 +170,8 @@ std::optional<Value> callFunction(Context& context, PouId function, std::vector<
                                                [&](PouId callee) { return ensureBody(context, callee); });
 }
 
-std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
+std::optional<Value> evaluateCall(Context& context, ExprId id, uint32_t depth) {
+  const CallExpr& node = context.tree().as<CallExpr>(id);
   if (!node.call) return std::nullopt;
   const Symbols& symbols = context.symbols;
   const Call& call = symbols.call(node.call);
@@ -172,10 +181,14 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
   if (pou.pragmas.operator_kind == OperatorKind::Select || pou.pragmas.operator_kind == OperatorKind::Mux) {
     return evaluateChoice(context, call, node.h.type, pou.pragmas.operator_kind == OperatorKind::Select, depth);
   }
+  TypeId native = uncutType(context.symbols, id);
+  const bool compares = pou.pragmas.operator_kind == OperatorKind::Op && types::isComparison(pou.pragmas.op);
+  for (const Binding& binding : call.bindings)
+    if (compares && binding.value && !native) native = uncutType(context.symbols, binding.value);
   std::vector<Value> operands;
   for (const Binding& binding : call.bindings) {
     if (!binding.value || binding.is_output) return std::nullopt;
-    const auto value = evaluateAt(context, binding.value, depth + 1);
+    const auto value = evaluateOperand(context, binding.value, native, depth + 1);
     if (!value) return std::nullopt;
     operands.push_back(*value);
   }
@@ -217,10 +230,20 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
   return std::nullopt;
 }
 
+// The value in the expression's type.
 std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
+  const auto value = evaluateUncut(context, id, depth);
+  if (!value || !uncutType(context.symbols, id)) return value;
+  const ExprHeader& header = context.tree().expr(id);
+  return checked(context, types::convert(context.types(), *value, header.type), header.loc, {});
+}
+
+// The value of an intermediate result in its own type (intermediate.h), of other expressions in theirs.
+std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) {
   Tree& tree = context.tree();
   const ExprHeader& header = tree.expr(id);
   if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
+  const TypeId native = uncutType(context.symbols, id);
   switch (header.kind) {
     case ExprKind::Literal: return valueOf(context.symbols, tree.as<LiteralExpr>(id));
     case ExprKind::Name:
@@ -239,8 +262,9 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       return var.value;
     }
     case ExprKind::Convert: {
-      const auto value = evaluateAt(context, tree.as<ConvertExpr>(id).operand, depth + 1);
+      const auto value = evaluateUncut(context, tree.as<ConvertExpr>(id).operand, depth + 1);
       if (!value) return std::nullopt;
+      if (native) return types::convert(context.types(), *value, native).value;
       const TypeKind from = context.types().plainKind(value->type), to = context.types().plainKind(header.type);
       if (TypeTable::isString(from) && from == to) {
         const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
@@ -261,7 +285,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     }
     case ExprKind::Unary: {
       const UnaryExpr& node = tree.as<UnaryExpr>(id);
-      const auto value = evaluateAt(context, node.operand, depth + 1);
+      const auto value = evaluateOperand(context, node.operand, native, depth + 1);
       if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
       if (TypeTable::isString(context.types().plainKind(value->type))) return std::nullopt;
       if (node.op() == UnaryOp::Plus) return value;
@@ -269,13 +293,15 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     }
     case ExprKind::Binary: {
       const BinaryExpr& node = tree.as<BinaryExpr>(id);
-      const auto left = evaluateAt(context, node.left, depth + 1);
+      const Op op = operatorOf(node.op());
+      const TypeId type = types::isComparison(op) ? comparedType(context.symbols, node.left, node.right) : native;
+      const auto left = evaluateOperand(context, node.left, type, depth + 1);
       if (!left) return std::nullopt;
-      const auto right = evaluateAt(context, node.right, depth + 1);
+      const auto right = evaluateOperand(context, node.right, type, depth + 1);
       if (!right) return std::nullopt;
-      return applyChecked(context, operatorOf(node.op()), *left, *right, node.h.loc, tree.begin(node.right));
+      return applyChecked(context, op, *left, *right, node.h.loc, tree.begin(node.right));
     }
-    case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
+    case ExprKind::Call: return evaluateCall(context, id, depth);
     case ExprKind::Error:
     case ExprKind::Index:
     case ExprKind::This:

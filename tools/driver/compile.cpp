@@ -99,7 +99,7 @@ bool Compilation::read() {
     times_.bytes += text.size();
   }
   if (usage_error_.empty() && !inputs.io_error) usage_error_ = natives.read(inputs, libraries, sources);
-  const bool ok = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+  const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
   if (ok) readPrograms(sources, diagnostics, inputs);
   noteLibraries();
   times_.end();
@@ -142,11 +142,8 @@ bool Compilation::parse() {
     setPhaseSubject(file.below.data(), file.below.size());
     text::parseFile(tree, names, sources, file.file, options.dialect, diagnostics);
   }
-  if (!inputs.project.configuration.empty()) {
-    FileId file = sources.add("rung.project", inputs.project.configuration);
-    sources.setDisplayPath(file, inputs.project.folder + "/rung.project");
-    if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
-  }
+  if (inputs.project.configuration)
+    text::parseFile(tree, names, sources, inputs.project.configuration, options.dialect, diagnostics);
   setPhaseSubject("", 0);
   times_.end();
   if (options.dump_after == "parse")
@@ -166,6 +163,8 @@ bool Compilation::check() {
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;
+    for (const InputFile& input : inputs.files)
+      if (input.is_library) sema_options.library_files.push_back(input.file);
     sema_options.free_subranges = !inputs.project_names.empty();
     sema_options.pool_bytes = inputs.project.pool_bytes;
     sema_options.areas = inputs.project.areas;
@@ -173,6 +172,7 @@ bool Compilation::check() {
     sema_options.with_tests = options.with_tests;
     sema_options.mocks = options.mocks;
     sema_options.pointer_size = options.pointer_size;
+    sema_options.native_width = options.native_width;
     sema_options.scheduled = scheduled;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     FunctionRef<bool(sema::PouId)> ready) {
@@ -217,6 +217,7 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   if (!module && !lower()) return false;
   times_.begin("emit");
   codegen::EmitOptions emit_options;
+  emit_options.bundled = options.bundles > 0;
   emit_options.module_name = options.moduleName();
   emit_options.with_tests = with_tests;
   emit_options.optimize_all = options.level >= 2;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <unordered_set>
+#include <utility>
 
 #include "frontend/export/plcopen.h"
 #include "frontend/source/scanner.h"
@@ -195,6 +196,8 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
     if (decl.body_begin <= action.h.begin && action.h.begin < decl.body_end) body.actions.push_back(member);
   }
+  for (const DeclId member : compilation_.tree.list(decl.members))
+    body.declarations = std::min(body.declarations, compilation_.tree.decl(member).begin);
   if (body.text.ends_with('\n')) body.text.pop_back();
   bodies_.push_back(std::move(body));
   if (const sema::PouId owner = compilation_.project->pou(id).owner)
@@ -277,9 +280,12 @@ std::string Converter::convert(Loc begin, Loc end) const {
     done_to = body->end;
     std::string declared = temporaries(*body);
     if (!body->sections.empty() || !body->actions.empty()) {
-      std::string chart = body->sections;
-      for (const DeclId member : body->actions) chart += action(member);
-      edits.push_back({body->begin, body->end, chart + declared + body->text, true});
+      std::string actions;
+      for (const DeclId member : body->actions) actions += action(member);
+      declared.insert(0, body->sections);
+      if (body->declarations != body->begin)
+        edits.push_back({body->declarations, body->declarations, std::exchange(declared, {}), true});
+      edits.push_back({body->begin, body->end, declared + actions + body->text, true});
       continue;
     }
     if (!declared.empty() && body->declarations == body->begin && !body->own_line) {
@@ -324,6 +330,7 @@ std::vector<TextFile> Converter::outputs() {
   for (const InputFile& input : compilation_.inputs.files)
     if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
   for (const InputFile& input : compilation_.inputs.files) {
+    if (input.is_library) continue;
     std::string path = input.below;
     if (fs::path(path).extension() != ".st") {
       const std::string stem = fs::path(path).replace_extension().generic_string();
@@ -337,9 +344,14 @@ std::vector<TextFile> Converter::outputs() {
 
 // The name of the single file: that of the project's folder, or of its only file.
 std::string projectName(const Compilation& compilation) {
-  const std::vector<InputFile>& files = compilation.inputs.files;
-  const fs::path path =
-      files.size() == 1 ? fs::path(files[0].below).stem() : fs::path(compilation.inputs.root).filename();
+  const InputFile* only = nullptr;
+  size_t count = 0;
+  for (const InputFile& input : compilation.inputs.files) {
+    if (input.is_library) continue;
+    only = &input;
+    ++count;
+  }
+  const fs::path path = count == 1 ? fs::path(only->below).stem() : fs::path(compilation.inputs.root).filename();
   return path.empty() ? "project" : path.generic_string();
 }
 
@@ -347,7 +359,7 @@ std::string projectXml(Compilation& compilation) {
   std::vector<FileUnit> units;  // rung.project keeps its own settings
   for (const FileUnit& unit : compilation.tree.files)
     if (std::any_of(compilation.inputs.files.begin(), compilation.inputs.files.end(),
-                    [&](const InputFile& input) { return input.file == unit.file; }))
+                    [&](const InputFile& input) { return input.file == unit.file && !input.is_library; }))
       units.push_back(unit);
   return exporter::writeProject({compilation.tree, compilation.names, compilation.sources, units},
                                 projectName(compilation), compilation.diagnostics);

@@ -48,6 +48,7 @@ class Collector {
       if (last == nullptr || last->below != candidate.below) addFile(candidate);
       last = &candidate;
     }
+    addLibraryPrograms();
     if (inputs_.files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() && !options_.inputs.empty())
       fail(diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
   }
@@ -55,7 +56,8 @@ class Collector {
  private:
   struct Candidate {
     std::string absolute, path, below;
-    bool named;  // on the command line or in rung.project, not found in a folder
+    bool named;               // on the command line or in rung.project, not found in a folder
+    bool is_library = false;  // listed by a .plcproj given with -I
   };
 
   void fail(Diag diag, const std::string& path, std::initializer_list<std::string_view> args,
@@ -103,7 +105,6 @@ class Collector {
     candidates_.push_back({absolutePath(path), path, {}, true});
   }
 
-  // A PROGRAM of a library is there for trying it out.
   bool holdsProgram(const std::string& path) const {
     if (!importer::hasExtension(path, ".tcpou")) return false;
     const std::string text = files_.read(path).content;
@@ -111,7 +112,34 @@ class Collector {
     return begin != std::string::npos && firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
   }
 
-  // The files listed by a TwinCAT project, relative to its folder. Tasks and programs of a library are left out.
+  // Whether a file that was read has a PROGRAM of this name.
+  bool declaresProgram(std::string_view name) const {
+    for (const InputFile& input : inputs_.files) {
+      Scanner scanner(sources_.original(input.file));
+      std::string_view before;
+      for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+        const std::string_view word = sources_.original(input.file).substr(unit.begin, unit.end - unit.begin);
+        if (sameIdentifier(before, "PROGRAM") && sameIdentifier(word, name)) return true;
+        before = word;
+      }
+    }
+    return false;
+  }
+
+  // Blocks of a library may call its programs; no task runs them. One that the project has too, such as MAIN, is there
+  // for trying the library out.
+  void addLibraryPrograms() {
+    std::sort(library_programs_.begin(), library_programs_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.path < b.path; });
+    for (Candidate& candidate : library_programs_) {
+      const std::string stem = fs::path(candidate.path).stem().string();
+      if (declaresProgram(stem)) continue;
+      candidate.below = fs::path(candidate.absolute).lexically_relative(inputs_.root).generic_string();
+      addFile(candidate);
+    }
+  }
+
+  // The files listed by a TwinCAT project, relative to its folder. Tasks of a library are left out.
   void addPlcProject(const std::string& path, bool is_library = false) {
     ReadResult read = files_.read(path);
     if (!read.error.empty()) return fail(diag::CannotRead, path, {path, read.error});
@@ -125,16 +153,17 @@ class Collector {
     inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
     for (const importer::twincat::ProjectEntry& entry : project.files) {
       const std::string listed = sameFile(folder, entry.path);
-      if (is_library && (importer::hasExtension(entry.path, ".tctto") || holdsProgram(listed))) continue;
+      if (is_library && importer::hasExtension(entry.path, ".tctto")) continue;
       struct stat info;
       if (files_.isUnsaved(listed) || stat(listed.c_str(), &info) == 0) {
-        candidates_.push_back({absolutePath(listed), listed, {}, true});
+        std::vector<Candidate>& to = is_library && holdsProgram(listed) ? library_programs_ : candidates_;
+        to.push_back({absolutePath(listed), listed, {}, true, is_library});
         continue;
       }
       const char* why = strerror(errno);
       diagnostics_.report(diag::CannotRead, entry.loc, {entry.path, why})
           .length(static_cast<uint32_t>(entry.path.size()));
-      inputs_.io_error = true;
+      ++inputs_.missing_files;
     }
     for (importer::Library& library : project.libraries) inputs_.libraries.push_back(std::move(library));
   }
@@ -298,7 +327,7 @@ class Collector {
     FileId file = sources_.add(candidate.below, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
     sources_.setDisplayPath(file, candidate.path);
-    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
+    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library});
   }
 
   const Options& options_;
@@ -307,6 +336,7 @@ class Collector {
   Diagnostics& diagnostics_;
   Inputs& inputs_;
   std::vector<Candidate> candidates_;
+  std::vector<Candidate> library_programs_;
   std::vector<std::string> bases_;  // folders of the inputs, absolute
   std::string project_shown_;
 };

@@ -23,6 +23,7 @@ struct InputFile {
   std::string below;  // relative to the root: the path in generated code and the symbol map
   FileKind kind = FileKind::Unknown;
   FileId file;
+  bool is_library = false;  // listed by a .plcproj given with -I
 };
 
 struct Inputs {
@@ -34,6 +35,7 @@ struct Inputs {
   std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
   std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
   bool unread = false;                       // a vendor's file could not be understood: its declarations are missing
+  uint32_t missing_files = 0;                // that a .plcproj lists: one error each, and the others are checked
   bool io_error = false;                     // something could not be read: exit 2
 };
 

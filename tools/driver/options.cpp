@@ -69,6 +69,13 @@ std::string parseDialect(std::string_view name, Dialect& dialect) {
   return error;
 }
 
+std::string parseNativeWidth(std::string_view bits, uint32_t& width) {
+  uint32_t choice = 0;
+  std::string error = parseChoice("--native-width", bits, "32|64", choice);
+  if (error.empty()) width = choice == 0 ? 32 : 64;
+  return error;
+}
+
 std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
   const size_t equal = text.find('=');
   const std::string_view name = text.substr(0, equal);

@@ -81,6 +81,8 @@ struct Options {
   // run: options for the host (rung::host::parseRunOptions), one `--name=value` each
   std::vector<std::string> host_arguments;
   uint32_t pointer_size = 8;
+  uint32_t native_width = 32;  // of intermediate results in codesys
+  bool native_width_given = false;
   int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
 
   // run, test
@@ -103,6 +105,7 @@ struct Options {
 };
 
 // The bits of `div,index,…`, `default`, `all` or `none`.
+[[nodiscard]] std::string parseNativeWidth(std::string_view bits, uint32_t& width);
 [[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
 // NAME or NAME=VALUE.
 [[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "frontend/import/source_mapped_text.h"
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
@@ -17,7 +18,7 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std libraries checks optimize warnings defines"},
+    {"project", false, "name sources std native-width libraries checks optimize warnings defines"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
     {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
@@ -159,6 +160,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "std") {
       project.has_dialect = true;
       error = parseDialect(entry.value, project.dialect);
+    } else if (entry.key == "native-width") {
+      project.has_native_width = true;
+      error = parseNativeWidth(entry.value, project.native_width);
     } else if (entry.key == "checks") {
       project.has_checks = true;
       std::string checks;
@@ -250,14 +254,14 @@ bool isPlain(std::string_view value) {
   return true;
 }
 
-void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& project) {
-  std::string text, programs;
-  uint32_t line = 1;
+// TASK and PROGRAM declarations of the [task] sections, each value at its place in the file.
+FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile& project) {
+  xml::SourceMappedText text(sources);
+  std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
     if (section.kind != "task" || !isModuleName(section.name)) continue;
-    if (text.empty()) text = "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC ";
-    for (uint32_t at = sources.location(section.loc).line; line < at; line++) text += '\n';
-    text += "TASK " + section.name + "(";
+    if (text.empty()) text.put(section.loc, "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n");
+    text.put(section.loc, "TASK " + section.name + "(");
     const char* separator = "";
     for (const ProjectEntry& entry : section.entries) {
       if (entry.key == "programs") continue;
@@ -268,10 +272,11 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
       std::string value = entry.value;
       if (entry.key == "kind") value = upper(value);
       if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
-      text += separator + upper(entry.key) + " := " + value;
+      text.put(entry.key_loc, separator + upper(entry.key) + " := ");
+      text.put(entry.value_loc, value);
       separator = ", ";
     }
-    text += ");";
+    text.put(section.loc, ");\n");
     if (const ProjectEntry* entry = section.find("programs")) {
       for (const std::string& item : list(entry->value)) {
         // `Type` or `instance : Type`
@@ -282,11 +287,14 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
           badValue(diagnostics, *entry, "it takes `Program` or `instance : Program`, separated by commas");
           continue;
         }
-        programs += " PROGRAM " + name + " WITH " + section.name + " : " + type + ";";
+        programs.emplace_back(entry->value_loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");
       }
     }
   }
-  if (!text.empty()) project.configuration = text + programs + " END_RESOURCE END_CONFIGURATION\n";
+  if (text.empty()) return {};
+  for (const auto& [loc, program] : programs) text.put(loc, program);
+  text.word("END_RESOURCE END_CONFIGURATION\n");
+  return text.finish(sources, project.file);
 }
 
 }  // namespace
@@ -297,7 +305,7 @@ const ProjectEntry* ProjectSection::find(std::string_view key) const {
   return nullptr;
 }
 
-void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project) {
+void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project) {
   project.file = file;
   Reader(sources, file, diagnostics, project).read();
   for (const ProjectSection& section : project.sections)
@@ -307,11 +315,12 @@ void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnost
       readPoolSection(section, diagnostics, project);
     else if (section.kind == "area" && !section.name.empty())
       readAreaSection(section, diagnostics, project);
-  writeTasks(sources, diagnostics, project);
+  project.configuration = writeTasks(sources, diagnostics, project);
 }
 
 void applyProjectFile(const ProjectFile& project, Options& options) {
   if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
+  if (project.has_native_width && !options.native_width_given) options.native_width = project.native_width;
   if (project.has_checks && !options.checks_given) options.checks = project.checks;
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;

@@ -33,8 +33,9 @@ struct ProjectFile {
 
   std::vector<std::string> sources, libraries;  // paths relative to `folder`
   std::string name;
-  bool has_dialect = false, has_checks = false, has_level = false;
+  bool has_dialect = false, has_native_width = false, has_checks = false, has_level = false;
   Dialect dialect = Dialect::Codesys;
+  uint32_t native_width = 32;
   uint8_t checks = 0;
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
@@ -42,11 +43,10 @@ struct ProjectFile {
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
-  // The tasks as a CONFIGURATION in ST, each on the line of its section; empty: no [task] section.
-  std::string configuration;
+  FileId configuration;  // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };
 
-void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
+void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
 
 // Applies the settings of the file that the command line does not have.
 void applyProjectFile(const ProjectFile& project, Options& options);

@@ -48,6 +48,7 @@ enum class Key : uint8_t {
   Root,
   Name,
   Dialect,
+  NativeWidth,
   Checks,
   Level,
   Warning,
@@ -126,6 +127,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "treat each file as a separate project"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "show the declaration of a function, block or type"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
+    {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
      "run-time checks: div,index,null,cast,subrange,\n"
      "convert,overflow, or default, all, none\n"
@@ -186,6 +188,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.name = value;
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
+    case Key::NativeWidth: options.native_width_given = true; return parseNativeWidth(value, options.native_width);
     case Key::Checks: options.checks_given = true; return parseChecks(value, options.checks);
     case Key::Level:
       options.level_given = true;

@@ -220,7 +220,7 @@ xml::Excerpt Networks::attributeOf(const Element& e, std::string_view attribute)
   return found == nullptr || found->raw.empty() ? xml::Excerpt() : xml::Excerpt(document_, *found);
 }
 
-// Names of connectors are changed to identifiers like those of labels.
+// The name of a label, an identifier.
 xml::Excerpt Networks::reference(const Element& e, std::string_view attribute) const {
   return labelOf(attributeOf(e, attribute), document_.value(e, attribute));
 }
@@ -279,8 +279,9 @@ void Networks::writeObject(const Element& e, ElementKind kind, uint64_t number) 
   }
   if (kind == ElementKind::Jump)
     out.name = reference(e, document_.attribute(e, "targetLabel") ? "targetLabel" : "targetNetworkLabel");
-  if (kind == ElementKind::Label || kind == ElementKind::Connector || kind == ElementKind::Continuation)
-    out.name = reference(e, "label");
+  if (kind == ElementKind::Label) out.name = reference(e, "label");
+  if (kind == ElementKind::Connector || kind == ElementKind::Continuation)
+    out.name = connectorOf(attributeOf(e, "label"), document_.value(e, "label"));
   if (variable) out.operand = attributeOf(e, ladder ? "operand" : "identifier");
   if (variable || kind == ElementKind::Jump || kind == ElementKind::Return) out.modifiers = modifiersOf(e);
   if (kind != ElementKind::Input) out.order = orderOf(e);

@@ -196,20 +196,31 @@ const Chart::Paths* Chart::pathsThrough(const ChartWire& wire, uint32_t node, ui
   return nullptr;
 }
 
-// Adds one set of steps for each path to the node.
+// Forbids a transition directly after a jump. IEC 61131-3 ed. 3, 6.7.5.
+// Adds one set of steps for each path to the node. A branch that ends with a jump adds none, although editors draw it
+// to the convergence.
 void Chart::addPaths(Paths& paths, uint32_t node, uint32_t depth) {
+  uint32_t jump = UINT32_MAX;
+  bool all_leave = nodes_[node].first_wire < nodes_[node].end_wire;
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
-    const bool jumps = nodes_[from].kind == NodeKind::Jump;
-    if (jumps) report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
-    const Paths* inner = jumps ? nullptr : pathsThrough(wires_[w], node, depth);
-    if (inner == nullptr) continue;
-    paths.never = paths.never || inner->never;
+    if (nodes_[from].kind == NodeKind::Jump) {
+      jump = from;
+      if (nodes_[node].kind != NodeKind::SelectionConvergence)
+        report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+      continue;
+    }
+    const Paths* inner = pathsThrough(wires_[w], node, depth);
+    all_leave = all_leave && inner != nullptr && inner->never;
+    if (inner == nullptr || inner->never) continue;
     for (const Steps& steps : inner->sets) {
       if (!spend(node, steps.size())) return;
       paths.sets.push_back(steps);
     }
   }
+  paths.never = all_leave;
+  if (all_leave && jump != UINT32_MAX && ok_)
+    import_.diagnostics.report(diag::ChartNeverConverges, nodes_[jump].element->loc, {nameOf(jump), nameOf(node)});
 }
 
 // One set from each input, in all combinations; usually there is one. A branch that ends with a jump never reaches the

@@ -197,8 +197,12 @@ void Chart::writeOperand(uint32_t node) {
   }
   import_.out.put(e.loc, isTrue(import_, e, "negated") ? "NOT (" : "(");
   const xml::Element* text = document_.child(e, nodes_[node].kind == NodeKind::Input ? "expression" : "variable");
-  if (text == nullptr || isBlank(document_.text(*text, import_.sources)))
+  size_t begin = 0, end = 0;
+  const Form form = text == nullptr ? Form::Empty : formOf(document_.text(*text, import_.sources), begin, end);
+  if (form == Form::Empty)
     import_.out.word("FALSE");
+  else if (form == Form::Expression)
+    writePart(import_, *text, begin, end);  // without its `;`
   else
     writeText(import_, *text);
   import_.out.word(after_rail ? ")" : "))");

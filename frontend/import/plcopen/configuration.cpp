@@ -59,10 +59,33 @@ std::optional<uint64_t> isoDuration(std::string_view text) {
   return any ? std::optional(total) : std::nullopt;
 }
 
-// A time in ST notation, from `PT0.05S`, `T#50ms` or `50` with a unit; empty: not a time, which was reported.
+// `00:00:00.010000`, hours, minutes and seconds as TC6 1.0 has them.
+std::optional<uint64_t> clockDuration(std::string_view text) {
+  uint64_t whole[3] = {};
+  for (uint64_t& part : whole) {
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), part);
+    if (read.ec != std::errc{} || part > 1'000'000) return std::nullopt;
+    text.remove_prefix(static_cast<size_t>(read.ptr - text.data()));
+    if (&part == &whole[2]) break;
+    if (!text.starts_with(':')) return std::nullopt;
+    text.remove_prefix(1);
+  }
+  uint64_t ns = ((whole[0] * 60 + whole[1]) * 60 + whole[2]) * 1'000'000'000;
+  if (text.empty()) return ns;
+  if (text[0] != '.' || text.find_first_not_of("0123456789", 1) != std::string_view::npos) return std::nullopt;
+  uint64_t digit = 100'000'000;
+  for (const char c : text.substr(1)) {
+    ns += digit * static_cast<uint64_t>(c - '0');
+    digit /= 10;
+  }
+  return ns;
+}
+
+// A time in ST notation, from `PT0.05S`, `00:00:00.05`, `T#50ms` or `50` with a unit; empty: not a time, which was reported.
 std::string timeOf(Import& import, const xml::Attribute& attribute, std::string unit) {
   std::string text = import.document.decoded(attribute);
   if (const auto duration = isoDuration(text)) return "T#" + std::to_string(*duration) + "ns";
+  if (const auto duration = clockDuration(text)) return "T#" + std::to_string(*duration) + "ns";
   if (text.find('#') != std::string::npos) return text;
   uint64_t number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);

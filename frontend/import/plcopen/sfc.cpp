@@ -39,10 +39,10 @@ void Chart::readTime(const xml::Element& action, StepAction& out) {
   out.time = {document_, *duration};
 }
 
-// The name of the action or variable. An action with an inline body, or a variable that is not just a name, gets an
-// ACTION.
+// The name of the action or variable, which may be that of an instance. An action with an inline body, or a variable
+// that is not just names, gets an ACTION.
 xml::Excerpt Chart::actionName(const xml::Element& action, const xml::Attribute* name) {
-  if (name != nullptr && isIdentifier(name->raw)) {
+  if (name != nullptr && isPath(name->raw)) {
     xml::Excerpt excerpt(document_, *name);
     if (import_.isRenamed(name->raw)) excerpt.text = kActionSuffix;
     return excerpt;

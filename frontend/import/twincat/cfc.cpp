@@ -220,7 +220,7 @@ void CfcReader::write(const Element& item, ElementKind kind, uint64_t number) {
   } else {
     const xml::Excerpt last = texts.empty() ? xml::Excerpt() : archive_.excerptOf(*texts.back());
     if (kind == ElementKind::Connector || kind == ElementKind::Continuation)
-      out.name = texts.empty() ? xml::Excerpt(item.loc, "n") : labelOf(last, archive_.text(*texts.back()));
+      out.name = texts.empty() ? xml::Excerpt(item.loc, "n") : connectorOf(last, archive_.text(*texts.back()));
     else
       out.operand = last;
     const std::vector<const Element*> inputs = inputsOf(item);

@@ -13,6 +13,8 @@
 namespace rung::host {
 namespace {
 
+constexpr int64_t kMaxCycle = 1'000'000'000'000;  // times an interval it is a time in 64 bits
+
 // An unquoted `a[1,2]` in a header was split at its comma: joins it again while brackets are open.
 CsvRow joinBrackets(const CsvRow& header) {
   CsvRow joined;
@@ -83,6 +85,8 @@ bool Inputs::load(const std::string& path, std::string& error) {
     int64_t cycle = 0;
     const std::string& first = row.cells[0];
     const std::from_chars_result read = std::from_chars(first.data(), first.data() + first.size(), cycle);
+    if (read.ec == std::errc::result_out_of_range || (read.ec == std::errc{} && cycle > kMaxCycle))
+      return fail(row, 0, "cycle `" + first + "` is too large; the last one is " + std::to_string(kMaxCycle));
     if (read.ec != std::errc{} || read.ptr != first.data() + first.size() || cycle < 0)
       return fail(row, 0, "`" + first + "` is not a cycle number; write 0, 1, 2, ...");
     if (row.cells.size() > columns.size())

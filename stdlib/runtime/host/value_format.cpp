@@ -2,6 +2,7 @@
 #include "value_format.h"
 
 #include <cstring>
+#include <vector>
 
 #include "rung/values.h"
 
@@ -120,8 +121,12 @@ void formatValue(const rung_module& module, const Variable& variable, std::strin
     case RUNG_WSTRING:
     case RUNG_USTRING: {
       const size_t begin = to.size();
+      std::vector<uint8_t> ended(at, at + type.size);  // other variables may overlap its final zero
+      const size_t unit = type.kind == RUNG_WSTRING ? 2 : 1;
+      memset(ended.data() + type.length * unit, 0, unit);
       to.resize(begin + 5 * size_t{type.length} + 2);
-      to.resize(begin + rung_format(type.kind, false, at, to.data() + begin, static_cast<uint32_t>(to.size() - begin)));
+      to.resize(begin + rung_format(type.kind, false, ended.data(), to.data() + begin,
+                                    static_cast<uint32_t>(to.size() - begin)));
       return;
     }
     case RUNG_POINTER: {

@@ -20,6 +20,7 @@ std::string value(const std::string& literal, Dialect dialect = Dialect::Codesys
 TEST(Literals, Numbers) {
   EXPECT_EQ(value("0"), "0");
   EXPECT_EQ(value("1_000"), "1000");
+  EXPECT_EQ(value("1__000"), "1000");
   EXPECT_EQ(value("16#Ff"), "255");
   EXPECT_EQ(value("2#1010_0101"), "165");
   EXPECT_EQ(value("8#17"), "15");
@@ -44,7 +45,8 @@ TEST(Literals, WrongNumbers) {
   EXPECT_EQ(value("2#102"), "2:6 E0120");
   EXPECT_EQ(value("7#1"), "2:6 E0119");
   EXPECT_EQ(value("16#"), "2:6 E0120");
-  EXPECT_EQ(value("1__0"), "2:6 E0121");
+  EXPECT_EQ(value("1__0", Dialect::Iec3), "2:6 E0121");
+  EXPECT_EQ(value("1__"), "2:6 E0121");
   EXPECT_EQ(value("1_"), "2:6 E0121");
   EXPECT_EQ(value("12ab"), "2:6 E0122");
   EXPECT_EQ(value("INT#1.5"), "2:10 E0132");

@@ -78,11 +78,10 @@ TEST_F(ProjectFileTest, TasksBecomeAConfiguration) {
       "[task fast]\ninterval = 10ms\npriority = 1\nprograms = Main, second : Other\n[task slow]\nkind = "
       "freewheeling\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
-  EXPECT_EQ(
-      project.configuration,
-      "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC TASK fast(INTERVAL := T#10ms, PRIORITY := "
-      "1);\n\n\n\nTASK slow(KIND := FREEWHEELING); PROGRAM Main WITH fast : Main; PROGRAM second WITH fast : "
-      "Other; END_RESOURCE END_CONFIGURATION\n");
+  EXPECT_EQ(sources.sourceText(project.configuration),
+            "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n"
+            "TASK fast(INTERVAL := T#10ms, PRIORITY := 1);\nTASK slow(KIND := FREEWHEELING);\n"
+            "PROGRAM Main WITH fast : Main;\nPROGRAM second WITH fast : Other;\nEND_RESOURCE END_CONFIGURATION\n");
 }
 
 TEST_F(ProjectFileTest, ValuesCannotBreakOutOfTheirPlace) {
