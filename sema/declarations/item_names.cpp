@@ -12,7 +12,7 @@ namespace rung::sema {
 
 namespace {
 
-// A number that is no item's stays a number; of two items with one number, the first.
+// A number that belongs to none of the items stays a number; of two items with one number, the first.
 std::string sourceOf(const Context& context, const std::string& function, const types::TypeInfo& enumeration) {
   std::string source = "FUNCTION " + function + " : STRING VAR_INPUT IN : LINT; END_VAR\nCASE IN OF\n";
   std::vector<int64_t> seen;

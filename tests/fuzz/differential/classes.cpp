@@ -75,7 +75,7 @@ Node Generator::classStatement() {
     case 9: return Stmt{writable(kReal) + " := " + prefix_ + "_Fold(\1);\n", {expr(kReal, 1)}};
     case 10: return Stmt{result() + prefix_ + "_Fold(\1);\n", {expr(kString, 1)}};
     case 11:
-      return Stmt{result() + prefix_ + "_Fold(\1, y := \1) + " + prefix_ + "_Meet(" + object + ");\n",
+      return Stmt{result() + prefix_ + "_Fold(x := \1, y := \1) + " + prefix_ + "_Meet(" + object + ");\n",
                   {expr(kDint, 1), expr(kDint, 1)}};
     case 12:
       return Stmt{"over." + pick({"low", "high"}) + " := \1;\nover.sign := \1;\n", {expr(kWord, 1), expr(kBool, 1)}};

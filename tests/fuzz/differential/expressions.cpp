@@ -76,7 +76,7 @@ std::string Generator::writable(int type) {
       return chance(50) ? "pair.count" : "table[" + std::to_string(below(6) - 1) + "].count";
     if (type == kReal && chance(25)) return "pair.share";
     if (type == kString && chance(30)) return chance(50) ? "short" : "pair.title";
-    if (type == kInt && chance(20)) return "percent";
+    if (type == kInt && codesys() && chance(20)) return "percent";
     if (type == kInt && chance(20))
       return "grid[" + std::to_string(below(2) + 1) + ", " + std::to_string(below(3)) + "]";
     if (type == kDword && codesys() && chance(20)) return "mix.whole";

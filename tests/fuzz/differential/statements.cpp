@@ -15,9 +15,11 @@ Node Generator::assignment() {
   }
   if (body_ == Body::Program && chance(4)) return Stmt{pick({"pair := table[2];\n", "table[0] := pair;\n"})};
   if (body_ == Body::Program && chance(4)) {
-    return Stmt{
-        chance(50) ? "colour := " + prefix_ + "_Colour#" + pick({"Red", "Green", "Blue"}) + ";\n" : "small := \1;\n",
-        {expr(kUsint, 2)}};
+    // The standard refuses a constant outside of the subrange.
+    return Stmt{chance(50)  ? "colour := " + prefix_ + "_Colour#" + pick({"Red", "Green", "Blue"}) + ";\n"
+                : codesys() ? "small := \1;\n"
+                            : "small := MIN(v_usint, \1);\n",
+                {expr(kUsint, 2)}};
   }
   if (codesys() && chance(3)) {
     const std::string first = writable(type), second = writable(type);

@@ -71,10 +71,11 @@ class RangeCheck {
 
   void check(ExprId id, Range range) {
     const ExprKind kind = tree_.kind(id);
+    if (path_.ends_with("keywords_as_names.st")) return;  // whether TO is a name depends on the rest of the file
     if (shape(kind) == ExprShape::Initializer || kind == ExprKind::Range || kind == ExprKind::Error) return;
     if (kind == ExprKind::Call && (!tree_.as<CallExpr>(id).callee || hasNestedIl(range))) return;
-    const bool depends = kind == ExprKind::Name && isNameBesideOthers(textOf(range));  // AND(a, b); a variable `to`
-    if (depends) return;
+    const bool operator_name = kind == ExprKind::Name && isOperatorName(textOf(range));  // AND(a, b), a box ADD
+    if (operator_name) return;
     reparse(std::string(textOf(range)), [&](FileId file) {
       const ExprId again = text::parseExpression(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
       EXPECT_TRUE(again) << where(range);
@@ -90,7 +91,7 @@ class RangeCheck {
     } else if (kind == StmtKind::Assign || kind == StmtKind::Call || kind == StmtKind::Exit) {
       EXPECT_TRUE(text.back() == ';') << where(range);
     } else {
-      EXPECT_TRUE(text.back() == ';' || std::isalpha(text.back())) << where(range);
+      EXPECT_TRUE(text.back() == ';' || text.back() == ')' || std::isalpha(text.back())) << where(range);
     }
   }
   void check(TypeExprId id, Range range) {
@@ -118,9 +119,8 @@ class RangeCheck {
     EXPECT_EQ(diagnostics_.errorCount(), errors) << path_ << ": `" << shown << "`";
   }
   bool hasNestedIl(Range range) const { return textOf(range).find("(LD ") != std::string_view::npos; }
-  static bool isNameBesideOthers(std::string_view name) {
-    for (const char* word : {"AND", "OR", "XOR", "MOD", "NOT", "TO", "BY", "CONTINUE", "CHAR", "WCHAR", "REF_TO",
-                             "LTIME", "LDATE", "LTOD", "LDT"})
+  static bool isOperatorName(std::string_view name) {
+    for (const char* word : {"AND", "OR", "XOR", "MOD", "NOT"})
       if (sameIdentifier(name, word)) return true;
     return false;
   }

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"counter := -32768;", ""}, Row{"counter := 30000 + 30000;", "1:12 E0504"},
                     Row{"bt := 256;", "1:7 E0504"}, Row{"u := -1;", "1:6 W0562"},
                     Row{"counter := SINT#200;", "1:12 E0504"}, Row{"counter := 5 / 0;", "1:16 E0505"},
-                    Row{"counter := counter MOD 0;", "1:24 E0505"}, Row{"r := r / 0.0;", "1:10 E0505"},
+                    Row{"counter := counter MOD 0;", "1:24 E0505"}, Row{"r := r / 0.0;", "1:10 W0582"},
                     Row{"arr[9] := 1;", "1:5 E0506"}, Row{"arr[0] := 1;", "1:5 E0506"}, Row{"arr[5] := 1;", ""},
                     Row{"grid[0, 2] := 1.0;", "1:9 E0506"}, Row{"sub := 10;", "1:8 W0559"},
                     Row{"r := 1 / 2;", "1:8 W0557"}, Row{"t := -T#1s;", ""}, Row{"s := 'x';", ""}));
