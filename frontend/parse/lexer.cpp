@@ -152,13 +152,17 @@ constexpr std::array<bool, kTokCount> makeBlockKeywords() {
 constexpr std::array<bool, kTokCount> kBlockKeyword = makeBlockKeywords();
 
 // Keywords that sources of CODESYS and TwinCAT use as names: its version 2.3 had no LTIME, LDATE, LTOD and LDT, no
-// version has CHAR, WCHAR and REF_TO, and TO, BY and CONTINUE are keywords only where a statement has them.
+// version has CHAR, WCHAR and REF_TO, and the others are keywords only where a statement or declaration has them.
 bool isForeignType(Tok kind) {
   static constexpr TokSet kTypes = {Tok::Ltime, Tok::Ldate, Tok::Ltod, Tok::Ldt, Tok::Char, Tok::Wchar, Tok::RefTo};
   return kTypes.has(kind);
 }
-bool isStatementPart(Tok kind) { return kind == Tok::To || kind == Tok::By || kind == Tok::Continue; }
-bool mayBeName(Tok kind) { return isForeignType(kind) || isStatementPart(kind); }
+bool isPartWord(Tok kind) {
+  static constexpr TokSet kWords = {Tok::To, Tok::By, Tok::Continue};
+  return kWords.has(kind);
+}
+bool isPlantWord(Tok kind) { return kind == Tok::Configuration || kind == Tok::Resource; }  // a name follows
+bool mayBeName(Tok kind) { return isForeignType(kind) || isPartWord(kind) || isPlantWord(kind); }
 
 enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
 Prefix prefixOf(std::string_view word) {
@@ -366,7 +370,7 @@ static bool isDeclared(const std::vector<Token>& tokens, size_t i) {
 }
 
 // In a source that declares a variable or member with the name of such a keyword, a type is that name wherever a type
-// is not possible, and TO, BY and CONTINUE wherever a statement cannot have them; everywhere after a dot.
+// is not possible, and the other words wherever they cannot be keywords; everywhere after a dot.
 void Lexer::resolveDeclaredWords() {
   std::vector<Token>& tokens = out_.tokens;
   bool declared[kTokCount] = {};
@@ -385,7 +389,7 @@ void Lexer::resolveDeclaredWords() {
                           last != Tok::RightBracket && last != Tok::Caret) ||
                          kOperandFollows.has(last) || next == Tok::Assign || next == Tok::Arrow || next == Tok::Comma ||
                          next == Tok::Colon || next == Tok::RightParen || next == Tok::Dot;
-    const bool name = isStatementPart(token.kind) ? operand : !type;
+    const bool name = isPlantWord(token.kind) ? !isName(next) : isPartWord(token.kind) ? operand : !type;
     const bool member = last == Tok::Dot && isReserved(token.kind);
     if (!member && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
     if (isReserved(token.kind)) {

@@ -134,8 +134,7 @@ DeclId Parser::parsePou() {
   parsePouName(d);
   std::vector<DeclId> usings;
   while (at(Tok::Using)) parseUsing(usings);
-  if (at(Tok::Extends)) d.bases = parseTypeNames();
-  if (at(Tok::Implements)) d.implements = parseTypeNames();
+  parseBases(d);
   parsePouResult(d, word);
   declared_in_body_ = lost_ = eno_used_ = false;
   pou_end_ = end;
@@ -149,6 +148,12 @@ DeclId Parser::parsePou() {
   if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   closePou(d, open, word, end);
   return tree_.add<DeclId>(d);
+}
+
+// [EXTENDS types] [IMPLEMENTS types]: in the header, or in codesys after VAR_GENERIC CONSTANT
+void Parser::parseBases(PouDecl& d) {
+  if (at(Tok::Extends)) d.bases = parseTypeNames();
+  if (at(Tok::Implements)) d.implements = parseTypeNames();
 }
 
 void Parser::parsePouName(PouDecl& d) {
@@ -234,6 +239,8 @@ void Parser::parsePouParts(PouDecl& d) {
   while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
     const DeclId section = parseSection();
     decls_.push_back(section);
+    const bool is_generic = (tree_.decl(section).bits & kGeneric) != 0;
+    if (is_generic && d.bases.empty() && d.implements.empty()) parseBases(d);
   }
   d.sections = listFrom(decls_, first);
   parseMembersOf(d, members, transitions);

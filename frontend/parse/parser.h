@@ -25,6 +25,7 @@ class Parser final : public ChartParser {
   bool enterDecl(Tok end);
   DeclId parsePou();
   void parsePouName(PouDecl& d);
+  void parseBases(PouDecl& d);
   void parsePouResult(PouDecl& d, Tok word);
   void parsePouParts(PouDecl& d);
   void closePou(PouDecl& d, const Token* open, Tok word, Tok end);
