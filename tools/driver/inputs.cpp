@@ -105,35 +105,38 @@ class Collector {
     candidates_.push_back({absolutePath(path), path, {}, true});
   }
 
-  bool holdsProgram(const std::string& path) const {
+  // Whether a file of a library has a PROGRAM or a POU for implicit checks.
+  bool mayBeInProjectToo(const std::string& path) const {
     if (!importer::hasExtension(path, ".tcpou")) return false;
     const std::string text = files_.read(path).content;
     const size_t begin = text.find("<![CDATA[");
-    return begin != std::string::npos && firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
+    if (begin == std::string::npos) return false;
+    const std::string word = firstWord(std::string_view(text).substr(begin + 9));
+    return word == "PROGRAM" || (word == "FUNCTION" && upper(fs::path(path).stem().string()).starts_with("CHECK"));
   }
 
-  // Whether a file that was read has a PROGRAM of this name.
-  bool declaresProgram(std::string_view name) const {
+  // Whether a file that was read has a PROGRAM or FUNCTION of this name.
+  bool declares(std::string_view name) const {
     for (const InputFile& input : inputs_.files) {
       Scanner scanner(sources_.original(input.file));
-      std::string_view before;
+      bool is_name = false;
       for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
-        const std::string_view word = sources_.original(input.file).substr(unit.begin, unit.end - unit.begin);
-        if (sameIdentifier(before, "PROGRAM") && sameIdentifier(word, name)) return true;
-        before = word;
+        const std::string word = upper(sources_.original(input.file).substr(unit.begin, unit.end - unit.begin));
+        if (is_name && sameIdentifier(word, name)) return true;
+        is_name = word == "PROGRAM" || word == "FUNCTION" || (is_name && (word == "INTERNAL" || word == "PUBLIC"));
       }
     }
     return false;
   }
 
   // Blocks of a library may call its programs; no task runs them. One that the project has too, such as MAIN, is there
-  // for trying the library out.
+  // for trying the library out, and functions such as CheckBounds are for the library as a project of its own.
   void addLibraryPrograms() {
     std::sort(library_programs_.begin(), library_programs_.end(),
               [](const Candidate& a, const Candidate& b) { return a.path < b.path; });
     for (Candidate& candidate : library_programs_) {
       const std::string stem = fs::path(candidate.path).stem().string();
-      if (declaresProgram(stem)) continue;
+      if (declares(stem)) continue;
       candidate.below = fs::path(candidate.absolute).lexically_relative(inputs_.root).generic_string();
       addFile(candidate);
     }
@@ -156,7 +159,7 @@ class Collector {
       if (is_library && importer::hasExtension(entry.path, ".tctto")) continue;
       struct stat info;
       if (files_.isUnsaved(listed) || stat(listed.c_str(), &info) == 0) {
-        std::vector<Candidate>& to = is_library && holdsProgram(listed) ? library_programs_ : candidates_;
+        std::vector<Candidate>& to = is_library && mayBeInProjectToo(listed) ? library_programs_ : candidates_;
         to.push_back({absolutePath(listed), listed, {}, true, is_library});
         continue;
       }
