@@ -135,10 +135,11 @@ struct Pou {
     bool slice = false;      // {slice}: and a third that only returns which part of the first input the result is
     bool prefix =
         false;  // {prefix}: the first n characters of the result depend only on the first n of the first input
-    bool faults = false;    // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
-    bool no_copy = false;   // {no_copy}: an instance cannot be copied
-    bool bytes = false;     // {bytes}: its generic type is ARRAY OF BYTE
-    bool no_check = false;  // {attribute 'no_check'}: without the implicit checks of the project
+    bool faults = false;           // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
+    bool no_copy = false;          // {no_copy}: an instance cannot be copied
+    bool bytes = false;            // {bytes}: its generic type is ARRAY OF BYTE
+    bool call_after_init = false;  // {attribute 'call_after_init'}
+    bool no_check = false;         // {attribute 'no_check'}: without the implicit checks of the project
     types::Op op = types::Op::Add;
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X

@@ -49,7 +49,18 @@ bool mayOverlap(const Variable& read, const Variable& written) {
 
 }  // namespace
 
-bool StatementLowering::mayChange(ExprId value, StmtId loop, ExprId control) const {
+// Whether the address of a local is taken in what is lowered so far. Each expression is looked at once.
+bool StatementLowering::isAddressed(uint32_t local) {
+  state_.addressed.resize(body_.locals.size());
+  for (uint32_t& i = state_.addresses_searched; i < body_.exprs.size(); ++i) {
+    const auto* address = body_.exprs[i].tryAs<AddressExpr>();
+    const uint32_t* root = address != nullptr ? localOf(body_.expr(rootOf(body_, address->place))) : nullptr;
+    if (root != nullptr) state_.addressed[*root] = true;
+  }
+  return state_.addressed[local];
+}
+
+bool StatementLowering::mayChange(ExprId value, StmtId loop, ExprId control) {
   std::vector<std::pair<Variable, TypeId>> read;
   forEachExpr(body_, value, [&](ExprId id) {
     const ExprKind kind = body_.expr(id).kind;
@@ -58,14 +69,7 @@ bool StatementLowering::mayChange(ExprId value, StmtId loop, ExprId control) con
   });
   if (read.empty()) return false;
   const auto isOwn = [&](const Variable& variable) {  // no pointer and no call reaches it
-    if (variable.root != ExprKind::Local) return false;
-    for (const Expr& expr : body_.exprs) {
-      const auto* address = expr.tryAs<AddressExpr>();
-      if (address == nullptr) continue;
-      const uint32_t* local = localOf(body_.expr(rootOf(body_, address->place)));
-      if (local != nullptr && *local == variable.number) return false;
-    }
-    return true;
+    return variable.root == ExprKind::Local && !isAddressed(variable.number);
   };
   bool changed = false;
   const auto change = [&](ExprId place) {

@@ -309,7 +309,8 @@ class StatementLowering : public BodyPart {
   };
   void link(Block statements);
   Block lowerBlock(Slice<rung::StmtId> statements);
-  bool mayChange(ExprId value, StmtId loop, ExprId control) const;
+  bool mayChange(ExprId value, StmtId loop, ExprId control);
+  bool isAddressed(uint32_t local);
   void lowerForWithVariableLimit(ExprId control, ExprId from, const Limit& limit, const Value& step, Block body,
                                  Loc loc);
   void lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,

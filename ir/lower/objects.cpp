@@ -25,17 +25,12 @@ std::vector<sema::PouId> ModuleLowering::lifeMethodsOf(sema::PouId object, std::
 
 // The methods with {attribute 'call_after_init'}, those of bases first, if the object has it too.
 std::vector<sema::PouId> ModuleLowering::calledAfterInit(sema::PouId object) const {
-  const auto isMarked = [&](sema::PouId pou) {
-    for (const Pragma& pragma : tree.list(tree.decl(project.pou(pou).decl).pragmas))
-      if (sameIdentifier(project.names.string(pragma.name), "call_after_init")) return true;
-    return false;
-  };
   std::vector<sema::PouId> out;
-  if (!isMarked(object)) return out;
+  if (!project.pou(object).pragmas.call_after_init) return out;
   for (sema::PouId at = object; at; at = project.pou(at).base) {
     size_t first = 0;
     for (const sema::PouId member : project.pou(at).members) {
-      if (project.pou(member).kind != PouKind::Method || !isMarked(member)) continue;
+      if (project.pou(member).kind != PouKind::Method || !project.pou(member).pragmas.call_after_init) continue;
       const sema::PouId found = implementation(object, member);
       if (found && std::find(out.begin(), out.end(), found) == out.end())
         out.insert(out.begin() + static_cast<ptrdiff_t>(first++), found);

@@ -24,6 +24,10 @@ enum class Access : uint8_t {
   Bind,       // the target of REF=: the reference itself
   Address,    // ADR, SIZEOF: neither read nor written here
 };
+// Whether the value of the variable may be written.
+constexpr bool writesValue(Access access) {
+  return access == Access::Write || access == Access::ReadWrite || access == Access::InOut;
+}
 
 // What a value is used for. The words are made for a message only: "assigned to `x`".
 enum class Use : uint8_t {
@@ -123,6 +127,8 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
 TypeId defaultType(Context& context, ExprId expr);
 // The value of an untyped integer expression; false when it is too large or not known.
 bool untypedValue(const Context& context, ExprId expr, __int128& value);
+// Reports a constant outside of a subrange, an error in iec.
+bool isInSubrange(Context& context, ExprId expr, __int128 value, TypeId subrange);
 // True when the untyped integer fits the type without a message.
 bool untypedFits(Context& context, ExprId expr, TypeId to);
 // Gives an untyped expression a type; reports a value that does not fit.

@@ -365,29 +365,14 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
   return true;
 }
 
-// Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.
-// IEC 61131-3 ed. 3, 6.4.4.4.
-//   passes  percent := INT#50;      fails  percent := INT#150;      E0565
+// False: a constant that the subrange must not take, which was reported.
 bool checkSubrange(Context& context, ExprId expr, TypeId to) {
-  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
-  if (target.kind != TypeKind::Subrange || !context.tree().expr(expr).is_constant) return true;
+  if (context.types().kind(to) != TypeKind::Subrange || !context.tree().expr(expr).is_constant) return true;
   const TypeKind from = context.types().plainKind(context.tree().expr(expr).type);
   const std::optional<types::Value> value = isWholeKind(from) ? evaluate(context, expr) : std::nullopt;
   if (!value) return true;
-  const bool is_signed = context.types().isSigned(context.types().plainKind(to));
-  const auto exact = [](uint64_t bits, bool with_sign) {
-    return with_sign ? __int128{static_cast<int64_t>(bits)} : __int128{bits};
-  };
-  const __int128 number = exact(value->bits, context.types().isSigned(from));
-  const __int128 low = exact(static_cast<uint64_t>(target.low), is_signed);
-  const __int128 high = exact(static_cast<uint64_t>(target.high), is_signed);
-  if (number >= low && number <= high) return true;
-  const auto text = [](__int128 of) {
-    return of < 0 ? "-" + std::to_string(static_cast<uint64_t>(-of)) : std::to_string(static_cast<uint64_t>(of));
-  };
-  context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
-                 {text(number), context.types().toString(to), text(low), text(high)});
-  return !context.iec();
+  const __int128 number = context.types().isSigned(from) ? __int128{value->asSigned()} : __int128{value->bits};
+  return isInSubrange(context, expr, number, to) || !context.iec();
 }
 
 }  // namespace

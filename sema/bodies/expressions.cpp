@@ -96,7 +96,7 @@ TypeId checkDeref(Context& context, ExprId& expr, Access access) {
     return node.h.type = types::kError;
   }
   node.h.writable = 1;
-  const bool writes = access == Access::Write || access == Access::ReadWrite;
+  const bool writes = writesValue(access);
   if (writes || access == Access::Read) callPointerCheck(context, node.base, info.base, writes);
   return node.h.type = info.base;
 }

@@ -397,6 +397,20 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
   return node.h.type = types::kError;
 }
 
+// Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.
+// IEC 61131-3 ed. 3, 6.4.4.4.
+//   passes  percent := INT#50;      fails  percent := INT#150;      E0565
+bool isInSubrange(Context& context, ExprId expr, Int128 value, TypeId subrange) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(subrange));
+  const bool is_signed = context.types().isSigned(context.types().plainKind(subrange));
+  const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
+  const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
+  if (value >= low && value <= high) return true;
+  context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
+                 {toString(value), context.types().toString(subrange), toString(low), toString(high)});
+  return false;
+}
+
 bool untypedValue(const Context& context, ExprId expr, Int128& value) {
   const Tree& tree = context.tree();
   if (tree.kind(expr) == ExprKind::Literal) {
@@ -456,12 +470,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       const Bounds bounds = boundsOf(context.types(), kind);
       Int128 value;
       if (untypedValue(context, expr, value) && value >= bounds.low && value <= bounds.high) {
-        const bool is_signed = context.types().isSigned(kind);
-        const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
-        const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
-        if (value < low || value > high) {
-          context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
-                         {toString(value), context.types().toString(to), toString(low), toString(high)});
+        if (!isInSubrange(context, expr, value, to)) {
           if (context.iec()) return false;
           if (!adaptInteger(context, expr, info.base, bounds)) return false;
           wrapConvert(context, expr, to);

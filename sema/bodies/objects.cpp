@@ -189,11 +189,10 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   resolvePou(context, accessor);
   const TypeId declared = property.get ? context.symbols.pou(property.get).result
                                        : context.symbols.var(pinsOf(context, property.set)[0]).type;
-  const bool writes = access == Access::Write || access == Access::ReadWrite || access == Access::InOut;
   // A value written to a REFERENCE goes to the variable that GET gives. An assignment handles the others; what else
   // writes needs a variable.
   const bool through = context.types().kind(declared) == TypeKind::Reference;
-  if (access == Access::Bind || (writes && !through)) return header.type = declared;
+  if (access == Access::Bind || (writesValue(access) && !through)) return header.type = declared;
   if (!property.get) {
     context.report(diag::PropertyWithoutGet, loc, {string(context, property.name)});
     return header.type = types::kError;

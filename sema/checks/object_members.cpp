@@ -137,8 +137,7 @@ void checkPrototypes(Context& context, PouId interface) {
 //   fails   {attribute 'call_after_init'} METHOD Prepare VAR_INPUT x : INT; END_VAR …        E0649
 void checkCalledAfterInit(Context& context, PouId id) {
   const Pou& method = context.symbols.pou(id);
-  const DeclHeader& header = context.tree().decl(method.decl);
-  if (findPragma(context, header, context.scopes.known_names.attribute_call_after_init) == nullptr) return;
+  if (!method.pragmas.call_after_init) return;
   for (const VarId pin : pinsOf(context, id)) {
     const Var& var = context.symbols.var(pin);
     if (var.section == SectionKind::Output) continue;

@@ -24,7 +24,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
   const bool sets = access == Access::Write || access == Access::Bind;
-  const bool writes = sets || access == Access::ReadWrite || access == Access::InOut;
+  const bool writes = sets || writesValue(access);
   const std::string_view pin = string(context, var.name);
   const std::string block = context.types().toString(record);
   const auto refuse = [&](Diag diag) {

@@ -140,6 +140,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
   pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
   pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
+  pou.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
   pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;

@@ -1,7 +1,7 @@
 // The names of items as strings, {attribute 'to_string'}. In: an enumeration. Out: a function of the library __SYSTEM;
 // its source is composed here, so that it is checked and lowered like any other. CODESYS, "Attribute: to_string".
 // Called for TO_STRING and TO_WSTRING of an enumeration.
-#include <algorithm>
+#include <unordered_set>
 
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
@@ -15,10 +15,9 @@ namespace {
 // A number that belongs to none of the items stays a number; of two items with one number, the first.
 std::string sourceOf(const Context& context, const std::string& function, const types::TypeInfo& enumeration) {
   std::string source = "FUNCTION " + function + " : STRING VAR_INPUT IN : LINT; END_VAR\nCASE IN OF\n";
-  std::vector<int64_t> seen;
+  std::unordered_set<int64_t> seen;
   for (const auto& [name, number] : enumeration.items) {
-    if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
-    seen.push_back(number);
+    if (!seen.insert(number).second) continue;
     source += "  " + std::to_string(number) + ": " + function + " := '" + toString(context, name) + "';\n";
   }
   return source + "ELSE " + function + " := LINT_TO_STRING(IN);\nEND_CASE\nEND_FUNCTION\n";

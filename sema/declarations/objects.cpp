@@ -55,7 +55,10 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.progress.used = owner.library;
-  member.pragmas.faults = findPragma(context, decl.h, context.scopes.known_names.fault) != nullptr;
+  const Scopes::KnownNames& known = context.scopes.known_names;
+  member.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
+  member.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
+  member.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   member.library_name = owner.library_name;
   member.owner = owner_id;
   member.access = decl.access;

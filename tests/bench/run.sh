@@ -183,7 +183,7 @@ kernels() {
   echo "-- routines of plant programs"
   measure_kernels tests/bench/routines/kernels.st tests/bench/routines/hand.cpp
   echo "-- the same in a project whose code is in several files"
-  { awk 'BEGIN { for (i = 100; i < 400; i++) print "FUNCTION Dummy" i " : DINT\nDummy" i " := " i ";\nEND_FUNCTION" }'
+  { awk 'BEGIN { for (i = 100; i < 400; i++) print "FUNCTION Level" i " : DINT\nLevel" i " := " i ";\nEND_FUNCTION" }'
     cat tests/bench/routines/kernels.st; } >"$work/spread.st"
   measure_kernels "$work/spread.st" tests/bench/routines/hand.cpp
   if [ -n "$other_kernels" ]; then
