@@ -120,7 +120,7 @@ class CallWriter : public BodyPart {
  public:
   using BodyPart::BodyPart;
 
-  void callStatement(const ir::CallStmt& stmt, Loc loc);
+  void callStatement(StmtId id);
   void callExpr(const Expr& expr);
 
  private:
@@ -245,7 +245,7 @@ class FunctionWriter : public BodyPart {
   void declareVariables();
   void declareLocal(uint32_t number);
   void declareCached(uint32_t number);
-  void writeBack(std::string& out);
+  void writeAllBack(std::string& out);
   void writeExits();
   void writeHead(ir::BodyId id);
 };
