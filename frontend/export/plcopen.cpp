@@ -7,6 +7,7 @@
 #include "frontend/export/diagnostics.h"
 #include "frontend/export/exporter.h"
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/inline_actions.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::exporter {
@@ -279,7 +280,7 @@ void PouExport::members(AddData& data) {
 void PouExport::actions() {
   bool any = false;
   for (const DeclId member : to_.tree.list(pou_.members)) {
-    if (!isOwnAction(member)) continue;
+    if (!isOwnAction(member) || isInlineAction(to_.tree, to_.names, member)) continue;
     const auto& action = to_.tree.as<PouDecl>(member);
     if (!any) to_.xml.open("actions");
     any = true;
