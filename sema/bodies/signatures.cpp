@@ -157,6 +157,12 @@ Signature ProjectSignatures::of(NameId name) {
 }
 Signature ProjectSignatures::of(ExprId path) { return signatureOf(resolve(path)); }
 
+std::string ProjectSignatures::typeUnlessBool(ExprId path) {
+  const TypeId type = resolve(path).type;
+  if (!type || type == types::kError || context_.types().plainKind(type) == TypeKind::Bool) return {};
+  return context_.types().toString(type);
+}
+
 bool ProjectSignatures::fits(ExprId instance, ExprId block) {
   const Entity drawn = resolve(block).entity;
   const TypeId type = resolve(instance).type;
