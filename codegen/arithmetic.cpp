@@ -178,9 +178,40 @@ void ExpressionWriter::divide(const ir::BinaryExpr& node, Prec context) {
   if (cuts) closeParenthesis(Prec::Unary, context);
 }
 
+// Filled with the sign; a count of the width or more leaves nothing but the sign.
+void ExpressionWriter::shiftSigned(const Expr& e, Prec context) {
+  const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
+  const uint32_t width = widthOf(kindOf(a));
+  const bool is_constant = expr(b).kind == ExprKind::Const, cuts = width < (is_constant ? 32u : 64u);
+  const Prec own = cuts ? Prec::Unary : is_constant ? Prec::Shift : Prec::Postfix;
+  parenthesis(own, context);
+  if (cuts) {
+    out_ += '(';
+    out_ += scalarType(types_, e.type);
+    out_ += is_constant ? ")(" : ")";
+  }
+  if (is_constant) {
+    value(a, Prec::Unary);
+    out_ += " >> ";
+    appendUnsigned(out_, std::min<uint64_t>(ir::bitsOf(expr(b)), width - 1));
+    if (cuts) out_ += ')';
+  } else {
+    out_ += "rung_sar(";
+    value(a, Prec::Ternary);
+    out_ += ", (uint64_t)";
+    value(b, Prec::Unary);
+    out_ += ')';
+  }
+  closeParenthesis(own, context);
+}
+
 // A count of the width or more gives 0; a rotation is modulo the width.
 void ExpressionWriter::shift(const Expr& e, Prec context) {
-  const Op op = e.op();
+  const Op op = e.op() == Op::Sar ? Op::Shr : e.op();
+  if (e.op() == Op::Sar && types_.isSigned(kindOf(e.as<ir::BinaryExpr>().left))) {
+    shiftSigned(e, context);
+    return;
+  }
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);

@@ -36,14 +36,15 @@ class ExpressionWriter : public BodyPart {
   bool isChain(const Expr& expr) const;  // an operand of such an operator that may join its expression
   void divide(const ir::BinaryExpr& node, Prec context);
   void shift(const Expr& expr, Prec context);
+  void shiftSigned(const Expr& expr, Prec context);
   void power(const Expr& expr);
   void convert(ExprId id, Prec context);
-  void convertScalar(TypeId type, ExprId from, Prec context);
+  void convertScalar(TypeId type, const ir::ConvertExpr& node, Prec context);
   template <class F>
   void cast(std::string_view type, Prec context, F&& f);
   void scalarOfString(TypeId type, ExprId from, Prec context);
   void truthOf(ExprId from, Prec context);
-  void roundReal(TypeId type, ExprId from, Prec context);
+  void roundReal(TypeId type, ExprId from, types::Rounding rounding, Prec context);
   void resizeInteger(TypeId type, ExprId from, Prec context);
   void convertTime(ExprId from, TypeKind source, TypeKind target);
 };

@@ -139,9 +139,10 @@ void CheckWriter::convertCheck(const Expr& e) {
   const TypeKind source = kindOf(from), target = types_.plainKind(e.type);
   const uint32_t width = widthOf(target);
   const bool from_real = TypeTable::isReal(source), is_signed = types_.isSigned(target);
+  const bool is_away = e.as<ir::ConvertExpr>().rounding == types::Rounding::AwayFromZero;
   beginCheck();
   if (from_real) {
-    out_ += "rung_round_saturates(";
+    out_ += is_away ? "rung_whole_wraps(" : "rung_round_saturates(";
     values().value(from, Prec::Ternary);
     std::string low = is_signed ? "-" : "0", high;
     if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
@@ -164,7 +165,7 @@ void CheckWriter::convertCheck(const Expr& e) {
   }
   // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
   const std::string number = captured([&] { values().value(from, Prec::Ternary); });
-  endCheck(e.loc, Fault::Convert, (from_real ? "rung_round_i64(" : "(") + number + ")");
+  endCheck(e.loc, Fault::Convert, (is_away ? "rung_whole_i64(" : from_real ? "rung_round_i64(" : "(") + number + ")");
 }
 
 void CheckWriter::subrangeCheck(const Expr& e) {
@@ -175,7 +176,8 @@ void CheckWriter::subrangeCheck(const Expr& e) {
   beginCheck();
   const std::string number = captured([&] {
     if (from_real) {
-      out_ += "rung_round_i64(";
+      const bool is_away = e.as<ir::ConvertExpr>().rounding == types::Rounding::AwayFromZero;
+      out_ += is_away ? "rung_whole_i64(" : "rung_round_i64(";
       values().value(from, Prec::Ternary);
       out_ += ')';
     } else {

@@ -58,7 +58,7 @@ void ExpressionWriter::convert(ExprId id, Prec context) {
   }
   const TypeInfo& info = types_.info(types_.resolve(e.type));
   if (info.kind != TypeKind::Subrange || types_.resolve(expr(from).type) == types_.resolve(e.type)) {
-    convertScalar(e.type, from, context);
+    convertScalar(e.type, e.as<ir::ConvertExpr>(), context);
     return;
   }
   const bool fits_signed = types_.isSigned(target) || widthOf(target) < 64;
@@ -67,7 +67,7 @@ void ExpressionWriter::convert(ExprId id, Prec context) {
   out_ += '(';
   out_ += scalarType(types_, e.type);
   out_ += fits_signed ? ")rung_clamp(" : ")rung_clamp_u(";
-  convertScalar(e.type, from, Prec::Ternary);
+  convertScalar(e.type, e.as<ir::ConvertExpr>(), Prec::Ternary);
   out_ += ", ";
   appendConstant(out_, types_, limits, static_cast<uint64_t>(info.low));
   out_ += ", ";
@@ -76,7 +76,8 @@ void ExpressionWriter::convert(ExprId id, Prec context) {
   closeParenthesis(Prec::Unary, context);
 }
 
-void ExpressionWriter::convertScalar(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::convertScalar(TypeId type, const ir::ConvertExpr& node, Prec context) {
+  const ExprId from = node.operand;
   const TypeKind source = kindOf(from), target = types_.plainKind(type);
   if (TypeTable::isString(source)) {
     scalarOfString(type, from, context);
@@ -98,7 +99,7 @@ void ExpressionWriter::convertScalar(TypeId type, ExprId from, Prec context) {
   } else if (target == TypeKind::Bool) {
     truthOf(from, context);
   } else if (TypeTable::isReal(source)) {
-    roundReal(type, from, context);
+    roundReal(type, from, node.rounding, context);
   } else if (types::changesUnit(source, target)) {
     cast(scalarType(types_, type), context, [&] {
       out_ += '(';
@@ -158,7 +159,15 @@ void ExpressionWriter::truthOf(ExprId from, Prec context) {
   }
 }
 
-void ExpressionWriter::roundReal(TypeId type, ExprId from, Prec context) {
+void ExpressionWriter::roundReal(TypeId type, ExprId from, types::Rounding rounding, Prec context) {
+  if (rounding == types::Rounding::AwayFromZero) {
+    cast(scalarType(types_, type), context, [&] {
+      out_ += "rung_whole(";
+      value(from, Prec::Ternary);
+      out_ += ')';
+    });
+    return;
+  }
   const TypeKind target = types_.plainKind(type);
   const bool is_signed = types_.isSigned(target);
   const uint32_t width = widthOf(target);

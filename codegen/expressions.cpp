@@ -219,6 +219,7 @@ void ExpressionWriter::binary(ExprId id, Prec context) {
     case Op::Xor: return kind == TypeKind::Bool ? differs(node, context) : bitwise(node, context);
     case Op::Shl:
     case Op::Shr:
+    case Op::Sar:
     case Op::Rol:
     case Op::Ror: return shift(expr(id), context);
     case Op::Min:

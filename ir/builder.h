@@ -83,7 +83,7 @@ class Builder {
   // ---- values
   ExprId unary(Op op, ExprId a, uint8_t checks = 0);
   ExprId binary(Op op, ExprId a, ExprId b, uint8_t checks = 0);  // a comparison is BOOL, else of a's plain type
-  ExprId convert(TypeId to, ExprId a, uint8_t checks = 0);
+  ExprId convert(TypeId to, ExprId a, uint8_t checks = 0, types::Rounding rounding = types::Rounding::ToEven);
   ExprId select(ExprId condition, ExprId yes, ExprId no);
   ExprId call(BodyId function, std::span<const ExprId> operands);
   ExprId address(TypeId pointer, ExprId place);

@@ -126,7 +126,9 @@ ExprId Builder::binary(Op op, ExprId a, ExprId b, uint8_t checks) {
   return add(loc, type, BinaryExpr{a, b, op}, checks);
 }
 
-ExprId Builder::convert(TypeId to, ExprId a, uint8_t checks) { return add(to, ConvertExpr{a}, checks); }
+ExprId Builder::convert(TypeId to, ExprId a, uint8_t checks, types::Rounding rounding) {
+  return add(to, ConvertExpr{a, rounding}, checks);
+}
 
 ExprId Builder::select(ExprId condition, ExprId yes, ExprId no) {
   return add(loc, body.expr(yes).type, SelectExpr{condition, yes, no});

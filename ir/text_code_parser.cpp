@@ -350,7 +350,8 @@ ExprId Reader::primary(TypeId wanted) {
     fail(diag::IrUnknownName, b.loc, {"result", "local"});
     return {};
   }
-  if (accept("convert")) return conversion();
+  if (accept("convert")) return conversion(types::Rounding::ToEven);
+  if (accept("round")) return conversion(types::Rounding::AwayFromZero);
   if (accept("select")) {  // select int condition, yes, no
     const Loc loc = b.loc;
     const TypeId of = type();
@@ -410,8 +411,8 @@ ExprId Reader::afterSigil() {
   return failed_ ? ExprId{} : postfix(b.call(BodyId{found->second}, given));
 }
 
-// convert! int x. The check that `!` alone means depends on the type after it.
-ExprId Reader::conversion() {
+// convert! int x   round int x. The check that `!` alone means depends on the type after it.
+ExprId Reader::conversion(types::Rounding rounding) {
   Builder& b = *builder_;
   const Loc loc = b.loc;
   const size_t mark = at_;
@@ -424,7 +425,7 @@ ExprId Reader::conversion() {
   const ExprId operand = expr({});
   if (failed_) return {};
   b.loc = loc;
-  const ExprId id = b.convert(to, operand);
+  const ExprId id = b.convert(to, operand, 0, rounding);
   const size_t end = at_;
   at_ = mark;
   const uint8_t set = checks(naturalCheck(types_, b.body.expr(id)));

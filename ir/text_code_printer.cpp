@@ -432,6 +432,11 @@ void Printer::expr(ExprId id, TypeId expected) {
       return operand(node.right, of);
     }
     case ExprKind::Convert:
+      if (e.as<ConvertExpr>().rounding == types::Rounding::AwayFromZero) {
+        prefixed("round", e, e.type);
+        return operand(e.as<ConvertExpr>().operand, {});
+      }
+      [[fallthrough]];
     case ExprKind::Address:
       prefixed(wordOf(e.kind), e, e.type);
       return forEachOperand(*body_, e, [&](ExprId below) { operand(below, {}); });

@@ -130,7 +130,7 @@ class Reader : TokenReader {
   ExprId expr(TypeId wanted);
   ExprId primary(TypeId wanted);
   ExprId afterSigil();
-  ExprId conversion();
+  ExprId conversion(types::Rounding rounding);
   ExprId operation(Op op);
   uint32_t numberOf(const Map& by_name, std::string_view what);
   ExprId postfix(ExprId base);

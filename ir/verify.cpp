@@ -28,6 +28,7 @@
 //       (comparisons are BOOL; a shift's right operand is any integer, a power's any number). Div check only on
 //       integer division, MOD and power; overflow check on numbers; no other.
 //   16  Convert: scalar to scalar, string to string, pointer to pointer; subrange, convert and overflow check only.
+//       Rounding away from zero: REAL or LREAL to integer.
 //   17  Select: a BOOL condition, two operands of its type.
 //   18  Call in an expression: a pure function that cannot fault, one value per parameter.
 //   19  Address: a pointer or reference to a place that has one (no bit).
@@ -677,6 +678,9 @@ void Verifier::conversion(const Expr& e) {
               (TypeTable::isString(from) && TypeTable::isString(to)) ||
               ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
           16, [&] { return "a conversion of " + toString(typeOf(operand)) + " to " + toString(e.type); });
+  require(e.as<ConvertExpr>().rounding == types::Rounding::ToEven ||
+              (TypeTable::isReal(from) && TypeTable::isScalar(to) && !TypeTable::isReal(to) && to != TypeKind::Bool),
+          16, [&] { return "a rounding of " + toString(typeOf(operand)) + " to " + toString(e.type); });
   allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
 }
 
@@ -760,7 +764,7 @@ void Verifier::operatorNode(const Expr& e, Op op, ExprId first, ExprId second) {
   if (second) {
     const TypeId right = types_.plain(typeOf(second));
     const TypeKind right_kind = types_.kind(right);
-    const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Rol || op == Op::Ror;
+    const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Sar || op == Op::Rol || op == Op::Ror;
     const bool same = left == right || (TypeTable::isString(kind) && kind == right_kind) ||
                       (isPointer(kind) && isPointer(right_kind));
     if (is_shift)

@@ -40,6 +40,17 @@ void markIntermediate(const Symbols& symbols, ExprHeader& node, TypeId type, boo
   node.bits = static_cast<uint8_t>(marked ? node.bits | kIntermediate : node.bits & ~kIntermediate);
 }
 
+void markRounding(const Symbols& symbols, ExprHeader& node, TypeId from, bool is_wide) {
+  const TypeKind source = symbols.types.plainKind(from), target = symbols.types.plainKind(node.type);
+  const bool is_real = TypeTable::isReal(source) || source == TypeKind::RealLiteral;
+  const bool is_whole = TypeTable::isScalar(target) && !TypeTable::isReal(target) && target != TypeKind::Bool;
+  if (is_wide && is_real && is_whole) node.bits |= kAwayFromZero;
+}
+
+types::Rounding roundingOf(const ExprHeader& node) {
+  return (node.bits & kAwayFromZero) != 0 ? types::Rounding::AwayFromZero : types::Rounding::ToEven;
+}
+
 bool isRingOperation(const Symbols& symbols, ExprId expr) {
   const Tree& tree = symbols.tree;
   if (tree.kind(expr) == ExprKind::Unary) return tree.as<UnaryExpr>(expr).op() != UnaryOp::Not;

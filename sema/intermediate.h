@@ -3,7 +3,7 @@
 // modulo 2^32. Assigning, passing and converting cut the value; another operation and a comparison see it uncut. The
 // tree keeps the operands' type as the type of the expression; these functions tell what is computed instead. In iec
 // and in library code nothing is wider than its type. "Operators: overflow/underflow in the data type" of the CODESYS
-// help. Used by constant expressions and by lowering.
+// help. In codesys, too, a REAL becomes an integer in another way. Used by constant expressions and by lowering.
 #pragma once
 
 #include "sema/entities.h"
@@ -21,6 +21,10 @@ TypeId comparedType(const Symbols& symbols, ExprId left, ExprId right);
 
 // The operation is one of those above, on values of the type: marks the node, or takes the mark away.
 void markIntermediate(const Symbols& symbols, ExprHeader& node, TypeId type, bool is_wide);
+
+// How a conversion of a REAL rounds: in codesys away from zero (ABB's CODESYS help, "REAL_TO_"), else to even.
+void markRounding(const Symbols& symbols, ExprHeader& node, TypeId from, bool is_wide);
+types::Rounding roundingOf(const ExprHeader& node);
 
 // A sum, difference or product: its last bits do not depend on the first ones of its operands.
 bool isRingOperation(const Symbols& symbols, ExprId expr);

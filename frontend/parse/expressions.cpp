@@ -89,8 +89,16 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
     if (row.op == BinaryOp::Power && dialect_ != Dialect::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(diag::NegatedPower, tree_.loc(left), {"tighter"});
+    if (row.op == BinaryOp::Or && dialect_ == Dialect::Codesys && isBareXor(right))
+      diagnostics_.report(diag::XorBesideOr, tree_.loc(right));
     left = ended(build_.binary(row.op, left, right, loc(op)));
   }
+}
+
+// Without parentheses: after an OR, CODESYS would combine its first operand with the OR.
+bool ExpressionParser::isBareXor(ExprId id) const {
+  return tree_.kind(id) == ExprKind::Binary && tree_.expr(id).in_parens == 0 &&
+         tree_.as<BinaryExpr>(id).op() == BinaryOp::Xor;
 }
 
 // False: too deep, which is reported.

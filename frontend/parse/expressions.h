@@ -22,6 +22,7 @@ class ExpressionParser : public Cursor {
   ExprId parseCompared(ExprId left);
   void closeParen(Tok close, bool is_arguments);
   bool enterExpr(const char* what);
+  bool isBareXor(ExprId id) const;
   bool acceptAssign();
   void missingComma();
 

@@ -46,6 +46,15 @@ std::string literalOf(uint64_t word) {
   return "LWORD#16#" + digits;
 }
 
+// In the order of the alphabet; `by_name`: the key of each action, with its new number.
+static void sortByName(const Names& names, std::vector<Ident>& actions,
+                       std::vector<std::pair<uint32_t, uint32_t>>& by_name) {
+  std::sort(actions.begin(), actions.end(), [&](const Ident& a, const Ident& b) {
+    return foldedIdentifier(names.string(a.name)) < foldedIdentifier(names.string(b.name));
+  });
+  for (uint32_t i = 0; i < actions.size(); ++i) by_name[i] = {names.key(actions[i].name).index, i};
+}
+
 Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& context)
     : charts_(charts),
       pou_(pou),
@@ -72,6 +81,7 @@ Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& conte
     by_name.push_back({charts_.names.key(actions_[i].name).index, static_cast<uint32_t>(actions.size())});
     actions.push_back(actions_[i]);
   }
+  if (charts_.dialect == Dialect::Codesys) sortByName(charts_.names, actions, by_name);
   std::sort(by_name.begin(), by_name.end());
   actions_ = std::move(actions);
   action_by_name_ = std::move(by_name);

@@ -107,7 +107,7 @@ class Chart {
   std::span<const SfcStep> steps_;
   std::span<const SfcTransition> transitions_;
   StepIndex index_;
-  std::vector<Ident> actions_;  // with control blocks, in the order of their first association
+  std::vector<Ident> actions_;  // with control blocks; codesys: by name, else by first association
   std::vector<std::string> controls_;
   std::vector<std::pair<uint32_t, uint32_t>> action_by_name_;
 

@@ -3,7 +3,8 @@
 //   1. flags: SFCInit, SFCReset, SFCQuitError, SFCPause
 //   2. exit actions of steps that were left, entry actions of steps that were entered
 //   3. active steps: times, limits, active actions, qualifiers of their actions
-//   4. control blocks, boolean variables and final scans; then the actions that are active
+//   4. control blocks, boolean variables and final scans; then the actions that are active; both by name in codesys
+//      ("Processing Order in SFC" of the CODESYS and TwinCAT help), else in the order of their first association
 //   5. transitions of active steps: the first that fires, by priority, then in source order
 #include "frontend/schedule/sfc_schedule.h"
 

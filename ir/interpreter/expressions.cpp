@@ -183,8 +183,9 @@ Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
 }
 
 Operand BodyTranslator::shift(const Expr& e, const Operand* want) {
-  const auto [a, b, op] = e.as<BinaryExpr>();
+  const auto [a, b, operation] = e.as<BinaryExpr>();
   const Scalar type = scalarOf(a);
+  const Op op = operation == Op::Sar && !isSigned(type) ? Op::Shr : operation;
   const Operand left = inMemory(value(a), type);
   Operand count = wide(value(b), scalarOf(b));
   if (count.mode == Mode::Self) count = inFrame(count, Scalar::U64);
@@ -303,6 +304,14 @@ Operand BodyTranslator::wideBits(ExprId id) {
   return inFrame(wide(from, type), Scalar::U64);
 }
 
+// A REAL rounded away from zero, as I64: its last bits, or the nearest number.
+Operand BodyTranslator::whole(const Operand& from, Scalar type, bool saturates) {
+  const Operand real = inFrame(converted(from, type, Scalar::F64, nullptr), Scalar::F64);
+  const Operand to = temp();
+  emit(wholeHandler(saturates), to.ref, real.ref);
+  return to;
+}
+
 // With checks, the value must fit the target (convert) or its subrange before it is cut.
 void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
   const ExprId a = e.as<ConvertExpr>().operand;
@@ -323,7 +332,7 @@ void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
       const double high = static_cast<double>(is_signed     ? (uint64_t{1} << (width - 1)) - 1
                                               : width == 64 ? ~uint64_t{0}
                                                             : (uint64_t{1} << width) - 1);
-      emit(roundedRangeHandler(), {}, number.ref, {}, site(e.loc));
+      emit(roundedRangeHandler(e.as<ConvertExpr>().rounding), {}, number.ref, {}, site(e.loc));
       limits(static_cast<int64_t>(rung_bits_of_f64(low)), static_cast<int64_t>(rung_bits_of_f64(high)));
     } else {
       const bool from_signed = isSigned(type);
@@ -339,8 +348,10 @@ void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
   }
   if ((e.checks & kCheckSubrange) != 0 && to.kind == TypeKind::Subrange) {
     const bool from_signed = isReal(type) || isSigned(type);
-    const Operand number = isReal(type) ? inFrame(converted(from, type, Scalar::I64, nullptr), Scalar::I64)
-                                        : inFrame(wide(from, type), Scalar::U64);
+    const bool is_away = e.as<ConvertExpr>().rounding == types::Rounding::AwayFromZero;
+    const Operand number = is_away        ? whole(from, type, true)
+                           : isReal(type) ? inFrame(converted(from, type, Scalar::I64, nullptr), Scalar::I64)
+                                          : inFrame(wide(from, type), Scalar::U64);
     const int64_t low = from_signed ? to.low : to.low > 0 ? to.low : 0;
     emit(rangeHandler(RUNG_FAULT_SUBRANGE, from_signed), {}, number.ref, {}, site(e.loc, to.low, to.high));
     limits(low, to.high);
@@ -383,6 +394,8 @@ Operand BodyTranslator::convert(ExprId id, const Operand* want) {
       if (unit > to_unit) apply(Op::Mul, unit / to_unit);
       if (to_unit > unit) apply(Op::Div, to_unit / unit);
       result = number;
+    } else if (e.as<ConvertExpr>().rounding == types::Rounding::AwayFromZero) {
+      result = converted(whole(number, from, false), Scalar::I64, to, clamps ? nullptr : want);
     } else {
       result = converted(number, from, to, clamps ? nullptr : want);
     }

@@ -25,7 +25,8 @@ Handler powerHandler(Scalar base, Scalar exponent);
 Handler overflowHandler(Op op, Scalar type);
 Handler rangeHandler(rung_fault_kind kind, bool is_signed);
 // b is F64: rounds to outside of [low, high], in F64 bits in the next two instructions.
-Handler roundedRangeHandler();
+Handler roundedRangeHandler(types::Rounding rounding);
+Handler wholeHandler(bool saturates);   // a (I64) := b (F64), both in the frame, halves away from zero
 Handler zeroPowerHandler(Scalar base);  // base b is 0 and exponent c (I64) negative
 
 // ---- handlers_compare.cpp

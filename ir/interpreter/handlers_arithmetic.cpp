@@ -113,6 +113,8 @@ void shift(RUNG_HANDLER_PARAMETERS) {
     result = n >= width ? 0 : static_cast<T>(uint64_t{a} << n);
   } else if constexpr (O == Op::Shr) {
     result = n >= width ? 0 : static_cast<T>(uint64_t{a} >> n);
+  } else if constexpr (O == Op::Sar) {
+    result = static_cast<T>(rung_sar(static_cast<std::make_signed_t<T>>(a), n));
   } else {
     const uint64_t by = (O == Op::Rol ? n : 0 - n) & (width - 1);
     result = static_cast<T>(uint64_t{a} << by | uint64_t{a} >> ((width - by) & (width - 1)));
@@ -223,11 +225,20 @@ void range(RUNG_HANDLER_PARAMETERS) {
   RUNG_GO(ip + 3, fp, self);
 }
 
+template <bool Saturates>
+void whole(RUNG_HANDLER_PARAMETERS) {
+  const double value = load<double>(fp + ip->b);
+  store<int64_t>(fp + ip->a, Saturates ? rung_whole_i64(value) : static_cast<int64_t>(rung_whole(value)));
+  RUNG_NEXT;
+}
+
+template <bool Even>
 void roundedRange(RUNG_HANDLER_PARAMETERS) {
   const double value = load<double>(fp + ip->b);
   const double low = rung_f64_of(static_cast<uint64_t>(ip[1].imm)),
                high = rung_f64_of(static_cast<uint64_t>(ip[2].imm));
-  if (RUNG_UNLIKELY(rung_round_saturates(value, low, high))) fail(m, RUNG_FAULT_CONVERT, ip->d, rung_round_i64(value));
+  if (RUNG_UNLIKELY(Even ? rung_round_saturates(value, low, high) : rung_whole_wraps(value, low, high)))
+    fail(m, RUNG_FAULT_CONVERT, ip->d, Even ? rung_round_i64(value) : rung_whole_i64(value));
   RUNG_GO(ip + 3, fp, self);
 }
 
@@ -316,6 +327,7 @@ Handler binaryHandler(Op op, Scalar type, Mode left, Mode right, Mode to) {
     case Op::Not:
     case Op::Shl:
     case Op::Shr:
+    case Op::Sar:
     case Op::Rol:
     case Op::Ror:
     case Op::Eq:
@@ -332,6 +344,7 @@ Handler binaryHandler(Op op, Scalar type, Mode left, Mode right, Mode to) {
 Handler shiftHandler(Op op, Scalar type, Mode left, Mode right, Mode to) {
   if (op == Op::Shl) return shiftOf<Op::Shl>(type, left, right, to);
   if (op == Op::Shr) return shiftOf<Op::Shr>(type, left, right, to);
+  if (op == Op::Sar) return shiftOf<Op::Sar>(type, left, right, to);
   if (op == Op::Rol) return shiftOf<Op::Rol>(type, left, right, to);
   return shiftOf<Op::Ror>(type, left, right, to);
 }
@@ -378,6 +391,7 @@ Handler overflowHandler(Op op, Scalar type) {
     case Op::Not:
     case Op::Shl:
     case Op::Shr:
+    case Op::Sar:
     case Op::Rol:
     case Op::Ror:
     case Op::Eq:
@@ -398,7 +412,10 @@ Handler rangeHandler(rung_fault_kind kind, bool is_signed) {
   }
   return is_signed ? range<RUNG_FAULT_SUBRANGE, int64_t> : range<RUNG_FAULT_SUBRANGE, uint64_t>;
 }
-Handler roundedRangeHandler() { return roundedRange; }
+Handler roundedRangeHandler(types::Rounding rounding) {
+  return rounding == types::Rounding::ToEven ? roundedRange<true> : roundedRange<false>;
+}
+Handler wholeHandler(bool saturates) { return saturates ? whole<true> : whole<false>; }
 Handler zeroPowerHandler(Scalar base) {
   return withInteger(base, []<class T>(T) -> Handler { return zeroPower<T>; });
 }

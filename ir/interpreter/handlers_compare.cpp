@@ -142,6 +142,7 @@ Handler withComparison(Op op, F&& f) {
     case Op::Not:
     case Op::Shl:
     case Op::Shr:
+    case Op::Sar:
     case Op::Rol:
     case Op::Ror:
     case Op::Min:

@@ -75,6 +75,7 @@ class BodyTranslator : FrameCode {
   Operand convert(ExprId id, const Operand* want);
   void convertChecks(const Expr& e, const Operand& from);
   Operand converted(Operand from, Scalar source, Scalar target, const Operand* want);
+  Operand whole(const Operand& from, Scalar type, bool saturates);
   Operand wide(const Operand& from, Scalar type);  // as I64 or U64
   Operand wideBits(ExprId id);                     // for the runtime's functions, in the frame
   void branch(ExprId condition, bool sense, Label to);

@@ -82,8 +82,9 @@ class BodyPart {
   ExprId asBase(ExprId place, sema::PouId base, Loc loc);
   ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
-  ExprId convert(ExprId operand, TypeId to, Loc loc);
-  ExprId convertValue(ExprId value, TypeId to, Loc loc);  // nothing where it has that type
+  ExprId convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);
+  // Nothing where it has that type.
+  ExprId convertValue(ExprId value, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);
   ExprId copy(ExprId expr) { return build_.copy(expr); }  // for a second use
   void assign(ExprId place, ExprId value, Loc loc);
   void callOn(BodyId callee, ExprId self, Loc loc);

@@ -88,6 +88,7 @@ ExprId BodyPart::unary(Op op, TypeId type, ExprId operand, Loc loc) {
 
 ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) {
   type = strip(type);
+  if (op == Op::Sar && !TypeTable::isSignedInteger(types_.plainKind(type))) op = Op::Shr;
   // iec: MOD by zero is 0, by the standard's definition of MOD.
   const bool defined_for_0 = project_.dialect != Dialect::Codesys && !(pou_ && project_.pou(pou_).library);
   bool divides = op == Op::Div || (op == Op::Mod && !defined_for_0);
@@ -96,7 +97,7 @@ ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) 
              static_cast<uint8_t>(checked ? in_.options.checks & kCheckDiv : 0));
 }
 
-ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc) {
+ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding) {
   to = strip(to);
   uint8_t checks = 0;
   if (types_.kind(to) == TypeKind::Subrange) checks |= in_.options.checks & kCheckSubrange;
@@ -106,7 +107,7 @@ ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc) {
   const bool is_scaled = !TypeTable::isInteger(to_kind) && !TypeTable::isBits(to_kind) && to_kind != from_kind;
   if (TypeTable::isScalar(from_kind) && integer_result && !is_scaled && !types::isLossless(types_, typeOf(operand), to))
     checks |= in_.options.checks & kCheckConvert;
-  return add(loc, to, ConvertExpr{.operand = operand}, checks);
+  return add(loc, to, ConvertExpr{.operand = operand, .rounding = rounding}, checks);
 }
 
 void BodyPart::assign(ExprId place, ExprId value, Loc loc) {

@@ -149,14 +149,14 @@ ExprId BodyPart::toTemp(ExprId value, Loc loc) {
   return place;
 }
 
-ExprId BodyPart::convertValue(ExprId value, TypeId to, Loc loc) {
+ExprId BodyPart::convertValue(ExprId value, TypeId to, Loc loc, types::Rounding rounding) {
   to = strip(to);
   TypeId from = typeOf(value);
   if (from == to) return value;
   if (body_.expr(value).kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(to)) &&
       TypeTable::isScalar(types_.plainKind(from)))
-    return ofValue(types::convert(types_, {from, bitsOf(body_.expr(value))}, to).value, loc);
-  return convert(value, to, loc);
+    return ofValue(types::convert(types_, {from, bitsOf(body_.expr(value))}, to, rounding).value, loc);
+  return convert(value, to, loc, rounding);
 }
 
 }  // namespace rung::ir

@@ -21,7 +21,8 @@ ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr&
     case sema::OperatorKind::Move:
     case sema::OperatorKind::Convert:
     case sema::OperatorKind::None:
-      return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc);
+      return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc,
+                          sema::roundingOf(node.h));
   }
   return {};
 }

@@ -48,7 +48,7 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
         return Value{to, operand->bits};
       }
       if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
-      return types::convert(types, *operand, to).value;
+      return types::convert(types, *operand, to, sema::roundingOf(tree.expr(id))).value;
     }
     case rung::ExprKind::Unary: {
       const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
@@ -282,7 +282,7 @@ ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (types_.kind(strip(node.h.type)) == TypeKind::Record) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
   if (sema::uncutType(project_, node.operand)) return convertUncut(node);
-  return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+  return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc, sema::roundingOf(node.h));
 }
 
 // The value of an object or structure as one of what it extends: a copy, which is an object of that kind.

@@ -168,6 +168,7 @@ class Folder {
       case Op::Mod:
       case Op::Shl:
       case Op::Shr:
+      case Op::Sar:
       case Op::Rol:
       case Op::Ror:
       case Op::Power:
@@ -186,8 +187,9 @@ class Folder {
   void rightIdentity(Expr& e, const BinaryExpr& node, uint64_t b, TypeKind kind) {
     const uint32_t width = TypeTable::bitWidth(kind);
     const bool shifts = node.op == Op::Shl || node.op == Op::Shr;
+    const bool keeps = shifts || node.op == Op::Sar || node.op == Op::Sub;
     const bool rotates = node.op == Op::Rol || node.op == Op::Ror;
-    if ((b == 0 && (node.op == Op::Sub || shifts)) || (b == 1 && node.op == Op::Div) || (rotates && b % width == 0))
+    if ((b == 0 && keeps) || (b == 1 && node.op == Op::Div) || (rotates && b % width == 0))
       becomeOperand(e, node.left);
     else if ((b == 1 && node.op == Op::Mod) || (shifts && b >= width))
       absorb(e, node.left, 0);
@@ -196,7 +198,7 @@ class Folder {
   }
 
   void leftIdentity(Expr& e, const BinaryExpr& node, uint64_t a, TypeKind kind) {
-    const bool moves = node.op == Op::Shl || node.op == Op::Shr || node.op == Op::Rol || node.op == Op::Ror;
+    const bool moves = node.op >= Op::Shl && node.op <= Op::Ror;
     if (moves && a == 0)
       absorb(e, node.right, 0);
     else
@@ -211,11 +213,11 @@ class Folder {
   }
 
   void convert(Expr& e) {
-    const ExprId operand = e.as<ConvertExpr>().operand;
+    const auto [operand, rounding] = e.as<ConvertExpr>();
     const Expr& a = at(operand);
     if (a.type == e.type) return becomeOperand(e, operand);
     if (isScalarConst(a) && TypeTable::isScalar(types_.plainKind(e.type))) {
-      take(e, types::convert(types_, valueOf(a), e.type));
+      take(e, types::convert(types_, valueOf(a), e.type, rounding));
       return;
     }
     const auto* string = a.tryAs<StringExpr>();

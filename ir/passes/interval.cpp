@@ -96,6 +96,11 @@ IntervalResult apply(Op op, const Interval& a, const Interval& b, const Interval
       if (not_negative && b.low == b.high && b.low < 64) return atMost({a.low >> b.low, a.high >> b.low});
       if (not_negative) return atMost({0, a.high});
       return anything;
+    case Op::Sar: {
+      const auto count = [](Int128 n) { return static_cast<int>(n < 0 || n > 127 ? 127 : n); };
+      const int least = b.low < 0 ? 0 : count(b.low), most = b.low < 0 ? 127 : count(b.high);
+      return atMost({std::min(a.low >> least, a.low >> most), std::max(a.high >> least, a.high >> most)});
+    }
     case Op::Shl:
       if (not_negative && b.low == b.high && b.low < 32 && a.high < (Int128{1} << 64)) {
         const Interval r{a.low << b.low, a.high << b.low};

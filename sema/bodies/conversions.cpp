@@ -5,6 +5,7 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
 #include "sema/checks/widened_result.h"
+#include "sema/intermediate.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
@@ -257,7 +258,9 @@ TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
 void wrapConvert(Context& context, ExprId& expr, TypeId to) {
   const ExprId created = context.build().convert(expr, context.tree().loc(expr));
   context.tree().expr(created).is_constant = context.tree().expr(expr).is_constant;
+  const TypeId from = context.tree().expr(expr).type;
   context.replace(expr, typed(context, created, to));
+  markRounding(context.symbols, context.tree().expr(created), from, context.isWide());
 }
 
 bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId to, const Purpose& purpose) {

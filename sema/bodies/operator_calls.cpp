@@ -30,6 +30,7 @@ bool infixOf(types::Op op, BinaryOp& out) {
     case types::Op::Not:
     case types::Op::Shl:
     case types::Op::Shr:
+    case types::Op::Sar:
     case types::Op::Rol:
     case types::Op::Ror:
     case types::Op::Eq:
@@ -150,7 +151,10 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   const bool is_conditional = arguments.en != 0 || arguments.eno != 0;
   markIntermediate(context.symbols, node.h, result, context.isWide() && !is_conditional && isArithmetic(pou.pragmas));
   node.call = addCall(context, std::move(call));
-  return node.h.type = result;
+  node.h.type = result;
+  if (pou.pragmas.operator_kind == OperatorKind::Convert && operands.values[0])
+    markRounding(context.symbols, node.h, context.tree().expr(operands.values[0]).type, context.isWide());
+  return result;
 }
 
 }  // namespace rung::sema

@@ -125,7 +125,7 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   const TypeTable& table = context.types();
   if (!isOperand(table, left.type) || !isOperand(table, right.type)) return std::nullopt;
   const TypeKind a = table.plainKind(left.type), b = table.plainKind(right.type);
-  const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Rol || op == Op::Ror;
+  const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Sar || op == Op::Rol || op == Op::Ror;
   if (a != b && !is_shift && op != Op::Power) {  // an untyped operand takes the type of the other
     if (isUntypedLiteral(a) && b != TypeKind::IntegerLiteral) {
       left = types::convert(table, left, right.type).value;
@@ -203,7 +203,7 @@ std::optional<Value> evaluateCall(Context& context, ExprId id, uint32_t depth) {
           TypeTable::isString(context.types().plainKind(node.h.type))) {
         return std::nullopt;
       }
-      return types::convert(context.types(), operands[0], node.h.type).value;
+      return types::convert(context.types(), operands[0], node.h.type, roundingOf(node.h)).value;
     case OperatorKind::Op: {
       if (types::operandCount(pou.pragmas.op) == 1)
         return applyChecked(context, pou.pragmas.op, operands[0], operands[0], node.h.loc, {});
@@ -283,7 +283,7 @@ std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) 
         return Value{header.type, value->bits};
       }
       if (TypeTable::isString(from) || !TypeTable::isScalar(to)) return std::nullopt;
-      return types::convert(context.types(), *value, header.type).value;
+      return types::convert(context.types(), *value, header.type, roundingOf(header)).value;
     }
     case ExprKind::Unary: {
       const UnaryExpr& node = tree.as<UnaryExpr>(id);

@@ -158,6 +158,7 @@ Outcome applyReal(const TypeTable& table, Op op, const Value& left, const Value&
     case Op::Not:
     case Op::Shl:
     case Op::Shr:
+    case Op::Sar:
     case Op::Rol:
     case Op::Ror:
     case Op::Eq:
@@ -241,6 +242,7 @@ Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Val
     case Op::Not: return ofBits(~left.bits);
     case Op::Shl: return ofBits(right.bits >= width ? 0 : left.bits << right.bits);
     case Op::Shr: return ofBits(right.bits >= width ? 0 : (left.bits & mask) >> right.bits);
+    case Op::Sar: return ofBits(static_cast<uint64_t>(a >> std::min<uint64_t>(right.bits, 64)));
     case Op::Rol:
     case Op::Ror: {
       const uint32_t n = static_cast<uint32_t>(right.bits % width);
@@ -261,7 +263,13 @@ Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Val
   return {};
 }
 
-Outcome realToInteger(const TypeTable& table, double value, TypeId to, TypeKind kind) {
+// The last 64 bits of a whole number of any size.
+uint64_t lastBits(double whole) {
+  const double rest = std::fmod(whole, 0x1p64);  // exact; NaN for an infinite number
+  return std::isnan(rest) ? 0 : static_cast<uint64_t>(static_cast<Int128>(rest));
+}
+
+Outcome realToInteger(const TypeTable& table, double value, TypeId to, TypeKind kind, Rounding rounding) {
   Outcome out;
   out.value.type = to;
   if (std::isnan(value)) {
@@ -272,9 +280,13 @@ Outcome realToInteger(const TypeTable& table, double value, TypeId to, TypeKind 
     out.value.bits = value != 0 ? 1 : 0;
     return out;
   }
-  const double rounded = std::nearbyint(value);  // half to even: the rounding mode is never changed
+  const bool to_even = rounding == Rounding::ToEven;
+  const double rounded = to_even ? std::nearbyint(value) : std::round(value);  // the rounding mode is never changed
   const Range range = rangeOf(table, kind);
-  if (rounded < static_cast<double>(range.low)) {
+  if (!to_even) {
+    out.value.bits = wrap(table, kind, lastBits(rounded));
+    out.overflow = rounded < static_cast<double>(range.low) || rounded >= static_cast<double>(range.high) + 1.0;
+  } else if (rounded < static_cast<double>(range.low)) {
     out.value.bits = static_cast<uint64_t>(range.low);
     out.overflow = true;
   } else if (rounded >= static_cast<double>(range.high) + 1.0) {
@@ -353,7 +365,7 @@ bool changesUnit(TypeKind from, TypeKind to) {
                         (TypeTable::isDateTime(from) && TypeTable::isTimeOfDay(to)));
 }
 
-Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
+Outcome convert(const TypeTable& table, const Value& value, TypeId to, Rounding rounding) {
   const TypeKind written_from = table.plainKind(value.type), kind = table.plainKind(to);
   const TypeKind from = written_from == TypeKind::IntegerLiteral ? TypeKind::LInt : written_from;
   Outcome out;
@@ -377,7 +389,7 @@ Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
     return out;
   }
   if (from_real) {
-    out = realToInteger(table, value.asReal(), to, kind);
+    out = realToInteger(table, value.asReal(), to, kind, rounding);
   } else if (kind == TypeKind::Bool) {
     out.value = {to, value.bits != 0 ? 1u : 0u};
     out.overflow = value.bits > 1;

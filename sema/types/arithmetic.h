@@ -35,6 +35,10 @@ struct Value {
 enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow, Lock };
 const char* word(Fault fault);
 
+// How a REAL becomes an integer. ToEven: exact halves to the even number; a value out of range to the nearest one.
+// AwayFromZero: exact halves away from zero; of a value out of range the last bits are kept. NaN gives 0.
+enum class Rounding : uint8_t { ToEven, AwayFromZero };
+
 struct Outcome {
   Value value;
   Fault fault = Fault::None;  // value is then the result of unchecked code (x/0 = 0)
@@ -46,9 +50,9 @@ struct Outcome {
 Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& left, const Value& right = {});
 
 // Conversion between elementary types, enumerations and subranges included: integers wrap at the target's width, REAL
-// to integer rounds half to even and saturates (NaN gives 0), subranges saturate, TIME <-> LTIME scales.
-// `outcome.overflow` when the value changed beyond rounding. Strings are not converted here (the runtime does it).
-Outcome convert(const TypeTable& table, const Value& value, TypeId to);
+// to integer rounds, subranges saturate, TIME <-> LTIME scales. `outcome.overflow` when the value changed beyond
+// rounding. Strings are not converted here (the runtime does it).
+Outcome convert(const TypeTable& table, const Value& value, TypeId to, Rounding rounding = Rounding::ToEven);
 
 // Nanoseconds of one unit of a duration or date kind.
 int64_t nanoseconds(TypeKind kind);

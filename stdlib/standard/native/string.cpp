@@ -1,6 +1,7 @@
 // Native bodies of string.st. Positions count from 1, in bytes of a STRING and 16-bit units of a WSTRING. A result has
 // at most 255 characters and at most `capacity`; `out` may be one of the inputs. Lengths and positions outside of a
-// string are clipped, so nothing outside of it is ever accessed.
+// string are clipped, so nothing outside of it is ever accessed. CODESYS documents what its functions do there (library
+// Standard, "INSERT", "DELETE", "REPLACE"): position 0 is the first character with a length that is one less.
 #include <cstring>
 
 #include "rung/code.h"
@@ -142,22 +143,30 @@ uint32_t splice(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t coun
 }
 
 template <class Unit>
+uint32_t unchanged(MeasuredString<Unit> in, Unit* out, uint32_t capacity) {
+  static const Unit nothing[1] = {0};
+  return splice<Unit>(in, {nothing, 0}, 0, 1, out, capacity);
+}
+
+template <class Unit>
 uint32_t insert(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t position, Unit* out, uint32_t capacity) {
+  if (position < 0 || position > kLongest) return unchanged(in1, out, capacity);
   return splice(in1, in2, 0, clip(position, 0, in1.length) + 1, out, capacity);
 }
 
 template <class Unit>
 uint32_t remove(MeasuredString<Unit> in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   static const Unit nothing[1] = {0};
-  if (position < 1 || position > in.length) return splice<Unit>(in, {nothing, 0}, 0, 1, out, capacity);
+  if (position == 0) return remove(in, count - 1, 1, out, capacity);
+  if (position < 0 || position > in.length) return unchanged(in, out, capacity);
   return splice<Unit>(in, {nothing, 0}, count, position, out, capacity);
 }
 
 template <class Unit>
 uint32_t replace(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t count, int64_t position, Unit* out,
                  uint32_t capacity) {
-  static const Unit nothing[1] = {0};
-  if (position < 1 || position > in1.length + 1) return splice<Unit>(in1, {nothing, 0}, 0, 1, out, capacity);
+  if (position == 0) return replace(in1, in2, count - 1, 1, out, capacity);
+  if (position < 0 || position > in1.length + 1) return unchanged(in1, out, capacity);
   return splice(in1, in2, count, position, out, capacity);
 }
 

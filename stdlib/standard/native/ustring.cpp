@@ -71,16 +71,20 @@ uint32_t rung_standard_CONCAT__USTRING_255(rung_context* ctx, const char* in1, c
 }
 uint32_t rung_standard_INSERT__USTRING_255(rung_context* ctx, const char* in1, const char* in2, int32_t p, char* out,
                                            uint32_t capacity) {
-  const int32_t at = bytesOf(in1, 1, p).count;
+  const auto length = static_cast<int32_t>(strlen(in1));
+  int32_t at = bytesOf(in1, 1, p).count;
+  if (at > length && p <= 255) at = length;
   return rung_ustring_whole(out, rung_standard_INSERT__STRING_255(ctx, in1, in2, at, out, capacity));
 }
 uint32_t rung_standard_DELETE__USTRING_255(rung_context* ctx, const char* in, int32_t l, int32_t p, char* out,
                                            uint32_t capacity) {
+  if (p == 0) return rung_standard_DELETE__USTRING_255(ctx, in, l < 1 ? 0 : l - 1, 1, out, capacity);
   const Bytes part = bytesOf(in, p, l);
   return rung_ustring_whole(out, rung_standard_DELETE__STRING_255(ctx, in, part.count, part.position, out, capacity));
 }
 uint32_t rung_standard_REPLACE__USTRING_255(rung_context* ctx, const char* in1, const char* in2, int32_t l, int32_t p,
                                             char* out, uint32_t capacity) {
+  if (p == 0) return rung_standard_REPLACE__USTRING_255(ctx, in1, in2, l < 1 ? 0 : l - 1, 1, out, capacity);
   const Bytes part = bytesOf(in1, p, l);
   return rung_ustring_whole(out,
                             rung_standard_REPLACE__STRING_255(ctx, in1, in2, part.count, part.position, out, capacity));

@@ -22,6 +22,9 @@ class Evaluator {
       for (const Association& a : step.associations)
         if (std::find(order_of_actions_.begin(), order_of_actions_.end(), a.action) == order_of_actions_.end())
           order_of_actions_.push_back(a.action);
+    // By name: a10, a11, a6, …
+    std::sort(order_of_actions_.begin(), order_of_actions_.end(),
+              [](int a, int b) { return std::to_string(a) < std::to_string(b); });
   }
 
   Seen cycle(uint32_t random, int now);

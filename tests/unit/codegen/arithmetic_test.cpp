@@ -161,16 +161,20 @@ TEST_F(ArithmeticTest, ConversionsAgreeWithTheKernel) {
   for (size_t s = 1; s < targets.size(); ++s) {
     for (TypeId to : targets) {
       const TypeId from = targets[s];
-      const std::string name = types.toString(from) + "_TO_" + types.toString(to);
-      function(name, from, {}, to,
-               [&](ir::Builder& b, uint32_t x, uint32_t) { return b.convert(to, b.localPlace(x)); });
-      for (uint64_t x : valuesOf(types.kind(from))) {
-        const bool is_real = TypeTable::isReal(types.plainKind(to));
-        addCall(name, to, from, x, {}, 0, plain(types::convert(types, {from, x}, to).value, is_real));
+      const bool is_real = TypeTable::isReal(types.plainKind(to));
+      const bool rounds = TypeTable::isReal(types.kind(from)) && !is_real && to != types::kBool;
+      for (const types::Rounding rounding : {types::Rounding::ToEven, types::Rounding::AwayFromZero}) {
+        const bool away = rounding == types::Rounding::AwayFromZero;
+        if (away && !rounds) continue;
+        const std::string name = types.toString(from) + (away ? "_ROUND_" : "_TO_") + types.toString(to);
+        function(name, from, {}, to,
+                 [&](ir::Builder& b, uint32_t x, uint32_t) { return b.convert(to, b.localPlace(x), 0, rounding); });
+        for (uint64_t x : valuesOf(types.kind(from)))
+          addCall(name, to, from, x, {}, 0, plain(types::convert(types, {from, x}, to, rounding).value, is_real));
       }
     }
   }
-  expectAgreement("-O1");
+  expectAgreement("-O1 -fsanitize=undefined -fno-sanitize-recover=undefined");
 }
 
 // Chains of + - * with constants, as in index arithmetic and averages: cut once, at the end.

@@ -117,8 +117,9 @@ class Machine {
         return stopped() ? Value{} : checked(types::apply(t_, m_.names, op, a, b));
       }
       case ExprKind::Convert: {
-        const Value a = value(e.as<ConvertExpr>().operand);
-        return stopped() ? Value{} : checked(types::convert(t_, a, e.type));
+        const auto [operand, rounding] = e.as<ConvertExpr>();
+        const Value a = value(operand);
+        return stopped() ? Value{} : checked(types::convert(t_, a, e.type, rounding));
       }
       case ExprKind::Select: {
         const SelectExpr& node = e.as<SelectExpr>();

@@ -35,6 +35,9 @@ TEST(Expressions, SignAndPowerByDialect) {
   EXPECT_EQ(statementErrors("x := -2 ** 2;"), "2:6 W0250");
   EXPECT_EQ(statementErrors("x := -2 ** 2;", Dialect::Iec2), "2:6 W0250");
   EXPECT_EQ(statementErrors("x := (-2) ** 2 + -(2 ** 2);"), "");
+  EXPECT_EQ(statementErrors("x := a OR b XOR c;"), "2:13 W0251");
+  EXPECT_EQ(statementErrors("x := a OR b XOR c;", Dialect::Iec3), "");
+  EXPECT_EQ(statementErrors("x := a OR (b XOR c) OR d; x := a XOR b OR c;"), "");
   EXPECT_EQ(expression("2 ** -1"), "(binary ** (literal 2) (unary - (literal 1)))");
 }
 

@@ -78,7 +78,8 @@ const Case kCases[] = {
      }},
     {"INSERT",
      [](const Arguments& x) {
-       const int64_t size = static_cast<int64_t>(x.in1.size()), at = x.p < 0 ? 0 : x.p > size ? size : x.p;
+       const int64_t size = static_cast<int64_t>(x.in1.size()), at = x.p > size ? size : x.p;
+       if (x.p < 0 || x.p > 255) return x.in1;
        return part(x.in1, 0, at) + x.in2 + part(x.in1, at, size);
      },
      [](const Arguments& x, const char* a, const char* b, char* out, uint32_t capacity) {
@@ -90,8 +91,9 @@ const Case kCases[] = {
     {"DELETE",
      [](const Arguments& x) {
        const auto size = static_cast<int64_t>(x.in1.size());
-       if (x.p < 1 || x.p > size || x.l <= 0) return x.in1;
-       return part(x.in1, 0, x.p - 1) + part(x.in1, int64_t{x.p} - 1 + x.l, size);
+       const int64_t p = x.p == 0 ? 1 : x.p, l = int64_t{x.l} - (x.p == 0 ? 1 : 0);
+       if (p < 1 || p > size || l <= 0) return x.in1;
+       return part(x.in1, 0, p - 1) + part(x.in1, p - 1 + l, size);
      },
      [](const Arguments& x, const char* a, const char*, char* out, uint32_t capacity) {
        return rung_standard_DELETE__STRING_255(nullptr, a, x.l, x.p, out, capacity);
@@ -102,8 +104,9 @@ const Case kCases[] = {
     {"REPLACE",
      [](const Arguments& x) {
        const auto size = static_cast<int64_t>(x.in1.size());
-       if (x.p < 1 || x.p > size + 1) return x.in1;
-       return part(x.in1, 0, x.p - 1) + x.in2 + part(x.in1, int64_t{x.p} - 1 + (x.l > 0 ? x.l : 0), size);
+       const int64_t p = x.p == 0 ? 1 : x.p, l = int64_t{x.l} - (x.p == 0 ? 1 : 0);
+       if (p < 1 || p > size + 1) return x.in1;
+       return part(x.in1, 0, p - 1) + x.in2 + part(x.in1, p - 1 + (l > 0 ? l : 0), size);
      },
      [](const Arguments& x, const char* a, const char* b, char* out, uint32_t capacity) {
        return rung_standard_REPLACE__STRING_255(nullptr, a, b, x.l, x.p, out, capacity);

@@ -84,8 +84,12 @@ TEST(StringFunctions, NothingOutsideIsTouched) {
   for (const int32_t position : {least, -1, 0, 4, most}) {
     EXPECT_EQ(text(rung_standard_MID__STRING_255, "abc", 1, position), "");
     EXPECT_EQ(text(rung_standard_DELETE__STRING_255, "abc", 1, position), "abc");
-    EXPECT_EQ(text(rung_standard_REPLACE__STRING_255, "abc", "X", 1, position), position == 4 ? "abcX" : "abc");
-    EXPECT_EQ(text(rung_standard_INSERT__STRING_255, "abc", "X", position), position <= 0 ? "Xabc" : "abcX");
+    EXPECT_EQ(text(rung_standard_REPLACE__STRING_255, "abc", "X", 1, position), position == 4   ? "abcX"
+                                                                                : position == 0 ? "Xabc"
+                                                                                                : "abc");
+    EXPECT_EQ(text(rung_standard_INSERT__STRING_255, "abc", "X", position), position == 0   ? "Xabc"
+                                                                            : position == 4 ? "abcX"
+                                                                                            : "abc");
   }
   EXPECT_EQ(rung_standard_FIND__STRING_255(&ctx, "abc", ""), 0);
   EXPECT_EQ(rung_standard_FIND__STRING_255(&ctx, "", "a"), 0);

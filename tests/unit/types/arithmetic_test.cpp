@@ -43,6 +43,11 @@ TEST_F(Arithmetic, shifts_and_rotates) {
   EXPECT_EQ(run(Op::Shl, kByte, 0x81, 1), 0x02);
   EXPECT_EQ(run(Op::Shl, kByte, 1, 8), 0);
   EXPECT_EQ(run(Op::Shr, kInt, -1, 15), 1);  // logical
+  EXPECT_EQ(run(Op::Sar, kInt, -32768, 14), -2);
+  EXPECT_EQ(run(Op::Sar, kInt, -1, 99), -1);
+  EXPECT_EQ(run(Op::Sar, kLInt, std::numeric_limits<int64_t>::min(), 63), -1);
+  EXPECT_EQ(run(Op::Sar, kLInt, std::numeric_limits<int64_t>::max(), 64), 0);
+  EXPECT_EQ(run(Op::Sar, kByte, 0x80, 7), 1);  // no sign
   EXPECT_EQ(run(Op::Rol, kByte, 0x81, 9), 0x03);
   EXPECT_EQ(run(Op::Ror, kWord, 1, 1), 0x8000);
   EXPECT_EQ(run(Op::Ror, kLWord, 5, 64), 5);
@@ -72,6 +77,24 @@ TEST_F(Arithmetic, real_to_integer_rounds_half_to_even_and_saturates) {
   EXPECT_EQ(toInt(std::nan("")), 0);
   EXPECT_EQ(convert(table, Value::ofReal(kLReal, 1e30), kULInt).value.bits, ~uint64_t{0});
   EXPECT_EQ(convert(table, Value::ofReal(kLReal, 1e30), kLInt).value.asSigned(), std::numeric_limits<int64_t>::max());
+}
+
+TEST_F(Arithmetic, real_to_integer_rounds_away_from_zero_and_wraps) {
+  const auto to = [&](TypeId type, double value) {
+    return convert(table, Value::ofReal(kLReal, value), type, Rounding::AwayFromZero);
+  };
+  EXPECT_EQ(to(kInt, 2.5).value.asSigned(), 3);
+  EXPECT_EQ(to(kInt, -2.5).value.asSigned(), -3);
+  EXPECT_EQ(to(kInt, 0.49999999999999994).value.asSigned(), 0);
+  EXPECT_EQ(to(kUSInt, 300.0).value.bits, 44u);
+  EXPECT_TRUE(to(kUSInt, 300.0).overflow);
+  EXPECT_EQ(to(kInt, -40000.0).value.asSigned(), 25536);  // 65536 - 40000
+  EXPECT_EQ(to(kULInt, 1e20).value.bits, 7'766'279'631'452'241'920u);
+  EXPECT_EQ(to(kULInt, -1.0).value.bits, ~uint64_t{0});
+  EXPECT_EQ(to(kLInt, -0x1p63).value.asSigned(), std::numeric_limits<int64_t>::min());
+  EXPECT_FALSE(to(kLInt, -0x1p63).overflow);
+  EXPECT_EQ(to(kLInt, std::numeric_limits<double>::infinity()).value.bits, 0u);
+  EXPECT_EQ(to(kInt, std::nan("")).value.asSigned(), 0);
 }
 
 TEST_F(Arithmetic, conversions) {

@@ -96,6 +96,8 @@ static inline uint32_t rung_shl(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a
 static inline uint32_t rung_shr(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a >> n; }
 static inline uint64_t rung_shl64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a << n; }
 static inline uint64_t rung_shr64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a >> n; }
+/* Filled with the sign. */
+static inline int64_t rung_sar(int64_t a, uint64_t n) { return a >> (n >= 63 ? 63 : n); }
 static inline uint8_t rung_rol8(uint8_t a, uint64_t n) { return (uint8_t)(a << (n & 7) | a >> (-n & 7)); }
 static inline uint16_t rung_rol16(uint16_t a, uint64_t n) {
   return (uint16_t)((uint32_t)a << (n & 15) | a >> (-n & 15));
@@ -103,7 +105,7 @@ static inline uint16_t rung_rol16(uint16_t a, uint64_t n) {
 static inline uint32_t rung_rol32(uint32_t a, uint64_t n) { return a << (n & 31) | a >> (-n & 31); }
 static inline uint64_t rung_rol64(uint64_t a, uint64_t n) { return a << (n & 63) | a >> (-n & 63); }
 
-/* ---- conversions. REAL and LREAL to integer round half to even, saturate, and give 0 for NaN. The sum with 2^52
+/* ---- conversions. REAL and LREAL to integer give 0 for NaN. rung_round: half to even, saturating; the sum with 2^52
  * rounds in the default mode, which needs no libm. */
 static inline int64_t rung_round(double x, int64_t low, int64_t high) {
   if (!(x == x)) return 0;
@@ -119,6 +121,25 @@ static inline uint64_t rung_round_u64(double x) {
   if (x < 9223372036854775808.0) return (uint64_t)rung_round(x, 0, INT64_MAX);
   if (!(x == x)) return 0;
   return x >= 18446744073709551616.0 ? UINT64_MAX : (uint64_t)x;
+}
+/* rung_whole: half away from zero, modulo 2^64; to be cut. The constant is the number before 0.5: 0.5 itself would
+ * round 0.49999999999999994 up. */
+static inline uint64_t rung_last_bits(double whole) {
+  uint64_t bits;
+  memcpy(&bits, &whole, sizeof bits);
+  const uint32_t exponent = (uint32_t)(bits >> 52) & 0x7ff;
+  if (exponent < 1075 || exponent >= 1075 + 64) return 0;
+  const uint64_t magnitude = ((bits & 0xfffffffffffffULL) | 0x10000000000000ULL) << (exponent - 1075);
+  return bits >> 63 != 0 ? 0 - magnitude : magnitude;
+}
+static inline uint64_t rung_whole(double x) {
+  if (!(x > -9223372036854775808.0 && x < 9223372036854775808.0)) return rung_last_bits(x);
+  return (uint64_t)(int64_t)(x < 0.0 ? x - 0.49999999999999994 : x + 0.49999999999999994);
+}
+/* Rounded in the same way, saturating: for checks. */
+static inline int64_t rung_whole_i64(double x) {
+  if (x >= 9223372036854775808.0) return INT64_MAX;
+  return x < -9223372036854775808.0 ? INT64_MIN : (int64_t)rung_whole(x);
 }
 static inline int64_t rung_clamp(int64_t x, int64_t low, int64_t high) { return x < low ? low : x > high ? high : x; }
 static inline uint64_t rung_clamp_u(uint64_t x, uint64_t low, uint64_t high) {
@@ -136,9 +157,12 @@ static inline uint64_t rung_integer_power(uint64_t base, uint64_t exponent, bool
   }
   return result;
 }
-/* True when a conversion of x to an integer type with these limits (as reals) saturates. */
+/* True when x, rounded, is outside of an integer type with these limits (as reals). */
 static inline bool rung_round_saturates(double x, double low, double high) {
-  return !(x >= low - 0.5 && x <= high + 0.5);
+  return !(x >= low - 0.5 && x < high + 0.5);
+}
+static inline bool rung_whole_wraps(double x, double low, double high) {
+  return !((x > low - 0.5 || x == low) && x < high + 0.5);
 }
 
 /* ---- minimum, maximum, magnitude. As in the kernel: the first operand unless the second is beyond it. */

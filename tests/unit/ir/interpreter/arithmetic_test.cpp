@@ -252,7 +252,7 @@ TEST(InterpreterArithmetic, ShiftCountsOfAnyIntegerType) {
       Builder b(bench.module, bench.body());
       const Block outer = b.open();
       std::vector<std::pair<Op, uint32_t>> cases;
-      for (const Op op : {Op::Shl, Op::Shr, Op::Rol, Op::Ror}) {
+      for (const Op op : {Op::Shl, Op::Shr, Op::Sar, Op::Rol, Op::Ror}) {
         const uint32_t result = bench.field(type);
         b.assign(b.field(b.self(), result), b.binary(op, b.field(b.self(), left), b.field(b.self(), count)));
         cases.push_back({op, result});
@@ -288,20 +288,31 @@ TEST(InterpreterArithmetic, ConversionsAgreeWithTheKernel) {
     b.assign(b.localPlace(frame), b.field(b.self(), source));
     std::vector<TypeId> targets = scalars();
     targets.push_back(percent);
-    std::vector<std::pair<TypeId, uint32_t>> cases;
+    struct Case {
+      TypeId to;
+      uint32_t result;
+      types::Rounding rounding;
+    };
+    std::vector<Case> cases;
     for (const TypeId to : targets) {
+      const TypeKind kind = types.plainKind(to);
+      const bool rounds = TypeTable::isReal(types.kind(from)) && !TypeTable::isReal(kind) && kind != TypeKind::Bool;
       for (const bool in_frame : {false, true}) {
-        const uint32_t result = bench.field(to);
-        b.assign(b.field(b.self(), result), b.convert(to, in_frame ? b.localPlace(frame) : b.field(b.self(), source)));
-        cases.push_back({to, result});
+        for (const types::Rounding rounding : {types::Rounding::ToEven, types::Rounding::AwayFromZero}) {
+          if (rounding == types::Rounding::AwayFromZero && !rounds) continue;
+          const uint32_t result = bench.field(to);
+          const ExprId x = in_frame ? b.localPlace(frame) : b.field(b.self(), source);
+          b.assign(b.field(b.self(), result), b.convert(to, x, 0, rounding));
+          cases.push_back({to, result, rounding});
+        }
       }
     }
     bench.make(b, outer);
     for (const Value& x : edges(types, from)) {
       bench.put(source, x);
       bench.run();
-      for (const auto& [to, result] : cases) {
-        const types::Outcome expected = types::convert(types, x, to);
+      for (const auto& [to, result, rounding] : cases) {
+        const types::Outcome expected = types::convert(types, x, to, rounding);
         ASSERT_TRUE(same(types, to, expected.value.bits, bench.get(result)))
             << types.toString(from) << " " << types::toString(types, bench.names, x) << " to " << types.toString(to)
             << " gives " << std::hex << bench.get(result) << " for " << expected.value.bits;
