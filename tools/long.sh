@@ -75,8 +75,9 @@ for part in "${parts[@]}"; do
   begin=$SECONDS
   set +e
   (set -e; "$part")
-  [ $? -eq 0 ] || failed+=("$part")
+  status=$?
   set -e
+  [ $status -eq 0 ] || failed+=("$part")
   echo "== $part: $((SECONDS - begin)) s"
 done
 [ ${#failed[@]} -eq 0 ] || { echo "failed: ${failed[*]}"; exit 1; }

@@ -61,6 +61,7 @@ void ModuleLowering::run() {
   lowerBodies();  // the functions that FB_Exit calls
   addClasses();
   addDispatches();
+  simplifyLimits();
   markFaulting();
   addTasks();
   addLocated();
