@@ -150,10 +150,15 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     if (base && object && isKindOf(here, object, base)) return true;
     if (extendsStructure(context, actual, pin)) return true;
   }
-  // The variable of an enumeration is one of its base type, which codesys allows where it is not strict.
-  if (given.kind == TypeKind::Enum && !given.strict && !context.iec() &&
-      table.resolve(given.base) == table.resolve(pin))
-    return true;
+  if (!context.iec()) {
+    // The variable of an enumeration is one of its base type; a number without sign has the bits of a bit string.
+    const TypeKind bits = types::TypeTable::isBits(wanted.kind) ? wanted.kind : given.kind;
+    const TypeKind number = types::TypeTable::isBits(wanted.kind) ? given.kind : wanted.kind;
+    if (types::TypeTable::isBits(bits) && bits != TypeKind::Bool && types::TypeTable::isUnsignedInteger(number) &&
+        wanted.size == given.size)
+      return true;
+    if (given.kind == TypeKind::Enum && table.resolve(given.base) == table.resolve(pin)) return true;
+  }
   if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }

@@ -52,6 +52,8 @@ class Codesys2Reader {
         skipObject(scanner, "END_VAR");
       } else if (!endWordOf(word).empty()) {
         skipPou(scanner, endWordOf(word));
+      } else if (sameIdentifier(word, "RESOURCE")) {
+        readTasks(scanner, begin);
       } else if (isForeign(word)) {
         const size_t next = std::min(source_.find("(* @NESTEDCOMMENTS", begin), source_.size());
         exclude(begin, next);
@@ -85,6 +87,39 @@ class Codesys2Reader {
   static void skipObject(Scanner& scanner, std::string_view closing) {
     while (const std::optional<Unit> unit = nextName(scanner))
       if (sameIdentifier(scanner.textOf(*unit), closing)) break;
+  }
+  // The tasks, `RESOURCE {TASK name (…); {Prog();} END_TASK} END_RESOURCE`, become a CONFIGURATION.
+  void readTasks(Scanner& scanner, size_t begin) {
+    const Loc here = loc(begin);
+    exclude(begin, begin);
+    bool has_task = false;
+    std::string_view task;
+    while (const std::optional<Unit> unit = nextName(scanner)) {
+      const std::string_view word = scanner.textOf(*unit);
+      if (sameIdentifier(word, "END_RESOURCE")) {
+        kept_ = unit->end;
+        break;
+      }
+      if (sameIdentifier(word, "END_TASK")) {
+        task = {};
+      } else if (sameIdentifier(word, "TASK")) {
+        if (!has_task) program_.put(here, "CONFIGURATION _configuration RESOURCE _resource ON PLC\n");
+        has_task = true;
+        if (const std::optional<Unit> name = nextName(scanner)) task = scanner.textOf(*name);
+        const size_t end = std::min(source_.find(';', unit->begin), source_.size() - 1) + 1;
+        program_.add(loc(unit->begin), loc(end));
+        program_.put(loc(end), "\n");
+        scanner.moveTo(end);
+      } else if (!task.empty()) {  // a program; its inputs are given in its own variables
+        program_.put(loc(unit->begin), "PROGRAM ");
+        program_.add(loc(unit->begin), loc(unit->end));
+        program_.put(loc(unit->begin), " WITH " + std::string(task) + " : ");
+        program_.add(loc(unit->begin), loc(unit->end));
+        program_.put(loc(unit->end), ";\n");
+        scanner.moveTo(std::min(source_.find(';', unit->begin), source_.size()));
+      }
+    }
+    if (has_task) program_.put(here, "END_RESOURCE END_CONFIGURATION\n");
   }
   // Nothing but blanks before it on its line.
   bool isAtLineStart(size_t begin) const {
