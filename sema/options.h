@@ -49,9 +49,9 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   Dialect dialect = Dialect::Codesys;
   uint32_t pointer_size = 8;
-  uint32_t native_width = 32;                  // codesys: intermediate results have at least so many bits, 32 or 64
-  std::string_view name = "plc";               // of the module: instance paths begin with it
-  std::span<const LibraryFile> libraries;      // sources that outlive the project; declarations are parsed on first use
+  uint32_t native_width = 32;              // codesys: intermediate results have at least so many bits, 32 or 64
+  std::string_view name = "plc";           // of the module: instance paths begin with it
+  std::span<const LibraryFile> libraries;  // sources that outlive the project; declarations are parsed on first use
   std::vector<LibraryProject> library_projects;
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;

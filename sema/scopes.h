@@ -103,6 +103,7 @@ struct Namespace {
   NameMap globals, items;  // of a NAMESPACE: its variables; enumeration items by their bare name
   uint32_t outer = ~0u;    // the NAMESPACE around it
   bool internal = false;
+  uint32_t also = ~0u;      // of a library: another one that its alias names too
   bool of_library = false;  // a library among the sources: `names` holds what the project or another library has too
   Loc loc;
 };

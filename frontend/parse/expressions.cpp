@@ -495,8 +495,8 @@ ExprId ExpressionParser::parseCompared(ExprId left, bool in_condition) {
   const Loc op = here();
   const uint32_t height = height_;
   const ExprShape shape_of_left = shape(tree_.kind(left));
-  const bool variable = tree_.kind(left) == ExprKind::Name || tree_.kind(left) == ExprKind::Address ||
-                        shape_of_left == ExprShape::Step;
+  const bool variable =
+      tree_.kind(left) == ExprKind::Name || tree_.kind(left) == ExprKind::Address || shape_of_left == ExprShape::Step;
   const bool assigns = dialect_ == Dialect::Codesys && variable && tree_.expr(left).in_parens == 0;
   if (!assigns)
     slip(diag::CompareWithAssign, t_);

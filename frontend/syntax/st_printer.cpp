@@ -311,7 +311,7 @@ void StPrinter::newExpr(const NewExpr& e) {
   out += ')';
 }
 
-// Always in parentheses, so that it is no warning.
+// Always in parentheses, where it gives no warning.
 void StPrinter::assignment(const AssignExpr& e) {
   between("(", e.target, " := ");
   between("", e.value, ")");

@@ -204,8 +204,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   const TypeDecl& decl = tree.as<TypeDecl>(id);
   types::TypeTable& table = context.types();
   NameId name = qualifiedName(context, decl.name);
-  Namespace* const space =
-      library == kNoLibrary ? namespaceFor(context, decl.name) : &scopes.libraries.list[library];
+  Namespace* const space = library == kNoLibrary ? namespaceFor(context, decl.name) : &scopes.libraries.list[library];
   NameMap& names = space != nullptr ? space->names : scopes.pous_and_types;
   if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
     name =

@@ -277,7 +277,9 @@ void indexLibraries(Context& context) {
   addLibraryProjects(context);
   for (const LibraryAlias& alias : context.project.options.library_aliases) {
     const Entity space = libraries.namespaces.find(keyOf(context, context.names().intern(alias.library)));
-    if (space) libraries.namespaces.insert(keyOf(context, context.names().intern(alias.alias)), space);
+    const NameId key = keyOf(context, context.names().intern(alias.alias));
+    if (space && !libraries.namespaces.insert(key, space))
+      libraries.list[libraries.namespaces.find(key).index].also = space.index;
   }
 }
 
@@ -336,6 +338,8 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   const Entity own = findInLibraries(context, key, library);
   if (own || library == kNoLibrary) return own;
+  const uint32_t also = context.scopes.libraries.list[library].also;
+  if (const Entity other = also == kNoLibrary ? Entity{} : findInLibraries(context, key, also)) return other;
   return context.scopes.libraries.namespaces.find(key);  // a library used by a library: SysFile.SysTypes
 }
 

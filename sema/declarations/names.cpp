@@ -74,9 +74,9 @@ Entity findDeclared(Context& context, NameId key, Loc loc) {
   if (context.region)
     if (const Entity found = lookUpAround(context, key, loc, false)) return found;
   if (const Entity found = scopes.pous_and_types.find(key)) {
-    // A block is no value, so in an expression the name is that of the global instance: Trace : Trace.
-    const bool block = found.entityKind() == EntityKind::Pou &&
-                       context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
+    // A block is not a value, so in an expression the name is that of the global instance: Trace : Trace.
+    const bool block =
+        found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
     if (const Entity global = block ? scopes.globals.find(key) : Entity{}) return global;
     return found;
   }

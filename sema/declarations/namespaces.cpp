@@ -65,8 +65,7 @@ uint32_t libraryAround(const Context& context, RegionId region) {
 
 RegionId regionOf(const Context& context, Entity found) {
   if (found.entityKind() == EntityKind::Pou) return context.scopes.pous[found.index].region;
-  const NamedType* named =
-      found.entityKind() == EntityKind::Type ? context.scopes.named(TypeId{found.index}) : nullptr;
+  const NamedType* named = found.entityKind() == EntityKind::Type ? context.scopes.named(TypeId{found.index}) : nullptr;
   return named == nullptr ? RegionId{} : named->region;
 }
 
@@ -315,8 +314,8 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
   for (uint32_t i = 1; i < path.count; ++i) {
     const Ident part = context.tree().list(path)[i];
     const bool last = i + 1 == path.count;
-    const bool of_library =
-        found.index <= context.scopes.libraries.project || (isNamespace(found) && spaceAt(context, found.index).of_library);
+    const bool of_library = found.index <= context.scopes.libraries.project ||
+                            (isNamespace(found) && spaceAt(context, found.index).of_library);
     if (!last && of_library) {  // Lib.Sub.Motor: a library that Lib uses
       if (const Entity used = context.scopes.libraries.namespaces.find(keyOf(context, part.name))) found = used;
       continue;

@@ -337,7 +337,8 @@ class Collector {
     FileId file = sources_.add(candidate.below, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
     sources_.setDisplayPath(file, candidate.path);
-    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library, candidate.library});
+    inputs_.files.push_back(
+        {candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library, candidate.library});
   }
 
   const Options& options_;

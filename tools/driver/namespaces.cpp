@@ -26,10 +26,9 @@ constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
 constexpr NamespaceAlias kAliases[] = {
-    {"Tc2_Standard", "Standard"},
-    {"Tc3_Standard", "Standard"},
-    {"IBaseLibrary", "__system"},
-    {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
+    {"Tc2_Standard", "Standard"},    {"Tc2_Standard", "Standard64"},
+    {"Tc2_Utilities", "Standard64"}, {"Tc3_Standard", "Standard"},
+    {"IBaseLibrary", "__system"},    {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
 
 }  // namespace
 

@@ -102,7 +102,7 @@ VAR
 END_VAR
 a = 1;
 b := ;
-IF a := 2 THEN
+IF (a + 1) := 2 THEN
   b := 3
 END_IF
 FOR i := 1 5 DO
