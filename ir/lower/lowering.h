@@ -203,6 +203,7 @@ class ValueLowering : public BodyPart {
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
   ExprId lowerNew(rung::ExprId expr);
+  ExprId lowerAssignment(const AssignExpr& node);
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId lowerObjectConversion(const rung::ConvertExpr& node);
   ExprId lowerPart(const rung::ConvertExpr& node);

@@ -73,6 +73,7 @@ ProjectSignatures::Resolved ProjectSignatures::resolve(ExprId path) {
     case ExprKind::Literal:
     case ExprKind::TypedName:
     case ExprKind::New:
+    case ExprKind::Assign:
     case ExprKind::BitAccess:
     case ExprKind::Address:
     case ExprKind::Unary:

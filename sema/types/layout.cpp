@@ -1,5 +1,7 @@
 // Layout of types in memory: natural alignment, 64-bit scalars on 8, arrays row-major, strings with their NUL, in-outs
 // as pointers. An empty record takes one byte, as in C++, so that offsets agree.
+#include <algorithm>
+
 #include "sema/types/types.h"
 
 namespace rung::types {
@@ -29,8 +31,8 @@ bool TypeTable::layout(TypeId id) {
     info.align = element.align;
     info.size = info.dimensions.empty() ? 0 : element.size;
     for (const Dimension& dimension : info.dimensions) {
-      const uint64_t count = dimension.count();
-      if (count != 0 && info.size > kMaxSize / count) {
+      const uint64_t count = std::max<uint64_t>(dimension.count(), 1);  // C++ has no array without elements
+      if (info.size > kMaxSize / count) {
         fits = false;
         break;
       }

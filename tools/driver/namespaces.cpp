@@ -25,10 +25,10 @@ constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"tc3_eventlogger", "Tc3_EventLogger"},
                                      {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
-constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"},
-                                       {"Tc3_Standard", "Standard"},
-                                       {"IBaseLibrary", "__system"},
-                                       {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
+constexpr NamespaceAlias kAliases[] = {
+    {"Tc2_Standard", "Standard"},    {"Tc2_Standard", "Standard64"},
+    {"Tc2_Utilities", "Standard64"}, {"Tc3_Standard", "Standard"},
+    {"IBaseLibrary", "__system"},    {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
 
 }  // namespace
 
