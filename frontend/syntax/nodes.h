@@ -156,11 +156,8 @@ struct IndexExpr {  // base[i, j]; h.bits of a character of a string: kWritesCha
 constexpr uint8_t kWritesCharacter = 1;    // annotation
 constexpr uint8_t kBitMember = 1;          // annotation
 constexpr uint8_t kMustLeadSomewhere = 1;  // annotation
-<<<<<<< HEAD
 constexpr uint8_t kAwayFromZero = 4;       // annotation of conversions: types::Rounding::AwayFromZero
-=======
 constexpr uint8_t kOnlyType = 1;
->>>>>>> corpus
 constexpr uint8_t kIntermediate = 2;  // annotation of operations and of conversions of operands: sema/intermediate.h
 struct ThisExpr {
   ExprHeader h;

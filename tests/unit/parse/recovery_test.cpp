@@ -16,7 +16,7 @@ TEST(Recovery, TypicalSlips) {
       {"a = 1;", "2:3 E0205"},
       {"a == 1;", "2:3 E0205"},
       {"a : = 1;", "2:3 E0207"},
-      {"IF a := 1 THEN b := 1; END_IF", "2:6 W0251"},
+      {"IF a := 1 THEN b := 1; END_IF", "2:6 W0252"},
       {"IF (a := 1) THEN b := 1; END_IF", ""},
       {"IF 2 := 1 THEN b := 1; END_IF", "2:6 E0206"},
       {"IF (a + 2 := 1) THEN b := 1; END_IF", "2:11 E0206"},
