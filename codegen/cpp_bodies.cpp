@@ -187,19 +187,30 @@ class Writer {
 
   std::string structure(TypeId type, const std::string& name) {
     const TypeInfo& of = info(type);
+    const RecordPlacement placement = placementOf(types_, type);
     std::string fields;
+    const auto addGap = [&](uint32_t bytes, size_t number) {
+      if (bytes == 0) return;
+      fields += "  unsigned char rung_gap";
+      appendUnsigned(fields, number);
+      fields += "_[";
+      appendUnsigned(fields, bytes);
+      fields += "];\n";
+    };
     for (size_t i = 0; i < of.fields.size(); ++i) {
       const Field& field = of.fields[i];
       const std::string seen = view(field.type);
       const std::string_view field_name = string(field.name);
       const bool is_plain =
           !seen.empty() && !field_name.empty() && mangled(field_name) == std::string(field_name) + "_";
-      fields += "  alignas(";
-      appendUnsigned(fields, info(field.type).align);
-      fields += ") ";
+      addGap(placement.members[i].gap, i);
       if (is_plain) {
-        fields += seen + ' ' + cppIdentifier(field_name) + ";\n";
+        fields += "  " + placement.members[i].before + seen + ' ' + cppIdentifier(field_name) +
+                  placement.members[i].after + ";\n";
       } else {
+        fields += "  alignas(";
+        appendUnsigned(fields, std::min(types_.fieldAlign(field), of.placed_align));
+        fields += ") ";
         fields += "unsigned char rung_hidden";
         appendUnsigned(fields, i);
         fields += "_[";
@@ -207,6 +218,7 @@ class Writer {
         fields += "];\n";
       }
     }
+    addGap(placement.gap, of.fields.size());
     std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n" + fields + "};\nstatic_assert(sizeof(" + name + ") == ";
     appendUnsigned(out, of.size);
     return out + ", \"layout\");\n";

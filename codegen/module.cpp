@@ -129,6 +129,7 @@ class Describer {
                  number(is_.blocks[block].size) + ");\n";
         if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
         if (program.setup) code_ += callOf(program.setup);
+        if (program.after_init) code_ += callOf(program.after_init);
         code_ += "}\n";
         if (program.exit) {
           exit = name + "_exit";
@@ -203,22 +204,16 @@ class Describer {
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
       init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
     }
-    for (uint32_t i = 0; i < module_.lists.size(); ++i) {
-      if (hasCode(module_.lists[i].init))
-        init += callOn(module_.lists[i].init, module_.lists[i].record, facts_.list_block[i]);
+    const std::vector<ir::InitStep> order = ir::initOrder(module_, facts_);
+    for (const ir::InitStep& step : order) {
+      const ir::BodyId body = step.is_list ? module_.lists[step.index].init : module_.programs[step.index].init;
+      if (!hasCode(body)) continue;
+      init += step.is_list ? callOn(body, module_.lists[step.index].record, facts_.list_block[step.index])
+                           : callOn(body, module_.programs[step.index].record, facts_.program_block[step.index]);
     }
-    std::vector<uint32_t> order(module_.programs.size());
-    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b) { return facts_.program_block[a] < facts_.program_block[b]; });
-    for (uint32_t i : order) {
-      const ir::ProgramInstance& program = module_.programs[i];
-      if (!program.is_test && hasCode(program.init))
-        init += callOn(program.init, program.record, facts_.program_block[i]);
-    }
-    for (uint32_t i : order) {
-      if (!module_.programs[i].is_test && module_.programs[i].setup) init += callOf(module_.programs[i].setup);
-    }
+    for (const ir::InitStep& step : order)
+      if (!step.is_list && module_.programs[step.index].setup) init += callOf(module_.programs[step.index].setup);
+    if (module_.after_init) init += callOf(module_.after_init);
     init += "}\n";
     if (module_.exit) init += "static void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
 

@@ -320,33 +320,81 @@ void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint6
   }
 }
 
+namespace {
+
+// The alignment that C++ gives a variable of the type.
+uint32_t cppAlign(const TypeTable& types, const Field& field) {
+  if (field.by_reference) return types.pointerSize();
+  const TypeInfo& info = types.info(types.resolve(elementOf(types, field.type)));
+  return info.kind == TypeKind::Record ? info.placed_align : info.align;
+}
+
+void appendGap(std::string& out, uint32_t bytes, size_t number) {
+  if (bytes == 0) return;
+  out += "  uint8_t gap";
+  appendUnsigned(out, number);
+  out += '[';
+  appendUnsigned(out, bytes);
+  out += "];\n";
+}
+
+}  // namespace
+
+RecordPlacement placementOf(const TypeTable& types, TypeId type) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  const bool is_union = info.record_kind == RecordKind::Union;
+  RecordPlacement placement;
+  uint64_t end = 0;
+  for (const Field& field : info.fields) {
+    MemberPlacement& member = placement.members.emplace_back();
+    const uint32_t align = std::min(types.fieldAlign(field), info.placed_align), own = cppAlign(types, field);
+    if (own > align) {
+      member.after =
+          align == 1 ? " __attribute__((packed))" : " __attribute__((packed, aligned(" + std::to_string(align) + ")))";
+    } else if (own < align || (align == 8 && isEightBytes(types, field.type) && !field.by_reference)) {
+      member.before = "alignas(" + std::to_string(align) + ") ";
+    }
+    const uint64_t size = field.by_reference ? types.pointerSize() : types.info(types.resolve(field.type)).size;
+    const uint64_t at = (end + align - 1) / align * align;
+    if (!is_union && at != field.offset) member.gap = static_cast<uint32_t>(field.offset - end);
+    end = is_union ? std::max(end, field.offset + size) : field.offset + size;
+  }
+  const uint64_t size = (end + info.placed_align - 1) / info.placed_align * info.placed_align;
+  if (end != 0 && size != info.size) placement.gap = static_cast<uint32_t>(info.size - (is_union ? 0 : end));
+  return placement;
+}
+
 void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId type, bool pointed) {
   const TypeInfo& info = types.info(types.resolve(type));
+  const RecordPlacement placement = placementOf(types, type);
   out += info.record_kind == RecordKind::Union ? "union " : "struct ";
   if (pointed) out += "RUNG_MAY_ALIAS ";
   out += recordName(types, type);
   out += " {\n";
   std::string field_name;
   for (const Field& field : info.fields) {
+    const size_t number = static_cast<size_t>(&field - info.fields.data());
     field_name.clear();
     appendMangled(field_name, types.names().string(field.name));
+    appendGap(out, placement.members[number].gap, number);
     out += "  ";
     const bool has_given_offset = info.record_kind == RecordKind::Union && field.given_offset != 0;
     if (has_given_offset) {  // STRUCT OVERLAP: after a gap
       out += "struct { uint8_t gap";
-      appendUnsigned(out, static_cast<uint64_t>(&field - info.fields.data()));
+      appendUnsigned(out, number);
       out += '[';
       appendUnsigned(out, field.given_offset);
       out += "]; ";
     }
-    if (field.by_reference) {
+    out += placement.members[number].before;
+    if (field.by_reference)
       appendPointer(out, types, field.type, field_name);
-    } else {
-      if (isEightBytes(types, field.type)) out += "alignas(8) ";
+    else
       appendDeclaration(out, types, field.type, field_name);
-    }
+    out += placement.members[number].after;
     out += has_given_offset ? "; };\n" : ";\n";
   }
+  appendGap(out, placement.gap, info.fields.size());
   out += "};\n";
 }
 

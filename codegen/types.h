@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ir/ir.h"
 
@@ -44,6 +45,19 @@ void appendConstant(std::string& out, const types::TypeTable& types, TypeId type
 TypeId elementOf(const types::TypeTable& types, TypeId type);
 
 // The struct or union. `pointed`: pointers may read it as memory of another type.
+// How a field becomes a member of a struct that has the layout of the type table. Usually the C++ compiler places it
+// there by itself.
+struct MemberPlacement {
+  uint32_t gap = 0;    // bytes before it
+  std::string before;  // `alignas(8) `
+  std::string after;   // ` __attribute__((packed))`
+};
+struct RecordPlacement {
+  std::vector<MemberPlacement> members;
+  uint32_t gap = 0;  // bytes at the end
+};
+RecordPlacement placementOf(const types::TypeTable& types, TypeId record);
+
 void appendRecordDefinition(std::string& out, const types::TypeTable& types, TypeId type, bool pointed);
 // One assertion for the whole layout: the size and the offsets of fields, about 16 of them in a large record.
 void appendLayoutAssert(std::string& out, const types::TypeTable& types, TypeId type);

@@ -405,4 +405,20 @@ FilePosition filePosition(const Module& module, const Body& body, Loc loc) {
   return {module.sources.path(location.file), location.line, location.column};
 }
 
+std::vector<InitStep> initOrder(const Module& module, const MemoryBlocks& blocks) {
+  std::vector<InitStep> order;
+  for (uint32_t i = 0; i < module.lists.size(); ++i) order.push_back({true, i});
+  std::vector<uint32_t> programs;
+  for (uint32_t i = 0; i < module.programs.size(); ++i)
+    if (!module.programs[i].is_test) programs.push_back(i);
+  std::sort(programs.begin(), programs.end(),
+            [&](uint32_t a, uint32_t b) { return blocks.program_block[a] < blocks.program_block[b]; });
+  for (const uint32_t i : programs) order.push_back({false, i});
+  const auto slot = [&](const InitStep& step) {
+    return step.is_list ? module.lists[step.index].slot : module.programs[step.index].slot;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](const InitStep& a, const InitStep& b) { return slot(a) < slot(b); });
+  return order;
+}
+
 }  // namespace rung::ir

@@ -28,6 +28,13 @@ struct MemoryBlocks {
   std::vector<Block> blocks;
 };
 
+// The lists and programs in the order in which they are initialised; without tests, whose instances begin later.
+struct InitStep {
+  bool is_list;  // else a program
+  uint32_t index;
+};
+std::vector<InitStep> initOrder(const Module& module, const MemoryBlocks& blocks);
+
 // NUL-terminated strings by offset; the empty string is at 0.
 class StringPool {
  public:

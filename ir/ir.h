@@ -315,10 +315,13 @@ struct Record {
   Origin origin;
   bool library = false;
 };
+// Lists and programs are initialised by ascending slot.
+inline constexpr int32_t kListSlot = 49990, kProgramSlot = 50000;
 struct List {
   NameId name;
   TypeId record;
   BodyId init;
+  int32_t slot = kListSlot;
 };
 struct ProgramInstance {
   NameId name;
@@ -330,9 +333,11 @@ struct ProgramInstance {
   // Functions without parameters, or none. `run` is what the task calls instead of `body`: it also copies connected
   // variables and open addresses. `setup` is called after all `init`: initial values of VAR_CONFIG.
   BodyId run = {}, setup = {};
-  // Of a test, whose instance begins and ends with its run, not with the module; `exit` is as Module::exit, or none.
+  int32_t slot = kProgramSlot;
+  // Of a test, whose instance begins and ends with its run, not with the module; `after_init` and `exit` are as those
+  // of the module, or none.
   bool is_test = false;
-  BodyId exit = {};
+  BodyId after_init = {}, exit = {};
 };
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
@@ -425,6 +430,7 @@ struct Module {
   std::vector<BlockTask> block_tasks;
   std::deque<Data> data;
   std::vector<Class> classes;
+  BodyId after_init;                 // a function without parameters that runs after all initialisers, or none
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;

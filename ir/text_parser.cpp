@@ -77,9 +77,9 @@ int64_t TokenReader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item : {"enum",     "subrange", "struct",    "union",   "block",    "program", "globals",
-                           "area",     "data",     "interface", "classes", "dispatch", "list",    "task",
-                           "instance", "located",  "test",      "exit",    "function", "body",    "init"})
+  for (const char* item : {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",  "area",
+                           "data", "interface", "classes",    "dispatch", "list",  "task",    "instance", "located",
+                           "test", "exit",      "after_init", "function", "body",  "init"})
     if (word == item) return true;
   return false;
 }
@@ -183,6 +183,7 @@ void Reader::recordFields(TypeId type_id) {
     field.name = name();
     expect(":");
     field.type = type();
+    if (!failed_ && accept("pack")) field.pack = static_cast<uint8_t>(integer());
     if (!failed_ && accept("at")) field.given_offset = static_cast<uint32_t>(integer());
     if (failed_) return;
     types_.edit(type_id).fields.push_back(field);
@@ -272,6 +273,8 @@ void Reader::instance() {
   if (accept("configuration")) created.configuration = name();
   if (accept("run")) created.run = bodyNamed("function");
   if (accept("setup")) created.setup = bodyNamed("function");
+  if (accept("slot")) created.slot = static_cast<int32_t>(integer());
+  if (accept("after_init")) created.after_init = bodyNamed("function");
   if (accept("exit")) created.exit = bodyNamed("function");
   if (failed_) return;
   program_by_name_[created.name.index] = static_cast<uint32_t>(module_.programs.size());
@@ -474,6 +477,7 @@ void Reader::list() {
   created.name = name();
   expect(":");
   created.record = type();
+  if (accept("slot")) created.slot = static_cast<int32_t>(integer());
   if (failed_) return;
   list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
   module_.lists.push_back(created);
@@ -489,7 +493,8 @@ void Reader::declareItem() {
   }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.
-  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("dispatch")) record();
+  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
+    record();
 }
 
 bool Reader::read() {
@@ -509,7 +514,7 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("exit") && !isWord("dispatch"))
+        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -526,12 +531,14 @@ bool Reader::read() {
     program.body = initOf(program.record).body;
   }
   forEachItem([&] {
-    const bool is_exit = accept("exit");
-    if (!is_exit && !accept("test")) return;
+    const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
+    if (!is_exit && !is_after_init && !accept("test")) return;
     const BodyId named = bodyNamed("body");
     if (failed_) return;
     if (is_exit)
       module_.exit = named;
+    else if (is_after_init)
+      module_.after_init = named;
     else
       module_.tests.push_back(named);
   });

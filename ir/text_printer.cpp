@@ -146,6 +146,10 @@ void Printer::record(TypeId id, const Record* listed) {
     name(field.name);
     put(": ");
     type(field.type);
+    if (field.pack != 0) {
+      put(" pack ");
+      number(field.pack);
+    }
     if (field.given_offset != 0 && info.record_kind == RecordKind::Union) {
       put(" at ");
       number(field.given_offset);
@@ -278,6 +282,11 @@ void Printer::instance(const ProgramInstance& instance) {
   clause(" configuration ", instance.configuration);
   clause(" run @", instance.run);
   clause(" setup @", instance.setup);
+  if (instance.slot != kProgramSlot) {
+    put(" slot ");
+    signedNumber(instance.slot);
+  }
+  clause(" after_init @", instance.after_init);
   clause(" exit @", instance.exit);
   put("\n");
 }
@@ -341,12 +350,20 @@ void Printer::items() {
     clause("list @", list.name);
     put(": ");
     type(list.record);
+    if (list.slot != kListSlot) {
+      put(" slot ");
+      signedNumber(list.slot);
+    }
     put("\n");
   }
   for (const Task& one : module_.tasks) task(one);
   for (const ProgramInstance& one : module_.programs) instance(one);
   for (const Located& one : module_.located) located(one);
   classes();
+  if (module_.after_init) {
+    clause("after_init @", module_.after_init);
+    put("\n");
+  }
   if (module_.exit) {
     clause("exit @", module_.exit);
     put("\n");

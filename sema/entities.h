@@ -60,12 +60,15 @@ struct Var {
   TypeId any;              // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   bool of_chart = false;   // a step, or other state of a chart
   uint32_t temporary = 0;  // created by the compiler, without declared type: its number in the body; 0: none
+  VarId tells_input;       // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   struct Pragmas {         // of the declaration
     bool required = false, lazy = false, extensible = false;  // pins of library declarations
     bool long_time = false;                                   // {long_time}: a TIME that takes an LTIME too (iec3)
-    bool instance_path = false;   // {attribute 'instance-path'}: holds the path of its instance
-    std::vector<NameId> aliases;  // {alias 'R'}
+    bool instance_path = false;       // {attribute 'instance-path'}: holds the path of its instance
+    bool no_exit = false;             // {attribute 'no-exit'}: an instance whose FB_Exit is not called
+    bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: an input that each call begins with
+    std::vector<NameId> aliases;      // {alias 'R'}
   } pragmas;
   struct Start {                        // how it gets its first value, when its initial value is checked
     bool late = false;                  // the initial value reads other variables: Project::late, Pou::late
@@ -135,11 +138,16 @@ struct Pou {
     bool slice = false;      // {slice}: and a third that only returns which part of the first input the result is
     bool prefix =
         false;  // {prefix}: the first n characters of the result depend only on the first n of the first input
-    bool faults = false;           // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
-    bool no_copy = false;          // {no_copy}: an instance cannot be copied
-    bool bytes = false;            // {bytes}: its generic type is ARRAY OF BYTE
-    bool call_after_init = false;  // {attribute 'call_after_init'}
-    bool no_check = false;         // {attribute 'no_check'}: without the implicit checks of the project
+    bool faults = false;              // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
+    bool no_copy = false;             // {no_copy}: an instance cannot be copied
+    bool bytes = false;               // {bytes}: its generic type is ARRAY OF BYTE
+    bool call_after_init = false;     // {attribute 'call_after_init'}
+    bool no_check = false;            // {attribute 'no_check'}: without the implicit checks of the project
+    bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: marked inputs have their initial values
+    bool reflection = false;          // {attribute 'reflection'}: marked variables tell which inputs are connected
+    bool after_globals = false;       // {attribute 'call_after_global_init_slot'}, with this slot
+    int32_t after_globals_slot = 0;
+    int32_t init_slot = 50000;  // {attribute 'global_init_slot'}: of a program
     types::Op op = types::Op::Add;
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X
@@ -193,6 +201,7 @@ struct EnumValue {
 struct GlobalList {
   NameId name;  // the file's stem, the configuration's or the resource's name
   bool qualified_only = false;
+  int32_t init_slot = 49990;  // {attribute 'global_init_slot'}: lists and programs are initialised in this order
   TypeId record;
   std::vector<VarId> vars;
   Loc loc;

@@ -70,7 +70,9 @@ void checkProgramsRun(Context& context) {
   for (const ProgramInstance& instance : project.instances) runs[instance.program.index] = true;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.kind != PouKind::Program || pou.library || pou.pragmas.test || pou.progress.used || runs[i]) continue;
+    if (pou.kind != PouKind::Program || pou.library || pou.pragmas.test || pou.pragmas.after_globals ||
+        pou.progress.used || runs[i])
+      continue;
     context.report(diag::ProgramNeverRuns, pou.loc, {project.names.string(pou.name)});
   }
 }

@@ -657,7 +657,9 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
       "required",  "extensible", "lazy",   "pure",    "operator", "replaces",  "std",    "sized",
       "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes",  "long_time"};
   static const std::vector<std::string_view> kAttributes = {
-      "qualified_only", "strict", "test", "no_final_scan", "obsolete", "to_string", "call_after_init"};
+      "qualified_only",     "strict",          "test",      "no_final_scan",    "obsolete",
+      "to_string",          "call_after_init", "pack_mode", "global_init_slot", "call_after_global_init_slot",
+      "initialize_on_call", "is_connected",    "reflection"};
   const std::vector<std::string_view>* known = &kPragmas;
   if (sameIdentifier(word, "attribute")) {
     while (rest < end && *rest != '\'') ++rest;
@@ -667,11 +669,8 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
     word = {rest + 1, static_cast<size_t>(close - rest - 1)};
     known = &kAttributes;
     // Documented by CODESYS or TwinCAT, and a program may depend on what they do.
-    static const std::vector<std::string_view> kUnsupported = {"pack_mode",        "call_after_global_init_slot",
-                                                               "global_init_slot", "initialize_on_call",
-                                                               "is_connected",     "parameterstringof"};
-    for (const std::string_view name : kUnsupported)
-      if (sameIdentifier(name, word)) diagnostics_.report(diag::AttributeIgnored, loc(word.data()), {word});
+    if (sameIdentifier("parameterstringof", word))
+      diagnostics_.report(diag::AttributeIgnored, loc(word.data()), {word});
   }
   for (const std::string_view name : *known)
     if (sameIdentifier(name, word) && !sameIdentifier(name, "IF") && !sameIdentifier(name, "exit")) return;

@@ -331,9 +331,22 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
   value.clear();
   bool ok = true;
   uint32_t high_surrogate = 0;
+  size_t surrogate_at = 0;
+  const auto reportNoCodePoint = [&](size_t begin, size_t end) {
+    const std::string_view shown = inner.substr(begin, end - begin);
+    diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(begin)}, {shown})
+        .length(static_cast<uint32_t>(shown.size()));
+    ok = false;
+  };
+  // Half of a surrogate pair, `$D83D` without `$DD79` after it, is not a character.
+  const auto endSurrogate = [&] {
+    if (high_surrogate != 0) reportNoCodePoint(surrogate_at, surrogate_at + 5);
+    high_surrogate = 0;
+  };
   for (size_t i = 0; i < inner.size(); ++i) {
     const char c = inner[i];
     if (c != '$') {
+      endSurrogate();
       value += c;
       continue;
     }
@@ -348,6 +361,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
       code = code * 16 + static_cast<uint32_t>(h);
     }
     ++i;
+    if (high_surrogate != 0 && !(is_code && code >= 0xDC00 && code < 0xE000)) endSurrogate();
     switch (lower(next)) {
       case '$':
       case '\'':
@@ -371,10 +385,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
       if (is_point && point < 0x110000 && !(point >= 0xD800 && point < 0xE000)) {
         appendUtf8(value, static_cast<uint32_t>(point));
       } else {
-        const std::string_view shown = inner.substr(start, end + 1 - start);
-        diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
-            .length(static_cast<uint32_t>(shown.size()));
-        ok = false;
+        reportNoCodePoint(start, end + 1);
       }
       i = end;
       continue;
@@ -393,13 +404,17 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
       value += static_cast<char>(code);
     } else if (code >= 0xD800 && code < 0xDC00) {
       high_surrogate = code;
+      surrogate_at = start;
     } else if (code >= 0xDC00 && code < 0xE000 && high_surrogate != 0) {
       appendUtf8(value, 0x10000 + ((high_surrogate - 0xD800) << 10) + (code - 0xDC00));
       high_surrogate = 0;
+    } else if (code >= 0xDC00 && code < 0xE000) {
+      reportNoCodePoint(start, start + 5);
     } else {
       appendUtf8(value, code);
     }
   }
+  endSurrogate();
   return ok;
 }
 

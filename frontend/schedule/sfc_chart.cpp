@@ -141,6 +141,12 @@ const char* keywordOf(SfcFlag flag) {
   return kKeywords[static_cast<size_t>(flag)];
 }
 
+bool isSfcFlag(std::string_view name) {
+  for (size_t i = 0; i < kSfcFlags; ++i)
+    if (sameIdentifier(name, keywordOf(static_cast<SfcFlag>(i)))) return true;
+  return false;
+}
+
 // Flags of a block, inherited and global ones included, act on its own chart or, if its body is not a chart, on the
 // charts of its actions. A chart in an action or method of a block with a chart uses only the flags declared in that
 // action or method.

@@ -40,6 +40,8 @@ struct ChartContext {
 // Appends the sections of the chart's variables to those of the POU; of a POU without a chart those of its conditions,
 // which charts of its actions use.
 void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context);
+// The name of a variable with which a chart is controlled, such as SFCInit.
+bool isSfcFlag(std::string_view name);
 // Fills the POU's statements. False: the chart has errors, which were reported.
 bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).

@@ -118,21 +118,16 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
 
   std::vector<Step> steps;
   for (uint32_t i = 0; i < blocks.block_count; ++i) steps.push_back({Step::Clear, {}, i});
-  for (uint32_t i = 0; i < module.lists.size(); ++i) {
-    if (module.lists[i].init) steps.push_back({Step::CallOn, module.lists[i].init, blocks.list_block[i]});
+  const std::vector<InitStep> order = initOrder(module, blocks);
+  for (const InitStep& step : order) {
+    const BodyId body = step.is_list ? module.lists[step.index].init : module.programs[step.index].init;
+    const uint32_t block = step.is_list ? blocks.list_block[step.index] : blocks.program_block[step.index];
+    if (body) steps.push_back({Step::CallOn, body, block});
   }
-  std::vector<uint32_t> order(module.programs.size());
-  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return blocks.program_block[a] < blocks.program_block[b]; });
-  for (uint32_t p : order) {
-    if (module.programs[p].is_test) continue;
-    if (module.programs[p].init) steps.push_back({Step::CallOn, module.programs[p].init, blocks.program_block[p]});
-  }
-  for (uint32_t p : order) {
-    if (module.programs[p].is_test) continue;
-    if (module.programs[p].setup) steps.push_back({Step::CallOf, module.programs[p].setup, 0});
-  }
+  for (const InitStep& step : order)
+    if (!step.is_list && module.programs[step.index].setup)
+      steps.push_back({Step::CallOf, module.programs[step.index].setup, 0});
+  if (module.after_init) steps.push_back({Step::CallOf, module.after_init, 0});
   init = translator.translateSteps(steps);
   if (module.exit) {
     steps.assign(1, {Step::CallOf, module.exit, 0});
@@ -161,6 +156,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
       first.push_back({Step::Clear, {}, block});
       if (program.init) first.push_back({Step::CallOn, program.init, block});
       if (program.setup) first.push_back({Step::CallOf, program.setup, 0});
+      if (program.after_init) first.push_back({Step::CallOf, program.after_init, 0});
       if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
     }
     of_test.push_back(translator.translateSteps(steps));

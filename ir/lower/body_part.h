@@ -91,6 +91,9 @@ class BodyPart {
   TypeId strip(TypeId type) const { return types_.resolve(type); }
   bool isAggregate(TypeId type) const { return ir::isAggregate(types_, type); }  // in memory, passed by reference
   bool mayFault(ExprId expr) const { return ir::mayFault(body_, expr); }
+  // False for a bit, and for a variable that may be less aligned than its type: in-outs and outputs take a copy.
+  bool isReferable(ExprId place) const;
+  uint32_t alignmentOf(ExprId place) const;
   bool isTemp(ExprId place) const;   // a compiler temporary or a part of one
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
 

@@ -110,6 +110,33 @@ ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rou
   return add(loc, to, ConvertExpr{.operand = operand, .rounding = rounding}, checks);
 }
 
+// What the address of a place is a multiple of, at least; a record has no demands, since its C++ struct knows.
+uint32_t BodyPart::alignmentOf(ExprId place) const {
+  const auto lowest = [](uint64_t bytes) { return static_cast<uint32_t>(bytes & (~bytes + 1)); };
+  const Expr& e = body_.expr(place);
+  if (const auto* part = e.tryAs<FieldExpr>()) {
+    const TypeInfo& record = types_.info(typeOf(part->base));
+    const types::Field& field = record.fields[part->field];
+    if (field.by_reference) return types_.info(e.type).align;
+    return field.offset == 0 ? record.placed_align : std::min(record.placed_align, lowest(field.offset));
+  }
+  if (const auto* element = e.tryAs<IndexExpr>()) {
+    const uint64_t stride = types_.info(strip(types_.info(typeOf(element->base)).base)).size;
+    return std::min(alignmentOf(element->base), lowest(stride));
+  }
+  // A pointer may lead to such a member.
+  return e.kind == ExprKind::Deref ? 1 : types_.info(e.type).align;
+}
+
+bool BodyPart::isReferable(ExprId place) const {
+  const Expr& e = body_.expr(place);
+  if (e.kind == ExprKind::Bits || isImageBit(e)) return false;
+  if (!types_.has_misaligned || !isPlace(e.kind)) return true;
+  TypeId type = e.type;
+  while (types_.kind(type) == TypeKind::Array) type = strip(types_.info(type).base);
+  return types_.kind(type) == TypeKind::Record || alignmentOf(place) >= types_.info(type).align;
+}
+
 void BodyPart::assign(ExprId place, ExprId value, Loc loc) {
   if (state_.guard && mayFault(value) && isTemp(place) && !isAggregate(typeOf(place))) {
     append(loc, AssignStmt{.place = copy(place), .value = zero(typeOf(place), loc)});

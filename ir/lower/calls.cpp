@@ -119,6 +119,31 @@ void CallLowering::writtenOrder(std::vector<uint32_t>& pins, FunctionRef<rung::E
 
 // ---- function blocks and programs ------------------------------------------------------------------------------
 
+// The attributes of its variables: inputs that the call leaves open and that are marked `initialize_on_call` get their
+// initial values, variables marked `is_connected` tell whether it gives the input a value. The call of the body of the
+// base is a part of another call.
+void CallLowering::setMarkedVariables(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
+  const bool calls_base = tree_.kind(node.callee) == rung::ExprKind::Deref &&
+                          tree_.kind(tree_.as<rung::DerefExpr>(node.callee).base) == rung::ExprKind::Super;
+  if (calls_base) return;
+  const auto isGiven = [&](sema::VarId pin) {
+    return std::any_of(call.bindings.begin(), call.bindings.end(), [&](const sema::Binding& binding) {
+      return binding.pin == pin && binding.value && !binding.is_output;
+    });
+  };
+  for (sema::PouId at = call.pou; at; at = project_.pou(at).base) {
+    const sema::Pou& block = project_.pou(at);
+    for (const sema::VarId id : block.vars) {
+      const sema::Var& var = project_.var(id);
+      const Loc loc = node.h.loc;
+      if (var.tells_input)
+        assign(places().pinPlace(copy(instance), var, loc), constantBool(isGiven(var.tells_input), loc), loc);
+      if (block.pragmas.initialize_on_call && var.pragmas.initialize_on_call && !isGiven(id))
+        objects().storeInitial(places().pinPlace(copy(instance), var, loc), var.type, var.init, false);
+    }
+  }
+}
+
 void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
   Loc loc = node.h.loc;
   struct CopyBack {
@@ -149,8 +174,7 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
     ExprId place = places().pinPlace(copy(instance), pin, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
-      const Expr& expr = body_.expr(variable);
-      if (expr.kind == ExprKind::Bits || isImageBit(expr)) {
+      if (!isReferable(variable)) {
         variable = toTemp(variable, at);
         copies.push_back({binding.value, copy(variable)});
       }
@@ -160,6 +184,7 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
       assign(place, values().lowerValue(binding.value), at);
     }
   }
+  if (project_.pou(call.pou).kind == PouKind::FunctionBlock) setMarkedVariables(call, node, instance);
   if (project_.pou(call.pou).kind == PouKind::Action) {
     sema::Call action = call;
     action.bindings.clear();

@@ -46,6 +46,18 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   return created;
 }
 
+// {attribute 'no-exit'} before the variable.
+bool ModuleLowering::keepsFromExit(TypeId record, uint32_t field) const {
+  const sema::PouId pou = pouOfRecord(record);
+  const sema::ListId list = record.index < list_of_record_.size() ? list_of_record_[record.index] : sema::ListId{};
+  if (!pou && !list) return false;
+  for (const sema::VarId id : pou ? project.pou(pou).vars : project.global_lists[list.index].vars) {
+    const sema::Var& var = project.var(id);
+    if (var.pragmas.no_exit && var.field == field && var.storage != sema::Storage::Local) return true;
+  }
+  return false;
+}
+
 // A function without parameters that ends the objects of these lists and programs, the last first; none when there are
 // no such objects.
 BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists,
@@ -110,7 +122,7 @@ void ObjectLowering::exitParts(ExprId place, TypeId record) {
   const auto count = static_cast<uint32_t>(types_.info(record).fields.size());
   for (uint32_t i = count; i-- > 0;) {
     const types::Field held = types_.info(record).fields[i];
-    if (held.by_reference || !in_.hasExit(held.type)) continue;
+    if (held.by_reference || !in_.hasExit(held.type) || in_.keepsFromExit(record, i)) continue;
     const TypeId type = strip(held.type);
     const ExprId part = field(copy(place), i, type, loc);
     if (held.role == types::FieldRole::Base) {

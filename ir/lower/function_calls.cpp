@@ -156,7 +156,7 @@ ExprId CallLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
   bool constant_memory = expr.kind == ExprKind::String || expr.kind == ExprKind::Data || expr.kind == ExprKind::Zero;
   bool is_value = expr.kind == ExprKind::Convert || expr.kind == ExprKind::Select || expr.kind == ExprKind::Call;
   bool same = typeOf(value) == strip(pin_type) || TypeTable::isString(types_.kind(pin_type));
-  if (constant_memory || (same && !is_value && !may_alias)) return value;
+  if (constant_memory || (same && !is_value && !may_alias && isReferable(value))) return value;
   if (const uint32_t* index = localOf(expr); index != nullptr && body_.locals[*index].kind == LocalKind::Temp)
     return value;
   const ExprId own = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
@@ -201,8 +201,7 @@ ExprId CallLowering::passAggregate(FunctionCall& plan, TypeId type, rung::ExprId
 
 ExprId CallLowering::passVariable(FunctionCall& plan, TypeId type, rung::ExprId given) {
   const ExprId variable = inOutPlace(given, type);
-  const Expr& place = body_.expr(variable);
-  if (place.kind != ExprKind::Bits && !isImageBit(place)) return variable;
+  if (isReferable(variable)) return variable;
   const ExprId own = toTemp(variable, plan.loc);
   plan.outputs.push_back({given, copy(own), false});
   return own;

@@ -46,8 +46,13 @@ struct ModuleLowering {
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
   // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
+  bool keepsFromExit(TypeId record, uint32_t field) const;
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
+  // after_init.cpp: whether a variable of the type is, or holds, an instance of the block.
+  bool holds(TypeId type, sema::PouId block);
+  // An object's implementation of a method; none when it has none, or an abstract one.
+  sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   bool checksCasts() const { return (options.checks & kCheckCast) != 0; }
   // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
   const sema::Var* constructedVar(TypeId record, uint32_t field) const;
@@ -77,6 +82,7 @@ struct ModuleLowering {
   void addPrograms();
   void addLists();
   void simplifyLimits();
+  bool isLastList(uint32_t list) const;
   void markFaulting();
   void addClasses();
   void fillKindTests();
@@ -84,7 +90,10 @@ struct ModuleLowering {
   BodyId endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists, std::span<const uint32_t> programs);
   void addExit();
   void addDispatches();
-  sema::PouId implementation(sema::PouId object, sema::PouId method) const;
+  std::vector<sema::PouId> calledAfterGlobals() const;
+  BodyId afterInitOf(NameId name, const char* suffix, std::span<const sema::PouId> called,
+                     std::span<const uint32_t> lists, std::span<const uint32_t> programs, bool is_test);
+  void addAfterInit();
   void addTasks();
   void addActivations();
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
@@ -221,6 +230,7 @@ class CallLowering : public BodyPart {
   // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
   ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
+  void setMarkedVariables(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
@@ -256,7 +266,7 @@ class CallLowering : public BodyPart {
   NameId comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition);
 };
 
-// The life of objects: initial_values.cpp, repeated_values.cpp, and FB_Exit in exits.cpp.
+// The life of objects: initial_values.cpp, repeated_values.cpp, after_init.cpp, and FB_Exit in exits.cpp.
 class ObjectLowering : public BodyPart {
  public:
   using BodyPart::BodyPart;
@@ -267,8 +277,10 @@ class ObjectLowering : public BodyPart {
   void callExit(ExprId place, bool exact, Loc loc);
   void lowerExit(ExprId place, TypeId record);
   void exitElement(ExprId place, TypeId type);
+  void callInstances(ExprId place, sema::PouId method);
 
  private:
+  void callParts(ExprId base, sema::PouId method);
   void exitParts(ExprId place, TypeId record);
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
   bool storeRepeated(ExprId place, TypeId type, std::span<const uint8_t> bytes, bool place_is_zero);

@@ -57,8 +57,9 @@ void ModuleLowering::run() {
       module.records[i].init = init;
     }
   } while (next_to_lower_ < to_lower_.size());
+  addAfterInit();
   addExit();
-  lowerBodies();  // the functions that FB_Exit calls
+  lowerBodies();  // the functions that these call
   addClasses();
   addDispatches();
   simplifyLimits();
@@ -352,11 +353,19 @@ bool ModuleLowering::isZero(TypeId declared) {
   return result;
 }
 
+// No list is initialised after this one.
+bool ModuleLowering::isLastList(uint32_t list) const {
+  for (uint32_t i = 0; i < module.lists.size(); ++i)
+    if (module.lists[i].slot > module.lists[list].slot || (module.lists[i].slot == module.lists[list].slot && i > list))
+      return false;
+  return true;
+}
+
 BodyId ModuleLowering::initOf(TypeId type) {
   auto known = init_of_.find(type.index);
   if (known != init_of_.end()) return known->second;
   const sema::ListId of_list = list_of_record_[type.index];
-  const bool sets_late = of_list && !project.late.empty() && list_index[of_list.index] + 1 == module.lists.size();
+  const bool sets_late = of_list && !project.late.empty() && isLastList(list_index[of_list.index]);
   if (isZero(type) && !sets_late) return init_of_[type.index] = {};
   module.bodies.emplace_back();
   BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
@@ -440,7 +449,7 @@ void ModuleLowering::addLists() {
     const sema::GlobalList& list = project.global_lists[index];
     list_index[index] = static_cast<uint32_t>(module.lists.size());
     declareRecordsOf(list.record);
-    module.lists.push_back({list.name, list.record, {}});
+    module.lists.push_back({list.name, list.record, {}, list.init_slot});
   }
 }
 
@@ -468,6 +477,7 @@ void ModuleLowering::addPrograms() {
     ProgramInstance created;
     created.name = instance.name;
     created.record = pou.record;
+    created.slot = pou.pragmas.init_slot;
     created.task = instance.task;
     created.retain = instance.retain;
     created.resource = instance.resource;
@@ -476,8 +486,11 @@ void ModuleLowering::addPrograms() {
     module.programs.push_back(created);
     module.programs.back().body = bodyOf(instance.program);
   }
-  for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].pragmas.test && !project.pous[i].excluded && project.pous[i].record) instanceOf({i});
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const sema::Pou& pou = project.pous[i];
+    const bool is_called = pou.kind == PouKind::Program && pou.pragmas.after_globals;
+    if ((pou.pragmas.test || is_called) && !pou.excluded && pou.record) instanceOf({i});
+  }
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {
@@ -489,6 +502,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   ProgramInstance created;
   created.name = pou.name;
   created.record = pou.record;
+  created.slot = pou.pragmas.init_slot;
   module.programs.push_back(created);
   BodyId body = bodyOf(program);
   module.programs[index].body = body;

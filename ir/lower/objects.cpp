@@ -81,7 +81,6 @@ void ModuleLowering::addClasses() {
         expr.as<ConstExpr>().bits = number_of[expr.as<ConstExpr>().number_of.index];
 }
 
-// An object's implementation of `method`; none when it has none, or an abstract one.
 sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
   for (sema::PouId at = object; at; at = project.pou(at).base)
     if (const sema::PouId found = methodLike(project, at, method))

@@ -36,6 +36,31 @@ const char* whyNot(Context& context, const Var& var) {
   return nullptr;
 }
 
+// A variable of a packed block: no C++ reference can be bound to it.
+bool isMisaligned(Context& context, const Var& var) {
+  const TypeId record = var.pou ? context.symbols.pou(var.pou).record : TypeId{};
+  if (var.storage != Storage::Field || !record || var.bits.is_bit) return false;
+  const types::TypeTable& types = context.types();
+  TypeId element = types.resolve(var.type);
+  while (types.kind(element) == TypeKind::Array) element = types.resolve(types.info(element).base);
+  const types::Field& field = types.info(record).fields[var.field];
+  return types.kind(element) != TypeKind::Record && types.fieldAlign(field) < types.info(element).align;
+}
+
+// Forbids C++ bodies of a block, and of its methods, whose variables are less aligned than their types.
+//   fails   {attribute 'pack_mode' := '1'} FUNCTION_BLOCK F VAR n : INT; END_VAR {C++} …      E0751
+void checkPackedObject(Context& context) {
+  for (PouId at = objectOf(context); at; at = context.symbols.pou(at).base) {
+    for (const VarId id : context.symbols.pou(at).vars) {
+      const Var& var = context.symbols.var(id);
+      if (!var.name || !isMisaligned(context, var)) continue;
+      context.report(diag::CppVariable, var.loc,
+                     {string(context, var.name), "aligned to less than its type by the attribute `pack_mode`"});
+      return;
+    }
+  }
+}
+
 bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 
@@ -95,6 +120,7 @@ void checkCppBody(Context& context, const PouDecl& decl) {
     if (const char* why = whyNot(context, *var))
       context.report(diag::CppVariable, named.loc, {string(context, named.name), why});
   }
+  checkPackedObject(context);
   const std::string_view text = context.symbols.sources.sourceText(pou.file);
   const uint32_t base = context.symbols.sources.begin(pou.file).offset;
   const Loc begin{decl.body_begin.offset + 5};

@@ -1,10 +1,12 @@
 // Warns of a local that is never read or written, of a local of a function or block that is read and never written, and
-// of an output that its block never writes. Located variables and a program's own may be accessed from outside.
+// of an output that its block never writes. Located variables, a program's own and the flags of a chart may be accessed
+// from outside.
 //   passes  VAR n : INT; END_VAR   n := n + 1;
 //   fails   VAR n : INT; END_VAR   (nothing)
 // Called once, when all bodies are checked; silent when there are errors, since uses may then be missing.
 #include "sema/checks/unused_variables.h"
 
+#include "frontend/schedule/sfc_schedule.h"
 #include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
@@ -31,7 +33,7 @@ void checkUnusedVariables(Context& context) {
     for (const VarId id : pou.vars) {
       const Var& var = context.symbols.var(id);
       if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant ||
-          var.of_chart)
+          var.of_chart || text::isSfcFlag(context.names().string(var.name)))
         continue;
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;

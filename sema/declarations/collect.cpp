@@ -4,6 +4,7 @@
 
 #include "frontend/syntax/diagnostics.h"
 #include "sema/charts.h"
+#include "sema/declarations/attributes.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -49,6 +50,13 @@ void internKnownNames(Context& context) {
       {&Known::attribute_obsolete, "obsolete"},
       {&Known::attribute_to_string, "to_string"},
       {&Known::attribute_call_after_init, "call_after_init"},
+      {&Known::attribute_pack_mode, "pack_mode"},
+      {&Known::attribute_global_init_slot, "global_init_slot"},
+      {&Known::attribute_after_globals, "call_after_global_init_slot"},
+      {&Known::attribute_initialize_on_call, "initialize_on_call"},
+      {&Known::attribute_is_connected, "is_connected"},
+      {&Known::attribute_reflection, "reflection"},
+      {&Known::attribute_no_exit, "no-exit"},
   };
   for (const Row& row : kRows)
     context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
@@ -142,6 +150,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
   pou.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
   pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
+  takeAttributes(context, decl.h, pou);
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
@@ -168,6 +177,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
                                            : pou.kind == PouKind::Interface ? RecordKind::Interface
                                                                             : RecordKind::FunctionBlock,
                                            pou.unique_name);
+    if (pou.kind == PouKind::FunctionBlock) context.types().edit(pou.record).pack = packModeOf(context, decl.h);
     NamedType& named = addNamed(context, pou.record);
     named.pou = pou_id;
     named.file = file;
@@ -214,13 +224,18 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   switch (tree.kind(decl.type)) {
     case TypeExprKind::Enum: type = table.addEnum(name, types::kInt); break;
     case TypeExprKind::Subrange: type = table.addSubrange(name, types::kInt, 0, 0); break;
-    case TypeExprKind::Struct: type = addStructure(context, decl.type, name); break;
+    case TypeExprKind::Struct:
+      type = addStructure(context, decl.type, name);
+      table.edit(type).pack = packModeOf(context, decl.h);
+      break;
     case TypeExprKind::Error:
     case TypeExprKind::Named:
     case TypeExprKind::String:
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: type = table.addAlias(name, types::kError); break;
   }
+  const bool is_structure = tree.kind(decl.type) == TypeExprKind::Struct;
+  checkAttributes(context, decl.h, is_structure ? Attributed::Structure : Attributed::OtherType);
   NamedType& named = addNamed(context, type);
   named.decl = id;
   named.type = decl.type;
@@ -282,6 +297,8 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   GlobalList& list = project.global_lists[list_id.index];
   ListScope& scope = scopes.lists[list_id.index];
   checkModifiers(context, section);
+  checkAttributes(context, section.h, Attributed::Globals);
+  if (const auto slot = initSlotOf(context, section.h)) list.init_slot = *slot;
   const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();

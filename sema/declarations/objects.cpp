@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "sema/charts.h"
+#include "sema/declarations/attributes.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/overloads.h"
@@ -59,6 +60,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
   member.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
   member.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
+  takeAttributes(context, decl.h, member);
   member.library_name = owner.library_name;
   member.owner = owner_id;
   member.access = decl.access;

@@ -71,8 +71,8 @@ void layOutMembers(Context& context, TypeId record, std::span<const VarId> membe
   uint64_t end = 0;
   for (const types::Field& field : context.types().info(record).fields) {  // inherited ones
     if (!ensureLayout(context, field.type)) return;
-    const types::TypeInfo& info = context.types().info(context.types().resolve(field.type));
-    end = (end + info.align - 1) / info.align * info.align + info.size;
+    const uint32_t align = context.types().fieldAlign(field);
+    end = (end + align - 1) / align * align + context.types().info(context.types().resolve(field.type)).size;
   }
   VarId bits, last;
   uint64_t bits_at = 0;
@@ -86,6 +86,10 @@ void layOutMembers(Context& context, TypeId record, std::span<const VarId> membe
     const Loc loc = var.loc;
     const std::string_view name = context.names().string(var.name);
     const types::TypeInfo& info = context.types().info(context.types().resolve(var.type));
+    types::Field member;
+    member.type = var.type;
+    member.pack = context.types().info(record).pack;
+    const uint32_t align = context.types().fieldAlign(member);
     const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
     if (item.bit >= 0 && info.kind != types::TypeKind::Bool) {
       context.report(diag::BitOffset, decl.address_loc, {name, context.types().toString(var.type)});
@@ -94,16 +98,16 @@ void layOutMembers(Context& context, TypeId record, std::span<const VarId> membe
     }
     const bool same_byte =
         item.bit >= 0 && bits && bits_at == item.byte && (!overlaps || (bits_used >> item.bit & 1) == 0);
-    const uint64_t at = item.given ? item.byte : (end + info.align - 1) / info.align * info.align;
+    const uint64_t at = item.given ? item.byte : (end + align - 1) / align * align;
     if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
       Report report = context.report(diag::MemberOverlaps, decl.located ? decl.address_loc : loc, {name});
       if (last) report.alsoDeclaredHere(context.symbols.var(last).loc);
       addField(context, record, item.var);
       continue;
     }
-    if (item.bit < 0 && at % info.align != 0) {
+    if (item.bit < 0 && at % align != 0) {
       context.report(diag::MemberAlignment, decl.address_loc,
-                     {name, context.types().toString(var.type), std::to_string(info.align)});
+                     {name, context.types().toString(var.type), std::to_string(align)});
       addField(context, record, item.var);
       continue;
     }

@@ -2,6 +2,7 @@
 // initial values. Runs after collecting the files, and again whenever a library declaration was read.
 #include <algorithm>
 
+#include "sema/declarations/attributes.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
@@ -191,6 +192,7 @@ void resolveDeclarations(Context& context) {
                                      : Loc{};
         context.report(diag::TypeTooLarge, loc, {context.types().toString(type)});
       }
+      if (context.types().info(type).kind == TypeKind::Record) checkPacking(context, type);
     }
     for (size_t i = scopes.checked_pous; i < pous_end; ++i) {
       for (const VarId var : project.pous[i].vars) layoutVar(context, var);

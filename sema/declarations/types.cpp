@@ -338,6 +338,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   const bool is_laid_out = ensureLayout(context, base);
   for (size_t i = 0; i < named_base->fields.size(); ++i) {
     addField(context, record, inherit(named_base->fields[i]));
+    context.types().edit(record).fields.back().pack = info.fields[i].pack;
     if (is_laid_out) context.types().edit(record).fields.back().given_offset = info.fields[i].offset;
   }
   for (size_t i = 0; i < named_base->bits.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
+#include "sema/declarations/attributes.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -109,6 +110,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     var.pragmas.long_time = findPragma(context, decl.h, known.long_time) != nullptr;
     var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
     var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
+    takeVariableAttributes(context, decl.h, var);
     var.pragmas.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
     for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
       if (keyOf(context, pragma.name) == known.alias) {
@@ -168,6 +170,7 @@ void addField(Context& context, TypeId record, VarId id) {
   field.persistent = var.persistent;
   field.constant = var.constant;
   types::TypeInfo& info = context.types().edit(record);
+  field.pack = info.pack;
   var.field = static_cast<uint32_t>(info.fields.size());
   info.fields.push_back(field);
   context.scopes.named(record)->fields.push_back(id);
@@ -624,7 +627,13 @@ void resolvePou(Context& context, PouId id) {
     if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
     return hidden_id;
   };
-  for (const VarId edge : edges) symbols.var(edge).edge_memory = addHidden(edge, "_edge", types::kBool);
+  for (const VarId edge : edges) {
+    const VarId memory = addHidden(edge, "_edge", types::kBool);
+    symbols.var(edge).edge_memory = memory;
+    // iec: the body of F_TRIG, which F_EDGE stands for, sees an edge in a first call with FALSE.
+    if (there.iec() && symbols.var(edge).edge == EdgeKind::Falling)
+      symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
+  }
   for (const VarId array : open_arrays) {
     const uint32_t dimensions = context.types().info(context.types().resolve(symbols.var(array).type)).length;
     for (uint32_t i = 0; i < 2 * dimensions; ++i) {
@@ -633,6 +642,7 @@ void resolvePou(Context& context, PouId id) {
     }
   }
   scope.resolved = State::Done;
+  if (!context.library) checkAttributesOf(there, id);
 }
 
 void resolveList(Context& context, ListId id) {

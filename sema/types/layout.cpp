@@ -1,5 +1,5 @@
-// Layout of types in memory: natural alignment, 64-bit scalars on 8, arrays row-major, strings with their NUL, in-outs
-// as pointers. An empty record takes one byte, as in C++, so that offsets agree.
+// Layout of types in memory: natural alignment where no pack mode says less, 64-bit scalars on 8, arrays row-major,
+// strings with their NUL, in-outs as pointers. An empty record takes one byte, as in C++, so that offsets agree.
 #include <algorithm>
 
 #include "sema/types/types.h"
@@ -14,6 +14,22 @@ uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / 
 
 }  // namespace
 
+uint32_t TypeTable::fieldAlign(const Field& field) const {
+  const uint32_t least = field.by_reference ? 1 : types_[field.type.index].least_align;
+  const uint32_t natural = field.by_reference ? pointer_size_ : types_[field.type.index].align;
+  return field.pack == 0 ? natural : std::max(least, std::min<uint32_t>(natural, field.pack));
+}
+
+// The records in a variable of this type lie at addresses that are only so much aligned.
+void TypeTable::place(TypeId id, uint32_t align) {
+  TypeInfo& info = types_[id.index];
+  if (info.kind == TypeKind::Alias || info.kind == TypeKind::Array) return place(info.base, align);
+  if (info.kind != TypeKind::Record || info.placed_align <= align) return;
+  info.placed_align = align;
+  for (const Field& field : info.fields)
+    if (!field.by_reference) place(field.type, align);
+}
+
 bool TypeTable::layout(TypeId id) {
   TypeInfo& info = types_[id.index];  // types never move
   if (info.laid_out) return info.size < kMaxSize;
@@ -25,10 +41,12 @@ bool TypeTable::layout(TypeId id) {
     fits = layout(info.base);
     info.size = types_[info.base.index].size;
     info.align = types_[info.base.index].align;
+    info.least_align = types_[info.base.index].least_align;
   } else if (info.kind == TypeKind::Array) {
     fits = layout(info.base);
     const TypeInfo& element = types_[info.base.index];
     info.align = element.align;
+    info.least_align = element.least_align;
     info.size = info.dimensions.empty() ? 0 : element.size;
     for (const Dimension& dimension : info.dimensions) {
       const uint64_t count = std::max<uint64_t>(dimension.count(), 1);  // C++ has no array without elements
@@ -43,12 +61,12 @@ bool TypeTable::layout(TypeId id) {
     uint32_t align = 1;
     for (Field& field : info.fields) {
       uint64_t size = pointer_size_;
-      uint32_t field_align = pointer_size_;
       if (!field.by_reference) {
         fits = layout(field.type) && fits;
         size = types_[field.type.index].size;
-        field_align = types_[field.type.index].align;
+        info.least_align = std::max(info.least_align, types_[field.type.index].least_align);
       }
+      const uint32_t field_align = fieldAlign(field);
       const uint64_t offset = info.record_kind == RecordKind::Union ? field.given_offset : alignUp(end, field_align);
       if (offset + size >= kMaxSize) {
         fits = false;
@@ -58,8 +76,14 @@ bool TypeTable::layout(TypeId id) {
       if (offset + size > end) end = offset + size;
       if (field_align > align) align = field_align;
     }
-    info.align = align;
+    info.align = info.placed_align = align;
     info.size = end == 0 ? align : alignUp(end, align);
+    if (info.record_kind != RecordKind::Struct && info.record_kind != RecordKind::Union) info.least_align = align;
+    for (const Field& field : info.fields) {
+      if (field.pack == 0 || (!field.by_reference && fieldAlign(field) == types_[field.type.index].align)) continue;
+      has_misaligned = true;
+      if (!field.by_reference) place(field.type, fieldAlign(field));
+    }
   }  // scalars and strings are laid out from the start; literal and generic types have no memory
   if (!fits || info.size >= kMaxSize) {
     info.size = kMaxSize;

@@ -69,7 +69,7 @@ void setLength(TypeInfo& info, uint32_t length) {
   const uint32_t unit = info.kind == TypeKind::WString ? 2 : 1;
   info.length = length;
   info.size = (uint64_t{length} + 1) * unit;
-  info.align = unit;
+  info.align = info.least_align = unit;
   info.laid_out = true;
 }
 

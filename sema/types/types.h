@@ -101,6 +101,7 @@ struct Field {
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
   bool non_retain = false;    // not kept, even where the instance is retained
+  uint8_t pack = 0;           // {attribute 'pack_mode'}: aligned to at most this; 0: as its type
   uint32_t given_offset = 0;  // of a union whose members have AT positions
   uint32_t offset = 0;        // after layout
 };
@@ -131,7 +132,11 @@ struct TypeInfo {
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
   int64_t initial = 0;        // Subrange: the value that a variable begins with
   uint64_t size = 0;          // bytes, after layout
+  uint8_t pack = 0;           // Record: Field::pack of its members
   uint32_t align = 1;
+  uint32_t least_align = 1;  // no pack mode goes below: that of blocks, whose code may be native, and of wide strings
+  uint32_t placed_align =
+      1;  // Record: what every address of one suits: less than `align` where a packed record holds it
   std::vector<Dimension> dimensions;              // Array; empty: ARRAY[*]
   std::vector<Field> fields;                      // Record
   std::vector<BitMember> bits;                    // Record
@@ -195,10 +200,14 @@ class TypeTable {
   // Filled while the declaration is resolved; not after layout().
   TypeInfo& edit(TypeId id) { return types_[id.index]; }
 
-  // Sets size, align and field offsets of a type and of what it holds: natural alignment, 64-bit scalars alignas(8),
-  // arrays row-major, strings length+1 units, in-outs a pointer. A record that holds itself must have been reported
-  // and cut before. False when the size does not fit 2 GiB.
+  // Sets size, align and field offsets of a type and of what it holds: natural alignment where no pack mode says less,
+  // 64-bit scalars alignas(8), arrays row-major, strings length+1 units, in-outs a pointer. A record that holds itself
+  // must have been reported and cut before. False when the size does not fit 2 GiB.
   bool layout(TypeId id);
+  // What the offset of a field is a multiple of; its type is laid out.
+  uint32_t fieldAlign(const Field& field) const;
+  // Some variable of a record may be less aligned than its type ({attribute 'pack_mode'}).
+  bool has_misaligned = false;
 
   // The format of messages: `INT`, `STRING[20]`, `ARRAY[1..10] OF REAL`, `POINTER TO Motor`, `Color`.
   std::string toString(TypeId id) const;
@@ -247,6 +256,7 @@ class TypeTable {
   static bool belongsToInCodesys(TypeKind kind, TypeKind generic);
 
  private:
+  void place(TypeId id, uint32_t align);
   // The id is that of an elementary or generic type, which is its kind. Most types are: they need no look-up.
   static bool isKind(TypeId id) { return id.index < static_cast<uint32_t>(TypeKind::Enum); }
   TypeId plainOfNamed(TypeId id) const;

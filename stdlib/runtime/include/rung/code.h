@@ -44,18 +44,19 @@
 #define RUNG_LOOPS
 #endif
 
-/* Scalars accessed through POINTER and UNION: memory of any type. */
-typedef int8_t RUNG_MAY_ALIAS rung_i8_at;
-typedef int16_t RUNG_MAY_ALIAS rung_i16_at;
-typedef int32_t RUNG_MAY_ALIAS rung_i32_at;
-typedef int64_t RUNG_MAY_ALIAS rung_i64_at;
-typedef uint8_t RUNG_MAY_ALIAS rung_u8_at;
-typedef uint16_t RUNG_MAY_ALIAS rung_u16_at;
-typedef uint32_t RUNG_MAY_ALIAS rung_u32_at;
-typedef uint64_t RUNG_MAY_ALIAS rung_u64_at;
-typedef float RUNG_MAY_ALIAS rung_f32_at;
-typedef double RUNG_MAY_ALIAS rung_f64_at;
-typedef void* RUNG_MAY_ALIAS rung_pointer_at;
+/* Scalars accessed through POINTER and UNION: memory of any type at any address. */
+#define RUNG_ANYWHERE __attribute__((may_alias, aligned(1)))
+typedef int8_t RUNG_ANYWHERE rung_i8_at;
+typedef int16_t RUNG_ANYWHERE rung_i16_at;
+typedef int32_t RUNG_ANYWHERE rung_i32_at;
+typedef int64_t RUNG_ANYWHERE rung_i64_at;
+typedef uint8_t RUNG_ANYWHERE rung_u8_at;
+typedef uint16_t RUNG_ANYWHERE rung_u16_at;
+typedef uint32_t RUNG_ANYWHERE rung_u32_at;
+typedef uint64_t RUNG_ANYWHERE rung_u64_at;
+typedef float RUNG_ANYWHERE rung_f32_at;
+typedef double RUNG_ANYWHERE rung_f64_at;
+typedef void* RUNG_ANYWHERE rung_pointer_at;
 
 /* A check in front of a statement: `at` is number << 3 | kind of fault; the label is at the end of the body. */
 #define RUNG_CHECK(bad, number, what) \
