@@ -97,7 +97,7 @@ size_t PouExport::endOfHeader(const PouDecl& pou) const {
     if (to_.tree.loc(section) != pou_.h.loc) last = std::max(last, source_.at(to_.tree.loc(section)));
   if (last != 0) {
     size_t end = source_.endOfWord(last, "END_VAR");
-    for (const auto list : {pou.bases, pou.implements})  // behind VAR_GENERIC CONSTANT
+    for (const auto list : {pou.bases, pou.implements})  // after VAR_GENERIC CONSTANT
       for (const TypeExprId id : to_.tree.list(list))
         end = std::max(end, source_.at(to_.tree.as<NamedTypeExpr>(id).h.end));
     return end;
