@@ -64,7 +64,8 @@ class PlaceWriter : public BodyPart {
   // `place = value` as an expression without `;` for a scalar; `value` is C++ code of the right type.
   void store(ExprId place, std::string_view value);
   void reference(const ir::Local& parameter, ExprId operand);  // as an argument
-  bool isVariableTruth(ExprId id) const;                       // a BOOL that is 0 or 1 in its memory
+  void plainReference(const ir::Local& parameter, ExprId operand);
+  bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
   void dataReference(uint32_t index);
 
  private:
