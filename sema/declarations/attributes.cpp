@@ -45,7 +45,7 @@ Attributed attributedBy(PouKind kind) {
   return Attributed::Block;
 }
 
-// Forbids slots that are not integers.   fails   {attribute 'global_init_slot' := 'first'} VAR_GLOBAL …     E0385
+// Forbids slots that are not integers.   fails   {attribute 'global_init_slot' := 'first'} VAR_GLOBAL …     E0388
 std::optional<int32_t> slotOf(Context& context, const DeclHeader& header, NameId attribute) {
   const Pragma* const pragma = findPragma(context, header, attribute);
   if (pragma == nullptr) return std::nullopt;
@@ -107,7 +107,7 @@ namespace {
 // Forbids {attribute 'is_connected'} of anything but an input of the block.
 //   passes  {attribute 'reflection'} FUNCTION_BLOCK F VAR_INPUT x : INT; END_VAR
 //           VAR {attribute 'is_connected' := 'x'} has_x : BOOL; END_VAR …
-//   fails   VAR {attribute 'is_connected' := 'y'} has_y : BOOL; END_VAR …         E0385
+//   fails   VAR {attribute 'is_connected' := 'y'} has_y : BOOL; END_VAR …         E0388
 void resolveConnection(Context& context, PouId block, VarId id, const Pragma& pragma) {
   Var& var = context.symbols.var(id);
   const std::string_view name = context.tree().string(pragma.value);
@@ -162,7 +162,7 @@ void checkAttributesOf(Context& context, PouId id) {
 }
 
 // Forbids other pack modes than those that the pages list.
-//   fails   {attribute 'pack_mode' := '3'} TYPE Telegram : STRUCT …    E0385
+//   fails   {attribute 'pack_mode' := '3'} TYPE Telegram : STRUCT …    E0388
 uint8_t packModeOf(Context& context, const DeclHeader& header) {
   const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attribute_pack_mode);
   if (pragma == nullptr) return 0;
