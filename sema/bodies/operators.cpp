@@ -235,7 +235,10 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
     const TypeId typed = common;
     for (const ExprId operand : operands) {
       if (!isUntyped(context, tree.expr(operand).type)) continue;
-      const TypeId joined = accepted == Operands::Anything && untypedFits(context, operand, common)
+      // CODESYS takes a whole number as a pointer: SEL(is_valid, 0, pointer).
+      const bool is_address = !context.iec() && context.types().kind(common) == TypeKind::Pointer &&
+                              tree.expr(operand).type == types::idOf(TypeKind::IntegerLiteral);
+      const TypeId joined = accepted == Operands::Anything && (is_address || untypedFits(context, operand, common))
                                 ? common
                                 : joinUntyped(context, common, operand, expected);
       if (!joined) return reportOperands(context, what, typed, tree.expr(operand).type, loc);
