@@ -4,8 +4,9 @@
 namespace rung::codegen {
 
 BodyAnalysis analyzeBody(const ir::Module& module, const ir::Body& body, const Facts& facts) {
-  BodyAnalysis of{analyzeUses(module, body, facts), {}, {}, {}, {}, {}, effortFor(body)};
+  BodyAnalysis of{analyzeUses(module, body, facts), {}, {}, {}, {}, {}, {}, effortFor(body)};
   of.fields = analyzeLocals(module, facts, of.uses);
+  of.write_backs = analyzeWriteBacks(module, body, of.uses, of.fields);
   of.loops = analyzeLoops(module, body, of.uses, of.fields);
   of.measured = analyzeLengths(body, facts, of.uses);
   const StringsOfBody strings{module, body, of.uses.variables, of.measured};

@@ -6,12 +6,14 @@
 #include "codegen/counted_loops.h"
 #include "codegen/effort.h"
 #include "codegen/slices.h"
+#include "codegen/write_backs.h"
 
 namespace rung::codegen {
 
 struct BodyAnalysis {
   Uses uses;
   CachedFields fields;
+  WriteBacks write_backs;
   CountedLoops loops;
   MeasuredStrings measured;
   Slices slices;

@@ -60,7 +60,7 @@ void FunctionWriter::declareCached(uint32_t number) {
   declarations_ += ';';
 }
 
-void FunctionWriter::writeBack(std::string& out) {
+void FunctionWriter::writeAllBack(std::string& out) {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
     const types::Field& field = variables.field(i);
@@ -71,10 +71,8 @@ void FunctionWriter::writeBack(std::string& out) {
       appendUnsigned(out, capacityOf(field.type));
       out += ", " + name + "v, " + name + "n);";
     } else if (isWrittenBack(i)) {
-      appendMangled(name, string(field.name));
-      out += " self." + name + " = ";
-      if (analysis_->loops.wide[i] != 0) out += '(' + std::string(scalarType(types_, field.type)) + ')';
-      out += name + ';';
+      out += ' ';
+      writeBack(out, i);
     }
   }
 }
@@ -85,7 +83,7 @@ void FunctionWriter::writeExits() {
     if (local.kind == LocalKind::Result && !local.by_reference) variable(result, local);
   }
   if (state_.uses_leave) out_ += "\nleave:";
-  writeBack(out_);
+  writeAllBack(out_);
   if (!result.empty()) {
     out_ += "\n  return ";
     out_ += result;
@@ -95,7 +93,7 @@ void FunctionWriter::writeExits() {
   }
   if (state_.uses_fault) {
     out_ += "\nfault:";
-    writeBack(out_);
+    writeAllBack(out_);
     out_ += " rung_raise(ctx, at & 15, sites_";
     out_ += group_.stem;
     out_ += " + (at >> 4), value);";

@@ -45,6 +45,15 @@ bool BodyPart::isWrittenBack(uint32_t number) const {
   return analysis_->fields.is_cached[number] != 0 && analysis_->uses.of[number].written;
 }
 
+void BodyPart::writeBack(std::string& out, uint32_t number) const {
+  const types::Field& field = analysis_->uses.variables.field(number);
+  std::string name;
+  appendMangled(name, string(field.name));
+  out += "self." + name + " = ";
+  if (analysis_->loops.wide[number] != 0) out += '(' + std::string(scalarType(types_, field.type)) + ')';
+  out += name + ';';
+}
+
 bool BodyPart::writesFieldsBack() const {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {

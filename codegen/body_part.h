@@ -93,6 +93,7 @@ class BodyPart {
   uint8_t wideOf(ExprId place) const;  // the bits of the C++ local, where it is wider than the type
   bool isCached(ExprId place) const;   // a field that lives in a C++ local
   bool isWrittenBack(uint32_t number) const;
+  void writeBack(std::string& out, uint32_t number) const;  // of a cached field: a statement
   bool writesFieldsBack() const;
   bool isSlice(ExprId place) const;
   bool isMeasured(ExprId place) const { return lengths().isMeasured(place); }

@@ -64,7 +64,8 @@ class PlaceWriter : public BodyPart {
   // `place = value` as an expression without `;` for a scalar; `value` is C++ code of the right type.
   void store(ExprId place, std::string_view value);
   void reference(const ir::Local& parameter, ExprId operand);  // as an argument
-  bool isVariableTruth(ExprId id) const;                       // a BOOL that is 0 or 1 in its memory
+  void plainReference(const ir::Local& parameter, ExprId operand);
+  bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
   void dataReference(uint32_t index);
 
  private:
@@ -121,7 +122,7 @@ class CallWriter : public BodyPart {
  public:
   using BodyPart::BodyPart;
 
-  void callStatement(const ir::CallStmt& stmt, Loc loc);
+  void callStatement(StmtId id);
   void callExpr(const Expr& expr);
 
  private:
@@ -246,7 +247,7 @@ class FunctionWriter : public BodyPart {
   void declareVariables();
   void declareLocal(uint32_t number);
   void declareCached(uint32_t number);
-  void writeBack(std::string& out);
+  void writeAllBack(std::string& out);
   void writeExits();
   void writeHead(ir::BodyId id);
 };

@@ -61,7 +61,8 @@ bool CallWriter::writesInPlace(const ir::CallStmt& stmt) const {
 
 // ---- the text
 
-void CallWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
+void CallWriter::callStatement(StmtId id) {
+  const ir::CallStmt& stmt = body_->stmt(id).as<ir::CallStmt>();
   const Body& callee = module_.body(stmt.callee);
   if (stmt.self) checks().prepare(stmt.self);
   for (const ExprId operand : body_->list(stmt.operands)) {
@@ -74,7 +75,7 @@ void CallWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
     return;
   }
   if (plan.form == CallPlan::Form::Virtual) {
-    dispatch(stmt, loc);
+    dispatch(stmt, body_->stmt(id).loc);
   } else if ((callee.kind == ir::BodyKind::Function || callee.native) && plan.form != CallPlan::Form::Sized) {
     call(stmt.callee);
   }
@@ -82,6 +83,12 @@ void CallWriter::callStatement(const ir::CallStmt& stmt, Loc loc) {
   if (plan.is_measured) text.length = captured([&] { strings().lengthName(stmt.result); });
   passArguments(plan, text);
   out_ += text.before;
+  if (const WriteBacks::Call* before = analysis_->write_backs.find(id)) {
+    for (const uint32_t field : before->fields) {
+      writeBack(out_, field);
+      out_ += ' ';
+    }
+  }
   passResult(stmt, plan, text);
   const std::string function = captured([&] { callFunction(stmt, plan, text); });
   if (plan.result == CallPlan::Result::Value) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "ir/builder.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -311,6 +312,22 @@ void PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
     out_ += name;
     return;
   }
+  // Only VAR_IN_OUT CONSTANT takes an input, which is const here. A bound in-out and its body do not say that they are.
+  const uint32_t* root = ir::isPlace(expr(operand).kind) ? ir::localOf(expr(ir::rootOf(*body_, operand))) : nullptr;
+  const bool is_input =
+      root != nullptr && body_->locals[*root].by_reference && body_->locals[*root].kind == ir::LocalKind::Input;
+  if (is_input && parameter.kind == ir::LocalKind::InOut) {
+    out_ += "const_cast<";
+    appendPointer(out_, types_, expr(operand).type, "");
+    out_ += ">(";
+    plainReference(parameter, operand);
+    out_ += ')';
+    return;
+  }
+  plainReference(parameter, operand);
+}
+
+void PlaceWriter::plainReference(const ir::Local& parameter, ExprId operand) {
   if (isString(parameter.type)) {
     if (parameter.kind == ir::LocalKind::Input) {
       strings().stringValue(operand);

@@ -116,7 +116,7 @@ void StatementWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::None: out_ += ';'; return;
     case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return;
     case StmtKind::Bind: bindStatement(stmt.as<ir::BindStmt>()); return;
-    case StmtKind::Call: calls().callStatement(stmt.as<ir::CallStmt>(), stmt.loc); return;
+    case StmtKind::Call: calls().callStatement(id); return;
     case StmtKind::If: ifStatement(stmt.as<ir::IfStmt>()); return;
     case StmtKind::Switch: switchStatement(stmt.as<ir::SwitchStmt>()); return;
     case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>()); return;

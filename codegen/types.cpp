@@ -1,4 +1,6 @@
 // C++ names of types, constants and record definitions: see types.h.
+#include <algorithm>
+
 #include "codegen/types.h"
 
 #include <charconv>
@@ -63,7 +65,7 @@ void appendDimensions(std::string& out, const TypeTable& types, TypeId type) {
     if (info.kind == TypeKind::Array) {
       for (const types::Dimension& dimension : info.dimensions) {
         out += '[';
-        appendUnsigned(out, dimension.count());
+        appendUnsigned(out, std::max<uint64_t>(dimension.count(), 1));  // C++ has no array without elements
         out += ']';
       }
       if (info.dimensions.empty()) out += "[1]";  // ARRAY[*]: the caller knows its bounds

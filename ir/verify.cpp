@@ -487,7 +487,12 @@ void Verifier::callOperands(const Body& callee, Slice<ExprId> operands, int rule
     const bool same_string_kind = TypeTable::isString(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;
-    require((is_value ? fits(wanted, given) : wanted == given) || same_string_kind || open_array, rule,
+    // UINT and WORD are one type in generated code.
+    const TypeKind a = types_.kind(wanted), b = types_.kind(given);
+    const bool same_bits = types_.info(wanted).size == types_.info(given).size &&
+                           ((TypeTable::isUnsignedInteger(a) && TypeTable::isBits(b) && b != TypeKind::Bool) ||
+                            (TypeTable::isBits(a) && a != TypeKind::Bool && TypeTable::isUnsignedInteger(b)));
+    require((is_value ? fits(wanted, given) : wanted == given) || same_string_kind || open_array || same_bits, rule,
             [&] { return toString(given) + " is passed to a parameter of " + toString(wanted); });
   }
 }

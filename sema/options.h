@@ -34,6 +34,12 @@ struct LibraryFile {
 struct LibraryAlias {
   const char *alias, *library;
 };
+// A library among the sources, `-I X.plcproj`: no task runs its programs, and it may declare POUs and types under names
+// that the project or another library has too.
+struct LibraryProject {
+  std::span<const std::string> names;  // that qualify what it declares
+  std::vector<FileId> files;
+};
 // Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run.
 // Implemented in a later layer, ir/interpreter/constant_call.h.
 using CallConstant = std::function<std::optional<types::Value>(
@@ -43,10 +49,10 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   Dialect dialect = Dialect::Codesys;
   uint32_t pointer_size = 8;
-  uint32_t native_width = 32;                  // codesys: intermediate results have at least so many bits, 32 or 64
-  std::string_view name = "plc";               // of the module: instance paths begin with it
-  std::span<const LibraryFile> libraries;      // sources that outlive the project; declarations are parsed on first use
-  std::vector<FileId> library_files;           // of a library among the sources: no task runs their programs
+  uint32_t native_width = 32;              // codesys: intermediate results have at least so many bits, 32 or 64
+  std::string_view name = "plc";           // of the module: instance paths begin with it
+  std::span<const LibraryFile> libraries;  // sources that outlive the project; declarations are parsed on first use
+  std::vector<LibraryProject> library_projects;
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;  // none: calls of functions are not constant

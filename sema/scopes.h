@@ -96,19 +96,22 @@ struct LibraryName {
   uint32_t next = 0;  // another declaration of the name, 0: none
 };
 
-// A library, the project itself, or a NAMESPACE of the project (namespaces.cpp), in this order.
+// A library, the project itself, a library among the sources, or a NAMESPACE (namespaces.cpp), in this order.
 struct Namespace {
   NameId name;             // `Standard`, `Simatic.Ax`
   NameMap names;           // POUs, types, namespaces; of a library those read so far
   NameMap globals, items;  // of a NAMESPACE: its variables; enumeration items by their bare name
   uint32_t outer = ~0u;    // the NAMESPACE around it
   bool internal = false;
+  uint32_t also = ~0u;      // of a library: another one that its alias names too
+  bool of_library = false;  // a library among the sources: `names` holds what the project or another library has too
   Loc loc;
 };
 // A piece of source with its own view of names: a NAMESPACE block, a file or a POU with USING.
 struct Region {
   RegionId outer;
-  uint32_t space = ~0u;  // the namespace that the block declares
+  uint32_t space = ~0u;    // the namespace that the block declares
+  uint32_t library = ~0u;  // of a file of a library among the sources: its Namespace
   bool of_file = false;
   std::vector<DeclId> usings;  // as written
   std::vector<uint32_t> open;  // the namespaces that they open
@@ -116,6 +119,7 @@ struct Region {
 struct Libraries {
   std::deque<Namespace> list;             // by namespace index
   std::vector<uint32_t> library_of_file;  // of Options::libraries
+  std::vector<uint32_t> of_source;        // by FileId: the Namespace of the library among the sources, or none
   std::vector<FileId> sources;            // of Options::libraries; none: not yet added to Sources
   std::vector<LibraryBlock> blocks;
   std::vector<LibraryName> names{1};

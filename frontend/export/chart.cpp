@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/export/exporter.h"
+#include "frontend/syntax/inline_actions.h"
 #include "frontend/syntax/sfc.h"
 
 namespace rung::exporter {
@@ -198,7 +199,10 @@ void ChartExport::actions(uint32_t i) {
     const std::span<const Ident> indicators = to_.tree.list(a.indicators);
     if (!indicators.empty()) to_.xml.attribute("indicator", to_.string(indicators[0].name));
     to_.xml.open("relPosition").attribute("x", "0").attribute("y", std::to_string(20 * row++)).close();
-    to_.xml.open("reference").attribute("name", to_.string(a.action.name)).close();
+    if (const PouDecl* body = inlineAction(to_.tree, to_.names, pou_, a.action.name))
+      exportBody(to_, *body, "inline");
+    else
+      to_.xml.open("reference").attribute("name", to_.string(a.action.name)).close();
     if (indicators.size() > 1) {
       AddData data(to_);
       data.openOwn();

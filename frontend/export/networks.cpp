@@ -7,6 +7,7 @@
 #include "frontend/export/diagnostics.h"
 #include "frontend/export/exporter.h"
 #include "frontend/import/plcopen/networks.h"
+#include "frontend/syntax/box_outputs.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::exporter {
@@ -45,7 +46,10 @@ bool isLadder(ElementKind kind) {
 class NetworkExport {
  public:
   NetworkExport(Export& to, const Diagram& diagram)
-      : to_(to), diagram_(diagram), elements_(to.tree.list(diagram.elements)) {}
+      : to_(to),
+        diagram_(diagram),
+        elements_(to.tree.list(diagram.elements)),
+        unlisted_(unlistedOutputs(to.tree, to.names, elements_)) {}
 
   void run();
 
@@ -59,7 +63,8 @@ class NetworkExport {
   void network(uint32_t network);
   void element(uint32_t k);
   void pins(const DiagramElement& e);
-  void pinList(std::string_view list, const DiagramElement& e, PinDirection direction);
+  void pinList(std::string_view list, const DiagramElement& e, PinDirection direction,
+               std::span<const NameId> unlisted = {});
   void modifiers(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix = {});
   void wires(const DiagramPin& pin);
   void input(const DiagramElement& e);
@@ -67,14 +72,14 @@ class NetworkExport {
   std::string pathOf(ExprId path) const;
   std::string operand(const DiagramElement& e) const;
   std::string statements(const DiagramElement& e) const;
-  std::string plainText(uint32_t first, uint32_t length) const;
 
   Export& to_;
   const Diagram& diagram_;
   std::span<const DiagramElement> elements_;
-  std::vector<uint64_t> numbers_;    // by element
-  std::vector<Position> positions_;  // by element
-  std::vector<uint64_t> titles_;     // by network: the number of the element that shows its title
+  std::vector<std::vector<NameId>> unlisted_;  // by element: outputs that wires name but no pin does
+  std::vector<uint64_t> numbers_;              // by element
+  std::vector<Position> positions_;            // by element
+  std::vector<uint64_t> titles_;               // by network: the number of the element that shows its title
 };
 
 bool NetworkExport::isLeftOut(const DiagramElement& e) const {
@@ -162,16 +167,6 @@ std::string NetworkExport::statements(const DiagramElement& e) const {
   return std::string(text.substr(begin, std::min(text.rfind("{end_network"), text.size()) - begin));
 }
 
-std::string NetworkExport::plainText(uint32_t first, uint32_t length) const {
-  std::string out;
-  const std::string_view text = to_.tree.string({first, length});
-  for (size_t p = 0; p < text.size(); ++p) {
-    if (text[p] == '$' && p + 1 < text.size()) ++p;
-    out += text[p];
-  }
-  return out;
-}
-
 void NetworkExport::modifiers(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix) {
   const std::string end(suffix);
   if (negated) to_.xml.attribute("negated" + end, "true");
@@ -193,7 +188,8 @@ void NetworkExport::input(const DiagramElement& e) {
   for (const DiagramPin& pin : to_.tree.list(e.pins)) wires(pin);
 }
 
-void NetworkExport::pinList(std::string_view list, const DiagramElement& e, PinDirection direction) {
+void NetworkExport::pinList(std::string_view list, const DiagramElement& e, PinDirection direction,
+                            std::span<const NameId> unlisted) {
   to_.xml.open(list);
   for (const DiagramPin& pin : to_.tree.list(e.pins)) {
     if (pin.direction != direction) continue;
@@ -203,13 +199,18 @@ void NetworkExport::pinList(std::string_view list, const DiagramElement& e, PinD
     if (direction != PinDirection::Input) to_.xml.leaf("connectionPointOut");
     to_.xml.close();
   }
+  for (const NameId output : unlisted) {
+    to_.xml.open("variable").attribute("formalParameter", output ? to_.string(output) : "");
+    to_.xml.leaf("connectionPointOut");
+    to_.xml.close();
+  }
   to_.xml.close();
 }
 
 void NetworkExport::pins(const DiagramElement& e) {
   pinList("inputVariables", e, PinDirection::Input);
   pinList("inOutVariables", e, PinDirection::InOut);
-  pinList("outputVariables", e, PinDirection::Output);
+  pinList("outputVariables", e, PinDirection::Output, unlisted_[static_cast<size_t>(&e - elements_.data())]);
 }
 
 // Vendor-specific data.
@@ -284,7 +285,7 @@ void NetworkExport::element(uint32_t k) {
       break;
     case ElementKind::Output: to_.xml.element("expression", operand(e)); break;
     case ElementKind::Continuation: to_.xml.leaf("connectionPointOut"); break;
-    case ElementKind::Comment: to_.xml.formatted("content", plainText(e.comment, e.comment_length)); break;
+    case ElementKind::Comment: to_.xml.formatted("content", to_.tree.string({e.comment, e.comment_length})); break;
     case ElementKind::RightRail:
     case ElementKind::Box:
     case ElementKind::Connector:
@@ -309,7 +310,7 @@ void NetworkExport::network(uint32_t index) {
   if (n.title_length == 0) return;
   to_.xml.open("vendorElement").attribute("localId", std::to_string(titles_[index]));
   to_.xml.open("position").attribute("x", "0").attribute("y", "0").close();
-  to_.xml.formatted("alternativeText", plainText(n.title, n.title_length));
+  to_.xml.formatted("alternativeText", to_.tree.string({n.title, n.title_length}));
   {
     AddData data(to_);
     data.open("fbdelementtype");

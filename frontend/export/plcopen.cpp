@@ -7,6 +7,7 @@
 #include "frontend/export/diagnostics.h"
 #include "frontend/export/exporter.h"
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/inline_actions.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::exporter {
@@ -95,7 +96,13 @@ size_t PouExport::endOfHeader(const PouDecl& pou) const {
   size_t last = 0;
   for (const DeclId section : to_.tree.list(pou.sections))
     if (to_.tree.loc(section) != pou_.h.loc) last = std::max(last, source_.at(to_.tree.loc(section)));
-  if (last != 0) return source_.endOfWord(last, "END_VAR");
+  if (last != 0) {
+    size_t end = source_.endOfWord(last, "END_VAR");
+    for (const auto list : {pou.bases, pou.implements})  // after VAR_GENERIC CONSTANT
+      for (const TypeExprId id : to_.tree.list(list))
+        end = std::max(end, source_.at(to_.tree.as<NamedTypeExpr>(id).h.end));
+    return end;
+  }
   size_t end = source_.commentsBefore(source_.at(pou.body_begin), true);
   for (const DeclId member : to_.tree.list(pou.members))
     end = std::min(end, source_.commentsBefore(beginOf(member), true));
@@ -279,7 +286,7 @@ void PouExport::members(AddData& data) {
 void PouExport::actions() {
   bool any = false;
   for (const DeclId member : to_.tree.list(pou_.members)) {
-    if (!isOwnAction(member)) continue;
+    if (!isOwnAction(member) || isInlineAction(to_.tree, to_.names, member)) continue;
     const auto& action = to_.tree.as<PouDecl>(member);
     if (!any) to_.xml.open("actions");
     any = true;
@@ -294,6 +301,8 @@ void PouExport::actions() {
 
 void PouExport::run() {
   to_.is_lossless = pou_.usings.empty();
+  for (const TypeExprId base : to_.tree.list(pou_.bases))
+    if (!to_.tree.as<NamedTypeExpr>(base).generics.empty()) to_.is_lossless = false;
   to_.xml.open("pou").attribute("name", to_.string(pou_.name));
   to_.xml.attribute("pouType", pou_.pou_kind == PouKind::Function  ? "function"
                                : pou_.pou_kind == PouKind::Program ? "program"

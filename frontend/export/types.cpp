@@ -145,7 +145,7 @@ void exportType(Export& to, TypeExprId id) {
     case TypeExprKind::Error: to.xml.leaf("INT"); return;
     case TypeExprKind::Named: {
       const auto& type = to.tree.as<NamedTypeExpr>(id);
-      if (type.has_arguments || !type.elements.empty()) to.is_lossless = false;  // of FB_Init
+      if (type.has_arguments || !type.elements.empty() || !type.generics.empty()) to.is_lossless = false;
       return exportNamed(to, pathOf(to, type.path));
     }
     case TypeExprKind::String: {
@@ -224,6 +224,7 @@ void exportSection(Export& to, DeclId id, std::string_view element, std::string_
   if ((section.h.bits & kRetain) != 0) to.xml.attribute("retain", "true");
   if ((section.h.bits & kNonRetain) != 0) to.xml.attribute("nonretain", "true");
   if ((section.h.bits & kPersistent) != 0) to.xml.attribute("persistent", "true");
+  if ((section.h.bits & kGeneric) != 0) to.is_lossless = false;
   exportVariables(to, section.vars);
 }
 

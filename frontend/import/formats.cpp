@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "frontend/import/beremiz/beremiz.h"
 #include "frontend/import/codesys2/codesys2.h"
 #include "frontend/import/iec10/iec10.h"
 #include "frontend/import/multiprog/multiprog.h"
@@ -30,6 +31,7 @@ constexpr Format kFormats[] = {
     {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram},
     {FileKind::Plcopen, "", "", plcopen::isPlcopen, plcopen::readProgram},
     {FileKind::Iec10, "", "", iec10::isIec10, iec10::readProgram},
+    {FileKind::Beremiz, "", "", beremiz::isExtension, beremiz::readProgram},
     {FileKind::Xml, "XML other than PLCopen's or that of IEC 61131-10", ".xml .cfc", isXml, nullptr},
     {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
     {FileKind::Il, "", ".il", nullptr, nullptr},
@@ -69,14 +71,15 @@ FileKind kindOfExtension(std::string_view path) {
   return FileKind::Unknown;
 }
 
-// True when a fifth of the first bytes is control characters or not UTF-8, or for a NUL.
+// True for a NUL, and when a fifth of the first bytes is control characters or not UTF-8, unless there is no control
+// character at all: a text in an 8-bit code of Windows, which can be mostly letters beyond ASCII.
 bool isBinary(std::string_view text) {
   std::string_view head = text.substr(0, 4096);
   if (head.find('\0') != std::string_view::npos) return true;
-  size_t bad = 0;
+  size_t bad = 0, controls = 0;
   for (size_t i = 0; i < head.size(); i++) {
     unsigned char c = static_cast<unsigned char>(head[i]);
-    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++;
+    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++, controls++;
     if (c < 0x80) continue;
     size_t follow = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : 0;
     size_t continued = 0;
@@ -85,7 +88,7 @@ bool isBinary(std::string_view text) {
     if (follow == 0 || continued < follow) bad++;
     i += continued;
   }
-  return bad * 5 > head.size();
+  return controls > 0 && bad * 5 > head.size();
 }
 
 FileKind kindOf(std::string_view path, std::string_view text) {
@@ -99,7 +102,6 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   // The extension claims XML, the content is not.
   if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject)
     return FileKind::Unknown;
-  if (by_name == FileKind::Codesys2) return FileKind::St;  // an export without its comments
   return by_name;
 }
 

@@ -23,6 +23,7 @@ enum class FileKind : uint8_t {
   PlcProject,  // .plcproj of TwinCAT
   Plcopen,     // TC6 XML
   Iec10,       // XML of IEC 61131-10
+  Beremiz,     // Python and C extensions of Beremiz projects
   Codesys2,    // exports of CODESYS 2.3
   Multiprog,   // MULTIPROG and PC Worx
   Project,     // rung.project

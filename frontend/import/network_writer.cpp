@@ -14,9 +14,11 @@ namespace {
 // A string of the notation, on one line.
 std::string quoted(std::string_view text) {
   std::string out = "'";
-  for (const char c : text) {
+  for (size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '\r' && k + 1 < text.size() && text[k + 1] == '\n') continue;
     if (c == '\'' || c == '$') out += '$';
-    out += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+    out += c == '\n' || c == '\r' ? "$N" : c == '\t' ? "$T" : std::string(1, c);
   }
   return out + "'";
 }

@@ -197,7 +197,7 @@ ExprId ExpressionParser::parseInParens() {
   const Loc start = here();
   if (!enterExpr("parentheses")) return build_.error(start);
   advance();
-  const ExprId inner = parseCompared(parseExpr());
+  const ExprId inner = parseCompared(parseExpr(), false);
   closeParen(Tok::RightParen, false);
   --expr_depth_;
   tree_.parenthesize(inner, start, endOfPrevious());
@@ -330,6 +330,11 @@ ExprId ExpressionParser::parseCall(ExprId base, uint32_t& height) {
     height = std::max(height, height_);
     return created;
   }
+  if (isSizeOfType(base)) {
+    const ExprId size = parseSizeOfType(base);
+    height = std::max(height, height_);
+    return size;
+  }
   const Slice<Argument> arguments = parseArguments(end);
   height = std::max(height, height_);
   return build_.call(base, arguments, start, end);
@@ -352,6 +357,29 @@ ExprId ExpressionParser::parseNew(ExprId callee) {
   if (!panic_ && accept(Tok::Comma)) count = parseExpr();
   closeParen(Tok::RightParen, false);
   return build_.newObject(allocated, count, tree_.loc(callee));
+}
+
+// Whether SIZEOF or XSIZEOF is followed by a type that no expression begins with. CODESYS.
+bool ExpressionParser::isSizeOfType(ExprId callee) const {
+  if (dialect_ != Dialect::Codesys || tree_.kind(callee) != ExprKind::Name) return false;
+  const std::string_view name = names_.string(tree_.as<NameExpr>(callee).name);
+  if (!sameIdentifier(name, "SIZEOF") && !sameIdentifier(name, "XSIZEOF")) return false;
+  const Tok first = peek(), second = peek(2);
+  if (first == Tok::Array) return true;
+  if (first == Tok::Pointer || first == Tok::Reference) return second == Tok::To;
+  return (first == Tok::String || first == Tok::Wstring) && (second == Tok::LeftParen || second == Tok::LeftBracket);
+}
+
+// "SIZEOF" "(" type ")"
+ExprId ExpressionParser::parseSizeOfType(ExprId callee) {
+  const Loc start = tree_.loc(callee);
+  advance();
+  Argument argument{};
+  argument.loc = here();
+  argument.value = build_.typeOperand(parseType(), argument.loc);
+  const Loc end = here();
+  closeParen(Tok::RightParen, false);
+  return build_.call(callee, tree_.addList<Argument>({&argument, 1}), start, end);
 }
 
 // arguments = "(" [argument {"," argument} [","]] ")"
@@ -468,14 +496,26 @@ bool ExpressionParser::continuesArguments() {
   return false;
 }
 
-// `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
-ExprId ExpressionParser::parseCompared(ExprId left) {
+// After a condition or in parentheses, `:=` assigns in codesys: its value is that of the target. In iec it most likely
+// means `=`, and is parsed as `=`.
+ExprId ExpressionParser::parseCompared(ExprId left, bool in_condition) {
   if (!at(Tok::Assign) || panic_) return left;
   const Loc op = here();
   const uint32_t height = height_;
-  slip(diag::CompareWithAssign, t_);
+  const ExprShape shape_of_left = shape(tree_.kind(left));
+  const bool variable =
+      tree_.kind(left) == ExprKind::Name || tree_.kind(left) == ExprKind::Address || shape_of_left == ExprShape::Step;
+  const bool assigns = dialect_ == Dialect::Codesys && variable && tree_.expr(left).in_parens == 0;
+  if (!assigns)
+    slip(diag::CompareWithAssign, t_);
+  else if (in_condition)
+    diagnostics_.report(diag::AssignInCondition, here());
   advance();
-  const ExprId right = parseExpr();
+  const ExprId right = assigns ? parseCompared(parseExpr(), false) : parseExpr();
+  if (assigns) {
+    height_ = std::max(height, height_) + 1;
+    return ended(build_.assignment(left, right, op));
+  }
   height_ = std::max(height, height_) + 1;
   return ended(build_.binary(BinaryOp::Equal, left, right, op));
 }

@@ -19,7 +19,7 @@ class ExpressionParser : public Cursor {
   Slice<Argument> parseArguments(Loc& end);
   ExprId parseNumber(NameId prefix, bool negative, Loc loc);
   // `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
-  ExprId parseCompared(ExprId left);
+  ExprId parseCompared(ExprId left, bool in_condition = true);
   void closeParen(Tok close, bool is_arguments);
   bool enterExpr(const char* what);
   bool isBareXor(ExprId id) const;
@@ -55,6 +55,8 @@ class ExpressionParser : public Cursor {
   ExprId parseCall(ExprId base, uint32_t& height);
   bool isNew(ExprId callee) const;
   ExprId parseNew(ExprId callee);
+  bool isSizeOfType(ExprId callee) const;
+  ExprId parseSizeOfType(ExprId callee);
   ExprId parseTyped();
   ExprId parseStringLiteral(NameId prefix, Loc loc);
   ExprId parseTime();

@@ -35,12 +35,14 @@ bool isNamed(ElementKind kind) {
          kind == ElementKind::Select;
 }
 
-// The characters between the quotes; `$` escapes the next one.
+// The characters between the quotes; `$N` is a new line, `$T` a tab, `$` and another character that character.
 std::string plainText(std::string_view quoted) {
   std::string out;
   for (size_t k = 1; k + 1 < quoted.size(); ++k) {
-    if (quoted[k] == '$' && k + 2 < quoted.size()) ++k;
-    out += quoted[k];
+    const bool escaped = quoted[k] == '$' && k + 2 < quoted.size();
+    if (escaped) ++k;
+    const char c = foldedCharacter(quoted[k]);
+    out += escaped && c == 'n' ? '\n' : escaped && c == 't' ? '\t' : quoted[k];
   }
   return out;
 }

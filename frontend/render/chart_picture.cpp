@@ -4,6 +4,7 @@
 
 #include "frontend/render/chart_plan.h"
 #include "frontend/render/picture.h"
+#include "frontend/syntax/inline_actions.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 
@@ -14,7 +15,10 @@ constexpr int32_t kRow = 20, kToActions = 20, kChartMargin = 20, kBar = 12;
 constexpr size_t kConditionWidth = 48;
 
 struct Action {
-  std::string qualifier, name, indicator;
+  std::string qualifier, indicator;
+  std::vector<std::string> lines;  // its name, or its statements
+
+  int32_t height() const { return std::max(kRow, 5 + static_cast<int32_t>(lines.size()) * kLine); }
 };
 struct StepText {
   std::string name, times;
@@ -52,6 +56,7 @@ class ChartText {
   std::string_view name(NameId id) const { return names_.string(id); }
 
  private:
+  std::vector<std::string> linesOf(NameId action) const;
   std::string exprText(ExprId e) const { return e ? printSt(tree_, names_, e) : std::string(); }
   ExprId valueOf(const SfcTransition& t) const;
 
@@ -60,22 +65,26 @@ class ChartText {
   const PouDecl& pou_;
 };
 
+std::vector<std::string> ChartText::linesOf(NameId action) const {
+  const PouDecl* own = inlineAction(tree_, names_, pou_, action);
+  if (own == nullptr || own->body_kind != BodyKind::St) return {std::string(names_.string(action))};
+  return picture::linesOf(printSt(tree_, names_, own->body, 0, {}));
+}
+
 StepText ChartText::step(uint32_t index) const {
   const SfcStep& s = tree_.list(pou_.steps)[index];
   StepText text{std::string(names_.string(s.name.name)), {}, {}, 0, 0, 0, 0, 0};
   if (s.min.value) text.times += "min " + exprText(s.min.value);
   if (s.max.value) text.times += (text.times.empty() ? "max " : ", max ") + exprText(s.max.value);
   for (const SfcAssociation& a : tree_.list(s.actions)) {
-    Action action{std::string(a.word ? names_.string(a.word) : defaultWord(a.qualifier)),
-                  std::string(names_.string(a.action.name)),
-                  {}};
+    Action action{std::string(a.word ? names_.string(a.word) : defaultWord(a.qualifier)), {}, linesOf(a.action.name)};
     if (a.time.value) action.qualifier += " " + exprText(a.time.value);
     for (const Ident& indicator : tree_.list(a.indicators))
       action.indicator += (action.indicator.empty() ? "" : ", ") + std::string(names_.string(indicator.name));
     if (!action.indicator.empty())
       text.indicator_width = std::max(text.indicator_width, textWidth(action.indicator) + 12);
     text.qualifier_width = std::max(text.qualifier_width, textWidth(action.qualifier) + 12);
-    text.name_width = std::max(text.name_width, textWidth(action.name) + 12);
+    for (const std::string& line : action.lines) text.name_width = std::max(text.name_width, textWidth(line) + 12);
     text.actions.push_back(std::move(action));
   }
   const int32_t width = std::max(textWidth(text.name), textWidth(text.times) * 3 / 4) + 24;
@@ -125,15 +134,16 @@ void drawStep(Svg& svg, const ChartText& texts, const SfcStep& step, const Chart
   svg.line({box.right(), o.y + 15}, {x, o.y + 15});
   int32_t y = o.y + 5;
   for (const Action& action : text.actions) {
-    svg.rect({x, y, text.qualifier_width, kRow}, "w");
-    svg.rect({middle, y, text.name_width, kRow}, "w");
+    const int32_t height = action.height();
+    svg.rect({x, y, text.qualifier_width, height}, "w");
+    svg.rect({middle, y, text.name_width, height}, "w");
     svg.text({x + text.qualifier_width / 2, y + 14}, Anchor::Middle, action.qualifier);
-    svg.text({middle + 6, y + 14}, Anchor::Start, action.name);
+    svg.lines({middle + 6, y + 14 - kLine}, action.lines);
     if (text.indicator_width > 0) {
-      svg.rect({middle + text.name_width, y, text.indicator_width, kRow}, "w");
+      svg.rect({middle + text.name_width, y, text.indicator_width, height}, "w");
       svg.text({middle + text.name_width + 6, y + 14}, Anchor::Start, action.indicator);
     }
-    y += kRow;
+    y += height;
   }
 }
 
@@ -171,7 +181,9 @@ ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou)
     ChartNode node{true, k, {-text.width / 2, 0, text.width, text.height}, text.height, {}};
     if (!text.actions.empty()) {
       node.area.width += kToActions + text.qualifier_width + text.name_width + text.indicator_width;
-      node.area.height = std::max(text.height, 5 + static_cast<int32_t>(text.actions.size()) * kRow);
+      int32_t below = 5;
+      for (const Action& action : text.actions) below += action.height();
+      node.area.height = std::max(text.height, below);
     }
     plan.nodes.push_back(node);
   }

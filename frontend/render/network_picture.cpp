@@ -18,14 +18,16 @@ constexpr uint32_t kMaxJoints = 1000;  // followed from one pin: joints may form
 
 class Planner {
  public:
-  explicit Planner(const Body& body) : body_(body) { findUnlisted(); }
+  explicit Planner(const Body& body)
+      : body_(body),
+        unlisted_(unlistedOutputs(body.tree, body.names, body.elements)),
+        item_of_(body.elements.size(), kNone) {}
   // `elements`: of one network; its rails are shared where the file gives no positions. The bands are not routed yet.
   std::vector<Plan> plan(std::span<const uint32_t> elements, int32_t page);
   bool wiresStayInside(std::span<const uint32_t> network_of) const;
   bool placed() const { return placed_; }  // the last network has the positions of the file
 
  private:
-  void findUnlisted();
   Plan items(std::span<const uint32_t> elements, bool one_rail);
   void addLinks(Plan& plan);
   void addRightRail(Plan& plan);
@@ -40,26 +42,6 @@ class Planner {
   bool placed_ = false;
 };
 
-// Outputs of boxes that wires name but the file does not list.
-void Planner::findUnlisted() {
-  unlisted_.resize(body_.elements.size());
-  item_of_.assign(body_.elements.size(), kNone);
-  for (const DiagramElement& e : body_.elements) {
-    for (const DiagramPin& pin : body_.tree.list(e.pins)) {
-      for (const DiagramWire& wire : body_.tree.list(pin.wires)) {
-        if (wire.from == kNoElement || !isBox(body_.elements[wire.from].kind)) continue;
-        std::vector<NameId>& known = unlisted_[wire.from];
-        bool listed = false;
-        for (const DiagramPin& output : body_.tree.list(body_.elements[wire.from].pins))
-          listed = listed || (output.direction == PinDirection::Output &&
-                              (!wire.pin.name || body_.names.same(output.name.name, wire.pin.name)));
-        for (const NameId name : known) listed = listed || !wire.pin.name || body_.names.same(name, wire.pin.name);
-        if (!listed) known.push_back(wire.pin.name);
-      }
-    }
-  }
-}
-
 bool Planner::wiresStayInside(std::span<const uint32_t> network_of) const {
   for (uint32_t k = 0; k < body_.elements.size(); ++k) {
     if (isRail(body_.elements[k].kind)) continue;
@@ -73,14 +55,16 @@ bool Planner::wiresStayInside(std::span<const uint32_t> network_of) const {
 }
 
 uint32_t Planner::outputOf(const Item& item, NameId pin) const {
-  uint32_t first = kNone;
+  std::vector<NameId> names;
+  std::vector<uint32_t> terminals;
   for (uint32_t k = 0; k < item.terminals.size(); ++k) {
-    const Terminal& t = item.terminals[k];
-    if (!t.output) continue;
-    if (!pin || !t.name || body_.names.same(t.name, pin)) return k;
-    if (first == kNone) first = k;
+    if (!item.terminals[k].output) continue;
+    names.push_back(item.terminals[k].name);
+    terminals.push_back(k);
   }
-  return first;
+  if (terminals.empty()) return kNone;
+  const size_t found = rung::outputOf(body_.names, names, pin);
+  return terminals[found < terminals.size() ? found : 0];
 }
 
 uint32_t Planner::inputOf(const Item& item, uint32_t pin) const {

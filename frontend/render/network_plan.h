@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/render/svg.h"
+#include "frontend/syntax/box_outputs.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/tree.h"
 
@@ -18,10 +19,6 @@ constexpr uint32_t kNone = UINT32_MAX;
 constexpr int32_t kElementGap = 20;  // between elements: room for a wire
 
 inline bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
-inline bool isBox(ElementKind kind) {
-  return kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Compose ||
-         kind == ElementKind::Select;
-}
 
 struct Body {
   const Tree& tree;

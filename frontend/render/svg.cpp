@@ -104,6 +104,14 @@ std::vector<std::string> wrapped(std::string_view text, size_t most) {
   return lines;
 }
 
+void Svg::lines(Point above, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    above.y += kLine;
+    const size_t blanks = std::min(line.find_first_not_of(' '), line.size());  // not every viewer keeps them
+    text({above.x + textWidth(line.substr(0, blanks)), above.y}, Anchor::Start, line.substr(blanks));
+  }
+}
+
 void Svg::path(std::string_view data, std::string_view kind) {
   body_.append("<path").append(classOf(kind)).append(" d=\"").append(data).append("\"/>\n");
 }

@@ -45,6 +45,8 @@ class Svg {
   void rect(const Rect& r, std::string_view kind = {});
   void cycle(Point centre, int32_t radius, std::string_view kind = {});
   void text(Point base, Anchor anchor, std::string_view text, std::string_view kind = {});
+  // Below each other; `above` is one line above the first.
+  void lines(Point above, const std::vector<std::string>& lines);
   void open(std::string_view id);  // a group of shapes
   void openFaded();                // a group of disabled elements
   void close();

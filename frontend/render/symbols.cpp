@@ -172,11 +172,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     if (pin != nullptr) drawModifiers(svg, *pin, border, left);
     below = std::max(below, end.y + kGrid);
   }
-  if (e.kind == ElementKind::Execute)
-    for (const std::string& line : textOf(body, e)) {
-      const size_t blanks = std::min(line.find_first_not_of(' '), line.size());  // not every viewer keeps them
-      svg.text({frame.x + 10 + textWidth(line.substr(0, blanks)), below += kLine}, Anchor::Start, line.substr(blanks));
-    }
+  if (e.kind == ElementKind::Execute) svg.lines({frame.x + 10, below}, textOf(body, e));
   const int32_t behind_name = e.operand ? middle + textWidth(operandText(body, e)) / 2 + 30 : 0;
   drawOrder(svg, e, {std::max(frame.right(), behind_name), frame.y});
 }
@@ -255,8 +251,7 @@ void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& i
 void drawComment(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
   const Rect frame = item.frame.at(item.origin);
   svg.rect(frame, "c");
-  int32_t y = frame.y;
-  for (const std::string& line : textOf(body, e)) svg.text({frame.x + 6, y += kLine}, Anchor::Start, line);
+  svg.lines({frame.x + 6, frame.y}, textOf(body, e));
 }
 
 // A connector as in ed. 3, 8.1.3, with a number instead of a name.

@@ -171,6 +171,7 @@ TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
     case ExprKind::Bound:
     case ExprKind::AnyValue:
     case ExprKind::New:
+    case ExprKind::Assign:
     case ExprKind::AddressOf: break;
   }
   return {};

@@ -133,6 +133,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
 // The operand of an element as parsed; a copy from the second use on.
 ExprId Scheduler::operandOf(uint32_t element) {
   const ExprId operand = graph_.elements[element].operand;
+  if (failed_[element]) return build_.error(tree_.loc(operand));
   if (operand_taken_[element]) return clone(tree_, operand);
   operand_taken_[element] = true;
   return operand;
@@ -449,6 +450,19 @@ void Scheduler::checkHolding(const PouDecl& pou) {
   }
 }
 
+// Forbids contacts and coils of variables of another type than BOOL. IEC 61131-3 ed. 3, 8.2.
+//   fails   coil 3 (n) := 2;  with n : INT          E1020
+void Scheduler::checkBooleans() {
+  for (uint32_t k = 0; k < graph_.elements.size(); ++k) {
+    const DiagramElement& e = graph_.elements[k];
+    if ((e.kind != ElementKind::Contact && e.kind != ElementKind::Coil) || !e.operand) continue;
+    const std::string type = signatures_.typeUnlessBool(e.operand);
+    if (type.empty()) continue;
+    failed_[k] = true;
+    diagnostics_.report(diag::NoBoolean, tree_.loc(e.operand), {describe(tree_, names_, e), type});
+  }
+}
+
 ScheduledBody Scheduler::run(const PouDecl& pou) {
   const Diagram& diagram = pou.diagram;
   language_ = diagram.language;
@@ -461,6 +475,7 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
   operand_taken_.assign(count, false);
   assigned_.assign(count, false);
   failed_.assign(count, false);
+  checkBooleans();
   network_calls_.assign(count, false);
   order_of_.assign(count, kNone);
   for (uint32_t k = 0; k < graph_.roots.size(); ++k) order_of_[graph_.roots[k]] = k;

@@ -35,6 +35,7 @@ class Scheduler {
 
   void checkCoils();
   void checkHolding(const PouDecl& pou);
+  void checkBooleans();
 
   // ---- the walk
   void visit(uint32_t root);
@@ -103,7 +104,7 @@ class Scheduler {
   Graph graph_;
   std::vector<Phase> phase_;
   std::vector<bool> operand_taken_;
-  std::vector<bool> failed_;                            // boxes with a reported error: their readers report none
+  std::vector<bool> failed_;                            // elements with a reported error: their readers report none
   std::vector<bool> assigned_;                          // variables that a box with EN assigns itself
   std::vector<uint32_t> order_of_;                      // of an element with an effect: its index among the roots
   std::vector<uint32_t> calls_open_;                    // sources whose pending value contains a call

@@ -1,6 +1,7 @@
 #include "frontend/schedule/sfc_chart.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "frontend/syntax/sfc.h"
 
@@ -84,6 +85,7 @@ Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& conte
   std::sort(by_name.begin(), by_name.end());
   actions_ = std::move(actions);
   action_by_name_ = std::move(by_name);
+  nameControls();
 }
 
 uint32_t Chart::actionOf(NameId name) const {
@@ -92,10 +94,22 @@ uint32_t Chart::actionOf(NameId name) const {
       ->second;
 }
 
-std::string Chart::controlOf(const Ident& action) const {
-  std::string name = "_" + std::string(string(action.name));
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
+// `_Turn`; of `motor.Turn`: `_motor_Turn`, with a number where another action has that name.
+void Chart::nameControls() {
+  std::unordered_set<std::string> taken;
+  const auto isInstances = [&](const Ident& action) { return string(action.name).find('.') != std::string::npos; };
+  for (const Ident& action : actions_)
+    if (!isInstances(action)) taken.insert(foldedIdentifier(string(action.name)));
+  for (const Ident& action : actions_) {
+    std::string name(string(action.name));
+    if (isInstances(action)) {
+      std::replace(name.begin(), name.end(), '.', '_');
+      const size_t length = name.size();
+      for (uint32_t i = 2; !taken.insert(foldedIdentifier(name)).second; ++i)
+        name.replace(length, std::string::npos, "_" + std::to_string(i));
+    }
+    controls_.push_back("_" + name);
+  }
 }
 
 std::string Chart::initialSteps() const {

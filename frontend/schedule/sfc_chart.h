@@ -91,7 +91,7 @@ class Chart {
   std::string_view name(uint32_t step) const { return string(steps_[step].name.name); }
   uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
   uint32_t actionOf(NameId name) const;
-  std::string controlOf(const Ident& action) const;  // `_Turn`; of `motor.Turn`: `_motor_Turn`
+  const std::string& controlOf(uint32_t action) const { return controls_[action]; }  // the name of its control block
   // Looks up the flags among the variables visible to the chart; until then there are none.
   void findFlags(Signatures& signatures);
   const Ident* flag(SfcFlag word) const {
@@ -108,7 +108,11 @@ class Chart {
   std::span<const SfcTransition> transitions_;
   StepIndex index_;
   std::vector<Ident> actions_;  // with control blocks; codesys: by name, else by first association
+  std::vector<std::string> controls_;
   std::vector<std::pair<uint32_t, uint32_t>> action_by_name_;
+
+ private:
+  void nameControls();
   std::optional<Ident> flags_[kSfcFlags];
 };
 

@@ -22,9 +22,9 @@ void writeSections(const Chart& chart, Writer& out) {
     out.at(step.name.loc);
     out.line(1, step.name, " : SFCStepType;");
   }
-  for (const Ident& action : chart.actions_) {
-    out.at(action.loc);
-    out.line(1, chart.controlOf(action), " : SFCActionControl",
+  for (uint32_t i = 0; i < chart.actions_.size(); ++i) {
+    out.at(chart.actions_[i].loc);
+    out.line(1, chart.controlOf(i), " : SFCActionControl",
              chart.context_.final_scan ? ";" : " := (final_scan := FALSE);");
   }
   for (size_t i = 0; i < chart.transitions_.size(); ++i) {

@@ -18,9 +18,10 @@ void SfcScheduler::reset(uint32_t depth) {
     out_.line(depth, step.name, "._x := ", step.initial ? "TRUE;" : "FALSE;");
     out_.line(depth, step.name, ".t := T#0s;");
   }
-  for (const Ident& action : chart_.actions_) {
+  for (uint32_t i = 0; i < chart_.actions_.size(); ++i) {
+    const Ident& action = chart_.actions_[i];
+    const std::string& control = chart_.controlOf(i);
     out_.at(action.loc);
-    const std::string control = chart_.controlOf(action);
     out_.line(depth, control, ".clear := TRUE;");
     out_.line(depth, control, "();");
     if (!callsAction(action)) out_.line(depth, action, " := FALSE;");

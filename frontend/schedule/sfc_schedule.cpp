@@ -97,13 +97,13 @@ void SfcScheduler::activeStep(uint32_t i, uint32_t depth) {
   for (const SfcAssociation& a : tree_.list(step.actions)) {
     if (!isControlled(a.qualifier)) continue;
     out_.at(a.loc);
-    const std::string control = chart_.controlOf(a.action);
+    const uint32_t action = chart_.actionOf(a.action.name);
+    const std::string& control = chart_.controlOf(action);
     out_.line(depth, control, ".", keywordOf(a.qualifier), " := TRUE;");
     if (a.time.value) {
       out_.line(depth, control, ".T := ", a.time, ";");
       out_.at(a.loc);
     }
-    const uint32_t action = chart_.actionOf(a.action.name);
     const std::string set = word("sfc_actions", chart_.actions_.size(), action);
     out_.line(depth, set, " := ", set, " OR ", maskOf(action), ";");
   }
@@ -117,7 +117,7 @@ void SfcScheduler::actions() {
         const Ident& action = chart_.actions_[i];
         const std::string set = word("sfc_actions", count, i);
         out_.at(action.loc);
-        const std::string control = chart_.controlOf(action);
+        const std::string& control = chart_.controlOf(i);
         out_.line(depth, control, "(now := sfc_now);");
         if (callsAction(action)) {
           out_.line(depth, "IF ", control, ".x AND NOT ", control, "._x THEN");
@@ -135,7 +135,7 @@ void SfcScheduler::actions() {
       [&](uint32_t i, uint32_t depth) {
         const Ident& action = chart_.actions_[i];
         out_.at(action.loc);
-        out_.line(depth, "IF ", chart_.controlOf(action), "._x THEN");
+        out_.line(depth, "IF ", chart_.controlOf(i), "._x THEN");
         out_.line(depth + 1, action, "();");
         out_.line(depth, "END_IF");
       });

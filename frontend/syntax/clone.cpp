@@ -49,7 +49,7 @@ bool isPlainPath(const Tree& tree, ExprId expr) {
 
 bool hasCall(const Tree& tree, ExprId expr) {
   const ExprKind kind = tree.kind(expr);
-  if (kind == ExprKind::Call || kind == ExprKind::New) return true;
+  if (kind == ExprKind::Call || kind == ExprKind::New || kind == ExprKind::Assign) return true;
   return shape(kind) != ExprShape::Inserted &&
          anyOperand(tree, expr, [&](ExprId operand) { return hasCall(tree, operand); });
 }

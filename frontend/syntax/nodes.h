@@ -157,6 +157,7 @@ constexpr uint8_t kWritesCharacter = 1;    // annotation
 constexpr uint8_t kBitMember = 1;          // annotation
 constexpr uint8_t kMustLeadSomewhere = 1;  // annotation
 constexpr uint8_t kAwayFromZero = 4;       // annotation of conversions: types::Rounding::AwayFromZero
+constexpr uint8_t kOnlyType = 1;
 constexpr uint8_t kIntermediate = 2;  // annotation of operations and of conversions of operands: sema/intermediate.h
 struct ThisExpr {
   ExprHeader h;
@@ -198,6 +199,11 @@ struct BinaryExpr {  // h.loc is the operator
   ExprHeader h;
   ExprId left, right;
   BinaryOp op() const { return static_cast<BinaryOp>(h.op); }
+};
+
+struct AssignExpr {  // target := value in an expression, codesys; h.loc is the `:=`, the value that of the target
+  ExprHeader h;
+  ExprId target, value;
 };
 
 struct Argument {  // a | pin := a | pin => a | NOT pin => a | pin := (left open)
@@ -251,7 +257,7 @@ struct AnyValueExpr {  // h.type: __SYSTEM.AnyType, or with `facts` __SYSTEM.VAR
   ExprId facts;         // a StructInit: all members but the address
   uint32_t type_class;  // __SYSTEM.TYPE_CLASS
 };
-struct NewExpr {  // __NEW(what), __NEW(what, count)
+struct NewExpr {  // __NEW(what), __NEW(what, count); with kOnlyType `what` alone, as in SIZEOF(POINTER TO INT)
   ExprHeader h;
   TypeExprId allocated;
   ExprId count;        // none: one

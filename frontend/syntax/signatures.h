@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagram.h"
@@ -51,6 +52,8 @@ class Signatures {
   virtual Signature of(ExprId path) = 0;
   // False: `instance` is of a function block, and not of `block` or one derived from it.
   virtual bool fits(ExprId instance, ExprId block) = 0;
+  // The name of the type of a variable that is certainly not BOOL; else empty.
+  virtual std::string typeUnlessBool(ExprId path) = 0;
 
  protected:
   ~Signatures() = default;

@@ -79,7 +79,9 @@ class StPrinter {
   void operand(ExprId id, int least, bool always);
   void list(const char* before, Slice<ExprId> ids, const char* after);
   void arguments(Slice<Argument> arguments);
+  void type(TypeExprId id);
   void newExpr(const NewExpr& e);
+  void assignment(const AssignExpr& e);
   void unary(ExprId id, int least);
   void binary(ExprId id, int least);
   void structInit(const StructInitExpr& e);
@@ -268,23 +270,51 @@ void StPrinter::operand(ExprId id, int least, bool always) {
   }
 }
 
-// __NEW takes the name of a type, or a string type.
-void StPrinter::newExpr(const NewExpr& e) {
-  out += "__NEW(";
-  if (tree_.kind(e.allocated) == TypeExprKind::String) {
-    const auto& type = tree_.as<StringTypeExpr>(e.allocated);
+// The types that an expression may name: elementary types and those of the program, strings, pointers, arrays.
+void StPrinter::type(TypeExprId id) {
+  if (tree_.kind(id) == TypeExprKind::String) {
+    const auto& type = tree_.as<StringTypeExpr>(id);
     out += spelling(type.code);
     if (type.length) operand(type.length, 0, true);
-  } else if (tree_.kind(e.allocated) == TypeExprKind::Named) {
-    const auto& type = tree_.as<NamedTypeExpr>(e.allocated);
+  } else if (tree_.kind(id) == TypeExprKind::Named) {
+    const auto& type = tree_.as<NamedTypeExpr>(id);
     for (uint32_t i = 0; i < type.path.count; ++i) {
       if (i > 0) out += '.';
       name(tree_.list(type.path)[i].name);
     }
     if (type.has_arguments) arguments(type.arguments);
+  } else if (tree_.kind(id) == TypeExprKind::Pointer) {
+    const auto& pointer = tree_.as<PointerTypeExpr>(id);
+    out += pointer.form == PointerForm::Pointer     ? "POINTER TO "
+           : pointer.form == PointerForm::Reference ? "REFERENCE TO "
+                                                    : "REF_TO ";
+    type(pointer.target);
+  } else if (tree_.kind(id) == TypeExprKind::Array) {
+    const auto& array = tree_.as<ArrayTypeExpr>(id);
+    out += "ARRAY[";
+    bool first = true;
+    for (const ArrayBound& bound : tree_.list(array.bounds)) {
+      comma(first);
+      between("", bound.low, "..");
+      expr(bound.high, 0);
+    }
+    out += "] OF ";
+    type(array.element);
   }
+}
+
+void StPrinter::newExpr(const NewExpr& e) {
+  if ((e.h.bits & kOnlyType) != 0) return type(e.allocated);
+  out += "__NEW(";
+  type(e.allocated);
   if (e.count) between(", ", e.count, "");
   out += ')';
+}
+
+// Always in parentheses, where it gives no warning.
+void StPrinter::assignment(const AssignExpr& e) {
+  between("(", e.target, " := ");
+  between("", e.value, ")");
 }
 
 void StPrinter::unary(ExprId id, int least) {
@@ -370,6 +400,7 @@ void StPrinter::expr(ExprId id, int least) {
       return;
     }
     case ExprKind::New: return newExpr(tree_.as<NewExpr>(id));
+    case ExprKind::Assign: return assignment(tree_.as<AssignExpr>(id));
     case ExprKind::Range: {
       const auto& e = tree_.as<RangeExpr>(id);
       expr(e.low, 0);

@@ -129,6 +129,7 @@ ExprId firstOperand(const Tree& tree, ExprId id) {
     case ExprKind::Deref: return tree.as<DerefExpr>(id).base;
     case ExprKind::BitAccess: return tree.as<BitAccessExpr>(id).base;
     case ExprKind::Binary: return tree.as<BinaryExpr>(id).left;
+    case ExprKind::Assign: return tree.as<AssignExpr>(id).target;
     case ExprKind::Call: return tree.as<CallExpr>(id).callee;
     case ExprKind::Range: return tree.as<RangeExpr>(id).low;
     case ExprKind::Repeat: return tree.as<RepeatExpr>(id).count;

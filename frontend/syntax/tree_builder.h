@@ -77,6 +77,13 @@ class TreeBuilder {
   ExprId newObject(TypeExprId allocated, ExprId count, Loc loc) {
     return add(NewExpr{header(ExprKind::New, loc), allocated, count, {}, {}});
   }
+  ExprId assignment(ExprId target, ExprId value, Loc loc) {
+    return add(AssignExpr{header(ExprKind::Assign, loc), target, value});
+  }
+  // The type in SIZEOF(POINTER TO INT).
+  ExprId typeOperand(TypeExprId type, Loc loc) {
+    return add(NewExpr{header(ExprKind::New, loc, 0, kOnlyType), type, {}, {}, {}});
+  }
   // ---- expressions of checked programs
   ExprId convert(ExprId operand, Loc loc) { return add(ConvertExpr{header(ExprKind::Convert, loc), operand}); }
   ExprId bound(ExprId array, uint32_t index, Loc loc) {

@@ -194,6 +194,11 @@ void TreeExprPrinter::print(const BoundExpr& e, int depth) { expr(e.array, depth
 
 void TreeExprPrinter::print(const AnyValueExpr& e, int depth) { expr(e.value, depth + 1); }
 
+void TreeExprPrinter::print(const AssignExpr& e, int depth) {
+  expr(e.target, depth + 1);
+  expr(e.value, depth + 1);
+}
+
 void TreeExprPrinter::print(const NewExpr& e, int depth) {
   typeExpr(e.allocated, depth + 1);
   if (e.count) expr(e.count, depth + 1);

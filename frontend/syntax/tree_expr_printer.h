@@ -83,6 +83,7 @@ class TreeExprPrinter {
   void print(const ConvertExpr& e, int depth);
   void print(const BoundExpr& e, int depth);
   void print(const AnyValueExpr& e, int depth);
+  void print(const AssignExpr& e, int depth);
   void print(const NewExpr& e, int depth);
   void print(const AddressOfExpr& e, int depth);
 };

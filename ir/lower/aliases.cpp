@@ -92,6 +92,7 @@ bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
     case rung::ExprKind::New:
+    case rung::ExprKind::Assign:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:

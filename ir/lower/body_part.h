@@ -42,9 +42,7 @@ struct BodyState {
   ExprId guard;
   uint32_t element = 0;  // the current element of an array whose elements have arguments of their own for FB_Init
   CallId given;          // the arguments of FB_Init for an object that __NEW creates
-  std::vector<bool> addressed;      // by local: its address is taken by an expression so far; see loop_limits.cpp
-  uint32_t addresses_searched = 1;  // expressions
-  ExprId logical;                   // the temporary of the last AND or OR that needed one
+  ExprId logical;        // the temporary of the last AND or OR that needed one
   uint32_t effects = 0, effects_counted = 1;  // of the statements up to that one
 };
 

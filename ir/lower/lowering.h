@@ -14,6 +14,12 @@
 
 namespace rung::ir {
 
+// A FOR loop whose end value is evaluated before every turn, by an IF at the start of its block: see loop_limits.cpp.
+struct VariableLimit {
+  BodyId body;
+  StmtId loop;
+};
+
 struct ModuleLowering {
   ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
 
@@ -64,6 +70,7 @@ struct ModuleLowering {
   const Tree& tree;
   TypeTable& types;
   bool partial = false;  // only one function: see lowerFunction
+  std::vector<VariableLimit> variable_limits;
 
   // The module gets the records that the type is made of and those that it points to.
   void declareRecordsOf(TypeId type);
@@ -74,6 +81,7 @@ struct ModuleLowering {
   Record* recordOf(TypeId type);
   void addPrograms();
   void addLists();
+  void simplifyLimits();
   bool isLastList(uint32_t list) const;
   void markFaulting();
   void addClasses();
@@ -204,6 +212,7 @@ class ValueLowering : public BodyPart {
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
   ExprId lowerNew(rung::ExprId expr);
+  ExprId lowerAssignment(const AssignExpr& node);
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId lowerObjectConversion(const rung::ConvertExpr& node);
   ExprId lowerPart(const rung::ConvertExpr& node);
@@ -321,8 +330,6 @@ class StatementLowering : public BodyPart {
   };
   void link(Block statements);
   Block lowerBlock(Slice<rung::StmtId> statements);
-  bool mayChange(ExprId value, StmtId loop, ExprId control);
-  bool isAddressed(uint32_t local);
   void lowerForWithVariableLimit(ExprId control, ExprId from, const Limit& limit, const Value& step, Block body,
                                  Loc loc);
   void lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,

@@ -62,6 +62,7 @@ void ModuleLowering::run() {
   lowerBodies();  // the functions that these call
   addClasses();
   addDispatches();
+  simplifyLimits();
   markFaulting();
   addTasks();
   addLocated();

@@ -188,6 +188,7 @@ ExprId PlaceLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::Convert:
     case rung::ExprKind::Bound:
     case rung::ExprKind::New:
+    case rung::ExprKind::Assign:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::AddressOf: return values().lowerValue(id);
   }

@@ -244,7 +244,7 @@ void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   const Block body = lowerBlock(stmt.body);
   const bool once =
       project_.dialect != Dialect::Codesys || project_.pou(pou_).library || types_.kind(type) == TypeKind::Subrange;
-  limit.is_variable = !once && (mayChange(limit.value, body.first, control) || limit.statements.first);
+  limit.is_variable = !once && !isConst(body_.expr(limit.value));
   if (!limit.is_variable && limit.statements.first) {
     if (!isStable(from)) from = toTemp(from, loc);
     link(std::exchange(limit.statements, {}));
@@ -298,11 +298,12 @@ void StatementLowering::lowerForWithVariableLimit(ExprId control, ExprId from, c
                        .then_block = leave});
     link(body);
   });
-  append(loc, ForStmt{.control = control,
-                      .from = from,
-                      .to = constant(type, last, loc),
-                      .step = constant(type, step.bits, loc),
-                      .body_block = block_of});
+  const StmtId loop = append(loc, ForStmt{.control = control,
+                                          .from = from,
+                                          .to = constant(type, last, loc),
+                                          .step = constant(type, step.bits, loc),
+                                          .body_block = block_of});
+  if (!limit.statements.first) in_.variable_limits.push_back({in_.bodyOf(pou_), loop});
 }
 
 // FOR with a control variable of a subrange type counts in the plain type, since the first value that fails the test

@@ -82,6 +82,7 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
     case rung::ExprKind::New:
+    case rung::ExprKind::Assign:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
@@ -133,6 +134,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::AddressOf: return lowerAddressOf(id);
     case rung::ExprKind::AnyValue: return lowerAnyValue(id);
     case rung::ExprKind::New: return lowerNew(id);
+    case rung::ExprKind::Assign: return lowerAssignment(tree_.as<AssignExpr>(id));
     case rung::ExprKind::Bound: {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return places().openArrayBound(node.array, node.index, node.h.loc);
@@ -187,6 +189,16 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
   return arithmetic(binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc));
 }
 
+// The value that the target takes is kept in a temporary: an operand to the right may change the target again.
+ExprId ValueLowering::lowerAssignment(const AssignExpr& node) {
+  const Loc loc = node.h.loc;
+  ExprId value = lowerValue(node.value);
+  const ExprId kept = temp(strip(node.h.type), loc);
+  assign(kept, convertValue(value, typeOf(kept), loc), loc);
+  assign(places().lowerPlace(node.target), copy(kept), loc);
+  return copy(kept);
+}
+
 // Whether the expression contains a call of a function that may have an effect.
 bool ValueLowering::callsFunction(rung::ExprId id) const {
   switch (tree_.kind(id)) {
@@ -195,7 +207,8 @@ bool ValueLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<rung::DerefExpr>(id).base);
     case rung::ExprKind::Bound: return false;
-    case rung::ExprKind::New: return true;
+    case rung::ExprKind::New:
+    case rung::ExprKind::Assign: return true;
     case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
     case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).lvalue);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);

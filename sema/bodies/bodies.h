@@ -265,6 +265,7 @@ void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
 
 // ---- dynamic_memory.cpp
 TypeId checkNew(Context& context, ExprId& expr);
+TypeId checkAssignExpr(Context& context, ExprId expr);
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp

@@ -150,10 +150,15 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     if (base && object && isKindOf(here, object, base)) return true;
     if (extendsStructure(context, actual, pin)) return true;
   }
-  // The variable of an enumeration is one of its base type, which codesys allows where it is not strict.
-  if (given.kind == TypeKind::Enum && !given.strict && !context.iec() &&
-      table.resolve(given.base) == table.resolve(pin))
-    return true;
+  if (!context.iec()) {
+    // The variable of an enumeration is one of its base type; a number without sign has the bits of a bit string.
+    const TypeKind bits = types::TypeTable::isBits(wanted.kind) ? wanted.kind : given.kind;
+    const TypeKind number = types::TypeTable::isBits(wanted.kind) ? given.kind : wanted.kind;
+    if (types::TypeTable::isBits(bits) && bits != TypeKind::Bool && types::TypeTable::isUnsignedInteger(number) &&
+        wanted.size == given.size)
+      return true;
+    if (given.kind == TypeKind::Enum && table.resolve(given.base) == table.resolve(pin)) return true;
+  }
   if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }
@@ -589,16 +594,33 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
 
 namespace {
 
+// The call of GET in `pump.Level` or `pump.State.text`, which is checked; none: no property is read.
+ExprId propertyCallIn(Context& context, ExprId value) {
+  for (;;) {
+    const ExprKind kind = context.tree().kind(value);
+    if (kind == ExprKind::Deref)
+      value = context.tree().as<DerefExpr>(value).base;
+    else if (kind == ExprKind::Member)
+      value = context.tree().as<MemberExpr>(value).base;
+    else
+      return kind == ExprKind::Call ? value : ExprId{};
+  }
+}
+
 // `pump.Level;` reads a property, so its GET runs; TwinCAT accepts it with a warning.
 void readProperty(Context& context, ExprId& expr, ExprId value) {
-  while (context.tree().kind(value) == ExprKind::Deref) value = context.tree().as<DerefExpr>(value).base;
-  if (context.tree().kind(value) != ExprKind::Call) return;  // reported
-  const NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
+  value = propertyCallIn(context, value);
+  if (!value) return;  // reported
+  const CallId get = context.tree().as<CallExpr>(value).call;
+  NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
+  for (const Property& property : context.symbols.properties)
+    if (get && property.get && property.get == context.symbols.call(get).pou) name = property.name;
   context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)});
   context.replace(expr, value);
 }
 
-// `name;` calls an action or a method without parameters, or reads a property (codesys). Anything else does nothing.
+// `name;` calls an action, a program or a method without parameters, or reads a property (codesys). Anything else does
+// nothing.
 // False: not a call.
 bool isBareCall(Context& context, ExprId& expr) {
   const CallExpr& node = context.tree().as<CallExpr>(expr);
@@ -613,8 +635,9 @@ bool isBareCall(Context& context, ExprId& expr) {
     found = entityOf(context, node.callee);
     if (context.symbols.diagnostics.errorCount() != errors && found.entityKind() != EntityKind::Pou) return false;
   }
-  if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
-  if (found.entityKind() == EntityKind::Property) {
+  const Pou* pou = found.entityKind() == EntityKind::Pou ? &context.symbols.pous[found.index] : nullptr;
+  if (pou != nullptr && (pou->owner || pou->kind == PouKind::Program)) return true;
+  if (found.entityKind() == EntityKind::Property || propertyCallIn(context, callee)) {
     readProperty(context, expr, callee);
     return false;
   }

@@ -152,6 +152,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
     case ExprKind::New: return checkNew(context, expr);
+    case ExprKind::Assign: return checkAssignExpr(context, expr);
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:

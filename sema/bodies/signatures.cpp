@@ -73,6 +73,7 @@ ProjectSignatures::Resolved ProjectSignatures::resolve(ExprId path) {
     case ExprKind::Literal:
     case ExprKind::TypedName:
     case ExprKind::New:
+    case ExprKind::Assign:
     case ExprKind::BitAccess:
     case ExprKind::Address:
     case ExprKind::Unary:
@@ -156,6 +157,12 @@ Signature ProjectSignatures::of(NameId name) {
   return signatureOf(resolved);
 }
 Signature ProjectSignatures::of(ExprId path) { return signatureOf(resolve(path)); }
+
+std::string ProjectSignatures::typeUnlessBool(ExprId path) {
+  const TypeId type = resolve(path).type;
+  if (!type || type == types::kError || context_.types().plainKind(type) == TypeKind::Bool) return {};
+  return context_.types().toString(type);
+}
 
 bool ProjectSignatures::fits(ExprId instance, ExprId block) {
   const Entity drawn = resolve(block).entity;

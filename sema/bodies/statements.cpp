@@ -150,6 +150,27 @@ void checkAssign(Context& context, AssignStmt& node) {
   }
 }
 
+}  // namespace
+
+// target := value in an expression. CODESYS, "Assignment operator: Assignment as expression".
+//   passes  IF (n := n + 1) = m THEN        fails  IF (motor.speed := 3) > 2 with a property         E0655
+TypeId checkAssignExpr(Context& context, ExprId expr) {
+  AssignExpr& node = context.tree().as<AssignExpr>(expr);
+  const TypeId type = checkTarget(context, node.target, Access::Write);
+  if (type == types::kError || entityOf(context, node.target).entityKind() == EntityKind::Property) {
+    if (type != types::kError) context.report(diag::PropertyInExpression, context.tree().loc(node.target));
+    checkExpr(context, context.tree().as<AssignExpr>(expr).value);
+    return context.tree().expr(expr).type = types::kError;
+  }
+  ExprId value = context.tree().as<AssignExpr>(expr).value;
+  checkAs(context, value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
+  context.tree().as<AssignExpr>(expr).value = value;
+  checkDanglingAddress(context, context.tree().as<AssignExpr>(expr).target, value);
+  return context.tree().expr(expr).type = type;
+}
+
+namespace {
+
 void checkCallStatement(Context& context, StmtId id) {
   CallStmt& node = context.tree().as<CallStmt>(id);
   if (context.tree().kind(node.call) != ExprKind::Call) {

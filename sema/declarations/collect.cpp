@@ -132,7 +132,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   scopes.pous.emplace_back();
   Pou& pou = project.pous.back();
   scopes.pous.back().region = regionOfPou(context, decl);
-  Namespace* const space = namespaceAround(context);
+  Namespace* const space = library == kNoLibrary ? namespaceFor(context, decl.name) : nullptr;
   pou.name = decl.name;
   pou.unique_name = qualifiedName(context, decl.name);
   pou.loc = decl.h.loc;
@@ -214,7 +214,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   const TypeDecl& decl = tree.as<TypeDecl>(id);
   types::TypeTable& table = context.types();
   NameId name = qualifiedName(context, decl.name);
-  Namespace* const space = library == kNoLibrary ? namespaceAround(context) : &scopes.libraries.list[library];
+  Namespace* const space = library == kNoLibrary ? namespaceFor(context, decl.name) : &scopes.libraries.list[library];
   NameMap& names = space != nullptr ? space->names : scopes.pous_and_types;
   if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
     name =
@@ -375,8 +375,22 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       }
       if (library == kNoLibrary) {
         const std::string name = listOfSection(context, context.tree().as<SectionDecl>(decl), file);
-        const ListId list = listNamed(context, name, file, loc, context.scopes.qualifiers);
-        return addGlobals(context, list, decl, context.scopes.globals);
+        const uint32_t of = libraryOfSource(context, file);
+        const NameId key = keyOf(context, context.names().intern(name));
+        const Entity known = context.scopes.qualifiers.find(key);
+        const bool others = of != kNoLibrary && known.entityKind() == EntityKind::GlobalList &&
+                            libraryOfSource(context, context.scopes.lists[known.index].file) != of;
+        if (!others) {
+          const ListId list = listNamed(context, name, file, loc, context.scopes.qualifiers);
+          return addGlobals(context, list, decl, context.scopes.globals);
+        }
+        Namespace& own = context.scopes.libraries.list[of];  // a list of this name that others have too
+        if (const Entity mine = own.names.find(key); mine.entityKind() == EntityKind::GlobalList)
+          return addGlobals(context, ListId{mine.index}, decl, own.globals);
+        NameMap ignored;
+        const ListId list = listNamed(context, toString(context, own.name) + "_" + name, file, loc, ignored);
+        own.names.insert(key, Entity::of(EntityKind::GlobalList, list.index));
+        return addGlobals(context, list, decl, own.globals);
       }
       Namespace& from = context.scopes.libraries.list[library];
       std::string name = toString(context, from.name) + "_" + stem;
@@ -396,8 +410,23 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
   }
 }
 
+// A name that the project and its libraries have is the project's, else that of a library which is not INTERNAL; the
+// others keep it for themselves.
+static int rankOf(const Context& context, const DeclInRegion& placed) {
+  if (libraryOfSource(context, placed.file) == kNoLibrary) return 0;
+  const Tree& tree = context.tree();
+  const bool internal = tree.kind(placed.decl) == DeclKind::Pou
+                            ? tree.as<PouDecl>(placed.decl).access == AccessLevel::Internal
+                            : (tree.decl(placed.decl).bits & kInternal) != 0;
+  return internal ? 2 : 1;
+}
+
 void collectFiles(Context& context) {
-  const std::vector<DeclInRegion> declared = collectNamespaces(context);
+  std::vector<DeclInRegion> declared = collectNamespaces(context);
+  if (!context.project.options.library_projects.empty())
+    std::stable_sort(declared.begin(), declared.end(), [&](const DeclInRegion& a, const DeclInRegion& b) {
+      return rankOf(context, a) < rankOf(context, b);
+    });
   // POUs and types first: a global list is named differently when a POU has its name.
   for (const bool sections : {false, true}) {
     for (const DeclInRegion& placed : declared) {

@@ -337,9 +337,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
 void addDefaultTask(Context& context) {
   Project& project = context.project;
   const auto runs = [&](const Pou& pou) {
-    const std::vector<FileId>& others = project.options.library_files;
     return pou.kind == PouKind::Program && !pou.pragmas.test && !pou.library && pou.name &&
-           std::find(others.begin(), others.end(), pou.file) == others.end();
+           libraryOfSource(context, pou.file) == kNoLibrary;
   };
   PouId only;
   for (const char* name : {"PLC_PRG", "MAIN"}) {

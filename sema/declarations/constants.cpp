@@ -314,6 +314,7 @@ std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) 
     case ExprKind::AddressOf:
     case ExprKind::Bound:
     case ExprKind::New:
+    case ExprKind::Assign:
     case ExprKind::AnyValue:
     case ExprKind::Range:
     case ExprKind::ArrayInit:

@@ -56,9 +56,14 @@ struct DeclInRegion {
 std::vector<DeclInRegion> collectNamespaces(Context& context);
 // The region of a POU declared here: a new one if it has USINGs.
 RegionId regionOfPou(Context& context, const PouDecl& decl);
-// The NAMESPACE around the current location, or null; and a name in it in full: `Simatic.Ax.Motor`.
+// The NAMESPACE around the current location, or null.
 Namespace* namespaceAround(Context& context);
+// The namespace that a POU or type of this name is declared in: that NAMESPACE; in a library among the sources, the
+// library where another declaration has the name; or null. And the name in it in full: `Simatic.Ax.Motor`.
+Namespace* namespaceFor(Context& context, NameId name);
 NameId qualifiedName(Context& context, NameId name);
+// The Namespace of the library among the sources that a file belongs to, or kNoLibrary.
+uint32_t libraryOfSource(const Context& context, FileId file);
 // The meaning of a name in the namespaces around `context` and their USINGs; and in the USINGs of the file, which come
 // after the names of the project.
 Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only);

@@ -107,6 +107,7 @@ struct Initializer {
       case ExprKind::Super:
       case ExprKind::Bound:
       case ExprKind::New:
+      case ExprKind::Assign:
       case ExprKind::AnyValue:
       case ExprKind::Range:
       case ExprKind::ArrayInit:

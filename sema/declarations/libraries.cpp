@@ -3,6 +3,7 @@
 #include "sema/declarations/libraries.h"
 
 #include "frontend/source/dialect.h"
+#include "frontend/source/scanner.h"
 #include "sema/declarations/declarations.h"
 #include "sema/project.h"
 
@@ -215,6 +216,27 @@ std::vector<IndexedBlock> indexLibrary(std::string_view source) {
   return blocks;
 }
 
+// A Namespace for each library among the sources.
+static void addLibraryProjects(Context& context) {
+  Libraries& libraries = context.scopes.libraries;
+  for (const LibraryProject& library : context.project.options.library_projects) {
+    const auto index = static_cast<uint32_t>(libraries.list.size());
+    libraries.list.emplace_back();
+    libraries.list.back().of_library = true;
+    std::string shown = library.names.empty() ? "" : library.names.front();
+    for (char& c : shown)
+      if (!isNameCharacter(c)) c = '_';
+    libraries.list.back().name = context.names().intern(shown);
+    for (const std::string& name : library.names)
+      libraries.namespaces.insert(keyOf(context, context.names().intern(name)),
+                                  Entity::of(EntityKind::Namespace, index));
+    for (const FileId file : library.files) {
+      if (libraries.of_source.size() <= file.index) libraries.of_source.resize(file.index + 1, kNoLibrary);
+      libraries.of_source[file.index] = index;
+    }
+  }
+}
+
 void indexLibraries(Context& context) {
   Libraries& libraries = context.scopes.libraries;
   const auto files = context.project.options.libraries;
@@ -252,9 +274,12 @@ void indexLibraries(Context& context) {
   for (const std::string& name : context.project.options.project_names)
     libraries.namespaces.insert(keyOf(context, context.names().intern(name)),
                                 Entity::of(EntityKind::Namespace, libraries.project));
+  addLibraryProjects(context);
   for (const LibraryAlias& alias : context.project.options.library_aliases) {
     const Entity space = libraries.namespaces.find(keyOf(context, context.names().intern(alias.library)));
-    if (space) libraries.namespaces.insert(keyOf(context, context.names().intern(alias.alias)), space);
+    const NameId key = keyOf(context, context.names().intern(alias.alias));
+    if (space && !libraries.namespaces.insert(key, space))
+      libraries.list[libraries.namespaces.find(key).index].also = space.index;
   }
 }
 
@@ -313,6 +338,8 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   const Entity own = findInLibraries(context, key, library);
   if (own || library == kNoLibrary) return own;
+  const uint32_t also = context.scopes.libraries.list[library].also;
+  if (const Entity other = also == kNoLibrary ? Entity{} : findInLibraries(context, key, also)) return other;
   return context.scopes.libraries.namespaces.find(key);  // a library used by a library: SysFile.SysTypes
 }
 

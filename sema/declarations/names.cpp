@@ -73,7 +73,13 @@ Entity findDeclared(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
   if (context.region)
     if (const Entity found = lookUpAround(context, key, loc, false)) return found;
-  if (const Entity found = scopes.pous_and_types.find(key)) return found;
+  if (const Entity found = scopes.pous_and_types.find(key)) {
+    // A block is not a value, so in an expression the name is that of the global instance: Trace : Trace.
+    const bool block =
+        found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
+    if (const Entity global = block ? scopes.globals.find(key) : Entity{}) return global;
+    return found;
+  }
   if (const Entity found = scopes.globals.find(key)) return found;
   if (const Entity found = scopes.items.find(key)) return found;
   if (const Entity found = scopes.namespaces.find(key)) return found;

@@ -56,6 +56,19 @@ uint32_t spaceOf(const Context& context, RegionId region) {
   return kNoLibrary;
 }
 
+// The library among the sources to which a region belongs, or none.
+uint32_t libraryAround(const Context& context, RegionId region) {
+  for (; region; region = context.scopes.regions[region.index].outer)
+    if (context.scopes.regions[region.index].library != kNoLibrary) return context.scopes.regions[region.index].library;
+  return kNoLibrary;
+}
+
+RegionId regionOf(const Context& context, Entity found) {
+  if (found.entityKind() == EntityKind::Pou) return context.scopes.pous[found.index].region;
+  const NamedType* named = found.entityKind() == EntityKind::Type ? context.scopes.named(TypeId{found.index}) : nullptr;
+  return named == nullptr ? RegionId{} : named->region;
+}
+
 struct Collector {
   Context& context;
   std::vector<DeclInRegion>& out;
@@ -67,8 +80,12 @@ struct Collector {
     for (uint32_t i = 0; i < decls.count; ++i)
       if (const DeclId decl = tree.list(decls)[i]; tree.kind(decl) == DeclKind::Using) usings.push_back(decl);
     if (at_file_level && !usings.empty()) region = addRegion(context, {}, kNoLibrary, true);
-    if (at_file_level && region) context.scopes.region_of_file[file.index] = region;
     if (!usings.empty()) context.scopes.regions[region.index].usings = std::move(usings);
+    if (const uint32_t library = libraryOfSource(context, file); at_file_level && library != kNoLibrary) {
+      region = addRegion(context, region, kNoLibrary);
+      context.scopes.regions[region.index].library = library;
+    }
+    if (at_file_level && region) context.scopes.region_of_file[file.index] = region;
     for (const DeclId decl : tree.list(decls)) {
       if (tree.kind(decl) == DeclKind::Using) continue;
       if (tree.kind(decl) == DeclKind::Namespace) {
@@ -223,8 +240,21 @@ Namespace* namespaceAround(Context& context) {
   return space == kNoLibrary ? nullptr : &spaceAt(context, space);
 }
 
+uint32_t libraryOfSource(const Context& context, FileId file) {
+  const std::vector<uint32_t>& of_source = context.scopes.libraries.of_source;
+  return file.index < of_source.size() ? of_source[file.index] : kNoLibrary;
+}
+
+Namespace* namespaceFor(Context& context, NameId name) {
+  if (Namespace* const space = namespaceAround(context); space != nullptr || !name) return space;
+  const uint32_t library = libraryAround(context, context.region);
+  if (library == kNoLibrary) return nullptr;
+  const Entity other = context.scopes.pous_and_types.find(keyOf(context, name));
+  return other && libraryAround(context, regionOf(context, other)) != library ? &spaceAt(context, library) : nullptr;
+}
+
 NameId qualifiedName(Context& context, NameId name) {
-  const Namespace* space = namespaceAround(context);
+  const Namespace* space = namespaceFor(context, name);
   if (space == nullptr || !name) return name;
   return context.names().intern(toString(context, space->name) + "." + toString(context, name));
 }
@@ -233,8 +263,9 @@ Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only) {
   for (RegionId at = context.region; at; at = context.scopes.regions[at.index].outer) {
     const Region& region = context.scopes.regions[at.index];
     if (region.of_file) break;  // the file's USINGs come after the project's names
-    if (region.space != kNoLibrary)
-      if (const Entity found = findInSpace(context, region.space, key, types_only)) return found;
+    const uint32_t space = region.library != kNoLibrary ? region.library : region.space;
+    if (space != kNoLibrary)
+      if (const Entity found = findInSpace(context, space, key, types_only)) return found;
     if (const Entity found = findOpened(context, at, key, loc, types_only)) return found;
   }
   return {};
@@ -255,8 +286,16 @@ Entity findNamespace(Context& context, NameId name) {
   return context.scopes.libraries.namespaces.find(key);
 }
 
+// The entity that a namespace declares under a name, given with the namespace. Of a library among the sources only what
+// others declare too is in its namespace.
+static Entity findQualified(Context& context, uint32_t space, NameId key) {
+  const Entity found = findInSpace(context, space, key, false);
+  if (found || !spaceAt(context, space).of_library) return found;
+  return lookUpLibrary(context, key, context.scopes.libraries.project);
+}
+
 Entity lookUpNamespace(Context& context, uint32_t space, NameId key) {
-  if (const Entity found = findInSpace(context, space, key, false)) return found;
+  if (const Entity found = findQualified(context, space, key)) return found;
   // Its `qualified_only` variables are found only through its list.
   const Entity list = context.scopes.qualifiers.find(keyOf(context, spaceAt(context, space).name));
   if (space <= context.scopes.libraries.project || list.entityKind() != EntityKind::GlobalList) return {};
@@ -275,7 +314,9 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
   for (uint32_t i = 1; i < path.count; ++i) {
     const Ident part = context.tree().list(path)[i];
     const bool last = i + 1 == path.count;
-    if (!last && found.index <= context.scopes.libraries.project) {  // Lib.Sub.Motor: a library that Lib uses
+    const bool of_library = found.index <= context.scopes.libraries.project ||
+                            (isNamespace(found) && spaceAt(context, found.index).of_library);
+    if (!last && of_library) {  // Lib.Sub.Motor: a library that Lib uses
       if (const Entity used = context.scopes.libraries.namespaces.find(keyOf(context, part.name))) found = used;
       continue;
     }
@@ -286,7 +327,7 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
     }
     if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return error;
     const NameId key = keyOf(context, part.name);
-    found = findInSpace(context, found.index, key, false);
+    found = findQualified(context, found.index, key);
     if (last) found = orMock(context, key, found);
     if (!checkVisible(context, found, part.loc)) return error;
   }

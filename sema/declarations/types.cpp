@@ -169,9 +169,10 @@ TypeId resolveString(Context& context, TypeExprId id) {
   if (!expr.length) return types::idOf(kind);
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
-  if (*length < 1 || *length > kMaxStringLength) {
+  const int64_t least = context.iec() ? 1 : 0;  // CODESYS knows STRING(0), which holds '' alone
+  if (*length < least || *length > kMaxStringLength) {
     context.report(diag::StringLength, context.tree().begin(expr.length),
-                   {toString(*length), toString(kMaxStringLength)});
+                   {toString(*length), toString(least), toString(kMaxStringLength)});
     return types::kError;
   }
   const auto capacity = static_cast<uint32_t>(*length);
@@ -205,13 +206,15 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     context.tree().list(expr.bounds)[i] = bound;
     if (!low || !high) {
       ok = false;
-    } else if (*low > *high) {
+    } else if (*low > *high && (context.iec() || *low - 1 != *high)) {
       context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {toString(*low), toString(*high)});
       ok = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
       context.report(diag::ArrayBoundOutside, context.tree().begin(bound.low));
       ok = false;
     } else {
+      if (*low > *high)
+        context.report(diag::EmptyArray, context.tree().begin(bound.low), {toString(*low), toString(*high)});
       dimensions.push_back({*low, *high});
     }
   }

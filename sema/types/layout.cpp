@@ -49,8 +49,8 @@ bool TypeTable::layout(TypeId id) {
     info.least_align = element.least_align;
     info.size = info.dimensions.empty() ? 0 : element.size;
     for (const Dimension& dimension : info.dimensions) {
-      const uint64_t count = dimension.count();
-      if (count != 0 && info.size > kMaxSize / count) {
+      const uint64_t count = std::max<uint64_t>(dimension.count(), 1);  // C++ has no array without elements
+      if (info.size > kMaxSize / count) {
         fits = false;
         break;
       }

@@ -106,20 +106,28 @@ bool Compilation::read() {
   return ok;
 }
 
+// The names of the project among the inputs, or of a library given with -I, that has this name; or null.
+static std::vector<std::string>* namesOfProject(Inputs& inputs, std::string_view wanted) {
+  const auto has = [&](const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return sameIdentifier(name, wanted); });
+  };
+  for (std::vector<std::string>& names : inputs.library_names)
+    if (has(names)) return &names;
+  return has(inputs.project_names) ? &inputs.project_names : nullptr;
+}
+
 // Reports the libraries that a project of another tool asks for and Rung does not have, and adds the project's names
 // for the others.
 void Compilation::noteLibraries() {
   for (const importer::Library& wanted : inputs.libraries) {
     if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
-      const bool of_project = std::any_of(inputs.project_names.begin(), inputs.project_names.end(),
-                                          [&](std::string_view name) { return sameIdentifier(name, wanted.name); });
-      if (of_project)
-        inputs.project_names.push_back(wanted.space);
+      if (std::vector<std::string>* names = namesOfProject(inputs, wanted.name); names != nullptr)
+        names->push_back(wanted.space);
       else
         libraries.addAlias(wanted.space, wanted.name);
     }
     const auto called = [&](std::string_view name) { return sameIdentifier(name, wanted.name); };
-    const bool known = std::any_of(inputs.project_names.begin(), inputs.project_names.end(), called) ||
+    const bool known = namesOfProject(inputs, wanted.name) != nullptr ||
                        std::any_of(libraries.files().begin(), libraries.files().end(),
                                    [&](const sema::LibraryFile& file) { return called(file.library); }) ||
                        std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
@@ -163,9 +171,11 @@ bool Compilation::check() {
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;
+    for (const std::vector<std::string>& names : inputs.library_names)
+      sema_options.library_projects.push_back({names, {}});
     for (const InputFile& input : inputs.files)
-      if (input.is_library) sema_options.library_files.push_back(input.file);
-    sema_options.free_subranges = !inputs.project_names.empty();
+      if (input.is_library) sema_options.library_projects[input.library].files.push_back(input.file);
+    sema_options.free_subranges = !inputs.project_names.empty() || !inputs.library_names.empty();
     sema_options.pool_bytes = inputs.project.pool_bytes;
     sema_options.areas = inputs.project.areas;
     sema_options.default_interval_ns = options.default_interval_ns;

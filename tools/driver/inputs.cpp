@@ -58,6 +58,7 @@ class Collector {
     std::string absolute, path, below;
     bool named;               // on the command line or in rung.project, not found in a folder
     bool is_library = false;  // listed by a .plcproj given with -I
+    uint32_t library = 0;     // index in Inputs::library_names
   };
 
   void fail(Diag diag, const std::string& path, std::initializer_list<std::string_view> args,
@@ -153,14 +154,20 @@ class Collector {
     if (!importer::twincat::readProject(sources_, file, diagnostics_, project)) return;
     const size_t slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
-    inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
+    std::vector<std::string> names = std::move(project.names);
+    names.insert(names.begin(), path.substr(folder.size(), path.rfind('.') - folder.size()));
+    const auto library_index = static_cast<uint32_t>(inputs_.library_names.size());
+    if (is_library)
+      inputs_.library_names.push_back(std::move(names));
+    else
+      inputs_.project_names.insert(inputs_.project_names.end(), names.begin(), names.end());
     for (const importer::twincat::ProjectEntry& entry : project.files) {
       const std::string listed = sameFile(folder, entry.path);
       if (is_library && importer::hasExtension(entry.path, ".tctto")) continue;
       struct stat info;
       if (files_.isUnsaved(listed) || stat(listed.c_str(), &info) == 0) {
         std::vector<Candidate>& to = is_library && mayBeInProjectToo(listed) ? library_programs_ : candidates_;
-        to.push_back({absolutePath(listed), listed, {}, true, is_library});
+        to.push_back({absolutePath(listed), listed, {}, true, is_library, library_index});
         continue;
       }
       const char* why = strerror(errno);
@@ -330,7 +337,8 @@ class Collector {
     FileId file = sources_.add(candidate.below, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
     sources_.setDisplayPath(file, candidate.path);
-    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library});
+    inputs_.files.push_back(
+        {candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library, candidate.library});
   }
 
   const Options& options_;

@@ -24,6 +24,7 @@ struct InputFile {
   FileKind kind = FileKind::Unknown;
   FileId file;
   bool is_library = false;  // listed by a .plcproj given with -I
+  uint32_t library = 0;     // then: its index in Inputs::library_names
 };
 
 struct Inputs {
@@ -34,9 +35,10 @@ struct Inputs {
   ProjectFile project;
   std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
   std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
-  bool unread = false;                       // a vendor's file could not be understood: its declarations are missing
-  uint32_t missing_files = 0;                // that a .plcproj lists: one error each, and the others are checked
-  bool io_error = false;                     // something could not be read: exit 2
+  std::vector<std::vector<std::string>> library_names;  // of each .plcproj given with -I
+  bool unread = false;         // a vendor's file could not be understood: its declarations are missing
+  uint32_t missing_files = 0;  // that a .plcproj lists: one error each, and the others are checked
+  bool io_error = false;       // something could not be read: exit 2
 };
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);

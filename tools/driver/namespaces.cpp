@@ -16,12 +16,19 @@ constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"sysdir", "SysDir"},
                                      {"sysfile", "SysFile"},
                                      {"systypes", "SysTypes"},
+                                     {"tc2_ethercat", "Tc2_EtherCAT"},
+                                     {"tc2_math", "Tc2_Math"},
+                                     {"tc2_mc2", "Tc2_MC2"},
+                                     {"tc2_serialcom", "Tc2_SerialCom"},
                                      {"tc2_system", "Tc2_System"},
                                      {"tc2_utilities", "Tc2_Utilities"},
+                                     {"tc3_eventlogger", "Tc3_EventLogger"},
                                      {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
 constexpr NamespaceAlias kAliases[] = {
-    {"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}, {"IBaseLibrary", "__system"}};
+    {"Tc2_Standard", "Standard"},    {"Tc2_Standard", "Standard64"},
+    {"Tc2_Utilities", "Standard64"}, {"Tc3_Standard", "Standard"},
+    {"IBaseLibrary", "__system"},    {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // CODESYS 2.3 exports (.EXP): a sequence of objects, each below comments like `(* @PATH := '\/Pumps' *)`. POUs, their
 // actions (which follow the END_…), types and lists of globals are plain ST, except drawn bodies: `_FBD_BODY` and the
-// like. Other exported objects (visualisations, the PLC's configuration, lists of libraries) are skipped; an unknown
-// keyword is left to the parser, which reports it.
+// like. The task configuration becomes a CONFIGURATION, the named channels of the PLC's configuration global variables.
+// Other objects (visualisations, lists of libraries) are skipped; an unknown keyword is left to the parser.
 #include "frontend/import/codesys2/codesys2.h"
 
 #include <algorithm>
@@ -52,6 +52,10 @@ class Codesys2Reader {
         skipObject(scanner, "END_VAR");
       } else if (!endWordOf(word).empty()) {
         skipPou(scanner, endWordOf(word));
+      } else if (sameIdentifier(word, "RESOURCE")) {
+        readTasks(scanner, begin);
+      } else if (sameIdentifier(word, "PLC_CONFIGURATION")) {
+        scanner.moveTo(readChannels(begin));
       } else if (isForeign(word)) {
         const size_t next = std::min(source_.find("(* @NESTEDCOMMENTS", begin), source_.size());
         exclude(begin, next);
@@ -85,6 +89,88 @@ class Codesys2Reader {
   static void skipObject(Scanner& scanner, std::string_view closing) {
     while (const std::optional<Unit> unit = nextName(scanner))
       if (sameIdentifier(scanner.textOf(*unit), closing)) break;
+  }
+  // The part of a line between its first two quotes; empty: there is none.
+  static std::string_view quoted(std::string_view line) {
+    const size_t open = line.find('\'');
+    if (open == std::string_view::npos) return {};
+    const size_t close = line.find('\'', open + 1);
+    return close == std::string_view::npos ? std::string_view() : line.substr(open + 1, close - open - 1);
+  }
+  Loc locIn(std::string_view part) const { return loc(static_cast<size_t>(part.data() - source_.data())); }
+
+  // name AT address : the type of a channel, by the letter of its address and the name of its kind.
+  void writeChannel(std::string_view name, std::string_view address, std::string_view section) {
+    if (!isIdentifier(name) || address.size() < 3) return;
+    const char size = address[2];
+    const bool real = size == 'R' || section.find("Float") != std::string_view::npos;
+    const char* type = real ? "REAL" : size == 'X' ? "BOOL" : size == 'B' ? "BYTE" : size == 'W' ? "WORD" : "DWORD";
+    program_.put(locIn(name), "VAR_GLOBAL ");
+    program_.add(locIn(name), {locIn(name).offset + static_cast<uint32_t>(name.size())});
+    std::string place(address);
+    if (size == 'R') place[2] = 'D';
+    program_.put(locIn(address), " AT " + place + " : " + type + "; END_VAR\n");
+  }
+
+  // The channels and bits of a PLC configuration that have names are global variables. Returns where it ends.
+  size_t readChannels(size_t begin) {
+    const size_t end = std::min(source_.find("(* @NESTEDCOMMENTS", begin), source_.size());
+    exclude(begin, begin);
+    std::string_view section, name;
+    for (size_t at = begin; at < end;) {
+      const size_t next = std::min(source_.find('\n', at), end);
+      const std::string_view line = source_.substr(at, next - at);
+      at = next + 1;
+      const size_t percent = line.find('%');
+      const std::string_view from = percent == std::string_view::npos ? std::string_view() : line.substr(percent);
+      const std::string_view address = from.substr(0, from.find_first_of(" \t\r'"));
+      if (line.starts_with("_SECTION_NAME:")) {
+        section = quoted(line);
+        name = {};
+      } else if (line.starts_with("_SYMBOLIC_NAME:")) {
+        name = quoted(line);
+      } else if (line.starts_with("_IECADR:")) {
+        writeChannel(name, address, section);
+      } else if (line.starts_with("_BIT ")) {
+        writeChannel(quoted(line), address, {});
+      }
+    }
+    kept_ = end;
+    return end;
+  }
+
+  // The tasks, `RESOURCE {TASK name (…); {Prog();} END_TASK} END_RESOURCE`, become a CONFIGURATION.
+  void readTasks(Scanner& scanner, size_t begin) {
+    const Loc here = loc(begin);
+    exclude(begin, begin);
+    bool has_task = false;
+    std::string_view task;
+    while (const std::optional<Unit> unit = nextName(scanner)) {
+      const std::string_view word = scanner.textOf(*unit);
+      if (sameIdentifier(word, "END_RESOURCE")) {
+        kept_ = unit->end;
+        break;
+      }
+      if (sameIdentifier(word, "END_TASK")) {
+        task = {};
+      } else if (sameIdentifier(word, "TASK")) {
+        if (!has_task) program_.put(here, "CONFIGURATION _configuration RESOURCE _resource ON PLC\n");
+        has_task = true;
+        if (const std::optional<Unit> name = nextName(scanner)) task = scanner.textOf(*name);
+        const size_t end = std::min(source_.find(';', unit->begin), source_.size() - 1) + 1;
+        program_.add(loc(unit->begin), loc(end));
+        program_.put(loc(end), "\n");
+        scanner.moveTo(end);
+      } else if (!task.empty()) {  // a program; its inputs are given in its own variables
+        program_.put(loc(unit->begin), "PROGRAM ");
+        program_.add(loc(unit->begin), loc(unit->end));
+        program_.put(loc(unit->begin), " WITH " + std::string(task) + " : ");
+        program_.add(loc(unit->begin), loc(unit->end));
+        program_.put(loc(unit->end), ";\n");
+        scanner.moveTo(std::min(source_.find(';', unit->begin), source_.size()));
+      }
+    }
+    if (has_task) program_.put(here, "END_RESOURCE END_CONFIGURATION\n");
   }
   // Nothing but blanks before it on its line.
   bool isAtLineStart(size_t begin) const {

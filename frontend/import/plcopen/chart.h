@@ -136,6 +136,7 @@ class Chart {
   void readActions(uint32_t node, ChartStep& step);
   void readAction(const xml::Element& action, ChartStep& step);
   void readTime(const xml::Element& action, StepAction& out);
+  std::string newActionNumber();
   xml::Excerpt actionName(const xml::Element& action, const xml::Attribute* name);
   const xml::Element* ownAttribute(const xml::Element& element, std::string_view guid) const;
 

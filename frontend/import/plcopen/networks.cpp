@@ -223,8 +223,9 @@ void DiagramReader::readPins(const Element& e, NetworkElement& out) const {
       if (p.name != "variable") continue;
       NetworkPin& pin = out.pins.emplace_back();
       const xml::Attribute* name = document_.attribute(p, "formalParameter");
-      ++count;
-      if (name != nullptr && isIdentifier(document_.decoded(*name)))
+      const std::string spelling = name == nullptr ? std::string() : document_.decoded(*name);
+      if (!isControl(spelling)) ++count;
+      if (isIdentifier(spelling))
         pin.name = {document_, *name};
       else
         pin.name = {p.loc, unnamedPin(list.direction, count)};

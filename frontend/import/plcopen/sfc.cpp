@@ -7,6 +7,7 @@
 #include "frontend/import/plcopen/networks.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/inline_actions.h"
 
 namespace rung::importer::plcopen {
 namespace {
@@ -39,6 +40,19 @@ void Chart::readTime(const xml::Element& action, StepAction& out) {
   out.time = {document_, *duration};
 }
 
+// A file that Rung wrote may have an action of such a name.
+std::string Chart::newActionNumber() {
+  const auto isTaken = [&](const std::string& number) {
+    for (const xml::Element& action : document_.children(document_.child(pou_, "actions")))
+      if (sameIdentifier(document_.value(action, "name"), "sfc_action_" + number)) return true;
+    return false;
+  };
+  std::string number;
+  do number = std::to_string(++import_.own_action_count);
+  while (isTaken(number));
+  return number;
+}
+
 // The name of the action or variable, which may be that of an instance. An action with an inline body, or a variable
 // that is not just names, gets an ACTION.
 xml::Excerpt Chart::actionName(const xml::Element& action, const xml::Attribute* name) {
@@ -50,7 +64,7 @@ xml::Excerpt Chart::actionName(const xml::Element& action, const xml::Attribute*
   std::string& own =
       own_actions_[name != nullptr ? upper(document_.decoded(*name)) : std::to_string(action.loc.offset)];
   if (own.empty()) {
-    own = "sfc_action_" + std::to_string(++import_.own_action_count);
+    own = "sfc_action_" + newActionNumber();
     import_.own_actions.push_back({own, document_.child(action, "inline"), name});
   }
   return {action.loc, own};
@@ -152,7 +166,7 @@ void Chart::writeStepFlags() {
     if (writes && node.first_wire != node.end_wire) ends.push_back(node.element);
   }
   if (ends.empty()) return;
-  const std::string number = std::to_string(++import_.own_action_count);
+  const std::string number = newActionNumber();
   import_.out.put(ends[0]->loc, "INITIAL_STEP sfc_flags_" + number + ": sfc_action_" + number +
                                     "(N); END_STEP\nACTION sfc_action_" + number + ":\n");
   DrawnBody diagram{chart_, NetworkLanguage::Ladder};
@@ -170,6 +184,7 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
   for (size_t i = 0; i < import.own_actions.size(); ++i) {  // a chart in an action adds its own
     const OwnAction action = import.own_actions[i];
     const Loc loc = action.body != nullptr ? action.body->loc : action.variable->loc;
+    if (action.body != nullptr) import.out.put(loc, "{" + std::string(kInlineAction) + "}\n");
     import.out.put(loc, "ACTION " + action.name + " :\n");
     if (action.body != nullptr) {
       writeBody(import, *action.body, pou, name + "." + action.name);

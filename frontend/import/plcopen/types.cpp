@@ -1,4 +1,6 @@
 // Types, data types and initial values of the XML as ST; see import.h.
+#include <algorithm>
+
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
@@ -52,6 +54,26 @@ const xml::Element* typeIn(const Import& import, const xml::Element& holder) {
   return nullptr;
 }
 
+// "STRING" or "WSTRING" for the elements of these types, for a type of the file that is another name of one, and for
+// the HMI_STRING that Beremiz knows; otherwise empty.
+std::string_view stringKind(const Import& import, const xml::Element* type) {
+  for (uint32_t depth = 0; type != nullptr && depth < kMaxNesting; ++depth) {
+    if (sameIdentifier(type->name, "string")) return "STRING";
+    if (sameIdentifier(type->name, "wstring")) return "WSTRING";
+    if (type->name != "derived") return {};
+    const std::string name = import.document.value(*type, "name");
+    if (sameIdentifier(name, "HMI_STRING")) return "STRING";
+    const auto declares = [&](const xml::Element& e) {
+      return e.name == "dataType" && sameIdentifier(import.document.value(e, "name"), name);
+    };
+    const auto& all = import.document.elements;
+    const auto found = std::find_if(all.begin(), all.end(), declares);
+    const xml::Element* base = found == all.end() ? nullptr : import.document.child(*found, "baseType");
+    type = base == nullptr ? nullptr : typeIn(import, *base);
+  }
+  return {};
+}
+
 void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth) {
   if (depth == kMaxNesting) {
     import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "nested values"});
@@ -60,11 +82,10 @@ void writeValue(Import& import, const xml::Element& value, const xml::Element* t
   if (value.name != "simpleValue")
     return writeAggregate(import, value, [&](const Element& inner) { writeValue(import, inner, nullptr, depth + 1); });
   const xml::Attribute* text = import.document.attribute(value, "value");
-  const bool is_wide = type != nullptr && sameIdentifier(type->name, "wstring");
-  const bool is_string = is_wide || (type != nullptr && sameIdentifier(type->name, "string"));
-  const std::string_view quote = is_wide ? "\"" : "'";
-  const bool bare = import.unquoted_strings && is_string &&
-                    (text == nullptr || import.document.decoded(*text).find(quote) == std::string::npos);
+  const std::string_view kind = import.unquoted_strings ? stringKind(import, type) : std::string_view();
+  const std::string_view quote = kind == "WSTRING" ? "\"" : "'";
+  const bool bare =
+      !kind.empty() && (text == nullptr || import.document.decoded(*text).find(quote) == std::string::npos);
   if (bare) import.out.put(value.loc, quote);
   if (text != nullptr) import.out.add(import.document, *text);
   if (bare) import.out.word(quote);
@@ -109,8 +130,7 @@ void writeInitialValue(Import& import, const xml::Element& declared, const xml::
   const xml::Element* value = holder == nullptr ? nullptr : valueIn(import, *holder);
   if (value == nullptr) return;
   const xml::Element* of = type == nullptr ? nullptr : typeIn(import, *type);
-  const bool is_string = of != nullptr && (sameIdentifier(of->name, "string") || sameIdentifier(of->name, "wstring"));
-  const bool may_be_empty = import.unquoted_strings && is_string;
+  const bool may_be_empty = import.unquoted_strings && !stringKind(import, of).empty();
   if (value->name == "simpleValue" && !may_be_empty && !hasName(import, *value, "value")) return;
   import.out.word(" := ");
   writeValue(import, *value, of, 0);

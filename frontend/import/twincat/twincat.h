@@ -24,6 +24,7 @@ struct ProjectEntry {
 struct Project {
   std::vector<ProjectEntry> files;  // those that contain programs, in the order of the project
   std::vector<Library> libraries;
+  std::vector<std::string> names;  // title, name and namespace, as other projects refer to it
 };
 [[nodiscard]] bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, Project& out);
 

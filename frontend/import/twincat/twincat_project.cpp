@@ -48,6 +48,9 @@ bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, 
   xml::Document document;
   if (!xml::read(sources, file, diagnostics, document)) return false;
   for (const xml::Element& element : document.elements) {
+    const bool names = element.name == "Title" || element.name == "Name" || element.name == "DefaultNamespace";
+    if (names && element.parent != xml::kNone && document.elements[element.parent].name == "PropertyGroup")
+      if (std::string name = document.text(element, sources); !name.empty()) out.names.push_back(std::move(name));
     const xml::Attribute* include = document.attribute(element, "Include");
     if (include == nullptr) continue;
     const std::string name = document.value(element, "Include");

@@ -6,6 +6,10 @@ extern "C" {
 uint32_t rung_system_HOST_TASK(rung_context* ctx) { return ctx->task; }
 uint32_t rung_system_HOST_ACTIVATION(rung_context* ctx) { return ctx->activation; }
 
+int64_t rung_system_HOST_INTERVAL(rung_context* ctx) {
+  return ctx->task == 0 || ctx->task > ctx->module->task_count ? 0 : ctx->module->tasks[ctx->task - 1].interval_ns;
+}
+
 uint32_t rung_system_HOST_PROJECT(rung_context* ctx, char* out, uint32_t capacity) {
   size_t length = strlen(ctx->module->name);
   if (length > capacity) length = capacity;

@@ -66,6 +66,19 @@ TEST(Locals, AcrossCallsOnlyLoopsCount) {
   EXPECT_EQ(calls.of->fields.toString(calls.variables()), "");
 }
 
+// What may have been written since the last call of what may fault, or in an earlier turn of the loop.
+TEST(WriteBacks, FieldsWrittenBeforeACallThatMayFault) {
+  const std::string faulting = "function @Risk faults { in x: int; result int }\nbody @Risk { fault div }\n";
+  const Analysed b{faulting +
+                   "block @B { var x: int; var y: int; var i: int; var r: int }\nbody @B {\n"
+                   "r = call @Risk(1)\n"
+                   "for i = 0 to 9 by 1 { x = add int x, i\ny = add int y, x\nr = call @Risk(x)\nx = add int x, y }\n"
+                   "for i = 0 to 9 by 1 { y = add int y, i }\nr = call @Risk(y)\n}\n"};
+  EXPECT_EQ(b.of->write_backs.toString(b.variables()),
+            "x before call\ny before call\ni before call\nr before call\n"
+            "x before call\ny before call\ni before call\nr before call\n");
+}
+
 TEST(CountedLoops, ControlsAreWideWhereTheTypeEnds) {
   const Analysed b = analysed("var i: int; var n: dint; var k: dint; var last: dint",
                               "for i = 0 to 9 by 1 { }\nfor n = 0 to last by 1 { }\nfor k = 0 to 9 by 1 { }");

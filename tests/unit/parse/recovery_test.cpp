@@ -16,8 +16,10 @@ TEST(Recovery, TypicalSlips) {
       {"a = 1;", "2:3 E0205"},
       {"a == 1;", "2:3 E0205"},
       {"a : = 1;", "2:3 E0207"},
-      {"IF a := 1 THEN b := 1; END_IF", "2:6 E0206"},
-      {"IF (a := 1) THEN b := 1; END_IF", "2:7 E0206"},
+      {"IF a := 1 THEN b := 1; END_IF", "2:6 W0252"},
+      {"IF (a := 1) THEN b := 1; END_IF", ""},
+      {"IF 2 := 1 THEN b := 1; END_IF", "2:6 E0206"},
+      {"IF (a + 2 := 1) THEN b := 1; END_IF", "2:11 E0206"},
       {"IF a == 1 THEN b := 1; END_IF", "2:6 E0207"},
       {"IF a != 1 THEN b := 1; END_IF", "2:6 E0207"},
       {"IF a && b THEN c := 1; END_IF", "2:6 E0207"},
@@ -100,7 +102,7 @@ VAR
 END_VAR
 a = 1;
 b := ;
-IF a := 2 THEN
+IF (a + 1) := 2 THEN
   b := 3
 END_IF
 FOR i := 1 5 DO

@@ -24,7 +24,7 @@ TEST(TypeDeclarations, bounds_must_be_constant_and_in_order) {
       "a : ARRAY[10..1] OF INT;\n"
       "b : ARRAY[1..n] OF INT;\n"
       "c : ARRAY[1..2.5] OF INT;\n"
-      "s : STRING[0];\n"
+      "s : STRING[-1];\n"
       "END_VAR END_PROGRAM");
   EXPECT_EQ(checked.codes(), "E0306@2 E0322@3 E0336@4 E0310@5");
 }

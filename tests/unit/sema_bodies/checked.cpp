@@ -190,6 +190,13 @@ class Printer {
         out.append(spelling(tree_.as<UnaryExpr>(id).op())).append(" ");
         expr(tree_.as<UnaryExpr>(id).operand);
         return;
+      case ExprKind::Assign:
+        out += "(";
+        expr(tree_.as<AssignExpr>(id).target);
+        out += " := ";
+        expr(tree_.as<AssignExpr>(id).value);
+        out += ")";
+        return;
       case ExprKind::Binary: {
         const BinaryExpr& node = tree_.as<BinaryExpr>(id);
         out += "(";

@@ -153,7 +153,9 @@ TEST_F(InputsTest, ProjectOfTwinCatAsLibrary) {
   options.library_paths = {library};
   read({folder.path() + "/p"});
   EXPECT_EQ(paths(), (std::vector<std::string>{"../lib/FB_Part.TcPOU", "main.st", "../lib/Try.TcPOU"}));
-  EXPECT_EQ(inputs.project_names, (std::vector<std::string>{"Parts"}));
+  EXPECT_TRUE(inputs.project_names.empty());
+  ASSERT_EQ(inputs.library_names.size(), 1u);
+  EXPECT_EQ(inputs.library_names[0], (std::vector<std::string>{"Parts"}));
 }
 
 TEST(LibraryPath, MayBeCalledAnotherName) {

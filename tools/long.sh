@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# What takes long: hours of generated programs, mutants and checked builds. Each part is seeded and repeatable, ends with
+# a line of its own figures, and fails with exit code 1 when it finds something.
+#   tools/long.sh [PART...]      all parts without one
+# differential  20 000 random programs in three dialects: interpreter and, of every tenth, g++ and clang++ (COUNT, FIRST)
+# networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
+# mutants       30 000 corrupted programs and drawings: one error at the right place, and no crash (COUNT, FIRST)
+# modifiers     each modifier left out of the programs of its row: some test notices
+# asan          the whole suite with ASan and UBSan
+# debug         the whole suite without optimization, with the invariants of the compiler checked
+# tidy          clang-tidy over every file
+# compilers     every conformance program's C++ compiled by clang++ too (needs clang++)
+set -eu
+cd "$(dirname "$0")/.."
+bin=$PWD/build/bin
+first=${FIRST:-1}
+failed=()
+
+needs() { [ -x "$bin/$1" ] || { tools/install-packages.sh; cmake --preset release; cmake --build build; }; }
+
+differential() {
+  needs differential
+  local count=${COUNT:-20000}
+  "$bin/differential" --ways=interp --first="$first" --count="$count" -j 2
+  "$bin/differential" --ways=turns --first="$first" --count=$((count / 10)) -j 2
+}
+
+networks() {
+  needs network_differential
+  local count=${COUNT:-2000}
+  "$bin/network_differential" --first="$first" --count="$count" -j 2
+  "$bin/sfc_differential" --first="$first" --count="$count"
+  "$bin/il_differential" --first="$first" --count="$count" -j 2
+}
+
+mutants() {
+  needs mutation_test
+  local test
+  for test in mutation_test drawing_mutation_test network_mutation_test; do
+    RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-10000} "$bin/$test"
+  done
+}
+
+modifiers() {
+  needs rung_test_runner
+  tests/modifiers/modifiers.py
+}
+
+suite() {  # preset
+  tools/install-packages.sh
+  cmake --preset "$1"
+  cmake --build "build/$1"
+  "build/$1/bin/rung_test_runner"
+}
+asan() { suite asan; }
+debug() { suite debug; }
+
+tidy() { tools/clang_tidy.sh; }
+
+compilers() {
+  needs rung_test_runner
+  CXX=clang++ "$bin/rung_test_runner" tests/conformance
+}
+
+parts=("$@")
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers asan debug tidy compilers)
+for part in "${parts[@]}"; do
+  case $part in
+    differential|networks|mutants|modifiers|asan|debug|tidy|compilers) ;;
+    *) sed -n '2,13s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  esac
+done
+for part in "${parts[@]}"; do
+  echo "== $part"
+  begin=$SECONDS
+  set +e
+  (set -e; "$part")
+  status=$?
+  set -e
+  [ $status -eq 0 ] || failed+=("$part")
+  echo "== $part: $((SECONDS - begin)) s"
+done
+[ ${#failed[@]} -eq 0 ] || { echo "failed: ${failed[*]}"; exit 1; }
