@@ -46,6 +46,8 @@ class Checker {
   void checkInitial();
   void checkSteps(Slice<Ident> list);
   void checkActions();
+  void checkConditions();
+  bool usesCondition(const PouDecl& pou, NameId name) const;
   void checkRegions();
   bool fire(const SfcTransition& t);
   bool unite(const SfcTransition& t, Region& region);
@@ -282,8 +284,28 @@ void Checker::checkRegions() {
       charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {string(steps_[i].name.name)});
 }
 
+// A transition of the chart, or of a chart in an action or method of the POU, takes its condition from the declaration
+// of this name.
+bool Checker::usesCondition(const PouDecl& pou, NameId name) const {
+  for (const SfcTransition& t : charts_.tree.list(pou.transitions))
+    if (!t.from.empty() && !t.body && !t.condition.value && charts_.names.same(t.name.name, name)) return true;
+  for (const DeclId member : charts_.tree.list(pou.members))
+    if (charts_.tree.kind(member) == DeclKind::Pou && usesCondition(charts_.tree.as<PouDecl>(member), name))
+      return true;
+  return false;
+}
+
+// Warns of a condition without steps that no transition uses.
+//   warns   TRANSITION t := go; END_TRANSITION                    W0747
+void Checker::checkConditions() {
+  for (const SfcTransition& t : charts_.tree.list(pou_.transitions))
+    if (t.from.empty() && t.to.empty() && !usesCondition(pou_, t.name.name))
+      charts_.diagnostics.report(diag::SfcConditionUnused, t.name.loc, {string(t.name.name)});
+}
+
 bool Checker::run() {
   checkInitial();
+  checkConditions();
   for (const SfcTransition& t : charts_.tree.list(pou_.transitions)) {
     checkSteps(t.from);
     checkSteps(t.to);

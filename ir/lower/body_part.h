@@ -79,6 +79,9 @@ class BodyPart {
   // The place of an object as what it extends.
   ExprId asBase(ExprId place, sema::PouId base, Loc loc);
   ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
+  // An operation that the program has written: with --checks=overflow its result must fit. Not in libraries.
+  ExprId arithmetic(ExprId operation);
+  bool checksOverflow() const;
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);
   // Nothing where it has that type.

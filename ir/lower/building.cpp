@@ -97,6 +97,45 @@ ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) 
              static_cast<uint8_t>(checked ? in_.options.checks & kCheckDiv : 0));
 }
 
+bool BodyPart::checksOverflow() const {
+  return (in_.options.checks & kCheckOverflow) != 0 && !(pou_ && project_.pou(pou_).library);
+}
+
+ExprId BodyPart::arithmetic(ExprId operation) {
+  Expr& e = body_.expr(operation);
+  const TypeKind kind = types_.plainKind(e.type);
+  const bool is_number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;
+  if (!checksOverflow() || !is_number || (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary)) return operation;
+  switch (e.op()) {
+    case Op::Add:
+    case Op::Sub:
+    case Op::Mul:
+    case Op::Div:
+    case Op::Power:
+    case Op::Neg:
+    case Op::Abs: e.checks |= kCheckOverflow; return operation;
+    case Op::Mod:
+    case Op::And:
+    case Op::Or:
+    case Op::Xor:
+    case Op::Not:
+    case Op::Shl:
+    case Op::Shr:
+    case Op::Sar:
+    case Op::Rol:
+    case Op::Ror:
+    case Op::Eq:
+    case Op::Ne:
+    case Op::Lt:
+    case Op::Le:
+    case Op::Gt:
+    case Op::Ge:
+    case Op::Min:
+    case Op::Max: return operation;
+  }
+  return operation;
+}
+
 ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding) {
   to = strip(to);
   uint8_t checks = 0;

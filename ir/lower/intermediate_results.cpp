@@ -13,7 +13,9 @@ ExprId ValueLowering::convertUncut(const rung::ConvertExpr& node) {
   const TypeId to = strip(node.h.type), own = strip(tree_.expr(node.operand).type);
   const TypeKind kind = types_.kind(to);
   const uint32_t width = TypeTable::isInteger(kind) || TypeTable::isBits(kind) ? TypeTable::bitWidth(kind) : 0;
-  if (width == 0 || width > project_.native_width) return convertValue(lowerUncut(node.operand), to, node.h.loc);
+  // A conversion cuts on purpose: what it cuts does not count as overflow.
+  if (width == 0 || width > project_.native_width || checksOverflow())
+    return convertValue(lowerUncut(node.operand), to, node.h.loc);
   const bool narrows = width <= TypeTable::bitWidth(types_.plainKind(own));
   return narrows ? convertValue(lowerValue(node.operand), to, node.h.loc) : lowerIn(node.operand, to);
 }
@@ -47,13 +49,13 @@ ExprId ValueLowering::operate(rung::ExprId id, TypeId type) {
     const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
     if (const auto value = uncutConstant(project_, id)) return convertValue(ofValue(*value, loc), type, loc);
     const ExprId operand = lowerIn(node.operand, type);
-    return node.op() == UnaryOp::Plus ? operand : unary(Op::Neg, type, operand, loc);
+    return node.op() == UnaryOp::Plus ? operand : arithmetic(unary(Op::Neg, type, operand, loc));
   }
   if (tree_.kind(id) == rung::ExprKind::Binary) {
     const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
     ExprId left = lowerIn(node.left, type);
     const ExprId right = lowerAfter({&left}, [&] { return lowerIn(node.right, type); });
-    return binary(sema::operatorOf(node.op()), type, left, right, loc);
+    return arithmetic(binary(sema::operatorOf(node.op()), type, left, right, loc));
   }
   const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
   return calls().lowerArithmeticOperator(project_.call(node.call), node, type);

@@ -50,10 +50,10 @@ ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung:
     for (size_t i = operands.size(); i-- > 0;) spill(point, {&operands[i]});
     operands[number] = operand;
   }
-  if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
+  if (types::operandCount(op) == 1) return arithmetic(unary(op, type, operands[0], loc));
   if (!types::isComparison(op) || operands.size() == 2) {
     ExprId value = operands[0];
-    for (size_t i = 1; i < operands.size(); ++i) value = binary(op, type, value, operands[i], loc);
+    for (size_t i = 1; i < operands.size(); ++i) value = arithmetic(binary(op, type, value, operands[i], loc));
     return value;
   }
   // A chain: GT(a, b, c) is (a > b) AND (b > c), each operand evaluated once.

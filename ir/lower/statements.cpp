@@ -155,8 +155,10 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
       ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
       TypeId type = wide ? wide : typeOf(target);
       ExprId operand = convertValue(copy(target), type, loc);
-      assign(target, convertValue(binary(op, type, operand, convertValue(value, type, loc), loc), typeOf(target), loc),
-             loc);
+      assign(
+          target,
+          convertValue(arithmetic(binary(op, type, operand, convertValue(value, type, loc), loc)), typeOf(target), loc),
+          loc);
       return;
     }
     case AssignOp::Attempt: break;  // sema made a call of it

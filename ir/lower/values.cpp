@@ -166,7 +166,7 @@ ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   switch (node.op()) {
     case UnaryOp::Plus: return operand;
     case UnaryOp::Not: return unary(Op::Not, type, operand, node.h.loc);
-    case UnaryOp::Negate: return unary(Op::Neg, type, operand, node.h.loc);
+    case UnaryOp::Negate: return arithmetic(unary(Op::Neg, type, operand, node.h.loc));
   }
   return {};
 }
@@ -186,7 +186,7 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
       types::isComparison(sema::operatorOf(op)) ? sema::comparedType(project_, node.left, node.right) : TypeId{};
   ExprId left = lowerOperand(node.left, compared);
   ExprId right = lowerAfter({&left}, [&] { return lowerOperand(node.right, compared); });
-  return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
+  return arithmetic(binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc));
 }
 
 // The value that the target takes is kept in a temporary: an operand to the right may change the target again.

@@ -237,7 +237,7 @@ void checkAttempt(Context& context, AssignStmt& node);
 
 // ---- pointers.cpp
 // p[i]: the i-th element after the target of p.
-TypeId checkPointerIndex(Context& context, ExprId& expr);
+TypeId checkPointerIndex(Context& context, ExprId& expr, Access access);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine this way.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
@@ -255,7 +255,7 @@ ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
 void callBoundsCheck(Context& context, ExprId& index, const types::Dimension& dimension);
 void callDivisorCheck(Context& context, ExprId& divisor);
 void callRangeCheck(Context& context, ExprId& value, TypeId subrange);
-void callPointerCheck(Context& context, ExprId& pointer, TypeId target, bool writes);
+void callPointerCheck(Context& context, ExprId& pointer, TypeId target, Access access);
 
 // ---- any_inputs.cpp
 // The item of __SYSTEM.TYPE_CLASS for a type.

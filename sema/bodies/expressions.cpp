@@ -55,7 +55,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
-  if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
+  if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
   const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
   if (TypeTable::isString(info->kind) && count == 1 && !edition2) {
     return node.h.type = checkCharacter(context, node, base, access);
@@ -96,8 +96,7 @@ TypeId checkDeref(Context& context, ExprId& expr, Access access) {
     return node.h.type = types::kError;
   }
   node.h.writable = 1;
-  const bool writes = writesValue(access);
-  if (writes || access == Access::Read) callPointerCheck(context, node.base, info.base, writes);
+  callPointerCheck(context, node.base, info.base, access);
   return node.h.type = info.base;
 }
 
@@ -127,9 +126,10 @@ TypeId checkAddress(Context& context, ExprId& expr) {
 }
 
 // A REFERENCE is used like its target.
-TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
+TypeId throughReference(Context& context, ExprId& expr, TypeId type, Access access) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Reference) return type;
+  callPointerCheck(context, expr, info.base, access);
   context.replace(expr, makeDeref(context, expr, info.base, context.tree().loc(expr)));
   return info.base;
 }
@@ -204,7 +204,7 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
   }
   ++context.depth;
   TypeId type = dispatch(context, expr, expected, access);
-  if (context.tree().kind(expr) != ExprKind::AddressOf) type = throughReference(context, expr, type);
+  if (context.tree().kind(expr) != ExprKind::AddressOf) type = throughReference(context, expr, type, access);
   --context.depth;
   return type;
 }

@@ -190,7 +190,9 @@ void callRangeCheck(Context& context, ExprId& value, TypeId subrange) {
              {makeInteger(context, type, range.low, loc), makeInteger(context, type, range.high, loc)});
 }
 
-void callPointerCheck(Context& context, ExprId& pointer, TypeId target, bool writes) {
+void callPointerCheck(Context& context, ExprId& pointer, TypeId target, Access access) {
+  const bool writes = writesValue(access);
+  if (!writes && access != Access::Read) return;
   const PouId function = functionFor(context, ImplicitCheck::Pointer);
   const ExprKind kind = context.tree().kind(pointer);
   if (!function || kind == ExprKind::This || kind == ExprKind::Super || !ensureLayout(context, target)) return;

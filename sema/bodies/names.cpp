@@ -130,12 +130,31 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
   return header.type = types::kError;
 }
 
+// The references among the bases of a member, which were checked as qualifiers.
+void callReferenceChecks(Context& context, ExprId base, Access access) {
+  Tree& tree = context.tree();
+  for (ExprId at = base;;) {
+    if (tree.kind(at) == ExprKind::Member) {
+      at = tree.as<MemberExpr>(at).base;
+      continue;
+    }
+    if (tree.kind(at) != ExprKind::Deref) return;
+    DerefExpr& node = tree.as<DerefExpr>(at);
+    const ExprId reference = node.base;
+    if (context.types().kind(tree.expr(reference).type) != TypeKind::Reference) return;
+    callPointerCheck(context, node.base, node.h.type, access);
+    at = reference;
+    access = Access::Read;
+  }
+}
+
 // The base of a member: a value, or a qualifier (then without a type).
 TypeId checkBase(Context& context, ExprId& base, Access access) {
   const ExprKind kind = context.tree().kind(base);
   if (kind != ExprKind::Name && kind != ExprKind::Member) return check(context, base, {}, access);
   const TypeId type = check(context, base, {}, Access::Qualifier);
   if (!type || access == Access::Qualifier) return type;
+  callReferenceChecks(context, base, access);
   for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
     const Entity entity = entityOf(context, at);
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);

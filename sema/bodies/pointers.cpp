@@ -78,7 +78,7 @@ TypeId checkVal(Context& context, ExprId& expr, const PseudoCall& call) {
 TypeId checkIsValid(Context& context, ExprId& expr, const PseudoCall& call) {
   ExprId operand = call.arguments[0].value;
   const Loc loc = context.tree().loc(expr);
-  const TypeId type = check(context, operand, {}, Access::Read);
+  const TypeId type = check(context, operand, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
   if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
   const TypeId own = context.tree().expr(operand).type;
@@ -152,7 +152,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
   return true;
 }
 
-TypeId checkPointerIndex(Context& context, ExprId& expr) {
+TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.tree().as<IndexExpr>(expr);
   const Loc loc = node.h.loc;
   if (context.iec()) {
@@ -181,6 +181,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   sum = makeBinary(context, BinaryOp::Add, sum,
                    makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);
   wrapConvert(context, sum, type);
+  callPointerCheck(context, sum, target, access);
   context.replace(expr, makeDeref(context, sum, target, loc));
   return target;
 }

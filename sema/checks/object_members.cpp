@@ -168,11 +168,12 @@ void checkMethod(Context& context, PouId object, PouId id) {
   }
   const Pou& other = context.symbols.pou(replaced);
   const std::string_view base = string(context, context.symbols.pou(other.owner).name);
+  const bool needs_override = context.iec() && context.symbols.dialect == Dialect::Iec3;  // edition 2 lacks the word
   if ((other.object.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {
     return;  // the parameters of FB_Init may differ
-  } else if (context.iec() && (method.object.modifiers & kOverride) == 0) {
+  } else if (needs_override && (method.object.modifiers & kOverride) == 0) {
     context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
   } else {
     checkSignature(context, id, replaced);

@@ -147,15 +147,19 @@ template <class T>
 T SHL(T a, uint64_t n) {
   return static_cast<T>(rung_shl64(static_cast<std::make_unsigned_t<T>>(a), n));
 }
+// A signed integer is filled with its sign.
 template <class T>
 T SHR(T a, uint64_t n) {
+  if constexpr (std::is_signed_v<T>) return static_cast<T>(rung_sar(a, n));
   return static_cast<T>(rung_shr64(static_cast<std::make_unsigned_t<T>>(a), n));
 }
 template <class T>
 T ROL(T a, uint64_t n) {
   constexpr uint64_t kBits = 8 * sizeof(T);
   n %= kBits;
-  return n == 0 ? a : static_cast<T>(SHL(a, n) | SHR(a, kBits - n));
+  using Bits = std::make_unsigned_t<T>;
+  const auto bits = static_cast<Bits>(a);
+  return n == 0 ? a : static_cast<T>(SHL(bits, n) | SHR(bits, kBits - n));
 }
 template <class T>
 T ROR(T a, uint64_t n) {
