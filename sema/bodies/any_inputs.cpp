@@ -31,12 +31,9 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
     case TypeKind::UString: return 16;
     case TypeKind::WString: return 17;
     case TypeKind::Time: return 18;
-    case TypeKind::Date:
-    case TypeKind::LDate: return 19;
-    case TypeKind::DateTime:
-    case TypeKind::LDateTime: return 20;
-    case TypeKind::TimeOfDay:
-    case TypeKind::LTimeOfDay: return 21;
+    case TypeKind::Date: return 19;
+    case TypeKind::DateTime: return 20;
+    case TypeKind::TimeOfDay: return 21;
     case TypeKind::Pointer: return 22;
     case TypeKind::Reference: return 23;
     case TypeKind::Subrange: return 24;
@@ -44,6 +41,9 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
     case TypeKind::Array: return 26;
     case TypeKind::Record: return 28;
     case TypeKind::LTime: return 37;
+    case TypeKind::LDate: return 46;
+    case TypeKind::LDateTime: return 47;
+    case TypeKind::LTimeOfDay: return 48;
     case TypeKind::None:
     case TypeKind::Error:
     case TypeKind::IntegerLiteral:
