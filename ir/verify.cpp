@@ -487,11 +487,8 @@ void Verifier::callOperands(const Body& callee, Slice<ExprId> operands, int rule
     const bool same_string_kind = TypeTable::isString(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;
-    // UINT and WORD are one type in generated code.
-    const TypeKind a = types_.kind(wanted), b = types_.kind(given);
-    const bool same_bits = types_.info(wanted).size == types_.info(given).size &&
-                           ((TypeTable::isUnsignedInteger(a) && TypeTable::isBits(b) && b != TypeKind::Bool) ||
-                            (TypeTable::isBits(a) && a != TypeKind::Bool && TypeTable::isUnsignedInteger(b)));
+    const bool same_bits =
+        TypeTable::haveSameBits(types_.kind(wanted), types_.kind(given));  // one type in generated code
     require((is_value ? fits(wanted, given) : wanted == given) || same_string_kind || open_array || same_bits, rule,
             [&] { return toString(given) + " is passed to a parameter of " + toString(wanted); });
   }
@@ -770,7 +767,7 @@ void Verifier::operatorNode(const Expr& e, Op op, ExprId first, ExprId second) {
   if (second) {
     const TypeId right = types_.plain(typeOf(second));
     const TypeKind right_kind = types_.kind(right);
-    const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Sar || op == Op::Rol || op == Op::Ror;
+    const bool is_shift = types::isShift(op);
     const bool same = left == right || (TypeTable::isString(kind) && kind == right_kind) ||
                       (isPointer(kind) && isPointer(right_kind));
     if (is_shift)

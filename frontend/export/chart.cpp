@@ -23,7 +23,11 @@ constexpr int kStepRow = 80, kStepColumn = 200;
 class ChartExport {
  public:
   ChartExport(Export& to, const PouDecl& pou)
-      : to_(to), pou_(pou), steps_(to.tree.list(pou.steps)), transitions_(to.tree.list(pou.transitions)) {}
+      : to_(to),
+        pou_(pou),
+        inline_actions_(to.tree, to.names, pou),
+        steps_(to.tree.list(pou.steps)),
+        transitions_(to.tree.list(pou.transitions)) {}
 
   void run();
 
@@ -67,6 +71,7 @@ class ChartExport {
 
   Export& to_;
   const PouDecl& pou_;
+  InlineActions inline_actions_;
   std::span<const SfcStep> steps_;
   std::span<const SfcTransition> transitions_;
   std::unordered_map<uint32_t, uint32_t> index_;    // of a step, by the key of its name
@@ -199,7 +204,7 @@ void ChartExport::actions(uint32_t i) {
     const std::span<const Ident> indicators = to_.tree.list(a.indicators);
     if (!indicators.empty()) to_.xml.attribute("indicator", to_.string(indicators[0].name));
     to_.xml.open("relPosition").attribute("x", "0").attribute("y", std::to_string(20 * row++)).close();
-    if (const PouDecl* body = inlineAction(to_.tree, to_.names, pou_, a.action.name))
+    if (const PouDecl* body = inline_actions_.find(a.action.name))
       exportBody(to_, *body, "inline");
     else
       to_.xml.open("reference").attribute("name", to_.string(a.action.name)).close();

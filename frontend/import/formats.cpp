@@ -79,7 +79,7 @@ bool isBinary(std::string_view text) {
   size_t bad = 0, controls = 0;
   for (size_t i = 0; i < head.size(); i++) {
     unsigned char c = static_cast<unsigned char>(head[i]);
-    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++, controls++;
+    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) controls++;
     if (c < 0x80) continue;
     size_t follow = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : 0;
     size_t continued = 0;
@@ -88,7 +88,7 @@ bool isBinary(std::string_view text) {
     if (follow == 0 || continued < follow) bad++;
     i += continued;
   }
-  return controls > 0 && bad * 5 > head.size();
+  return controls > 0 && (bad + controls) * 5 > head.size();
 }
 
 FileKind kindOf(std::string_view path, std::string_view text) {

@@ -49,7 +49,8 @@ const char* defaultWord(SfcQualifier q) {
 
 class ChartText {
  public:
-  ChartText(const Tree& tree, const Names& names, const PouDecl& pou) : tree_(tree), names_(names), pou_(pou) {}
+  ChartText(const Tree& tree, const Names& names, const PouDecl& pou)
+      : tree_(tree), names_(names), pou_(pou), inline_actions_(tree, names, pou) {}
   StepText step(uint32_t index) const;
   std::vector<std::string> condition(uint32_t index) const;  // with the name, if it has one
   std::string priority(uint32_t index) const;
@@ -63,10 +64,11 @@ class ChartText {
   const Tree& tree_;
   const Names& names_;
   const PouDecl& pou_;
+  InlineActions inline_actions_;
 };
 
 std::vector<std::string> ChartText::linesOf(NameId action) const {
-  const PouDecl* own = inlineAction(tree_, names_, pou_, action);
+  const PouDecl* own = inline_actions_.find(action);
   if (own == nullptr || own->body_kind != BodyKind::St) return {std::string(names_.string(action))};
   return picture::linesOf(printSt(tree_, names_, own->body, 0, {}));
 }

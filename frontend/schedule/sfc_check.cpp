@@ -4,6 +4,7 @@
 // gets different regions over two paths is the target of a jump into or out of a parallel branch. Cost: one visit of
 // each transition.
 #include <algorithm>
+#include <unordered_set>
 #include <vector>
 
 #include "frontend/schedule/diagnostics.h"
@@ -47,7 +48,7 @@ class Checker {
   void checkSteps(Slice<Ident> list);
   void checkActions();
   void checkConditions();
-  bool usesCondition(const PouDecl& pou, NameId name) const;
+  void addUsedConditions(const PouDecl& pou, std::unordered_set<uint32_t>& used) const;
   void checkRegions();
   bool fire(const SfcTransition& t);
   bool unite(const SfcTransition& t, Region& region);
@@ -284,22 +285,22 @@ void Checker::checkRegions() {
       charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {string(steps_[i].name.name)});
 }
 
-// A transition of the chart, or of a chart in an action or method of the POU, takes its condition from the declaration
-// of this name.
-bool Checker::usesCondition(const PouDecl& pou, NameId name) const {
+// The names of the declarations from which the transitions of the chart, and of charts in actions and methods of the
+// POU, take their conditions: by key.
+void Checker::addUsedConditions(const PouDecl& pou, std::unordered_set<uint32_t>& used) const {
   for (const SfcTransition& t : charts_.tree.list(pou.transitions))
-    if (!t.from.empty() && !t.body && !t.condition.value && charts_.names.same(t.name.name, name)) return true;
+    if (!t.from.empty() && !t.body && !t.condition.value) used.insert(charts_.names.key(t.name.name).index);
   for (const DeclId member : charts_.tree.list(pou.members))
-    if (charts_.tree.kind(member) == DeclKind::Pou && usesCondition(charts_.tree.as<PouDecl>(member), name))
-      return true;
-  return false;
+    if (charts_.tree.kind(member) == DeclKind::Pou) addUsedConditions(charts_.tree.as<PouDecl>(member), used);
 }
 
 // Warns of a condition without steps that no transition uses.
 //   warns   TRANSITION t := go; END_TRANSITION                    W0747
 void Checker::checkConditions() {
+  std::unordered_set<uint32_t> used;
+  addUsedConditions(pou_, used);
   for (const SfcTransition& t : charts_.tree.list(pou_.transitions))
-    if (t.from.empty() && t.to.empty() && !usesCondition(pou_, t.name.name))
+    if (t.from.empty() && t.to.empty() && used.count(charts_.names.key(t.name.name).index) == 0)
       charts_.diagnostics.report(diag::SfcConditionUnused, t.name.loc, {string(t.name.name)});
 }
 

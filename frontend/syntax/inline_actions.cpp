@@ -9,11 +9,17 @@ bool isInlineAction(const Tree& tree, const Names& names, DeclId member) {
   return false;
 }
 
-const PouDecl* inlineAction(const Tree& tree, const Names& names, const PouDecl& chart, NameId name) {
-  for (const DeclId member : tree.list(chart.members))
-    if (isInlineAction(tree, names, member) && names.same(tree.as<PouDecl>(member).name, name))
-      return &tree.as<PouDecl>(member);
-  return nullptr;
+InlineActions::InlineActions(const Tree& tree, const Names& names, const PouDecl& chart) : names_(names) {
+  for (const DeclId member : tree.list(chart.members)) {
+    if (!isInlineAction(tree, names, member)) continue;
+    const PouDecl& action = tree.as<PouDecl>(member);
+    by_name_[names.key(action.name).index] = &action;
+  }
+}
+
+const PouDecl* InlineActions::find(NameId name) const {
+  const auto found = by_name_.find(names_.key(name).index);
+  return found == by_name_.end() ? nullptr : found->second;
 }
 
 }  // namespace rung

@@ -15,7 +15,6 @@ using types::TypeTable;
 
 namespace {
 
-bool isShift(Op op) { return op >= Op::Shl && op <= Op::Ror; }
 bool commutes(Op op) { return op == Op::Add || op == Op::Mul || op == Op::And || op == Op::Or || op == Op::Xor; }
 Op mirrored(Op op) {
   if (op == Op::Lt) return Op::Gt;
@@ -116,7 +115,7 @@ Operand BodyTranslator::unary(const Expr& e, const Operand* want) {
 Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   const auto [a, b, op] = e.as<BinaryExpr>();
   if (types::isComparison(op)) return comparison(e, want);
-  if (isShift(op)) return shift(e, want);
+  if (types::isShift(op)) return shift(e, want);
   if (op == Op::Power) return power(e, want);
   const Scalar type = scalarOf(a);
   const TypeKind kind = kindOf(a);

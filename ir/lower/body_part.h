@@ -24,6 +24,13 @@ class ValueLowering;
 class CallLowering;
 class ObjectLowering;
 
+// What variables of the module lie in.
+struct Root {
+  bool is_list;  // else a program
+  uint32_t index;
+  TypeId record;
+};
+
 // The body in work and what the parts know of it.
 struct BodyState {
   BodyState(ModuleLowering& in, Body& body, sema::PouId pou, BodyLowering& parts);
@@ -76,12 +83,14 @@ class BodyPart {
   ExprId field(ExprId base, uint32_t index, TypeId type, Loc loc);
   ExprId element(ExprId array, std::span<const ExprId> indices, Loc loc);  // without check
   ExprId self(Loc loc);
+  ExprId place(const Root& root, Loc loc);
   // The place of an object as what it extends.
   ExprId asBase(ExprId place, sema::PouId base, Loc loc);
   ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
   // An operation that the program has written: with --checks=overflow its result must fit. Not in libraries.
   ExprId arithmetic(ExprId operation);
   bool checksOverflow() const;
+  bool isLibraryCode() const { return pou_ && project_.pou(pou_).library; }
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);
   // Nothing where it has that type.

@@ -82,6 +82,11 @@ ExprId BodyPart::asBase(ExprId place, sema::PouId base, Loc loc) {
 
 ExprId BodyPart::self(Loc loc) { return add(loc, body_.self, SelfExpr{}); }
 
+ExprId BodyPart::place(const Root& root, Loc loc) {
+  return root.is_list ? add(loc, root.record, GlobalExpr{.list = root.index})
+                      : add(loc, root.record, ProgramExpr{.program = root.index});
+}
+
 ExprId BodyPart::unary(Op op, TypeId type, ExprId operand, Loc loc) {
   return add(loc, strip(type), UnaryExpr{.operand = operand, .op = op});
 }
@@ -90,49 +95,21 @@ ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) 
   type = strip(type);
   if (op == Op::Sar && !TypeTable::isSignedInteger(types_.plainKind(type))) op = Op::Shr;
   // iec: MOD by zero is 0, by the standard's definition of MOD.
-  const bool defined_for_0 = project_.dialect != Dialect::Codesys && !(pou_ && project_.pou(pou_).library);
+  const bool defined_for_0 = project_.dialect != Dialect::Codesys && !isLibraryCode();
   bool divides = op == Op::Div || (op == Op::Mod && !defined_for_0);
   bool checked = divides && !TypeTable::isReal(types_.plainKind(type));
   return add(loc, type, BinaryExpr{.left = left, .right = right, .op = op},
              static_cast<uint8_t>(checked ? in_.options.checks & kCheckDiv : 0));
 }
 
-bool BodyPart::checksOverflow() const {
-  return (in_.options.checks & kCheckOverflow) != 0 && !(pou_ && project_.pou(pou_).library);
-}
+bool BodyPart::checksOverflow() const { return (in_.options.checks & kCheckOverflow) != 0 && !isLibraryCode(); }
 
 ExprId BodyPart::arithmetic(ExprId operation) {
   Expr& e = body_.expr(operation);
   const TypeKind kind = types_.plainKind(e.type);
   const bool is_number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;
-  if (!checksOverflow() || !is_number || (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary)) return operation;
-  switch (e.op()) {
-    case Op::Add:
-    case Op::Sub:
-    case Op::Mul:
-    case Op::Div:
-    case Op::Power:
-    case Op::Neg:
-    case Op::Abs: e.checks |= kCheckOverflow; return operation;
-    case Op::Mod:
-    case Op::And:
-    case Op::Or:
-    case Op::Xor:
-    case Op::Not:
-    case Op::Shl:
-    case Op::Shr:
-    case Op::Sar:
-    case Op::Rol:
-    case Op::Ror:
-    case Op::Eq:
-    case Op::Ne:
-    case Op::Lt:
-    case Op::Le:
-    case Op::Gt:
-    case Op::Ge:
-    case Op::Min:
-    case Op::Max: return operation;
-  }
+  const bool is_operation = e.kind == ExprKind::Unary || e.kind == ExprKind::Binary;
+  if (checksOverflow() && is_number && is_operation && types::mayOverflow(e.op())) e.checks |= kCheckOverflow;
   return operation;
 }
 

@@ -46,61 +46,28 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   return created;
 }
 
-// {attribute 'no-exit'} before the variable.
-bool ModuleLowering::keepsFromExit(TypeId record, uint32_t field) const {
-  const sema::PouId pou = pouOfRecord(record);
-  const sema::ListId list = record.index < list_of_record_.size() ? list_of_record_[record.index] : sema::ListId{};
-  if (!pou && !list) return false;
-  for (const sema::VarId id : pou ? project.pou(pou).vars : project.global_lists[list.index].vars) {
-    const sema::Var& var = project.var(id);
-    if (var.pragmas.no_exit && var.field == field && var.storage != sema::Storage::Local) return true;
-  }
-  return false;
-}
-
 // A function without parameters that ends the objects of these lists and programs, the last first; none when there are
 // no such objects.
-BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists,
-                              std::span<const uint32_t> programs) {
-  struct End {
-    bool is_list;  // else a program
-    uint32_t index;
-    TypeId record;
-  };
-  std::vector<End> ends;
-  for (const uint32_t list : lists)
-    if (hasExit(module.lists[list].record)) ends.push_back({true, list, module.lists[list].record});
-  for (const uint32_t p : programs)
-    if (hasExit(module.programs[p].record)) ends.push_back({false, p, module.programs[p].record});
+BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const Root> roots) {
+  std::vector<Root> ends;
+  std::copy_if(roots.begin(), roots.end(), std::back_inserter(ends),
+               [&](const Root& root) { return hasExit(root.record); });
   if (ends.empty()) return {};
   const BodyId created = addHelper(name, {}, suffix);
   std::vector<BodyId> bodies;  // before the lowering begins: they create bodies
   bodies.reserve(ends.size());
-  for (const End& end : ends) bodies.push_back(exitOf(end.record));
+  for (const Root& end : ends) bodies.push_back(exitOf(end.record));
   Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});
-  for (size_t i = ends.size(); i-- > 0;) {
-    const ExprId place = ends[i].is_list
-                             ? lowering.code.add(body.loc, ends[i].record, GlobalExpr{.list = ends[i].index})
-                             : lowering.code.add(body.loc, ends[i].record, ProgramExpr{.program = ends[i].index});
-    lowering.code.append(body.loc, CallStmt{.callee = bodies[i], .self = place});
-  }
+  for (size_t i = ends.size(); i-- > 0;)
+    lowering.code.append(body.loc, CallStmt{.callee = bodies[i], .self = lowering.code.place(ends[i], body.loc)});
   lowering.finish();
   return created;
 }
 
 void ModuleLowering::addExit() {
-  std::vector<uint32_t> lists, programs;
-  for (uint32_t i = 0; i < module.lists.size(); ++i) lists.push_back(i);
-  for (uint32_t i = 0; i < module.programs.size(); ++i) {
-    if (!module.programs[i].is_test) {
-      programs.push_back(i);
-      continue;
-    }
-    const BodyId end = endsOf(module.programs[i].name, "~test", {}, {&i, 1});
-    module.programs[i].exit = end;
-  }
-  module.exit = endsOf(module.names.intern("FB_Exit"), "~", lists, programs);
+  addToTests(&ProgramInstance::exit, [&](NameId name, const Root& root) { return endsOf(name, "~test", {&root, 1}); });
+  module.exit = endsOf(module.names.intern("FB_Exit"), "~", roots());
 }
 
 void ObjectLowering::lowerExit(ExprId place, TypeId record) {
@@ -122,7 +89,7 @@ void ObjectLowering::exitParts(ExprId place, TypeId record) {
   const auto count = static_cast<uint32_t>(types_.info(record).fields.size());
   for (uint32_t i = count; i-- > 0;) {
     const types::Field held = types_.info(record).fields[i];
-    if (held.by_reference || !in_.hasExit(held.type) || in_.keepsFromExit(record, i)) continue;
+    if (held.by_reference || !in_.hasExit(held.type) || in_.isKeptFromExit(record, i)) continue;
     const TypeId type = strip(held.type);
     const ExprId part = field(copy(place), i, type, loc);
     if (held.role == types::FieldRole::Base) {

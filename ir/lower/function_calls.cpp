@@ -290,7 +290,7 @@ ExprId CallLowering::emitFunctionCall(FunctionCall& plan, ExprId object, ExprId 
                             .is_checked = plan.call.is_virtual && in_.checksCasts()});
   for (const FunctionCall::Output& output : plan.outputs)
     storeOutput(output.target, output.value, output.negated, plan.loc);
-  if (plan.pou.pragmas.faults && !(pou_ && project_.pou(pou_).library)) faultUnlessZero(result, plan.loc);
+  if (plan.pou.pragmas.faults && !isLibraryCode()) faultUnlessZero(result, plan.loc);
   return result && plan.wanted == nullptr ? copy(result) : ExprId{};
 }
 

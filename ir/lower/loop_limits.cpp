@@ -15,6 +15,8 @@ namespace rung::ir {
 
 namespace {
 
+constexpr size_t kMostCallees = 200;  // looked at for one loop; with more, it may have changed
+
 // A place as a chain of fields.
 struct Chain {
   ExprKind root = ExprKind::None;
@@ -174,6 +176,7 @@ bool LoopLimits::mayChange(const VariableLimit& loop, ExprId end) {
     const BodyId callee = calls.back();
     calls.pop_back();
     if (!seen.insert(callee.index).second) continue;
+    if (seen.size() > kMostCallees) return true;
     const Effects& effects = effectsOf(callee);
     if (isChanged(effects)) return true;
     calls.insert(calls.end(), effects.calls.begin(), effects.calls.end());

@@ -46,7 +46,7 @@ struct ModuleLowering {
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
   // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
-  bool keepsFromExit(TypeId record, uint32_t field) const;
+  bool isKeptFromExit(TypeId record, uint32_t field) const;  // {attribute 'no-exit'}
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
   // after_init.cpp: whether a variable of the type is, or holds, an instance of the block.
@@ -82,17 +82,26 @@ struct ModuleLowering {
   void addPrograms();
   void addLists();
   void simplifyLimits();
-  bool isLastList(uint32_t list) const;
   void markFaulting();
   void addClasses();
   void fillKindTests();
   BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
-  BodyId endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists, std::span<const uint32_t> programs);
+  std::vector<Root> roots() const;  // the lists, then the programs but for tests
+  // The function that f(NameId, const Root&) makes for each test.
+  template <class F>
+  void addToTests(BodyId ProgramInstance::*function, F&& f) {
+    for (uint32_t i = 0; i < module.programs.size(); ++i) {
+      if (!module.programs[i].is_test) continue;
+      const BodyId made = f(module.programs[i].name, Root{false, i, module.programs[i].record});
+      module.programs[i].*function = made;
+    }
+  }
+  BodyId endsOf(NameId name, const char* suffix, std::span<const Root> roots);
   void addExit();
   void addDispatches();
   std::vector<sema::PouId> calledAfterGlobals() const;
-  BodyId afterInitOf(NameId name, const char* suffix, std::span<const sema::PouId> called,
-                     std::span<const uint32_t> lists, std::span<const uint32_t> programs, bool is_test);
+  BodyId afterInitOf(NameId name, const char* suffix, std::span<const sema::PouId> called, std::span<const Root> roots,
+                     bool is_test);
   void addAfterInit();
   void addTasks();
   void addActivations();
@@ -107,17 +116,19 @@ struct ModuleLowering {
   std::unordered_map<uint32_t, BodyId> init_of_;           // by record TypeId
   std::unordered_map<uint32_t, BodyId> exit_of_;           // by record TypeId
   std::unordered_map<uint32_t, bool> has_exit_;            // by record TypeId
+  std::unordered_map<uint64_t, bool> holds_;               // by record TypeId and PouId
   std::unordered_set<uint32_t> record_seen_;               // by TypeId
   std::unordered_map<uint32_t, uint32_t> record_of_type_;  // by TypeId: indices of module.records
   std::vector<TypeId> to_declare_;
   bool is_declaring_ = false;
-  std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
-  std::unordered_map<uint64_t, const sema::Var*> constructed_;  // by record and field
-  std::vector<sema::PouId> pou_of_record_;                      // by TypeId
-  std::vector<sema::ListId> list_of_record_;                    // by TypeId
-  std::vector<uint32_t> list_index;                             // by ListId
-  std::vector<uint32_t> program_of_instance_;                   // by sema instance: index in Module::programs + 1
-  std::unordered_map<uint32_t, uint32_t> instance_of_;          // by PouId: index in Module::programs
+  std::unordered_map<uint32_t, bool> zero_;                // by TypeId
+  std::unordered_map<uint64_t, const sema::Var*> marked_;  // by record and field: constructed, or kept from exit
+  std::vector<sema::PouId> pou_of_record_;                 // by TypeId
+  std::vector<sema::ListId> list_of_record_;               // by TypeId
+  std::vector<uint32_t> list_index;                        // by ListId
+  uint32_t last_list_ = 0;                                 // index in Module::lists: initialised after the others
+  std::vector<uint32_t> program_of_instance_;              // by sema instance: index in Module::programs + 1
+  std::unordered_map<uint32_t, uint32_t> instance_of_;     // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
   size_t next_to_lower_ = 0;

@@ -27,11 +27,11 @@ ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& wi
 
 void ModuleLowering::run() {
   for (const sema::Var& var : project.vars) {
-    if (!var.start.constructor.index || var.storage == sema::Storage::Local) continue;
+    if ((!var.start.constructor.index && !var.pragmas.no_exit) || var.storage == sema::Storage::Local) continue;
     const TypeId record = var.list  ? project.global_lists[var.list.index].record
                           : var.pou ? project.pou(var.pou).record
                                     : var.record;
-    constructed_[uint64_t{record.index} << 32 | var.field] = &var;
+    marked_[uint64_t{record.index} << 32 | var.field] = &var;
   }
   addLists();
   addPrograms();
@@ -353,19 +353,11 @@ bool ModuleLowering::isZero(TypeId declared) {
   return result;
 }
 
-// No list is initialised after this one.
-bool ModuleLowering::isLastList(uint32_t list) const {
-  for (uint32_t i = 0; i < module.lists.size(); ++i)
-    if (module.lists[i].slot > module.lists[list].slot || (module.lists[i].slot == module.lists[list].slot && i > list))
-      return false;
-  return true;
-}
-
 BodyId ModuleLowering::initOf(TypeId type) {
   auto known = init_of_.find(type.index);
   if (known != init_of_.end()) return known->second;
   const sema::ListId of_list = list_of_record_[type.index];
-  const bool sets_late = of_list && !project.late.empty() && isLastList(list_index[of_list.index]);
+  const bool sets_late = of_list && !project.late.empty() && list_index[of_list.index] == last_list_;
   if (isZero(type) && !sets_late) return init_of_[type.index] = {};
   module.bodies.emplace_back();
   BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
@@ -450,7 +442,16 @@ void ModuleLowering::addLists() {
     list_index[index] = static_cast<uint32_t>(module.lists.size());
     declareRecordsOf(list.record);
     module.lists.push_back({list.name, list.record, {}, list.init_slot});
+    if (list.init_slot >= module.lists[last_list_].slot) last_list_ = list_index[index];
   }
+}
+
+std::vector<Root> ModuleLowering::roots() const {
+  std::vector<Root> all;
+  for (uint32_t i = 0; i < module.lists.size(); ++i) all.push_back({true, i, module.lists[i].record});
+  for (uint32_t i = 0; i < module.programs.size(); ++i)
+    if (!module.programs[i].is_test) all.push_back({false, i, module.programs[i].record});
+  return all;
 }
 
 void ModuleLowering::addNames() {

@@ -40,8 +40,13 @@ std::vector<sema::PouId> ModuleLowering::calledAfterInit(sema::PouId object) con
 }
 
 const sema::Var* ModuleLowering::constructedVar(TypeId record, uint32_t field) const {
-  auto found = constructed_.find(uint64_t{record.index} << 32 | field);
-  return found == constructed_.end() ? nullptr : found->second;
+  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
+  return found != marked_.end() && found->second->start.constructor.index != 0 ? found->second : nullptr;
+}
+
+bool ModuleLowering::isKeptFromExit(TypeId record, uint32_t field) const {
+  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
+  return found != marked_.end() && found->second->pragmas.no_exit;
 }
 
 // Numbers the objects that have a type id: each line of descent in one run, in the order of their names.

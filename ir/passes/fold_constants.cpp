@@ -198,8 +198,7 @@ class Folder {
   }
 
   void leftIdentity(Expr& e, const BinaryExpr& node, uint64_t a, TypeKind kind) {
-    const bool moves = node.op >= Op::Shl && node.op <= Op::Ror;
-    if (moves && a == 0)
+    if (types::isShift(node.op) && a == 0)
       absorb(e, node.right, 0);
     else
       eitherIdentity(e, node.op, node.right, a, kind);

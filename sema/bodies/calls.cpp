@@ -151,12 +151,8 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     if (extendsStructure(context, actual, pin)) return true;
   }
   if (!context.iec()) {
-    // The variable of an enumeration is one of its base type; a number without sign has the bits of a bit string.
-    const TypeKind bits = types::TypeTable::isBits(wanted.kind) ? wanted.kind : given.kind;
-    const TypeKind number = types::TypeTable::isBits(wanted.kind) ? given.kind : wanted.kind;
-    if (types::TypeTable::isBits(bits) && bits != TypeKind::Bool && types::TypeTable::isUnsignedInteger(number) &&
-        wanted.size == given.size)
-      return true;
+    if (types::TypeTable::haveSameBits(wanted.kind, given.kind)) return true;
+    // The variable of an enumeration is one of its base type.
     if (given.kind == TypeKind::Enum && table.resolve(given.base) == table.resolve(pin)) return true;
   }
   if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;

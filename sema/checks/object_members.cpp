@@ -132,20 +132,6 @@ void checkPrototypes(Context& context, PouId interface) {
   }
 }
 
-// Forbids inputs of a method that is called after the initialization of its object: nothing gives them values.
-// CODESYS, "Attribute: call_after_init".
-//   fails   {attribute 'call_after_init'} METHOD Prepare VAR_INPUT x : INT; END_VAR …        E0649
-void checkCalledAfterInit(Context& context, PouId id) {
-  const Pou& method = context.symbols.pou(id);
-  if (!method.pragmas.call_after_init) return;
-  for (const VarId pin : pinsOf(context, id)) {
-    const Var& var = context.symbols.var(pin);
-    if (var.section == SectionKind::Output) continue;
-    context.report(diag::InputAfterInit, var.loc, {string(context, var.name), string(context, method.name)});
-    return;
-  }
-}
-
 void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.symbols.pou(id);
   const Pou& owner = context.symbols.pou(object);
@@ -159,7 +145,6 @@ void checkMethod(Context& context, PouId object, PouId id) {
     if (first.entityKind() == EntityKind::Var)
       return reportTwice(context, method.name, method.loc, context.symbols.vars[first.index].loc);
   }
-  checkCalledAfterInit(context, id);
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.object.modifiers & kOverride) != 0)
@@ -168,7 +153,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   }
   const Pou& other = context.symbols.pou(replaced);
   const std::string_view base = string(context, context.symbols.pou(other.owner).name);
-  const bool needs_override = context.iec() && context.symbols.dialect == Dialect::Iec3;  // edition 2 lacks the word
+  const bool needs_override = context.symbols.dialect == Dialect::Iec3;  // edition 2 lacks the word
   if ((other.object.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {

@@ -130,10 +130,11 @@ void resolveConnection(Context& context, PouId block, VarId id, const Pragma& pr
   }
 }
 
-// Forbids inputs of what is called after the initialization: nothing gives them values.
-//   fails   {attribute 'call_after_global_init_slot' := '1'} FUNCTION F : BOOL VAR_INPUT x : INT; END_VAR …  E0649
-void checkCalledAfterGlobals(Context& context, const Pou& pou) {
-  if (!pou.pragmas.after_globals || pou.kind == PouKind::Program) return;
+// Forbids inputs of what is called after the initialization, of its object or of all: nothing gives them values.
+//   fails   {attribute 'call_after_init'} METHOD Prepare VAR_INPUT x : INT; END_VAR …        E0649
+void checkCalledAfterInit(Context& context, const Pou& pou) {
+  const bool after_init = pou.pragmas.call_after_init && pou.kind == PouKind::Method;
+  if (!after_init && (!pou.pragmas.after_globals || pou.kind == PouKind::Program)) return;
   for (const VarId id : pou.vars) {
     const Var& var = context.symbols.var(id);
     if (var.section != SectionKind::Input && var.section != SectionKind::InOut) continue;
@@ -145,7 +146,7 @@ void checkCalledAfterGlobals(Context& context, const Pou& pou) {
 }  // namespace
 
 void checkAttributesOf(Context& context, PouId id) {
-  checkCalledAfterGlobals(context, context.symbols.pou(id));
+  checkCalledAfterInit(context, context.symbols.pou(id));
   if (context.symbols.pou(id).kind != PouKind::FunctionBlock) return;
   const Known& known = context.scopes.known_names;
   for (const VarId var_id : std::vector(context.symbols.pou(id).vars)) {

@@ -359,46 +359,52 @@ void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* ba
   }
 }
 
+// A list of the project or of a library among the sources. A library that has a list of the same name as others keeps
+// it in its namespace.
+void collectProjectGlobals(Context& context, DeclId decl, FileId file) {
+  const Loc loc = context.tree().loc(decl);
+  const std::string name = listOfSection(context, context.tree().as<SectionDecl>(decl), file);
+  const uint32_t library = libraryOfSource(context, file);
+  const NameId key = keyOf(context, context.names().intern(name));
+  const Entity known = context.scopes.qualifiers.find(key);
+  const bool is_taken = library != kNoLibrary && known.entityKind() == EntityKind::GlobalList &&
+                        libraryOfSource(context, context.scopes.lists[known.index].file) != library;
+  if (!is_taken) {
+    const ListId list = listNamed(context, name, file, loc, context.scopes.qualifiers);
+    return addGlobals(context, list, decl, context.scopes.globals);
+  }
+  Namespace& own = context.scopes.libraries.list[library];
+  if (const Entity mine = own.names.find(key); mine.entityKind() == EntityKind::GlobalList)
+    return addGlobals(context, ListId{mine.index}, decl, own.globals);
+  NameMap ignored;
+  const ListId list = listNamed(context, toString(context, own.name) + "_" + name, file, loc, ignored);
+  own.names.insert(key, Entity::of(EntityKind::GlobalList, list.index));
+  addGlobals(context, list, decl, own.globals);
+}
+
+void collectSection(Context& context, DeclId decl, FileId file, uint32_t library) {
+  const Loc loc = context.tree().loc(decl);
+  const SectionKind section = context.tree().as<SectionDecl>(decl).section;
+  if (section == SectionKind::Config) return;                                 // instance_paths.cpp
+  if (section == SectionKind::Access) return;                                 // access_paths.cpp
+  if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
+    const ListId list = listNamed(context, toString(context, space->name), file, loc, context.scopes.qualifiers);
+    return addGlobals(context, list, decl, space->globals);
+  }
+  if (library == kNoLibrary) return collectProjectGlobals(context, decl, file);
+  Namespace& from = context.scopes.libraries.list[library];
+  std::string name = toString(context, from.name) + "_" + listNameOf(context.symbols.sources.path(file));
+  if (context.symbols.global_lists.size() > 1) name += "_" + std::to_string(declarationNumber(context, file, loc));
+  const ListId list = listNamed(context, name, file, loc, from.names);
+  context.scopes.named(context.symbols.global_lists[list.index].record)->library = true;
+  addGlobals(context, list, decl, from.names);
+}
+
 void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
   switch (context.tree().kind(decl)) {
     case DeclKind::Pou: return collectPou(context, decl, file, library);
     case DeclKind::Type: return collectType(context, decl, file, library);
-    case DeclKind::Section: {
-      const Loc loc = context.tree().loc(decl);
-      const SectionKind section = context.tree().as<SectionDecl>(decl).section;
-      if (section == SectionKind::Config) return;  // instance_paths.cpp
-      if (section == SectionKind::Access) return;  // access_paths.cpp
-      const std::string stem = listNameOf(context.symbols.sources.path(file));
-      if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
-        const ListId list = listNamed(context, toString(context, space->name), file, loc, context.scopes.qualifiers);
-        return addGlobals(context, list, decl, space->globals);
-      }
-      if (library == kNoLibrary) {
-        const std::string name = listOfSection(context, context.tree().as<SectionDecl>(decl), file);
-        const uint32_t of = libraryOfSource(context, file);
-        const NameId key = keyOf(context, context.names().intern(name));
-        const Entity known = context.scopes.qualifiers.find(key);
-        const bool others = of != kNoLibrary && known.entityKind() == EntityKind::GlobalList &&
-                            libraryOfSource(context, context.scopes.lists[known.index].file) != of;
-        if (!others) {
-          const ListId list = listNamed(context, name, file, loc, context.scopes.qualifiers);
-          return addGlobals(context, list, decl, context.scopes.globals);
-        }
-        Namespace& own = context.scopes.libraries.list[of];  // a list of this name that others have too
-        if (const Entity mine = own.names.find(key); mine.entityKind() == EntityKind::GlobalList)
-          return addGlobals(context, ListId{mine.index}, decl, own.globals);
-        NameMap ignored;
-        const ListId list = listNamed(context, toString(context, own.name) + "_" + name, file, loc, ignored);
-        own.names.insert(key, Entity::of(EntityKind::GlobalList, list.index));
-        return addGlobals(context, list, decl, own.globals);
-      }
-      Namespace& from = context.scopes.libraries.list[library];
-      std::string name = toString(context, from.name) + "_" + stem;
-      if (context.symbols.global_lists.size() > 1) name += "_" + std::to_string(declarationNumber(context, file, loc));
-      const ListId list = listNamed(context, name, file, loc, from.names);
-      context.scopes.named(context.symbols.global_lists[list.index].record)->library = true;
-      return addGlobals(context, list, decl, from.names);
-    }
+    case DeclKind::Section: return collectSection(context, decl, file, library);
     case DeclKind::Configuration:  // collectConfigurations
     case DeclKind::Resource:
     case DeclKind::Task:

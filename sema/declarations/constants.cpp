@@ -125,7 +125,7 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   const TypeTable& table = context.types();
   if (!isOperand(table, left.type) || !isOperand(table, right.type)) return std::nullopt;
   const TypeKind a = table.plainKind(left.type), b = table.plainKind(right.type);
-  const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Sar || op == Op::Rol || op == Op::Ror;
+  const bool is_shift = types::isShift(op);
   if (a != b && !is_shift && op != Op::Power) {  // an untyped operand takes the type of the other
     if (isUntypedLiteral(a) && b != TypeKind::IntegerLiteral) {
       left = types::convert(table, left, right.type).value;

@@ -312,6 +312,8 @@ bool findOp(std::string_view word, Op& op) {
   return false;
 }
 bool isComparison(Op op) { return op >= Op::Eq && op <= Op::Ge; }
+bool isShift(Op op) { return op >= Op::Shl && op <= Op::Ror; }
+bool mayOverflow(Op op) { return (op <= Op::Neg && op != Op::Mod) || op == Op::Abs; }
 
 const char* word(Fault fault) {
   switch (fault) {

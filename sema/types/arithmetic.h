@@ -19,6 +19,8 @@ int operandCount(Op op);
 // The operator with this keyword; false when there is none.
 bool findOp(std::string_view word, Op& op);
 bool isComparison(Op op);
+bool isShift(Op op);      // rotations too
+bool mayOverflow(Op op);  // of operands that are not zero divisors
 
 // A scalar or a string. Integers, BOOL, bit strings, times, dates, enumerations: sign- or zero-extended to 64 bits.
 // REAL and LREAL: the bits of a double (a REAL's value is exact in it). Strings: the NameId of the exact characters

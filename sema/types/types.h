@@ -217,6 +217,10 @@ class TypeTable {
   static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
   static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
   static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
+  // UINT and WORD: a number without sign and a bit string of one width.
+  static bool haveSameBits(TypeKind a, TypeKind b) {
+    return ((isUnsignedInteger(a) && isBits(b)) || (isBits(a) && isUnsignedInteger(b))) && bitWidth(a) == bitWidth(b);
+  }
   static bool isNumber(TypeKind k) { return isInteger(k) || isBits(k) || isReal(k); }
   static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }
   static bool isDuration(TypeKind k) { return k == TypeKind::Time || k == TypeKind::LTime; }

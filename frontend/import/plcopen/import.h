@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -25,11 +26,12 @@ struct Import : Reading {
   std::vector<std::string_view> beremiz_names = {};
   // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.
   std::vector<std::pair<std::string, const xml::Element*>> initialisers = {};
+  std::unordered_map<std::string, const xml::Element*> data_types = {};  // by name in upper case: the first of each
   std::unordered_set<const xml::Element*> left_out = {};  // resources that repeat the names of an earlier one
 
-  // For the current POU: the steps of its charts and the actions with the name of one, in upper case, and the actions
-  // that its charts cannot write in a step.
-  std::unordered_set<std::string> step_names = {}, renamed_actions = {};
+  // For the current POU: its actions, the steps of its charts and the actions with the name of one, in upper case, and
+  // the actions that its charts cannot write in a step.
+  std::unordered_set<std::string> action_names = {}, step_names = {}, renamed_actions = {};
   std::vector<OwnAction> own_actions = {};
   uint32_t own_action_count = 0;
 

@@ -27,6 +27,7 @@ class PlcopenReader {
   }
   const xml::Element* resourceOf(const xml::Element& element) const;
   void findBeremizNames();
+  void findDataTypes();
   void findInitialisers();
   void excludeApplications();
   void addLibraries(const xml::Element& libraries);
@@ -75,6 +76,11 @@ void PlcopenReader::findBeremizNames() {
     if (is_rung) return names.clear();
     if (e.name == "pou" || e.name == "dataType") std::erase(names, upper(import_.document.value(e, "name")));
   }
+}
+
+void PlcopenReader::findDataTypes() {
+  for (const xml::Element& e : import_.document.elements)
+    if (e.name == "dataType") import_.data_types.emplace(upper(import_.document.value(e, "name")), &e);
 }
 
 void PlcopenReader::findInitialisers() {
@@ -201,6 +207,7 @@ void PlcopenReader::run() {
   const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
   import_.unquoted_strings = space == nullptr || !space->raw.ends_with("0200");
   findBeremizNames();
+  findDataTypes();
   findInitialisers();
   excludeApplications();
   forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {

@@ -158,6 +158,7 @@ const xml::Element* cfcOf(const Import& import, const xml::Element& body) {
 
 // The steps of all charts of a POU.
 void findSteps(Import& import, const xml::Element& pou) {
+  import.action_names.clear();
   import.step_names.clear();
   import.renamed_actions.clear();
   const auto find = [&](auto& self, const xml::Element& owner) -> void {
@@ -171,8 +172,11 @@ void findSteps(Import& import, const xml::Element& pou) {
   find(find, pou);
   const xml::Element* actions = import.document.child(pou, "actions");
   for (const xml::Element& e : import.document.children(actions)) find(find, e);
-  for (const xml::Element& e : import.document.children(actions))
-    if (import.isStepName(nameOf(import, e))) import.renamed_actions.insert(upper(nameOf(import, e)));
+  for (const xml::Element& e : import.document.children(actions)) {
+    const std::string name = upper(nameOf(import, e));
+    import.action_names.insert(name);
+    if (import.step_names.count(name) != 0) import.renamed_actions.insert(name);
+  }
 }
 
 }  // namespace

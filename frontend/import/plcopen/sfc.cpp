@@ -42,14 +42,9 @@ void Chart::readTime(const xml::Element& action, StepAction& out) {
 
 // A file that Rung wrote may have an action of such a name.
 std::string Chart::newActionNumber() {
-  const auto isTaken = [&](const std::string& number) {
-    for (const xml::Element& action : document_.children(document_.child(pou_, "actions")))
-      if (sameIdentifier(document_.value(action, "name"), "sfc_action_" + number)) return true;
-    return false;
-  };
   std::string number;
   do number = std::to_string(++import_.own_action_count);
-  while (isTaken(number));
+  while (import_.action_names.count("SFC_ACTION_" + number) != 0);
   return number;
 }
 

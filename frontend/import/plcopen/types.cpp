@@ -63,12 +63,9 @@ std::string_view stringKind(const Import& import, const xml::Element* type) {
     if (type->name != "derived") return {};
     const std::string name = import.document.value(*type, "name");
     if (sameIdentifier(name, "HMI_STRING")) return "STRING";
-    const auto declares = [&](const xml::Element& e) {
-      return e.name == "dataType" && sameIdentifier(import.document.value(e, "name"), name);
-    };
-    const auto& all = import.document.elements;
-    const auto found = std::find_if(all.begin(), all.end(), declares);
-    const xml::Element* base = found == all.end() ? nullptr : import.document.child(*found, "baseType");
+    const auto found = import.data_types.find(upper(name));
+    const xml::Element* base =
+        found == import.data_types.end() ? nullptr : import.document.child(*found->second, "baseType");
     type = base == nullptr ? nullptr : typeIn(import, *base);
   }
   return {};
