@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 5u
+#define RUNG_MODULE_ABI 6u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -245,6 +245,8 @@ typedef struct rung_host {
   /* Lets other tasks run while this one waits for a MUTEX or SEMA; returns 0 when they cannot, or the program ends.
    * Default (null): 0. */
   int (*wait)(void* data);
+  /* The name of the machine. Default (null): unknown. */
+  const char* name;
 } rung_host;
 
 struct rung_context {
