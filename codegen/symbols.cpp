@@ -10,14 +10,14 @@ namespace rung::codegen {
 namespace {
 
 constexpr uint32_t kFormat = 1;
-constexpr const char* kTypeKinds[] = {
+constexpr const char* kTypeWords[] = {
     "bool",  "byte",  "word",  "dword", "lword",  "sint",    "int",     "dint",  "lint",  "usint",  "uint",
     "udint", "ulint", "real",  "lreal", "time",   "ltime",   "date",    "ldate", "tod",   "ltod",   "dt",
     "ldt",   "char",  "wchar", "uchar", "string", "wstring", "ustring", "enum",  "array", "record", "pointer"};
-static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
-constexpr const char* kOwners[] = {"input", "output", "memory"};
-constexpr const char* kTaskKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
-static_assert(std::size(kTaskKinds) == RUNG_EXTERNAL + 1);
+static_assert(std::size(kTypeWords) == RUNG_POINTER + 1);
+constexpr const char* kOwnerWords[] = {"input", "output", "memory"};
+constexpr const char* kTaskWords[] = {"cyclic", "freewheeling", "event", "status", "external"};
+static_assert(std::size(kTaskWords) == RUNG_EXTERNAL + 1);
 
 // One object: `{"name": "Main", "size": 24}`.
 class Object {
@@ -38,9 +38,9 @@ class Object {
   std::string out_ = "{";
 };
 
-class Writer {
+class SymbolWriter {
  public:
-  explicit Writer(const ir::Description& is) : is_(is) {}
+  explicit SymbolWriter(const ir::Description& is) : is_(is) {}
 
   std::string write(std::string_view module_name, uint32_t pointer_size) {
     Object versions;
@@ -53,7 +53,7 @@ class Writer {
       return Object().text("name", name(row.name)).number("size", row.size).number("align", row.align).end();
     });
     list(out, "areas", is_.areas, [&](const rung_area& row) {
-      return Object().text("name", name(row.name)).text("owner", kOwners[row.owner]).number("size", row.size).end();
+      return Object().text("name", name(row.name)).text("owner", kOwnerWords[row.owner]).number("size", row.size).end();
     });
     list(out, "tasks", is_.tasks, [&](const rung_task& row) { return task(row); });
     list(out, "symbols", is_.symbols, [&](const rung_symbol& row) { return symbol(row); });
@@ -94,7 +94,7 @@ class Writer {
 
   std::string task(const rung_task& row) const {
     Object out;
-    out.text("name", name(row.name)).text("kind", kTaskKinds[row.kind]).number("priority", row.priority);
+    out.text("name", name(row.name)).text("kind", kTaskWords[row.kind]).number("priority", row.priority);
     if (row.kind == RUNG_CYCLIC) out.number("interval_ns", row.interval_ns);
     if (row.kind == RUNG_EVENT || row.kind == RUNG_STATUS) out.text("trigger", name(row.trigger));
     if (row.kind == RUNG_EXTERNAL) out.text("event", name(row.external_event));
@@ -124,7 +124,7 @@ class Writer {
     return out.end();
   }
 
-  // `%QX0.1`, `%IW4`, and `%MB12` where the address is no multiple of the size.
+  // `%QX0.1`, `%IW4`, and `%MB12` where the offset is not a multiple of the size.
   std::string address(const rung_symbol& row, const rung_type& type) const {
     std::string out(name(is_.areas[row.index].prefix));
     if (row.bit != 255) return out + 'X' + std::to_string(row.offset) + '.' + std::to_string(row.bit);
@@ -147,7 +147,7 @@ class Writer {
 
   std::string type(const rung_type& row) const {
     Object out;
-    out.text("name", name(row.name)).text("kind", kTypeKinds[row.kind]).number("size", row.size);
+    out.text("name", name(row.name)).text("kind", kTypeWords[row.kind]).number("size", row.size);
     switch (static_cast<rung_type_kind>(row.kind)) {
       case RUNG_TIME:
       case RUNG_LTIME: out.flag("signed", row.is_signed != 0); break;
@@ -207,7 +207,7 @@ class Writer {
 }  // namespace
 
 std::string symbolFile(const ir::Description& description, std::string_view module_name, uint32_t pointer_size) {
-  return Writer(description).write(module_name, pointer_size);
+  return SymbolWriter(description).write(module_name, pointer_size);
 }
 
 }  // namespace rung::codegen

@@ -1,5 +1,6 @@
 // The symbol file: where each variable lies, as JSON, for monitors, HMIs and other tools that do not link the module.
-// In: the description of a module. Out: one object, a row per line; docs/embedding.md describes it. Called by module.cpp.
+// In: the description of a module. Out: one object, a row per line; docs/embedding.md describes it. Called by
+// module.cpp.
 #pragma once
 
 #include <cstdint>

@@ -300,7 +300,7 @@ class Text {
   uint32_t length_ = 0;
 };
 
-// d.ddd: digits with a point behind the first, where any follow or `has_point` wants it.
+// d.ddd: digits with a point after the first, where any follow or `has_point` wants it.
 void putScientific(Text& to, const char* digits, int count, int exponent, bool has_point) {
   to.put(digits[0]);
   if (count > 1 || has_point) to.put('.');
@@ -308,7 +308,7 @@ void putScientific(Text& to, const char* digits, int count, int exponent, bool h
   to.exponent(exponent);
 }
 
-// The digits as a number with `places` digits behind the point; fewer digits get zeros in front.
+// The digits as a number with `places` digits after the point; fewer digits get zeros in front.
 void putFixed(Text& to, const char* digits, int count, int places, bool has_point) {
   if (count <= places) {
     to.put('0');
@@ -321,7 +321,7 @@ void putFixed(Text& to, const char* digits, int count, int places, bool has_poin
   to.put(digits + count - places, places);
 }
 
-// The digits of the value in scientific notation with `precision` digits behind the point; sets the exponent.
+// The digits of the value in scientific notation with `precision` digits after the point; sets the exponent.
 void scientificDigits(const Binary& value, int precision, char* digits, int& exponent) {
   if (value.significand == 0) {
     exponent = 0;
