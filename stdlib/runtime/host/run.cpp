@@ -100,6 +100,7 @@ struct Run {
   Files files;
   std::optional<Retain> retain;
   rung_host host{};
+  char machine_name[256] = {};
   std::vector<std::string> reported;  // locations of violated assertions
   std::mutex reported_mutex;          // tasks in real time are threads
   int64_t cycles = 0;
@@ -140,6 +141,7 @@ int Run::prepare() {
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
   host.message = onMessage;
+  if (gethostname(machine_name, sizeof machine_name - 1) == 0) host.name = machine_name;
   files.serve(host);
   host.assertion = onAssertion;
   context.host = &host;

@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 6u
+#define RUNG_MODULE_ABI 7u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -252,6 +252,8 @@ typedef struct rung_host {
   /* Lets other tasks run while this one waits for a MUTEX or SEMA; returns 0 when they cannot, or the program ends.
    * Default (null): 0. */
   int (*wait)(void* data);
+  /* The name of the machine. Default (null): unknown. */
+  const char* name;
 } rung_host;
 
 struct rung_context {
