@@ -19,6 +19,9 @@ struct EmitOptions {
   bool with_tests = false;  // `rung test`: entries of the tests instead of tasks
 };
 
+// What other tools read to find variables (codegen/symbols.h); all other files are for the C++ compiler.
+inline constexpr const char* kSymbolFile = "symbols.json";
+
 struct OutputFile {
   std::string path;
   std::string content;

@@ -2,7 +2,6 @@
 // kind of fault, details in ctx->fault. Called by hosts for each activation, and by checks of generated code.
 // Nothing with a destructor may live across a call into generated code.
 #include <setjmp.h>
-#include <stdlib.h>
 
 #include "rung/code.h"
 
@@ -29,7 +28,8 @@ void rung_raise(rung_context* ctx, uint8_t kind, uint32_t site, int64_t value) {
   ctx->fault.kind = kind;
   ctx->fault.site = site;
   ctx->fault.value = value;
-  if (ctx->fault_target == nullptr) abort();  // the host called generated code without a guard: a bug of the host
+  if (ctx->fault_target == nullptr)
+    __builtin_trap();  // the host called generated code without a guard: a bug of the host
   longjmp(*static_cast<jmp_buf*>(ctx->fault_target), 1);
 }
 
