@@ -3,6 +3,7 @@
 // printer reads the results and decides nothing of this itself.
 #pragma once
 
+#include "codegen/appends.h"
 #include "codegen/counted_loops.h"
 #include "codegen/effort.h"
 #include "codegen/slices.h"
@@ -18,6 +19,7 @@ struct BodyAnalysis {
   MeasuredStrings measured;
   Slices slices;
   KnownLengths lengths;
+  Appends appends;
   Effort effort;
 };
 

@@ -31,7 +31,7 @@ void FunctionWriter::declareLocal(uint32_t number) {
     return;
   }
   if (is_result ? local.by_reference : use.weight == 0 && !use.written) return;
-  if (analysis_->slices.has(number)) return;
+  if (analysis_->slices.has(number) || analysis_->appends.has(number)) return;
   std::string name;
   variable(name, local);
   declarations_ += ' ';

@@ -149,6 +149,7 @@ class CallWriter : public BodyPart {
   CallPlan planCall(const ir::CallStmt& stmt) const;
   bool writesInPlace(const ir::CallStmt& stmt) const;
   void sliceCall(const ir::CallStmt& stmt);
+  void appendText(const ir::CallStmt& make, ExprId to);
   void passArguments(const CallPlan& plan, CallText& text);
   void passCopy(const CallPlan::Argument& argument, CallText& text);
   void passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text);

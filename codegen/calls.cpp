@@ -64,11 +64,17 @@ bool CallWriter::writesInPlace(const ir::CallStmt& stmt) const {
 void CallWriter::callStatement(StmtId id) {
   const ir::CallStmt& stmt = body_->stmt(id).as<ir::CallStmt>();
   const Body& callee = module_.body(stmt.callee);
+  const StmtId appended_by = analysis_->appends.find(id);
+  if (appended_by == id) return;
   if (stmt.self) checks().prepare(stmt.self);
   for (const ExprId operand : body_->list(stmt.operands)) {
     if (operand) checks().prepare(operand);
   }
   if (stmt.result) checks().prepare(stmt.result);
+  if (appended_by) {
+    appendText(stmt, body_->stmt(appended_by).as<ir::CallStmt>().result);
+    return;
+  }
   const CallPlan plan = planCall(stmt);
   if (plan.form == CallPlan::Form::Slice) {
     sliceCall(stmt);
@@ -105,6 +111,21 @@ void CallWriter::callStatement(StmtId id) {
     out_ += ");";
   }
   out_ += text.after;
+}
+
+// line_n += rung_standard_TO_STRING__DINT(ctx, n, line + line_n, 80 - line_n);
+void CallWriter::appendText(const ir::CallStmt& make, ExprId to) {
+  const std::string length = captured([&] { strings().lengthName(to); });
+  call(make.callee);
+  out_ += length + " += " + ir::nativeName(module_, module_.body(make.callee)) + "(ctx, ";
+  for (const ExprId operand : body_->list(make.operands)) {
+    values().value(operand, Prec::Ternary);
+    out_ += ", ";
+  }
+  places().place(to);
+  out_ += " + " + length + ", ";
+  appendUnsigned(out_, capacityOf(expr(to).type));
+  out_ += "u - " + length + ");";
 }
 
 void CallWriter::sliceCall(const ir::CallStmt& stmt) {

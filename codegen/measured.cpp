@@ -10,7 +10,7 @@ namespace rung::codegen {
 void StringWriter::declareLengths() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = 0; i < variables.count(); ++i) {
-    if (!analysis_->measured.has(i)) continue;
+    if (!analysis_->measured.has(i) || analysis_->appends.has(i)) continue;
     std::string name;
     if (variables.isField(i)) {
       appendMangled(name, string(variables.field(i).name));

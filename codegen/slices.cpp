@@ -163,11 +163,67 @@ class Judge {
   bool changed_ = false;
 };
 
+// A temporary that one statement makes of a string and only the next one reads, before it writes anything: whatever
+// becomes of the string later, nothing has to be copied. `number := STRING_TO_DINT(LEFT(line, 4));`
+class PassingSlices {
+ public:
+  PassingSlices(const StringsOfBody& strings, Slices& slices)
+      : strings_(strings),
+        module_(strings.module),
+        body_(strings.body),
+        slices_(slices),
+        names_(countNames(module_, body_)) {}
+
+  void run() {
+    for (const Stmt& stmt : body_.stmts)
+      if (const auto* call = stmt.tryAs<ir::CallStmt>(); call != nullptr && stmt.next) tryCall(*call, stmt.next);
+  }
+
+ private:
+  void tryCall(const ir::CallStmt& call, StmtId next) {
+    const ir::Body& callee = module_.body(call.callee);
+    if (!callee.slice || !call.result || !strings_.isSizedCall(callee, call.operands, call.result)) return;
+    const uint32_t* temp = ir::localOf(body_.expr(call.result));
+    if (temp == nullptr || body_.locals[*temp].kind != LocalKind::Temp || names_[*temp] != 2) return;
+    const uint32_t variable = strings_.variables.stringAt(call.result);
+    if (!strings_.measured.has(variable) || slices_.has(variable)) return;
+    const Stmt& reader = body_.stmt(next);
+    const auto* assign = reader.tryAs<ir::AssignStmt>();
+    if (assign == nullptr || TypeTable::isString(module_.types.kind(body_.expr(assign->place).type))) return;
+    if (!isReadSized(assign->value, variable)) return;
+    slices_.is_slice.resize(strings_.variables.count());
+    slices_.is_slice[variable] = 1;
+  }
+  // Whether a sized function that gives no string reads it, somewhere in the expression.
+  bool isReadSized(ExprId id, uint32_t variable) const {
+    const Expr& e = body_.expr(id);
+    bool found = false;
+    if (const auto* call = e.tryAs<ir::CallExpr>()) {
+      const bool is_sized = !TypeTable::isString(module_.types.kind(e.type)) &&
+                            strings_.isSizedCall(module_.body(call->callee), call->operands, {});
+      if (is_sized)
+        for (const ExprId operand : body_.list(call->operands))
+          found = found || strings_.variables.stringAt(operand) == variable;
+    }
+    ir::forEachOperand(body_, e, [&](ExprId operand) { found = found || isReadSized(operand, variable); });
+    return found;
+  }
+
+  const StringsOfBody& strings_;
+  const ir::Module& module_;
+  const ir::Body& body_;
+  Slices& slices_;
+  std::vector<uint32_t> names_;  // by local
+};
+
 }  // namespace
 
 Slices analyzeSlices(const StringsOfBody& strings, const Facts& facts, const Uses& uses) {
-  if (!uses.has_slice_calls || uses.has_leaving_calls || !strings.measured.any) return {};
-  return Judge(strings, facts, uses).run();
+  Slices slices;
+  if (!strings.measured.any) return slices;
+  if (uses.has_slice_calls && !uses.has_leaving_calls) slices = Judge(strings, facts, uses).run();
+  PassingSlices(strings, slices).run();
+  return slices;
 }
 
 std::string Slices::toString(const Variables& variables) const {

@@ -8,6 +8,9 @@
 //     unchanging string that stay whole are copied: a store or two, and a single character stays in a register;
 //   - the body calls nothing that may fault or that the host may answer, so only its own code leaves it.
 // The sources of slices do not change, so slices may be written back in any order.
+//
+// Also a slice is a temporary that one statement makes and only the next one reads, by a function that takes a length.
+//
 // In: uses and measured strings of a body. Out: a flag for each variable. Called by analysis.cpp; written by
 // measured.cpp, strings.cpp and calls.cpp.
 //

@@ -187,4 +187,16 @@ std::string Uses::toString() const {
   return variables.lines(rows);
 }
 
+std::vector<uint32_t> countNames(const ir::Module& module, const ir::Body& body) {
+  std::vector<uint32_t> names(body.locals.size());
+  const auto count = [&](const auto& self, ExprId id) -> void {
+    if (const uint32_t* local = ir::localOf(body.expr(id))) ++names[*local];
+    ir::forEachOperand(body, body.expr(id), [&](ExprId operand) { self(self, operand); });
+  };
+  ir::forEachStmt(body, body.first, [&](ir::StmtId id) {
+    ir::forEachRoot(module, body, body.stmt(id), [&](ExprId root, ir::Use) { count(count, root); });
+  });
+  return names;
+}
+
 }  // namespace rung::codegen

@@ -30,6 +30,9 @@ struct Uses {
   std::string toString() const;
 };
 
+// By local: how many expressions of the body name it.
+std::vector<uint32_t> countNames(const ir::Module& module, const ir::Body& body);
+
 Uses analyzeUses(const ir::Module& module, const ir::Body& body, const Facts& facts);
 
 }  // namespace rung::codegen

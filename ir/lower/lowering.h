@@ -63,6 +63,7 @@ struct ModuleLowering {
   }
   uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
   bool isZero(TypeId type);  // initial value of a type: all bytes zero
+  bool beginsWithZeros(TypeId type, const types::TypeInfo& info);
 
   const sema::Project& project;
   const LowerOptions& options;

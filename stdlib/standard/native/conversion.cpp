@@ -93,6 +93,17 @@ T swapped(T value) {
   return value;
 }
 
+// rung_scalar_of_string for integers, without a call for a string of digits only.
+uint64_t integerOf(rung_type_kind kind, const char* in) {
+  const bool is_negative = *in == '-';
+  const char* const first = in + is_negative;
+  const char* at = first;
+  uint64_t value = 0;
+  while (*at >= '0' && *at <= '9') value = value * 10 + static_cast<uint64_t>(*at++ - '0');
+  if (*at != 0 || at == first) return rung_scalar_of_string(kind, in);
+  return is_negative ? 0 - value : value;
+}
+
 uint8_t isBcd(uint64_t bcd) {
   for (; bcd != 0; bcd >>= 4)
     if ((bcd & 15) > 9) return 0;
@@ -130,15 +141,14 @@ extern "C" {
     (void)ctx;                                                                                           \
     return stringOfUnicode(RUNG_##KIND, bits, out, capacity);                                            \
   }
-#define RUNG_OF_STRING(TYPE, KIND, T)                                    \
-  T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {      \
-    return Read<T>::from(rung_scalar_of_string(RUNG_##KIND, in));        \
-  }                                                                      \
-  T rung_standard_USTRING_TO_##TYPE(rung_context*, const char* in) {     \
-    return Read<T>::from(rung_scalar_of_string(RUNG_##KIND, in));        \
-  }                                                                      \
-  T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) { \
-    return Read<T>::from(rung_scalar_of_wstring(RUNG_##KIND, in));       \
+#define RUNG_OF_STRING(TYPE, KIND, T) RUNG_OF_STRING_BY(TYPE, KIND, T, rung_scalar_of_string)
+#define RUNG_OF_STRING_BY(TYPE, KIND, T, function)                                                                     \
+  T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) { return Read<T>::from(function(RUNG_##KIND, in)); } \
+  T rung_standard_USTRING_TO_##TYPE(rung_context*, const char* in) {                                                   \
+    return Read<T>::from(function(RUNG_##KIND, in));                                                                   \
+  }                                                                                                                    \
+  T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) {                                               \
+    return Read<T>::from(rung_scalar_of_wstring(RUNG_##KIND, in));                                                     \
   }
 #define RUNG_STRING_BOTH(TYPE, KIND, T)     \
   RUNG_STRING_OF(TYPE, KIND, T, bitsOf(in)) \
@@ -148,7 +158,7 @@ extern "C" {
     return stringOfInteger(in, out, capacity);                                                  \
   }                                                                                             \
   RUNG_WTEXT_OF(TYPE, TYPE, T, bitsOf(in))                                                      \
-  RUNG_OF_STRING(TYPE, TYPE, T)
+  RUNG_OF_STRING_BY(TYPE, TYPE, T, integerOf)
 RUNG_STRING_BOTH(BOOL, BOOL, uint8_t)
 RUNG_EACH_INTEGER(RUNG_INTEGER_BOTH)
 RUNG_STRING_BOTH(REAL, REAL, float)
@@ -181,6 +191,7 @@ RUNG_STRING_OF(UCHAR, UCHAR, uint32_t, bitsOf(in))
 #undef RUNG_STRING_BOTH
 #undef RUNG_WTEXT_OF
 #undef RUNG_STRING_OF
+#undef RUNG_OF_STRING_BY
 #undef RUNG_OF_STRING
 
 #define RUNG_TEXT_OF(TO, TO_CHAR, TYPE, FROM_CHAR, function)                                       \

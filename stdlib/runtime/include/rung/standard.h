@@ -142,4 +142,40 @@ static inline int16_t rung_standard_FIND__STRING_255_sized(const char* in1, uint
   return at == length1 ? 0 : at >= INT16_MAX ? INT16_MAX : (int16_t)(at + 1);
 }
 
+/* Numbers in decimal digits are read without a call; all others as text that ends with a NUL. */
+static inline bool rung_string_digits(const char* in, uint32_t length, uint64_t* number) {
+  const bool is_negative = length > 1 && *in == '-';
+  uint64_t value = 0;
+  if (length == 0) return false;
+  for (uint32_t i = is_negative; i < length; ++i) {
+    const uint8_t digit = (uint8_t)(in[i] - '0');
+    if (digit > 9) return false;
+    value = value * 10 + digit;
+  }
+  *number = is_negative ? 0 - value : value;
+  return true;
+}
+#define RUNG_SIZED_NUMBER(TYPE, T)                                                                   \
+  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);                    \
+  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) {          \
+    uint64_t number;                                                                                 \
+    char text[256];                                                                                  \
+    if (rung_string_digits(in, length, &number)) return (T)number;                                   \
+    rung_string_part(text, in, length < 255 ? length : 255);                                         \
+    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                            \
+  }
+RUNG_SIZED_NUMBER(BYTE, uint8_t)
+RUNG_SIZED_NUMBER(WORD, uint16_t)
+RUNG_SIZED_NUMBER(DWORD, uint32_t)
+RUNG_SIZED_NUMBER(LWORD, uint64_t)
+RUNG_SIZED_NUMBER(SINT, int8_t)
+RUNG_SIZED_NUMBER(INT, int16_t)
+RUNG_SIZED_NUMBER(DINT, int32_t)
+RUNG_SIZED_NUMBER(LINT, int64_t)
+RUNG_SIZED_NUMBER(USINT, uint8_t)
+RUNG_SIZED_NUMBER(UINT, uint16_t)
+RUNG_SIZED_NUMBER(UDINT, uint32_t)
+RUNG_SIZED_NUMBER(ULINT, uint64_t)
+#undef RUNG_SIZED_NUMBER
+
 #endif
