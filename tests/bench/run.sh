@@ -198,6 +198,8 @@ kernels() {
   measure_kernels tests/bench/kernels/kernels.st tests/bench/kernels/hand.cpp
   echo "-- routines of plant programs"
   measure_kernels tests/bench/routines/kernels.st tests/bench/routines/hand.cpp
+  echo "-- functions and blocks of libraries"
+  measure_kernels tests/bench/functions/kernels.st tests/bench/functions/hand.cpp
   echo "-- the same in a project whose code is in several files"
   { awk 'BEGIN { for (i = 100; i < 400; i++) print "FUNCTION Level" i " : DINT\nLevel" i " := " i ";\nEND_FUNCTION" }'
     cat tests/bench/routines/kernels.st; } >"$work/spread.st"
