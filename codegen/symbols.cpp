@@ -3,6 +3,7 @@
 
 #include <iterator>
 #include <span>
+#include <vector>
 
 #include "frontend/source/render.h"
 
@@ -56,7 +57,10 @@ class SymbolWriter {
       return Object().text("name", name(row.name)).text("owner", kOwnerWords[row.owner]).number("size", row.size).end();
     });
     list(out, "tasks", is_.tasks, [&](const rung_task& row) { return task(row); });
-    list(out, "symbols", is_.symbols, [&](const rung_symbol& row) { return symbol(row); });
+    std::vector<rung_symbol> symbols;
+    for (const rung_symbol& row : is_.symbols)
+      if (!isHidden(row.flags)) symbols.push_back(row);
+    list(out, "symbols", symbols, [&](const rung_symbol& row) { return symbol(row); });
     list(out, "types", is_.types, [&](const rung_type& row) { return type(row); });
     const auto range = [](const rung_range& row) {
       return Object().number("block", row.block).number("offset", row.offset).number("size", row.size).end();
@@ -86,7 +90,15 @@ class SymbolWriter {
     to.text("type", name(row.name)).number("type_id", number);
   }
 
+  // {attribute 'symbol' := 'none'}
+  static bool isHidden(uint32_t flags) {
+    constexpr uint32_t kBoth = RUNG_FIELD_NO_EXTERNAL_READ | RUNG_FIELD_NO_EXTERNAL_WRITE;
+    return (flags & kBoth) == kBoth;
+  }
+
   static void flags(Object& to, uint32_t flags) {
+    if ((flags & RUNG_FIELD_NO_EXTERNAL_WRITE) != 0) to.text("access", "read");
+    if ((flags & RUNG_FIELD_NO_EXTERNAL_READ) != 0) to.text("access", "write");
     to.flag("input", (flags & RUNG_FIELD_INPUT) != 0).flag("output", (flags & RUNG_FIELD_OUTPUT) != 0);
     to.flag("constant", (flags & RUNG_FIELD_CONSTANT) != 0).flag("read_only", (flags & RUNG_FIELD_READ_ONLY) != 0);
     to.flag("by_reference", (flags & RUNG_FIELD_BY_REFERENCE) != 0).flag("base", (flags & RUNG_FIELD_BASE) != 0);
@@ -176,7 +188,7 @@ class SymbolWriter {
       case RUNG_RECORD: {
         std::string fields;
         for (uint32_t i = row.first; i < row.first + row.count; ++i)
-          fields += (fields.empty() ? "\n  " : ",\n  ") + field(is_.fields[i]);
+          if (!isHidden(is_.fields[i].flags)) fields += (fields.empty() ? "\n  " : ",\n  ") + field(is_.fields[i]);
         out.raw("fields", "[" + fields + "]");
         break;
       }

@@ -115,7 +115,16 @@ class Describer {
     if (field.role == FieldRole::Input) bits |= RUNG_FIELD_INPUT;
     if (field.role == FieldRole::Output) bits |= RUNG_FIELD_OUTPUT;
     if (field.role == FieldRole::Base) bits |= RUNG_FIELD_BASE;
-    return bits;
+    return bits | accessFlags(field.symbol_access);
+  }
+  static uint32_t accessFlags(types::SymbolAccess access) {
+    switch (access) {
+      case types::SymbolAccess::ReadWrite: return 0;
+      case types::SymbolAccess::Read: return RUNG_FIELD_NO_EXTERNAL_WRITE;
+      case types::SymbolAccess::Write: return RUNG_FIELD_NO_EXTERNAL_READ;
+      case types::SymbolAccess::None: return RUNG_FIELD_NO_EXTERNAL_READ | RUNG_FIELD_NO_EXTERNAL_WRITE;
+    }
+    return 0;
   }
 
   // ---- blocks and the ranges of them that are kept
@@ -243,6 +252,7 @@ class Describer {
       row.storage = RUNG_IN_AREA;
       row.index = located.area;
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
+      row.flags = accessFlags(located.symbol_access);
       add(name, row, path);
     }
     for (const AccessPath& access : module_.access_paths) {
@@ -329,7 +339,8 @@ class Describer {
     }
     for (const rung_field& row : out_.fields) {
       name(row.name);
-      numbers({row.type, row.offset, row.flags});
+      constexpr uint32_t kAccess = RUNG_FIELD_NO_EXTERNAL_READ | RUNG_FIELD_NO_EXTERNAL_WRITE;  // moves nothing
+      numbers({row.type, row.offset, row.flags & ~kAccess});
     }
     for (const rung_dimension& row : out_.dimensions) numbers({row.low, row.high});
     return hash;

@@ -364,6 +364,7 @@ struct Located {
   uint32_t byte;
   uint32_t bit;               /* kNoBit: none */
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
+  types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
 };
 
 // A name of VAR_ACCESS: a symbol for a part of a list, of a program instance or of the image.

@@ -180,6 +180,7 @@ void Reader::recordFields(TypeId type_id) {
     field.non_retain = accept("non_retain");
     field.persistent = accept("persistent");
     field.constant = accept("constant");
+    field.symbol_access = symbolAccess();
     field.name = name();
     expect(":");
     field.type = type();
@@ -314,10 +315,17 @@ std::optional<Reader::AddressInArea> Reader::addressInArea() {
   return address;
 }
 
+types::SymbolAccess Reader::symbolAccess() {
+  if (accept("symbol_read")) return types::SymbolAccess::Read;
+  if (accept("symbol_write")) return types::SymbolAccess::Write;
+  return accept("symbol_none") ? types::SymbolAccess::None : types::SymbolAccess::ReadWrite;
+}
+
 // located start: bool%I0.5 of $Main
 void Reader::located() {
   ++at_;
   Located created{};
+  created.symbol_access = symbolAccess();
   if (!accept("_")) created.name = name();
   expect(":");
   created.type = type();

@@ -13,6 +13,20 @@ using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 
+namespace {
+
+const char* symbolAccessWord(types::SymbolAccess access) {
+  switch (access) {
+    case types::SymbolAccess::ReadWrite: return "";
+    case types::SymbolAccess::Read: return "symbol_read ";
+    case types::SymbolAccess::Write: return "symbol_write ";
+    case types::SymbolAccess::None: return "symbol_none ";
+  }
+  return "";
+}
+
+}  // namespace
+
 // ---- characters
 
 void Printer::name(std::string_view text) {
@@ -143,6 +157,7 @@ void Printer::record(TypeId id, const Record* listed) {
     if (field.non_retain) put("non_retain ");
     if (field.persistent) put("persistent ");
     if (field.constant) put("constant ");
+    put(symbolAccessWord(field.symbol_access));
     name(field.name);
     put(": ");
     type(field.type);
@@ -293,6 +308,7 @@ void Printer::instance(const ProgramInstance& instance) {
 
 void Printer::located(const Located& located) {
   put("located ");
+  put(symbolAccessWord(located.symbol_access));
   if (located.name)
     name(located.name);
   else

@@ -96,6 +96,7 @@ class Reader : TokenReader {
     uint32_t byte;
   };
   std::optional<AddressInArea> addressInArea();
+  types::SymbolAccess symbolAccess();
   void located();
   void function();
   void blockBody(BodyKind kind);

@@ -43,7 +43,8 @@ struct Var {
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
   bool constant = false, retain = false, persistent = false;
-  bool non_retain = false;    // NON_RETAIN, which also holds inside of a retained instance
+  bool non_retain = false;  // NON_RETAIN, which also holds inside of a retained instance
+  types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
   bool has_value = false;     // constant scalar or string with a known value: see `value`
   bool hierarchical = false;  // AT %QW0.1.2: placed after all others when these are known
   bool open_address = false;  // AT %I*: the number comes from VAR_CONFIG or from the system
@@ -147,7 +148,8 @@ struct Pou {
     bool reflection = false;          // {attribute 'reflection'}: marked variables tell which inputs are connected
     bool after_globals = false;       // {attribute 'call_after_global_init_slot'}, with this slot
     int32_t after_globals_slot = 0;
-    int32_t init_slot = 50000;  // {attribute 'global_init_slot'}: of a program
+    int32_t init_slot = 50000;                                           // {attribute 'global_init_slot'}: of a program
+    types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;  // {attribute 'symbol'}: of its variables
     types::Op op = types::Op::Add;
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X
@@ -201,6 +203,7 @@ struct EnumValue {
 struct GlobalList {
   NameId name;  // the file's stem, the configuration's or the resource's name
   bool qualified_only = false;
+  types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;  // of the declarations that are collected now
   int32_t init_slot = 49990;  // {attribute 'global_init_slot'}: lists and programs are initialised in this order
   TypeId record;
   std::vector<VarId> vars;

@@ -571,6 +571,7 @@ void ModuleLowering::addLocated() {
     created.area = var.image.area.index;
     created.byte = var.image.byte;
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
+    created.symbol_access = var.symbol_access;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
     module.located.push_back(created);
   }

@@ -76,6 +76,7 @@ void takeAttributes(Context& context, const DeclHeader& header, Pou& pou) {
   checkAttributes(context, header, attributedBy(pou.kind));
   pou.pragmas.initialize_on_call = findPragma(context, header, known.attribute_initialize_on_call) != nullptr;
   pou.pragmas.reflection = findPragma(context, header, known.attribute_reflection) != nullptr;
+  pou.pragmas.symbol_access = symbolAccessOf(context, header).value_or(types::SymbolAccess::ReadWrite);
   if (pou.kind == PouKind::Program)
     if (const auto slot = initSlotOf(context, header)) pou.pragmas.init_slot = *slot;
   const bool callable = pou.kind == PouKind::Function || pou.kind == PouKind::Program || pou.kind == PouKind::Method;
@@ -96,6 +97,21 @@ void takeVariableAttributes(Context& context, const DeclHeader& header, Var& var
   var.pragmas.no_exit = findPragma(context, header, known.attribute_no_exit) != nullptr;
   if (is_input && of_block)
     var.pragmas.initialize_on_call = findPragma(context, header, known.attribute_initialize_on_call) != nullptr;
+}
+
+// Forbids other values than those of the page "Attribute: symbol" of the CODESYS help; without one: readwrite.
+//   passes  {attribute 'symbol' := 'read'} level : INT;
+//   warns   {attribute 'symbol' := 'readonly'} level : INT;    W0790
+std::optional<types::SymbolAccess> symbolAccessOf(Context& context, const DeclHeader& header) {
+  constexpr std::string_view kValues[] = {"readwrite", "read", "write", "none"};  // in the order of SymbolAccess
+  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attribute_symbol);
+  if (pragma == nullptr) return {};
+  const std::string_view value = context.tree().string(pragma->value);
+  if (value.empty()) return types::SymbolAccess::ReadWrite;
+  for (size_t i = 0; i < std::size(kValues); ++i)
+    if (sameIdentifier(value, kValues[i])) return static_cast<types::SymbolAccess>(i);
+  context.report(diag::SymbolAccessValue, pragma->loc, {value});
+  return {};
 }
 
 std::optional<int32_t> initSlotOf(Context& context, const DeclHeader& header) {

@@ -21,6 +21,8 @@ void takeAttributes(Context& context, const DeclHeader& header, Pou& pou);
 void takeVariableAttributes(Context& context, const DeclHeader& header, Var& var);
 // When the variables of a POU have their types: finds the inputs that {attribute 'is_connected'} names.
 void checkAttributesOf(Context& context, PouId pou);
+// {attribute 'symbol'}; none: without it.
+std::optional<types::SymbolAccess> symbolAccessOf(Context& context, const DeclHeader& header);
 // {attribute 'global_init_slot'}; none: without it.
 std::optional<int32_t> initSlotOf(Context& context, const DeclHeader& header);
 

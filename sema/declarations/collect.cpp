@@ -57,6 +57,7 @@ void internKnownNames(Context& context) {
       {&Known::attribute_is_connected, "is_connected"},
       {&Known::attribute_reflection, "reflection"},
       {&Known::attribute_no_exit, "no-exit"},
+      {&Known::attribute_symbol, "symbol"},
   };
   for (const Row& row : kRows)
     context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
@@ -299,6 +300,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   checkModifiers(context, section);
   checkAttributes(context, section.h, Attributed::Globals);
   if (const auto slot = initSlotOf(context, section.h)) list.init_slot = *slot;
+  list.symbol_access = symbolAccessOf(context, section.h).value_or(types::SymbolAccess::ReadWrite);
   const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();

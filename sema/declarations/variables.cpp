@@ -105,12 +105,17 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.non_retain = (section.h.bits & kNonRetain) != 0;
   var.pou = pou;
   var.list = list;
+  if (pou)
+    var.symbol_access = symbols.pou(pou).pragmas.symbol_access;
+  else if (list)
+    var.symbol_access = symbols.global_lists[list.index].symbol_access;
   if (!decl.h.pragmas.empty()) {
     var.pragmas.required = findPragma(context, decl.h, known.required) != nullptr;
     var.pragmas.long_time = findPragma(context, decl.h, known.long_time) != nullptr;
     var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
     var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
     takeVariableAttributes(context, decl.h, var);
+    if (const auto access = symbolAccessOf(context, decl.h)) var.symbol_access = *access;
     var.pragmas.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
     for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
       if (keyOf(context, pragma.name) == known.alias) {
@@ -169,6 +174,7 @@ void addField(Context& context, TypeId record, VarId id) {
   field.non_retain = var.non_retain;
   field.persistent = var.persistent;
   field.constant = var.constant;
+  field.symbol_access = var.symbol_access;
   types::TypeInfo& info = context.types().edit(record);
   field.pack = info.pack;
   var.field = static_cast<uint32_t>(info.fields.size());

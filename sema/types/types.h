@@ -94,13 +94,17 @@ inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::B
 enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList, Interface };
 
 enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut, Base };  // Base: the block that it extends
+// {attribute 'symbol'}: what tools outside of the program may do with a variable.
+enum class SymbolAccess : uint8_t { ReadWrite, Read, Write, None };
+
 struct Field {
   NameId name;
   TypeId type;
   FieldRole role = FieldRole::Member;
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
-  bool non_retain = false;    // not kept, even where the instance is retained
+  bool non_retain = false;  // not kept, even where the instance is retained
+  SymbolAccess symbol_access = SymbolAccess::ReadWrite;
   uint8_t pack = 0;           // {attribute 'pack_mode'}: aligned to at most this; 0: as its type
   uint32_t given_offset = 0;  // of a union whose members have AT positions
   uint32_t offset = 0;        // after layout

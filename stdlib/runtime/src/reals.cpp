@@ -102,10 +102,19 @@ Binary partsOf(double value, bool is_single) {
   return {fraction | uint64_t{1} << width, biased - 1 + lowest, fraction == 0 && biased > 1};
 }
 
-// The number of characters of an exponent or of digits that are not zero.
-int digitsOf(uint64_t value) {
-  int count = 1;
-  for (; value >= 10; value /= 10) ++count;
+// Writes the digits of a number, returns how many. Divides 32 bits where it can: 64 are slow on many processors.
+int putDigits(uint64_t value, char* out) {
+  char backwards[20];
+  int count = 0;
+  while (value > UINT32_MAX) {
+    uint32_t low = static_cast<uint32_t>(value % 100000000);
+    value /= 100000000;
+    for (int i = 0; i < 8; ++i, low /= 10) backwards[count++] = static_cast<char>('0' + low % 10);
+  }
+  uint32_t rest = static_cast<uint32_t>(value);
+  do backwards[count++] = static_cast<char>('0' + rest % 10);
+  while ((rest /= 10) != 0);
+  for (int i = 0; i < count; ++i) out[i] = backwards[count - 1 - i];
   return count;
 }
 
@@ -329,8 +338,8 @@ void scientificDigits(const Binary& value, int precision, char* digits, int& exp
     return;
   }
   const Decimal shortest = shortestOf(value);
-  exponent =
-      shortest.exponent + digitsOf(shortest.digits) - 1;  // one too large when the shortest digits are rounded up
+  exponent = shortest.exponent + putDigits(shortest.digits, digits) -
+             1;  // one too large when the shortest digits are rounded up
   for (;; --exponent) {
     const int places = precision - exponent;
     bool rest = false;
@@ -520,12 +529,11 @@ uint32_t rung_real_format(double value, bool is_single, char* out) {
     return text.length();
   }
   const Binary parts = partsOf(magnitude, is_single);
-  Decimal shortest = shortestOf(parts);
-  for (; shortest.digits % 10 == 0; shortest.digits /= 10) ++shortest.exponent;
-  const int count = digitsOf(shortest.digits), exponent = shortest.exponent;
+  const Decimal shortest = shortestOf(parts);
+  int exponent = shortest.exponent;
   char digits[RUNG_REAL_ROOM];
-  uint64_t rest = shortest.digits;
-  for (int i = count; i > 0; rest /= 10) digits[--i] = static_cast<char>('0' + rest % 10);
+  int count = putDigits(shortest.digits, digits);
+  for (; digits[count - 1] == '0'; --count) ++exponent;
   // One digit needs no point in scientific notation.
   if (exponent < (count == 1 ? -3 : -3 - count) || exponent > (count == 1 ? 4 : 5)) {
     putScientific(text, digits, count, exponent + count - 1, false);
