@@ -195,7 +195,30 @@ class SymbolWriter {
       case RUNG_POINTER:
         if (row.element != RUNG_NONE) typeOf(out, row.element);
         break;
-      default: break;
+      case RUNG_BOOL:
+      case RUNG_BYTE:
+      case RUNG_WORD:
+      case RUNG_DWORD:
+      case RUNG_LWORD:
+      case RUNG_SINT:
+      case RUNG_INT:
+      case RUNG_DINT:
+      case RUNG_LINT:
+      case RUNG_USINT:
+      case RUNG_UINT:
+      case RUNG_UDINT:
+      case RUNG_ULINT:
+      case RUNG_REAL:
+      case RUNG_LREAL:
+      case RUNG_DATE:
+      case RUNG_LDATE:
+      case RUNG_TOD:
+      case RUNG_LTOD:
+      case RUNG_DT:
+      case RUNG_LDT:
+      case RUNG_CHAR:
+      case RUNG_WCHAR:
+      case RUNG_UCHAR: break;
     }
     return out.end();
   }

@@ -13,6 +13,12 @@ bool isObject(const types::TypeTable& types, TypeId type) {
          info.record_kind != RecordKind::Union && info.record_kind != RecordKind::GlobalList;
 }
 
+bool bindsOwn(const Body& body, const Stmt& stmt) {
+  const auto* bind = stmt.tryAs<BindStmt>();
+  const auto* field = bind == nullptr ? nullptr : body.expr(bind->field).tryAs<FieldExpr>();
+  return field != nullptr && body.expr(field->base).kind == ExprKind::Self;
+}
+
 Effect effectOfWrite(const Module& module, const Body& body, const std::vector<bool>& private_locals, ExprId place) {
   const types::TypeTable& types = module.types;
   const Expr* e = &body.expr(place);

@@ -21,6 +21,9 @@ struct Effect {
 
 Effect effectOfWrite(const Module& module, const Body& body, const std::vector<bool>& private_locals, ExprId place);
 
+// Whether a statement binds a reference in self: a pointer there has another value.
+bool bindsOwn(const Body& body, const Stmt& stmt);
+
 // FUNCTION_BLOCK, PROGRAM or an interface: such a variable may be self.
 bool isObject(const types::TypeTable& types, TypeId type);
 

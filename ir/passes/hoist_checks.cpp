@@ -63,8 +63,8 @@ class Hoister {
   }
   void noteWrites(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { note(effectOfWrite(module_, body_, private_, place)); });
-    if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure)
-      written_.all_fields = true;
+    const auto* call = s.tryAs<CallStmt>();
+    if (bindsOwn(body_, s) || (call != nullptr && !module_.body(call->callee).pure)) written_.all_fields = true;
   }
   void findWrites(StmtId loop) {
     written_ = {};

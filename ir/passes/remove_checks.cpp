@@ -192,6 +192,7 @@ class Analysis {
   }
   void effectsOf(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
+    if (bindsOwn(body_, s)) forgetFields();
     if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure) forgetFields();
   }
   void effectsIn(StmtId first) {

@@ -155,14 +155,14 @@ static inline bool rung_string_digits(const char* in, uint32_t length, uint64_t*
   *number = is_negative ? 0 - value : value;
   return true;
 }
-#define RUNG_SIZED_NUMBER(TYPE, T)                                                                   \
-  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);                    \
-  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) {          \
-    uint64_t number;                                                                                 \
-    char text[256];                                                                                  \
-    if (rung_string_digits(in, length, &number)) return (T)number;                                   \
-    rung_string_part(text, in, length < 255 ? length : 255);                                         \
-    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                            \
+#define RUNG_SIZED_NUMBER(TYPE, T)                                                          \
+  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);           \
+  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) { \
+    uint64_t number;                                                                        \
+    char text[256];                                                                         \
+    if (rung_string_digits(in, length, &number)) return (T)number;                          \
+    rung_string_part(text, in, length < 255 ? length : 255);                                \
+    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                   \
   }
 RUNG_SIZED_NUMBER(BYTE, uint8_t)
 RUNG_SIZED_NUMBER(WORD, uint16_t)
