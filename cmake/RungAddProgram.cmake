@@ -7,7 +7,8 @@
 # (default: the folder of the call). OPTIONS: further options of `rung emit`. FILES: the number of C++ files (default:
 # 8); their names do not depend on the program, so CMake need not run again.
 #
-# Uses the target Rung::rung (the tool; set RUNG_EXECUTABLE to another one when cross-compiling) and Rung::runtime.
+# Uses the targets Rung::runtime and Rung::rung, the tool, which runs on the machine that builds (RUNG_EXECUTABLE: another
+# one). The size of a pointer is that of the target.
 include_guard(GLOBAL)
 
 function(rung_add_program target)
@@ -38,6 +39,9 @@ function(rung_add_program target)
     get_filename_component(source ${source} ABSOLUTE)
     list(APPEND sources ${source})
   endforeach()
+  if(CMAKE_SIZEOF_VOID_P)
+    list(PREPEND ARG_OPTIONS --target-pointer=${CMAKE_SIZEOF_VOID_P})
+  endif()
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rung/${ARG_NAME})
   set(stamp ${folder}.stamp)
   set(bundles)
@@ -62,7 +66,7 @@ function(rung_add_program target)
   target_sources(${target} PRIVATE ${stamp} ${bundles})
   set_source_files_properties(${stamp} PROPERTIES HEADER_FILE_ONLY TRUE)
   set_source_files_properties(${bundles} PROPERTIES GENERATED TRUE SKIP_AUTOGEN TRUE
-                                                    COMPILE_OPTIONS "-ffp-contract=off")
+                                                    COMPILE_OPTIONS "-ffp-contract=off;-fvisibility=hidden")
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_link_libraries(${target} PRIVATE Rung::runtime)
 endfunction()

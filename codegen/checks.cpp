@@ -201,6 +201,7 @@ void CheckWriter::indexChecks(const Expr& e) {
   const ir::IndexExpr& node = e.as<ir::IndexExpr>();
   const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
   for (uint32_t i = 0; i < node.indices.count && i < array.dimensions.size(); ++i) {
+    if (e.isProven(i)) continue;
     const ExprId id = body_->list(node.indices)[i];
     const types::Dimension& dimension = array.dimensions[i];
     if (expr(id).kind == ExprKind::Const) {

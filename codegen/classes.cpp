@@ -53,8 +53,8 @@ std::string classesSource(const ir::Module& module, std::string_view name_space)
   std::sort(prototypes.begin(), prototypes.end());
   std::string out =
       "// The numbers of classes, and which method each of them has.\n#define RUNG_GENERATED\n#include "
-      "\"rung/code.h\"\n\nnamespace ";
-  out.append(name_space).append(" {\n\n").append(numbers).append("\n");
+      "\"rung/code.h\"\n\n";
+  out.append(openNamespace(name_space)).append("\n").append(numbers).append("\n");
   for (const std::string& line : prototypes) out += line;
   return out + "\n" + tables + "\n}  // namespace " + std::string(name_space) + "\n";
 }

@@ -88,9 +88,7 @@ std::string around(const ir::Module& module, const Group& group, RecordDefinitio
     if (!text.empty()) out += '\n' + text;
   };
   paragraph(prototypes(module, group.callees, true, "extern \"C\" "));
-  out += "\nnamespace ";
-  out += name_space;
-  out += " {\n";
+  out += '\n' + openNamespace(name_space);
   out += definitions;
   paragraph(layoutAsserts(module, group));
   paragraph((group.sites.empty() ? "" : "extern const uint32_t sites_" + group.stem + ";\n") +
@@ -207,6 +205,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   if (!module.classes.empty() || !module.dispatches.empty())
     files.push_back({"classes.cpp", classesSource(module, name_space)});
   files.push_back({"sites.cpp", std::move(description.sites)});
+  files.push_back({kSymbolFile, std::move(description.symbols)});
   if (options.is_native_of_rung != nullptr) appendNativeHeaders(module, options, files);
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
   return files;

@@ -6,10 +6,10 @@
 // (tests/bench/run.sh kernels); where all code is in one file, g++ inlines them by itself.
 #pragma once
 
-#include <unordered_set>
 #include <vector>
 
 #include "ir/description.h"
+#include "ir/exposure.h"
 
 namespace rung::codegen {
 
@@ -21,18 +21,10 @@ struct Facts : ir::MemoryBlocks {
   std::vector<uint8_t> is_zeroing;  // by body: an initialiser that only clears its record; none is generated
   std::vector<uint8_t> is_pointed;  // by record: the target of some POINTER or REFERENCE
 
-  // True when the address of this variable of a block (record, field) is taken somewhere.
-  bool isExposed(TypeId record, uint32_t field) const {
-    return exposed_fields_.count(uint64_t{record.index} << 32 | field) != 0;
-  }
-  // By record: its instances may be reached through globals or pointers while their body makes a call.
-  std::vector<uint8_t> is_seen;
+  ir::Exposure exposure;
 
  private:
   bool onlyClears(const ir::Module& module, ir::BodyId id);
-  void expose(const ir::Module& module, const ir::Body& body, ir::ExprId place);
-  void seeAll(const ir::Module& module, TypeId type);
-  std::unordered_set<uint64_t> exposed_fields_;
 };
 
 }  // namespace rung::codegen

@@ -64,7 +64,7 @@ MeasuredStrings analyzeLengths(const ir::Body& body, const Facts& facts, const U
     bool is_measured;
     if (variables.isField(i)) {
       is_measured = use.sized_weight >= kWorthCounting && !variables.field(i).by_reference &&
-                    !facts.isExposed(variables.record(), variables.fieldIndex(i));
+                    !facts.exposure.isExposed(variables.record(), variables.fieldIndex(i));
     } else {
       const bool is_counted = variables.local(i).kind == LocalKind::Input;
       is_measured = use.sized_weight >= (is_counted ? kWorthCounting : kWorthKeeping);

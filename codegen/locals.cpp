@@ -19,7 +19,7 @@ CachedFields analyzeLocals(const ir::Module& module, const Facts& facts, const U
     if (field.by_reference || !types::TypeTable::isScalar(module.types.plainKind(field.type)) || use.exposed) continue;
     // Across a call a local is spilled, no better than memory: then only its uses in loops count.
     if ((uses.has_calls ? use.loop_weight : use.weight) <= kWorthIt) continue;
-    fields.is_cached[i] = !facts.isExposed(variables.record(), variables.fieldIndex(i));
+    fields.is_cached[i] = !facts.exposure.isExposed(variables.record(), variables.fieldIndex(i));
   }
   return fields;
 }

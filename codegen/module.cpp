@@ -5,6 +5,7 @@
 
 #include "codegen/names.h"
 #include "codegen/signature.h"
+#include "codegen/symbols.h"
 #include "codegen/types.h"
 #include "ir/description.h"
 
@@ -39,9 +40,11 @@ class Describer {
   Description run(const std::vector<Group>& groups) {
     addTasks();
     addTests();
+    addSites(groups);  // may add strings
     Description out;
-    out.sites = sitesSource(groups);  // may add strings
     out.module = moduleSource();
+    out.sites = sitesSource();
+    out.symbols = symbolFile(is_, options_.module_name, types_.pointerSize());
     return out;
   }
 
@@ -170,13 +173,12 @@ class Describer {
     return variables + call + ");\n";
   }
 
-  static void table(std::string& out, const char* type, const char* name, const std::string& rows) {
+  // Defines a table for the description, which is in the other file.
+  void table(std::string& out, const char* type, const char* name, const std::string& rows) {
     if (rows.empty()) return;
-    out += "static const ";
-    out += type;
-    out += ' ';
-    out += name;
-    out += "[] = {\n" + rows + "};\n";
+    const std::string declaration = std::string("extern const ") + type + ' ' + name + "[]";
+    declarations_ += declaration + ";\n";
+    out += declaration + " = {\n" + rows + "};\n";
   }
   // The two cells of a table in the description.
   static std::string cells(const char* name, const std::string& rows, uint64_t count) {
@@ -207,7 +209,7 @@ class Describer {
     for (const rung_range& is : is_.persistent) {
       row(persistent_rows, {number(is.block), number(is.offset), number(is.size)});
     }
-    std::string init = "static void init(rung_context* ctx) {\n  (void)ctx;\n";
+    std::string init = "void init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
       init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
     }
@@ -222,12 +224,14 @@ class Describer {
       if (!step.is_list && module_.programs[step.index].setup) init += callOf(module_.programs[step.index].setup);
     if (module_.after_init) init += callOf(module_.after_init);
     init += "}\n";
-    if (module_.exit) init += "static void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
+    if (module_.exit) init += "void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
 
-    std::string out = "// The description of the module: see rung/module.h.\n#include <string.h>\n\n";
-    out += "#include \"rung/module.h\"\n\nnamespace " + name_space_ + " {\n\n";
-    out += "extern const rung_site sites[];\nextern const uint32_t site_count;\n" + prototypes_ + "\n";
-    out += "static const char text[] =\n";
+    declarations_ = "extern const char text[];\nvoid init(rung_context* ctx);\n";
+    if (module_.exit) declarations_ += "void exit(rung_context* ctx);\n";
+    std::string out =
+        "// The tables of the module, its tasks and its initial values: see rung/module.h.\n#include <string.h>\n\n";
+    out += "#include \"rung/module.h\"\n\n" + openNamespace(name_space_) + '\n' + prototypes_ + "\n";
+    out += "extern const char text[] =\n";
     const std::string& bytes = is_.strings.bytes();
     for (size_t at = 0; at < bytes.size();) {  // one line per name
       size_t end = bytes.find('\0', at);
@@ -249,46 +253,53 @@ class Describer {
     out += '\n' + code_;
     table(out, "rung_task", "tasks", task_rows_);
     table(out, "rung_test", "tests", test_rows_);
-    out += init;
-    out += "\nstatic const rung_module description = {\n  RUNG_MODULE_ABI, " + number(types_.pointerSize()) + ", ";
-    appendQuoted(out, options_.module_name);
-    out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n  ";
-    out += cells("blocks", block_rows, is_.blocks.size()) + ", ";
-    out += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
-    out += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
-    out += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
-    out += cells("types", type_rows, is_.types.size()) + ", ";
-    out += cells("fields", field_rows, is_.fields.size()) + ", ";
-    out += cells("enum_items", item_rows, is_.enum_items.size()) + ", ";
-    out += cells("dimensions", dimension_rows, is_.dimensions.size()) + ",\n  ";
-    out += cells("retain", retain_rows, is_.retain.size()) + ", ";
-    out += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
-    out += "sites, site_count, ";
-    out += cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") + "\n};\n";
-    out += "\n}  // namespace " + name_space_ + "\n\nextern \"C\" const rung_module* " + options_.module_name +
-           "_module(void);\nextern \"C\" const rung_module* " + options_.module_name + "_module(void) { return &" +
-           name_space_ + "::description; }\n";
+    out += init + "\n}  // namespace " + name_space_ + '\n';
+
+    description_ = "static const rung_module description = {\n  RUNG_MODULE_ABI, RUNG_MODULE_LAYOUT, " +
+                   number(types_.pointerSize()) + ", ";
+    appendQuoted(description_, options_.module_name);
+    description_ += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n  ";
+    description_ += cells("blocks", block_rows, is_.blocks.size()) + ", ";
+    description_ += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
+    description_ += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
+    description_ += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
+    description_ += cells("types", type_rows, is_.types.size()) + ", ";
+    description_ += cells("fields", field_rows, is_.fields.size()) + ", ";
+    description_ += cells("enum_items", item_rows, is_.enum_items.size()) + ", ";
+    description_ += cells("dimensions", dimension_rows, is_.dimensions.size()) + ",\n  ";
+    description_ += cells("retain", retain_rows, is_.retain.size()) + ", ";
+    description_ += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
+    description_ += "sites, " + number(site_count_) + ", ";
+    description_ +=
+        cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") + "\n};\n";
     return out;
   }
 
-  std::string sitesSource(const std::vector<Group>& groups) {
-    std::string numbers, rows;
-    uint32_t count = 0;
+  void addSites(const std::vector<Group>& groups) {
     for (const Group& group : groups) {
       if (group.sites.empty()) continue;
-      numbers += "extern const uint32_t sites_" + group.stem + " = " + number(count) + ";\n";
+      site_numbers_ += "extern const uint32_t sites_" + group.stem + " = " + number(site_count_) + ";\n";
       for (const Site& site : group.sites) {
-        row(rows, {number(is_.strings.add(module_.names.string(site.pou))),
-                   number(is_.strings.add(site.origin_path ? module_.names.string(site.origin_path)
-                                                           : module_.sources.path(site.file))),
-                   number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
-        ++count;
+        row(site_rows_, {number(is_.strings.add(module_.names.string(site.pou))),
+                         number(is_.strings.add(site.origin_path ? module_.names.string(site.origin_path)
+                                                                 : module_.sources.path(site.file))),
+                         number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
+        ++site_count_;
       }
     }
-    if (rows.empty()) row(rows, {"0", "0", "0", "0", "0", "0"});
-    return "// Where the checks are: see rung_site in rung/module.h.\n#include \"rung/module.h\"\n\nnamespace " +
-           name_space_ + " {\n\n" + numbers + "extern const uint32_t site_count = " + number(count) +
-           ";\nextern const rung_site sites[] = {\n" + rows + "};\n\n}  // namespace " + name_space_ + "\n";
+    if (site_rows_.empty()) row(site_rows_, {"0", "0", "0", "0", "0", "0"});
+  }
+
+  // The description is here because it counts the sites: a count of another file would be an initial value that is
+  // computed at run time, in a static constructor.
+  std::string sitesSource() const {
+    return "// Where the checks are, and the description of the module: see rung/module.h.\n#include "
+           "\"rung/module.h\"\n\n" +
+           openNamespace(name_space_) + '\n' + site_numbers_ + "static const rung_site sites[] = {\n" + site_rows_ +
+           "};\n\n" + declarations_ + '\n' + description_ + "\n}  // namespace " + name_space_ +
+           "\n\nextern \"C\" RUNG_EXPORT const rung_module* " + options_.module_name +
+           "_module(void);\nextern \"C\" const rung_module* " + options_.module_name + "_module(void) { return &" +
+           name_space_ + "::description; }\n";
   }
 
   const ir::Module& module_;
@@ -298,6 +309,9 @@ class Describer {
   const std::string name_space_;
   ir::Description is_;
   std::string task_rows_, test_rows_, code_, prototypes_;
+  std::string site_rows_, site_numbers_;
+  uint32_t site_count_ = 0;
+  std::string declarations_, description_;  // for the file of the sites
   std::vector<uint32_t> declared_;
 };
 

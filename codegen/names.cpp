@@ -89,6 +89,10 @@ std::string mangle(std::string_view name) {
   return out;
 }
 
+std::string openNamespace(std::string_view name_space) {
+  return "namespace " + std::string(name_space) + " RUNG_HIDDEN {\n";
+}
+
 std::string fileStem(std::string_view name) {
   constexpr size_t kLongest = 100;
   std::string stem = mangle(name);

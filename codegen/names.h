@@ -16,6 +16,10 @@ void appendMangled(std::string& out, std::string_view name);
 // The stem of the files of a name: its mangled form, shortened when it is too long for a file system.
 std::string fileStem(std::string_view name);
 
+// The line that opens the namespace of a module. What it holds is hidden: a shared library exports only the module's
+// function, and position-independent code calls and reads directly.
+std::string openNamespace(std::string_view name_space);
+
 void appendUnsigned(std::string& out, uint64_t value);
 void appendSigned(std::string& out, int64_t value);
 // In quotes; escapes `"`, `\`, `?` and everything but printable ASCII.

@@ -128,7 +128,7 @@ void RecordDefinitions::appendHeaders(std::vector<OutputFile>& files) {
     for (uint32_t other : held(row)) {
       out += "#include \"" + recordFile(module_.types, module_.types.resolve(module_.records[other].type)) + "\"\n";
     }
-    out += "\nnamespace " + name_space_ + " {\n\n" + definition(row) + "\n}  // namespace " + name_space_ + '\n';
+    out += '\n' + openNamespace(name_space_) + '\n' + definition(row) + "\n}  // namespace " + name_space_ + '\n';
     files.push_back({recordFile(module_.types, type), std::move(out)});
   }
 }

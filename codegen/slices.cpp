@@ -81,7 +81,7 @@ class Judge {
     const VariableUse& use = uses_.of[variable];
     if (use.written || use.exposed) return false;
     if (!variables_.isField(variable)) return variables_.local(variable).kind == LocalKind::Input;
-    return !facts_.isExposed(variables_.record(), variables_.fieldIndex(variable)) &&
+    return !facts_.exposure.isExposed(variables_.record(), variables_.fieldIndex(variable)) &&
            !variables_.field(variable).by_reference;
   }
 

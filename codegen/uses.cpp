@@ -29,7 +29,7 @@ class Scan {
     block(body_.first, 1);
     const TypeId record = uses_.variables.record();
     const bool is_block = uses_.variables.fieldCount() != 0;
-    if (uses_.has_try || self_escapes_ || (is_block && facts.is_seen[record.index] == 1 && has_foreign_calls_) ||
+    if (uses_.has_try || self_escapes_ || (is_block && facts.exposure.isSeen(record) && has_foreign_calls_) ||
         (is_block && module_.types.info(record).record_kind == types::RecordKind::Union)) {
       uses_.variables.dropFields();
       uses_.of.resize(uses_.variables.count());

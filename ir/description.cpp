@@ -336,6 +336,7 @@ class Describer {
     const auto numbers = [&](std::initializer_list<int64_t> values) {
       for (const int64_t value : values) add(std::to_string(value) + ",");
     };
+    numbers({RUNG_MODULE_LAYOUT});
     const auto name = [&](uint32_t offset) { add(out_.strings.bytes().c_str() + offset); };
     for (const rung_block& row : out_.blocks) {
       name(row.name);

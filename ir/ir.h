@@ -59,6 +59,7 @@ enum Check : uint8_t {
 };
 
 inline constexpr uint32_t kNoBit = ~0u;
+inline constexpr uint32_t kMostProven = 16;  // dimensions that can lose their part of a check: Expr::proven
 
 // 64 bits that need only the alignment of an id.
 struct Bits64 {
@@ -162,9 +163,11 @@ class Node {
 
 struct Expr : Node<ExprKind, 12> {
   uint8_t checks = 0;
+  uint16_t proven = 0;  // of an Index with a check: by bit, the dimensions whose index needs none
   TypeId type;
   Loc loc;
 
+  bool isProven(uint32_t dimension) const { return dimension < kMostProven && (proven >> dimension & 1) != 0; }
   // Of a Unary or Binary.
   Op op() const { return kind == ExprKind::Unary ? as<UnaryExpr>().op : as<BinaryExpr>().op; }
 };

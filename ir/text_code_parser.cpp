@@ -611,12 +611,16 @@ ExprId Reader::postfix(ExprId base) {
       const Loc loc = b.loc;
       ++at_;
       std::vector<ExprId> indices;
-      do indices.push_back(expr({}));
-      while (accept(","));
+      uint16_t proven = 0;
+      do {
+        if (indices.size() < kMostProven && accept("=")) proven = static_cast<uint16_t>(proven | 1u << indices.size());
+        indices.push_back(expr({}));
+      } while (accept(","));
       expect("]");
       if (failed_) return {};
       b.loc = loc;
       created = b.index(base, indices);
+      b.body.expr(created).proven = proven;
     } else if (isPunct("^")) {
       if (!need(info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference, "`^`", "a pointer")) return {};
       ++at_;

@@ -368,12 +368,12 @@ void Printer::place(const Expr& e) {
       return name(field.name);
     }
     case ExprKind::Index: {
-      operand(e.as<IndexExpr>().base, {});
-      const char* separator = "[";
-      for (const ExprId index : body_->list(e.as<IndexExpr>().indices)) {
-        put(separator);
-        separator = ", ";
-        expr(index, {});
+      const IndexExpr& node = e.as<IndexExpr>();
+      operand(node.base, {});
+      for (uint32_t i = 0; i < node.indices.count; ++i) {
+        put(i == 0 ? "[" : ", ");
+        if (e.isProven(i)) put("=");
+        expr(body_->list(node.indices)[i], {});
       }
       return put("]");
     }

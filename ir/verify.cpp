@@ -649,6 +649,9 @@ void Verifier::placeNode(const Expr& e) {
       for (const ExprId index : body_->list(node.indices))
         require(isIntegral(plainOf(index)), 12, "an index is not an integer");
       wantType(e, info.base, 12);
+      const bool has_check = (e.checks & kCheckIndex) != 0;
+      require(e.proven == 0 || (has_check && e.proven >> std::min(node.indices.count, kMostProven) == 0), 12,
+              "a dimension without check is marked as proven");
       return allowChecks(e, kCheckIndex, 12);
     }
     case ExprKind::Deref: {

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building and testing Rung needs; does nothing when all are there.
-# Works as root or through sudo. Called by tools/quickstart.sh and tools/test.sh.
+# Installs the Debian packages that building Rung needs, and those of the tests that compile for other processors;
+# does nothing when all are there. Works as root or through sudo. Called by tools/quickstart.sh and tools/test.sh.
+#   tools/install-packages.sh [--tests]
 set -eu
 packages=(g++ cmake ninja-build libgtest-dev python3)
+[ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -16,7 +16,7 @@ bin=$PWD/build/bin
 first=${FIRST:-1}
 failed=()
 
-needs() { [ -x "$bin/$1" ] || { tools/install-packages.sh; cmake --preset release; cmake --build build; }; }
+needs() { [ -x "$bin/$1" ] || { tools/install-packages.sh --tests; cmake --preset release; cmake --build build; }; }
 
 differential() {
   needs differential
@@ -47,7 +47,7 @@ modifiers() {
 }
 
 suite() {  # preset
-  tools/install-packages.sh
+  tools/install-packages.sh --tests
   cmake --preset "$1"
   cmake --build "build/$1"
   "build/$1/bin/rung_test_runner"

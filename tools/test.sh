@@ -3,7 +3,7 @@
 #   tools/test.sh [OPTION|FILE...]    options and files of build/bin/rung_test_runner (--help)
 set -eu
 cd "$(dirname "$0")/.."
-tools/install-packages.sh
+tools/install-packages.sh --tests
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 { cmake --preset release && cmake --build build; } >"$log" 2>&1 || { tail -40 "$log"; echo "0 passed, 1 failed"; exit 1; }

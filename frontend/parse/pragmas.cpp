@@ -24,7 +24,9 @@ void Cursor::splitList(const PragmaRange& pragma, std::vector<Pragma>& list) {
   std::string_view rest = source_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
   const auto isBlank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   while (!rest.empty() && isBlank(rest.front())) rest.remove_prefix(1);
-  rest.remove_prefix(names_.string(whole.name).size());
+  const std::string_view name = names_.string(whole.name);
+  if (!sameIdentifier(rest.substr(0, name.size()), name)) return;  // {attribute 'mock' := 'A'}
+  rest.remove_prefix(name.size());
   list.pop_back();
   for (bool more = true; more;) {
     const size_t comma = rest.find(',');

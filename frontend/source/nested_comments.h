@@ -6,6 +6,9 @@
 
 namespace rung {
 
+inline constexpr char kCommentsNest[] = "(* @NESTEDCOMMENTS := 'Yes' *)";
+inline constexpr char kCommentsDoNotNest[] = "(* @NESTEDCOMMENTS := 'No' *)";
+
 // The first letter of 'Yes' or 'No' where the comment has the attribute, else null.
 inline const char* nestingOf(std::string_view comment) {
   constexpr std::string_view kHead = "(* @NESTEDCOMMENTS := '";

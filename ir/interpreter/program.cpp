@@ -191,6 +191,7 @@ void Program::Parts::describe() {
   }
   spare_site = &code.sites.emplace_back();
   is.abi = RUNG_MODULE_ABI;
+  is.layout = RUNG_MODULE_LAYOUT;
   is.pointer_size = sizeof(void*);
   is.name = name.c_str();
   is.compiler = "rung";

@@ -2,6 +2,7 @@
 #include "ir/passes/passes.h"
 
 #include "ir/passes/fold_constants.h"
+#include "ir/passes/hoist_checks.h"
 #include "ir/passes/privatize.h"
 #include "ir/passes/propagate.h"
 #include "ir/passes/remove_checks.h"
@@ -12,11 +13,24 @@
 namespace rung::ir {
 
 namespace {
+
+// A pass that needs no exposure.
+template <bool (*kRun)(Module&, Body&)>
+bool alone(Module& module, const Exposure&, Body& body) {
+  return kRun(module, body);
+}
+
 constexpr Pass kBodyPasses[] = {
-    {"propagation", propagate},       {"constants", foldConstants}, {"branches", simplifyBranches},
-    {"conditions", threadConditions}, {"checks", removeChecks},     {"privatization", privatize},
-    {"dead-code", removeDeadCode},
+    {"propagation", alone<propagate>},
+    {"constants", alone<foldConstants>},
+    {"branches", alone<simplifyBranches>},
+    {"conditions", alone<threadConditions>},
+    {"checks", removeChecks},
+    {"hoisting", hoistChecks},
+    {"privatization", alone<privatize>},
+    {"dead-code", alone<removeDeadCode>},
 };
+
 }  // namespace
 
 std::span<const Pass> bodyPasses(int level) {
@@ -24,17 +38,17 @@ std::span<const Pass> bodyPasses(int level) {
   return kBodyPasses;
 }
 
-void optimize(Module& module, Body& body, int level, FunctionRef<void(const Pass&, Body&)> after) {
-  if (body.native || !body.first) return;
-  for (const Pass& pass : bodyPasses(level)) {
-    pass.run(module, body);
-    after(pass, body);
-  }
-}
-
 void optimize(Module& module, int level, FunctionRef<void(const Pass&, Body&)> after) {
   if (level <= 0) return;
-  for (size_t i = 1; i < module.bodies.size(); ++i) optimize(module, module.bodies[i], level, after);
+  const Exposure exposure(module);
+  for (size_t i = 1; i < module.bodies.size(); ++i) {
+    Body& body = module.bodies[i];
+    if (body.native || !body.first) continue;
+    for (const Pass& pass : bodyPasses(level)) {
+      pass.run(module, exposure, body);
+      after(pass, body);
+    }
+  }
 }
 
 }  // namespace rung::ir

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ir/passes/effects.h"
 #include "ir/passes/interval.h"
 #include "ir/passes/support.h"
 
@@ -19,22 +20,25 @@ namespace {
 constexpr uint32_t kNone = ~0u;
 constexpr Int128 kWide = Int128{1} << 100;  // beyond every integer: proves nothing
 
+constexpr Interval kPointers{0, kWide}, kNotNull{1, kWide};
+
 struct Fact {
   bool known = false;
-  uint32_t epoch = 0;  // of a field of self: valid until something unknown writes self
+  uint32_t epoch = 0;  // of a field of self: valid until something unknown may write it
   Interval interval;
 };
 
 class Analysis {
  public:
-  Analysis(Module& module, Body& body) : module_(module), types_(module.types), body_(body) {}
+  Analysis(Module& module, const Exposure& exposure, Body& body)
+      : module_(module), types_(module.types), exposure_(exposure), body_(body) {}
 
   bool run() {
     if (body_.has_labels || !body_.first || !isWorthIt()) return false;
     private_ = privateLocals(module_, body_);
     self_first_ = static_cast<uint32_t>(body_.locals.size());
-    const size_t fields = body_.self ? types_.info(types_.resolve(body_.self)).fields.size() : 0;
-    facts_.assign(self_first_ + fields, {});
+    findFields();
+    facts_.assign(references_first_ + (references_first_ - self_first_), {});
     stamp_.assign(facts_.size(), 0);
     stamp_entry_.assign(facts_.size(), 0);
     findChecks();
@@ -45,8 +49,16 @@ class Analysis {
  private:
   bool isWorthIt() const {
     for (const Expr& e : body_.exprs)
-      if ((e.checks & ~(kCheckNull | kCheckCast)) != 0 || isSignedDivision(e)) return true;
+      if ((e.checks & ~kCheckCast) != 0 || isSignedDivision(e)) return true;
     return false;
+  }
+
+  void findFields() {
+    const TypeId self = body_.self ? types_.resolve(body_.self) : TypeId{};
+    const size_t count = self ? types_.info(self).fields.size() : 0;
+    references_first_ = self_first_ + static_cast<uint32_t>(count);
+    is_exposed_.resize(count);
+    for (uint32_t i = 0; i < count; ++i) is_exposed_[i] = exposure_.isExposed(self, i);
   }
 
   // By a positive constant: cheaper without sign.
@@ -100,6 +112,7 @@ class Analysis {
   }
 
   Interval allOf(TypeId type, bool with_bounds) {
+    if (isPointer(type)) return kPointers;
     if (type.index >= kKinds) return intervalOf(types_, type, with_bounds);
     if (!kind_known_[type.index]) {
       kind_known_[type.index] = true;
@@ -113,12 +126,19 @@ class Analysis {
     return kind == TypeKind::Bool || TypeTable::isInteger(kind) || TypeTable::isBits(kind);
   }
 
-  // ---- facts
+  bool isPointer(TypeId type) const {
+    const TypeKind kind = types_.kind(type);
+    return kind == TypeKind::Pointer || kind == TypeKind::Reference;
+  }
+  bool isTracked(TypeId type) const { return isIntegral(type) || isPointer(type); }
+
+  // ---- facts. The variables are the locals, the fields of self and, again by field, the pointers in fields that are
+  // references. Of a pointer a fact says whether it may be null.
 
   // The number of a variable whose interval is tracked, or kNone.
   uint32_t variable(ExprId id) const {
     const Expr& e = body_.expr(id);
-    if (!isIntegral(e.type)) return kNone;
+    if (!isTracked(e.type)) return kNone;
     if (const uint32_t* local = localOf(e)) return private_[*local] ? *local : kNone;
     const auto* field = e.tryAs<FieldExpr>();
     if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self) return kNone;
@@ -126,13 +146,31 @@ class Analysis {
     if (self.record_kind == RecordKind::Union || self.fields[field->field].by_reference) return kNone;
     return self_first_ + field->field;
   }
+  // The number of the pointer in a field of self that is a reference, or kNone.
+  uint32_t referenceOf(const Expr& e) const {
+    const auto* field = e.tryAs<FieldExpr>();
+    if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self || !isReference(module_, body_, e))
+      return kNone;
+    return references_first_ + field->field;
+  }
+  // Epochs of fields of self: one counts the statements that may write any of them, the other also those that reach a
+  // field only by its address.
+  uint32_t epochOf(uint32_t variable) const {
+    const bool by_address =
+        variable >= self_first_ && variable < references_first_ && is_exposed_[variable - self_first_];
+    return by_address ? exposed_epoch_ : epoch_;
+  }
   bool holds(uint32_t variable, const Fact& fact) const {
-    return fact.known && (variable < self_first_ || fact.epoch == epoch_);
+    return fact.known && (variable < self_first_ || fact.epoch == epochOf(variable));
   }
   void set(uint32_t variable, const Fact& fact) {
     trail_.push_back({variable, facts_[variable]});
     facts_[variable] = fact;
-    facts_[variable].epoch = epoch_;
+    facts_[variable].epoch = epochOf(variable);
+  }
+  void forgetFields() {
+    ++epoch_;
+    ++exposed_epoch_;
   }
   void setInterval(uint32_t variable, const Interval& interval) {
     Fact fact;
@@ -143,32 +181,18 @@ class Analysis {
 
   // A place was written, or may have been.
   void written(ExprId place) {
-    const Expr* e = &body_.expr(place);
-    uint32_t below_self = kNone;  // the field of self that the place lies in
-    bool leads_out = false;
-    for (ExprId base = baseOf(*e); base; base = baseOf(*e)) {
-      leads_out = leads_out || isReference(module_, body_, *e);
-      if (const auto* field = e->tryAs<FieldExpr>()) below_self = field->field;
-      e = &body_.expr(base);
-    }
-    const uint32_t* local = localOf(*e);
-    if (leads_out) {
-      ++epoch_;
-    } else if (local != nullptr) {
-      if (private_[*local])
-        set(*local, {});
-      else if (body_.locals[*local].by_reference)
-        ++epoch_;
-    } else if (e->kind == ExprKind::Self && below_self != kNone &&
-               types_.info(types_.resolve(body_.self)).record_kind != RecordKind::Union) {
-      set(self_first_ + below_self, {});
-    } else if (e->kind != ExprKind::Image) {
-      ++epoch_;
+    const Effect effect = effectOfWrite(module_, body_, private_, place);
+    switch (effect.kind) {
+      case Effect::None: return;
+      case Effect::Local: return set(effect.index, {});
+      case Effect::Field: return set(self_first_ + effect.index, {});
+      case Effect::Exposed: ++exposed_epoch_; return;
+      case Effect::Fields: return forgetFields();
     }
   }
   void effectsOf(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
-    if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure) ++epoch_;
+    if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure) forgetFields();
   }
   void effectsIn(StmtId first) {
     forEachStmt(body_, first, [&](StmtId id) { effectsOf(body_.stmt(id)); });
@@ -471,12 +495,11 @@ class Analysis {
     const Interval from = value(s.from);
     const Interval to = value(s.to);
     const uint32_t control = variable(s.control);
-    const uint32_t epoch_before = epoch_;
     // Whether the body itself writes the control variable: its fact is set before the scan.
     if (control != kNone) setInterval(control, from);
     const size_t mark = trail_.size();
     effectsIn(s.body_block);
-    const bool is_kept = control != kNone && facts_[control].known && (control < self_first_ || epoch_ == epoch_before);
+    const bool is_kept = control != kNone && holds(control, facts_[control]);
     LoopState loop{s.body_block, {}, {}};
     watch(loop, mark, control);
     written(s.control);
@@ -497,6 +520,10 @@ class Analysis {
   uint32_t variableAfter(ExprId id) const {
     while (const auto* convert = body_.expr(id).tryAs<ConvertExpr>()) {
       const TypeId from = body_.expr(convert->operand).type, to = body_.expr(id).type;
+      if (isPointer(from) && (isPointer(to) || TypeTable::bitWidth(types_.plainKind(to)) == 64)) {
+        id = convert->operand;
+        continue;
+      }
       if (!isIntegral(to) || !isIntegral(from) || !types::isLossless(types_, from, to)) return kNone;
       id = convert->operand;
     }
@@ -511,9 +538,27 @@ class Analysis {
   }
   Interval current(uint32_t v) { return holds(v, facts_[v]) ? facts_[v].interval : all(v); }
   Interval all(uint32_t v) {
+    if (v >= references_first_) return kPointers;
     const TypeId type =
         v < self_first_ ? body_.locals[v].type : types_.info(types_.resolve(body_.self)).fields[v - self_first_].type;
     return allOf(type, true);
+  }
+
+  // An expression lies in these bounds from here on: narrows the variable in `i`, `i + 1` or `i - 1`.
+  void holdsFrom(ExprId id, Interval bounds) {
+    while (const auto* sum = body_.expr(id).tryAs<BinaryExpr>()) {
+      if ((sum->op != Op::Add && sum->op != Op::Sub) || !isConst(body_.expr(sum->right))) return;
+      const bool outer = asking_;
+      asking_ = true;
+      const Interval left = value(sum->left), right = value(sum->right);
+      asking_ = outer;
+      if (!apply(sum->op, left, right, allOf(body_.expr(id).type, false)).fits) return;
+      const Int128 addend = sum->op == Op::Add ? right.low : -right.low;
+      bounds = {bounds.low - addend, bounds.high - addend};
+      id = sum->left;
+    }
+    const uint32_t v = variableAfter(id);
+    if (v != kNone) narrow(v, bounds);
   }
 
   // Narrows variables by the outcome of a condition.
@@ -528,7 +573,7 @@ class Analysis {
       refine(right, outcome);
       return;
     }
-    if (!types::isComparison(op) || !isIntegral(body_.expr(left).type)) return;
+    if (!types::isComparison(op) || !isTracked(body_.expr(left).type)) return;
     compare(op, outcome, left, right, false);
     compare(op, outcome, right, left, true);
   }
@@ -593,9 +638,10 @@ class Analysis {
   // The values that an expression can have; clears the checks below that it proves.
   Interval value(ExprId id) {
     Expr& e = body_.expr(id);
-    if (has_checks_[id.index] == 0 && !isIntegral(e.type)) return {-kWide, kWide};
+    if (has_checks_[id.index] == 0 && !isTracked(e.type)) return {-kWide, kWide};
     switch (e.kind) {
       case ExprKind::Const: {
+        if (isPointer(e.type)) return bitsOf(e) == 0 ? Interval{0, 0} : kNotNull;
         if (!isIntegral(e.type)) break;
         const uint64_t value = bitsOf(e);
         const Int128 bits =
@@ -604,7 +650,10 @@ class Analysis {
       }
       case ExprKind::Local:
       case ExprKind::Field: {
-        if (e.kind == ExprKind::Field) value(e.as<FieldExpr>().base);
+        if (e.kind == ExprKind::Field) {
+          value(e.as<FieldExpr>().base);
+          nullCheck(e, referenceOf(e));
+        }
         const uint32_t v = variable(id);
         if (v != kNone) return current(v);
         return allOf(e.type, keepsBounds(id));
@@ -622,6 +671,7 @@ class Analysis {
       case ExprKind::Convert: {
         const ExprId operand = e.as<ConvertExpr>().operand;
         const Interval a = value(operand);
+        if (isPointer(e.type) && isPointer(body_.expr(operand).type)) return a;
         if (!isIntegral(e.type)) break;
         const Interval target = allOf(e.type, true);
         if (!isIntegral(body_.expr(operand).type)) return target;
@@ -647,12 +697,31 @@ class Analysis {
       case ExprKind::Global:
       case ExprKind::Program:
       case ExprKind::Image:
-      case ExprKind::Deref:
       case ExprKind::Bits:
-      case ExprKind::Call:
-      case ExprKind::Address: forEachOperand(body_, e, [&](ExprId operand) { value(operand); }); break;
+      case ExprKind::Call: forEachOperand(body_, e, [&](ExprId operand) { value(operand); }); break;
+      case ExprKind::Deref:
+        value(e.as<DerefExpr>().pointer);
+        nullCheck(e, variableAfter(e.as<DerefExpr>().pointer));
+        break;
+      case ExprKind::Address:
+        value(e.as<AddressExpr>().place);
+        if (isOwnMemory(e.as<AddressExpr>().place)) return kNotNull;
+        break;
     }
     return allOf(e.type, false);
+  }
+  // A place through a pointer: it is not null from here on, which `v` keeps.
+  void nullCheck(Expr& e, uint32_t v) {
+    if ((e.checks & kCheckNull) == 0 || v == kNone) return;
+    if (current(v).low > 0) return clear(e, kCheckNull);
+    narrow(v, kNotNull);
+  }
+  // Without a pointer on the way.
+  bool isOwnMemory(ExprId place) const {
+    const Expr* e = &body_.expr(place);
+    for (; baseOf(*e); e = &body_.expr(baseOf(*e)))
+      if (isReference(module_, body_, *e)) return false;
+    return e->kind != ExprKind::Deref;
   }
   Interval indexed(ExprId id) {
     Expr& e = body_.expr(id);
@@ -660,12 +729,25 @@ class Analysis {
     value(node.base);
     const TypeInfo& array = types_.info(types_.resolve(body_.expr(node.base).type));
     bool inside = array.dimensions.size() == node.indices.count;
+    uint16_t proven = 0;
     for (uint32_t i = 0; i < node.indices.count; ++i) {
       const Interval one = value(body_.list(node.indices)[i]);
-      inside = inside && one.within({array.dimensions[i].low, array.dimensions[i].high});
+      const bool is_proven = i < array.dimensions.size() && one.within(boundsOf(array, i));
+      if (is_proven && i < kMostProven) proven = static_cast<uint16_t>(proven | 1u << i);
+      inside = inside && is_proven;
+    }
+    if ((e.checks & kCheckIndex) == 0) return allOf(e.type, keepsBounds(id));
+    if (!asking_ && proven != e.proven) {
+      e.proven = inside ? uint16_t{0} : proven;
+      changed_ = true;
     }
     if (inside) clear(e, kCheckIndex);
+    for (uint32_t i = 0; i < node.indices.count && i < array.dimensions.size(); ++i)
+      holdsFrom(body_.list(node.indices)[i], boundsOf(array, i));
     return allOf(e.type, keepsBounds(id));
+  }
+  static Interval boundsOf(const TypeInfo& array, uint32_t dimension) {
+    return {array.dimensions[dimension].low, array.dimensions[dimension].high};
   }
   Interval binary(ExprId id) {
     Expr& e = body_.expr(id);
@@ -684,6 +766,7 @@ class Analysis {
 
   Module& module_;
   const TypeTable& types_;
+  const Exposure& exposure_;
   Body& body_;
   static constexpr size_t kKinds = static_cast<size_t>(TypeKind::Count_);
   Interval kind_interval_[kKinds];
@@ -694,9 +777,10 @@ class Analysis {
   std::vector<uint32_t> stamp_, stamp_entry_;
   std::vector<Change> trail_;
   std::vector<Touched> touched_;
-  std::vector<LoopState*> loops_;  // the loops around the current statement
-  uint32_t self_first_ = 0;
-  uint32_t epoch_ = 0, stamps_ = 0;
+  std::vector<LoopState*> loops_;    // the loops around the current statement
+  std::vector<uint8_t> is_exposed_;  // by field of self
+  uint32_t self_first_ = 0, references_first_ = 0;
+  uint32_t epoch_ = 0, exposed_epoch_ = 0, stamps_ = 0;
   int trials_ = 0;
   bool asking_ = false;
   bool changed_ = false;
@@ -704,6 +788,8 @@ class Analysis {
 
 }  // namespace
 
-bool removeChecks(Module& module, Body& body) { return Analysis(module, body).run(); }
+bool removeChecks(Module& module, const Exposure& exposure, Body& body) {
+  return Analysis(module, exposure, body).run();
+}
 
 }  // namespace rung::ir

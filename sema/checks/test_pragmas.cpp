@@ -1,5 +1,5 @@
 // Forbids pragmas of tests that would have no effect. A function marked {setup} runs before each test of its file, one
-// marked {teardown} after it; nobody gives them arguments.
+// marked {teardown} after it; nothing gives them arguments.
 //   passes  {setup} FUNCTION fill ...                  {test} {skip 'needs the new valve'} PROGRAM closes ...
 //   fails   {setup} PROGRAM fill ...                                                              E1170
 //   fails   {teardown} FUNCTION drain VAR_INPUT level : INT; END_VAR ...                          E1170

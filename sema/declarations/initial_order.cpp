@@ -36,6 +36,16 @@ struct InitialOrder {
       if (binding.value) collect(binding.value, into);
   }
 
+  // What FB_Init takes as a reference or an interface may be the object itself, as in TwinCAT.
+  void collectConstructor(CallId id, std::vector<VarId>& into) const {
+    for (const Binding& binding : context.symbols.call(id).bindings) {
+      const Var& pin = var(binding.pin);
+      const bool is_object = pin.section == SectionKind::InOut || interfaceOf(context, pin.type) ||
+                             context.types().kind(pin.type) == types::TypeKind::Reference;
+      if (!is_object) collect(binding.value, into);
+    }
+  }
+
   // Every variable whose value an expression reads. An address is known before all values.
   void collect(ExprId id, std::vector<VarId>& into) const {
     if (!id) return;
@@ -53,7 +63,7 @@ struct InitialOrder {
     collect(var(id).init, all);
     const uint32_t first = var(id).start.constructor.index;
     const uint32_t count = first == 0 ? 0 : std::max(var(id).start.element_constructors, 1u);
-    for (uint32_t i = 0; i < count; ++i) collectCall(CallId{first + i}, all);
+    for (uint32_t i = 0; i < count; ++i) collectConstructor(CallId{first + i}, all);
     std::sort(all.begin(), all.end(), [](VarId a, VarId b) { return a.index < b.index; });
     all.erase(std::unique(all.begin(), all.end()), all.end());
     std::erase_if(all, [&](VarId read) { return !var(read).list && var(read).pou != var(id).pou; });

@@ -217,8 +217,9 @@ class TypeTable {
   static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
   static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
   static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
-  // UINT and WORD: a number without sign and a bit string of one width.
+  // UINT and WORD: a number without sign and a bit string of one width. All pointers.
   static bool haveSameBits(TypeKind a, TypeKind b) {
+    if (a == TypeKind::Pointer && b == TypeKind::Pointer) return true;
     return ((isUnsignedInteger(a) && isBits(b)) || (isBits(a) && isUnsignedInteger(b))) && bitWidth(a) == bitWidth(b);
   }
   static bool isNumber(TypeKind k) { return isInteger(k) || isBits(k) || isReal(k); }

@@ -4,8 +4,8 @@
 # compiler  lines per second of each phase for about 1 000, 10 000 and 100 000 generated lines, and for each --input
 # cxx       CPU seconds of the C++ compiler at -O2 for the output of 100 000 lines (and of each --input)
 # start     wall milliseconds of `rung check` for a program of 20 lines
-# kernels   generated code against hand-written C++ at -O2; --kernels names a folder with another kernels.st (blocks
-#           K_NAME with rounds and check) and hand.cpp, which is measured too
+# kernels   the shared library of `rung build` against hand-written C++ at -O2, in CPU time and in turn; --kernels names
+#           a folder with another kernels.st (blocks K_NAME with rounds and check) and hand.cpp, which is measured too
 # interp    the interpreter as multiples of native code at -O2, on the same kernels
 # RUNG names the tool (build/bin/rung), CXX the compiler (g++).
 set -eu
@@ -105,50 +105,66 @@ wrap() {
   echo "END_RESOURCE END_CONFIGURATION"
 }
 
+# What is measured is what ships: the shared library of `rung build`, in CPU time, in turn with the code by hand.
 measure_kernels() {  # kernels.st hand.cpp
-  $cxx -std=c++17 -O2 "$2" -o "$work/hand"
-  "$work/hand" >"$work/hand.tsv"
-  local rounds checks turn
-  rounds=$(awk -F'\t' '{ printf "%s=%s ", $2, $3 }' "$work/hand.tsv")
+  local modules= checks rounds
   for checks in none default; do
-    rm -rf "$work/out"
-    "$rung" emit "$1" --checks=$checks -o "$work/out" || { echo "failed with exit code $?"; return; }
-    $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" "$work"/out/*.cpp tests/bench/kernels/measure.cpp "$runtime" -o "$work/$checks"
+    "$rung" build "$1" --shared --checks=$checks -o "$work/$checks.so" || { echo "failed with exit code $?"; return; }
+    modules=$modules${modules:+:}$checks=$work/$checks.so
   done
-  # Interleaved, the best of each: other load on the machine affects all alike.
-  for turn in 1 2 3 4 5; do
-    "$work/hand" >"$work/hand.$turn"
-    for checks in none default; do
+  if grep -q measure_hand.h "$2"; then
+    compile_measure "$2"
+    RUNG_BENCH_MODULES=$modules "$work/measure" >"$work/rows" || { echo "failed with exit code $?"; return; }
+  else  # with a main of its own: alternating processes
+    $cxx -std=c++17 -O2 "$2" -o "$work/hand"
+    compile_measure tests/bench/modules_only.cpp
+    rounds=$("$work/hand" | awk -F'\t' '{ printf "%s=%s ", $2, $3 }')
+    rm -f "$work/rows"
+    for _ in 1 2 3; do
+      "$work/hand" >>"$work/rows"
       # shellcheck disable=SC2086
-      "$work/$checks" $rounds >"$work/$checks.$turn" || { echo "failed with exit code $?"; return; }
+      RUNG_BENCH_MODULES=$modules "$work/measure" $rounds >>"$work/rows" || { echo "failed with exit code $?"; return; }
     done
-  done
-  for turn in hand none default; do
-    awk -F'\t' -v OFS='\t' '
-      !($2 in best) { order[++n] = $2 }
-      !($2 in best) || $4 < best[$2] { best[$2] = $4; row[$2] = $0 }
-      END { for (i = 1; i <= n; i++) print row[order[i]] }' "$work/$turn".[1-5] >"$work/$turn.tsv"
-  done
+  fi
   awk -F'\t' '
-    FNR == 1 { file++ }
-    file == 1 { hand[$2] = $4; sum[$2] = $5; order[++n] = $2; next }
-    { time[file, $2] = $4; if ($5 != sum[$2]) wrong = wrong " " $2 "(" $5 " for " sum[$2] ")" }
-    function median(f,   i, k, v, t) {
-      for (i = 1; i <= n; i++) v[i] = time[f, order[i]] / hand[order[i]]
+    !($2 in known) { known[$2] = 1; order[++n] = $2 }
+    !(($1, $2) in time) || $4 < time[$1, $2] { time[$1, $2] = $4 }
+    { sum[$1, $2] = $5 }
+    function median(who,   i, k, v, t) {
+      for (i = 1; i <= n; i++) v[i] = time[who, order[i]] / time["hand", order[i]]
       for (i = 2; i <= n; i++) for (k = i; k > 1 && v[k - 1] > v[k]; k--) { t = v[k]; v[k] = v[k - 1]; v[k - 1] = t }
       return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
     }
     END {
       printf "%-10s %8s %12s %15s\n", "kernel", "hand s", "checks=none", "checks=default"
-      for (i = 1; i <= n; i++) { k = order[i]; printf "%-10s %8.4f %11.2fx %14.2fx\n", k, hand[k], time[2, k] / hand[k], time[3, k] / hand[k] }
-      printf "%-10s %8s %11.2fx %14.2fx\n", "median", "", median(2), median(3)
+      for (i = 1; i <= n; i++) {
+        k = order[i]; hand = time["hand", k]
+        printf "%-10s %8.4f %11.2fx %14.2fx\n", k, hand, time["none", k] / hand, time["default", k] / hand
+        if (sum["none", k] != sum["hand", k]) wrong = wrong " " k "(" sum["none", k] " for " sum["hand", k] ")"
+        if (sum["default", k] != sum["hand", k]) wrong = wrong " " k "(" sum["default", k] " for " sum["hand", k] ")"
+      }
+      printf "%-10s %8s %11.2fx %14.2fx\n", "median", "", median("none"), median("default")
       if (wrong != "") print "check sums differ:" wrong
-    }' "$work/hand.tsv" "$work/none.tsv" "$work/default.tsv"
+    }' "$work/rows"
+}
+
+compile_measure() {  # the file with main()
+  $cxx -std=c++17 -O2 -I "$include" -I tests/bench "$1" tests/bench/measure.cpp "$runtime" -ldl -o "$work/measure"
+}
+
+# The code by hand alone: name and rounds of each kernel.
+rounds_of() {  # hand.cpp
+  if grep -q measure_hand.h "$1"; then
+    compile_measure "$1"
+    "$work/measure"
+  else
+    $cxx -std=c++17 -O2 "$1" -o "$work/hand"
+    "$work/hand"
+  fi
 }
 
 measure_interp() {  # kernels.st hand.cpp
-  $cxx -std=c++17 -O2 "$2" -o "$work/hand"
-  "$work/hand" >"$work/hand.tsv"
+  rounds_of "$2" >"$work/hand.tsv"
   local name rounds engine
   # A twentieth of the rounds is enough for the interpreter; the start is not counted.
   awk -F'\t' '{ print $2, int($3 / 20) + 1 }' "$work/hand.tsv" | while read -r name rounds; do
@@ -178,10 +194,12 @@ interp() {
 }
 
 kernels() {
-  echo "== kernels: generated code at -O2, as multiples of hand-written C++"
+  echo "== kernels: CPU time of what \`rung build --shared\` makes, as multiples of hand-written C++ at -O2"
   measure_kernels tests/bench/kernels/kernels.st tests/bench/kernels/hand.cpp
   echo "-- routines of plant programs"
   measure_kernels tests/bench/routines/kernels.st tests/bench/routines/hand.cpp
+  echo "-- functions and blocks of libraries"
+  measure_kernels tests/bench/functions/kernels.st tests/bench/functions/hand.cpp
   echo "-- the same in a project whose code is in several files"
   { awk 'BEGIN { for (i = 100; i < 400; i++) print "FUNCTION Level" i " : DINT\nLevel" i " := " i ";\nEND_FUNCTION" }'
     cat tests/bench/routines/kernels.st; } >"$work/spread.st"

@@ -6,8 +6,21 @@
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/native.h"
+#include "tools/driver/output_files.h"
 
 namespace rung::driver {
+
+namespace {
+
+int writeSymbols(const Options& options, const std::vector<codegen::OutputFile>& files, Sink& sink) {
+  for (const codegen::OutputFile& file : files) {
+    if (file.path != codegen::kSymbolFile) continue;
+    if (std::string error = writeFile(options.symbols, file.content); !error.empty()) return usageError(sink, error);
+  }
+  return kSuccess;
+}
+
+}  // namespace
 
 int runBuild(const Options& options, Sink& sink) {
   struct stat info;
@@ -38,6 +51,7 @@ int runBuild(const Options& options, Sink& sink) {
       sink.internalError(result.message);
     else if (exit != kSuccess)
       usageError(sink, result.message);
+    if (exit == kSuccess && !options.symbols.empty()) exit = writeSymbols(options, request.parts[0].files, sink);
   }
   if (options.time_phases) sink.message(times.table());
   return exit;

@@ -77,6 +77,7 @@ struct Options {
 
   // build
   BuildKind build = BuildKind::Executable;
+  std::string symbols;  // where the symbol file goes; empty: nowhere
   bool keep = false;
 
   // run: options for the host (rung::host::parseRunOptions), one `--name=value` each

@@ -70,6 +70,7 @@ enum class Key : uint8_t {
   Bundles,
   Shared,
   Static,
+  Symbols,
   Keep,
   Engine,
   Host,
@@ -106,6 +107,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files that include all the others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
+    {Key::Symbols, "--symbols", "FILE", bit(Command::Build), "write where the variables are, as JSON"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and print its folder"},
     {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
@@ -242,6 +244,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return error;
     case Key::Depfile: options.depfile = value; return {};
     case Key::DepfileTarget: options.depfile_target = value; return {};
+    case Key::Symbols: options.symbols = value; return {};
     case Key::ListOutputs: options.list_outputs = true; return {};
     case Key::Bundles: return parseNumber(row.name, value, 1, 1000, options.bundles);
     case Key::Shared:

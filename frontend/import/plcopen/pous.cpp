@@ -8,6 +8,8 @@
 #include "frontend/import/plcopen/import.h"
 #include "frontend/import/plcopen/networks.h"
 #include "frontend/source/names.h"
+#include "frontend/source/nested_comments.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::importer::plcopen {
@@ -179,6 +181,26 @@ void findSteps(Import& import, const xml::Element& pou) {
   }
 }
 
+// Whether a comment, which ends at the first `*)`, contains the beginning of another one.
+bool hasCommentInComment(std::string_view code) {
+  const std::string marked = kCommentsDoNotNest + std::string(code);
+  Scanner scanner(marked);
+  for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next()) {
+    const std::string_view text = scanner.textOf(unit);
+    if (unit.kind == UnitKind::Comment && text[1] == '*' && text.find(text.substr(0, 2), 2) != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+// Comments of Beremiz and OpenPLC end at the first `*)`.
+void writeCode(Import& import, const xml::Element& code) {
+  const bool is_flat = import.unquoted_strings && hasCommentInComment(textOf(import, code));
+  if (is_flat) import.out.word(kCommentsDoNotNest);
+  writeLines(import, code);
+  if (is_flat) import.out.word(kCommentsNest);
+}
+
 }  // namespace
 
 bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name) {
@@ -193,7 +215,7 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
   bool ok = true;
   for (const xml::Element& e : import.document.children(body)) {
     if (e.name == "ST" || e.name == "IL") {
-      writeLines(import, e);
+      writeCode(import, e);
     } else if (e.name == "LD") {
       networks(e, NetworkLanguage::Ladder);
     } else if (e.name == "FBD") {

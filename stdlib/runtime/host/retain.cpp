@@ -1,7 +1,7 @@
 // Retained variables: see retain.h. A slot has magic, sequence, layout hash, length, and the CRC of all that and of the
 // payload; then the payload: the bytes of the retain ranges, of the persistent ranges, and a directory of their
-// variables (`path TAB kind TAB offset TAB size`). Both slots have the same size, a multiple of 4096, and so share no
-// sector.
+// variables (`path TAB kind TAB offset TAB size TAB type`). Both slots have the same size, a multiple of 4096, and so
+// share no sector.
 #include "retain.h"
 
 #include <fcntl.h>
@@ -142,7 +142,7 @@ std::string Retain::directory(const Symbols& symbols) const {
     if (at + leaf.type->size > range->begin + range->size) continue;
     text += lowerCase(leaf.path) + '\t' + std::to_string(leaf.type->kind) + '\t' +
             std::to_string(range->offset + static_cast<uint32_t>(at - range->begin)) + '\t' +
-            std::to_string(leaf.type->size) + '\n';
+            std::to_string(leaf.type->size) + '\t' + (module_.strings + leaf.type->name) + '\n';
   }
   return text;
 }
@@ -175,40 +175,50 @@ bool Retain::restore(rung_start start, const Symbols& symbols, std::string& erro
   return true;
 }
 
+struct Retain::Entry {
+  unsigned kind = 0, offset = 0, size = 0;
+  std::string type;  // empty in files of earlier versions
+};
+
+bool Retain::readEntry(const std::string& line, std::string& path, Entry& entry) {
+  const size_t tab = line.find('\t');
+  int length = 0;
+  if (tab == std::string::npos ||
+      sscanf(line.c_str() + tab, "\t%u\t%u\t%u%n", &entry.kind, &entry.offset, &entry.size, &length) != 3)
+    return false;
+  path = line.substr(0, tab);
+  const size_t end = tab + static_cast<size_t>(length);
+  entry.type = end < line.size() ? line.substr(end + 1) : "";
+  return true;
+}
+
 void Retain::restoreByName(const Slot& slot, rung_start start, const Symbols& symbols) {
-  struct Entry {
-    unsigned kind, offset, size;
+  const auto each = [](const std::string& directory, size_t at, auto use) {
+    for (size_t end; at < directory.size() && (end = directory.find('\n', at)) != std::string::npos; at = end + 1) {
+      std::string path;
+      Entry entry;
+      if (readEntry(directory.substr(at, end - at), path, entry)) use(path, entry);
+    }
   };
   std::unordered_map<std::string, Entry> entries;
-  for (size_t at = slot.value_bytes; at < slot.payload.size();) {
-    size_t end = slot.payload.find('\n', at);
-    if (end == std::string::npos) break;
-    const std::string line = slot.payload.substr(at, end - at);
-    const size_t tab = line.find('\t');
-    Entry entry{};
-    if (tab != std::string::npos &&
-        sscanf(line.c_str() + tab, "\t%u\t%u\t%u", &entry.kind, &entry.offset, &entry.size) == 3)
-      entries.emplace(line.substr(0, tab), entry);
-    at = end + 1;
-  }
-  const std::string mine = directory(symbols);
+  each(slot.payload, slot.value_bytes,
+       [&](const std::string& path, const Entry& entry) { entries.emplace(path, entry); });
   const uint32_t retain_bytes = bytesOf(module_.retain, module_.retain_count);
-  for (size_t at = 0; at < mine.size();) {
-    const size_t end = mine.find('\n', at);
-    const std::string line = mine.substr(at, end - at);
-    at = end + 1;
-    const size_t tab = line.find('\t');
-    Entry now{};
-    if (sscanf(line.c_str() + tab, "\t%u\t%u\t%u", &now.kind, &now.offset, &now.size) != 3) continue;
-    if (now.offset < retain_bytes && start != RUNG_WARM) continue;
-    const auto before = entries.find(line.substr(0, tab));
-    if (before == entries.end() || before->second.kind != now.kind || before->second.size != now.size) continue;
-    if (size_t{before->second.offset} + now.size > slot.value_bytes) continue;
+  each(directory(symbols), 0, [&](const std::string& path, const Entry& now) {
+    if (now.offset < retain_bytes && start != RUNG_WARM) return;
+    const auto found = entries.find(path);
     Variable variable;
     std::string ignored;
-    if (!symbols.find(line.substr(0, tab), variable, ignored)) continue;
-    memcpy(variable.address(), slot.payload.data() + before->second.offset, now.size);
-  }
+    if (found == entries.end() || !symbols.find(path, variable, ignored)) return;
+    const Entry& before = found->second;
+    if (before.kind != now.kind || before.size != now.size) {
+      changes_.push_back("`" + variable.path + "` was " + (before.type.empty() ? "of another type" : before.type) +
+                         " and is " + now.type + " now: it starts with its initial value");
+      return;
+    }
+    if (size_t{before.offset} + now.size > slot.value_bytes) return;
+    memcpy(variable.address(), slot.payload.data() + before.offset, now.size);
+  });
 }
 
 bool Retain::save(const Symbols& symbols, std::string& error) {

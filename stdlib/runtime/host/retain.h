@@ -22,6 +22,8 @@ class Retain {
   // Restores after init: a warm start keeps retained and persistent variables, a cold start persistent ones, origin
   // none. From a file of another layout, variables with the same path and type are restored. False: `error` is set.
   bool restore(rung_start start, const Symbols& symbols, std::string& error);
+  // After restore: a sentence for each variable that keeps its initial value because its type is another one now.
+  const std::vector<std::string>& changes() const { return changes_; }
   // Writes the current values.
   bool save(const Symbols& symbols, std::string& error);
 
@@ -35,6 +37,8 @@ class Retain {
   bool readSlot(int index, Slot& slot) const;
   std::string directory(const Symbols& symbols) const;
   bool open(std::string& error);
+  struct Entry;
+  static bool readEntry(const std::string& line, std::string& path, Entry& entry);
   void restoreByName(const Slot& slot, rung_start start, const Symbols& symbols);
 
   const rung_module& module_;
@@ -43,6 +47,7 @@ class Retain {
   int file_ = -1;
   uint64_t sequence_ = 0;
   std::string directory_;
+  std::vector<std::string> changes_;
 };
 
 uint32_t crc32(const void* data, size_t size, uint32_t crc = 0);

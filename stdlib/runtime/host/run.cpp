@@ -81,6 +81,15 @@ struct Run {
   int runVirtual();
   int runInRealTime();
   int finish(bool faulted, rung_fault fault, const std::string& extra);
+  // A changed array of thousands of elements is one mistake.
+  void reportChanges(const Retain& restored) const {
+    constexpr size_t kMost = 10;
+    const std::vector<std::string>& changes = restored.changes();
+    for (size_t i = 0; i < changes.size() && i < kMost; ++i)
+      fprintf(options.err, "%s: %s\n", options.retain_path.c_str(), changes[i].c_str());
+    if (changes.size() > kMost)
+      fprintf(options.err, "%s: and %zu more\n", options.retain_path.c_str(), changes.size() - kMost);
+  }
   std::string saveRetained() {
     std::string error;
     if (retain && !retain->save(symbols, error)) return error;
@@ -101,6 +110,7 @@ struct Run {
   std::optional<Retain> retain;
   std::optional<Stopper> stopper;  // in virtual time
   rung_host host{};
+  char machine_name[256] = {};
   std::vector<std::string> reported;  // locations of violated assertions
   std::mutex reported_mutex;          // tasks in real time are threads
   int64_t cycles = 0;
@@ -153,6 +163,7 @@ int Run::prepare() {
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
   host.message = onMessage;
+  if (gethostname(machine_name, sizeof machine_name - 1) == 0) host.name = machine_name;
   files.serve(host);
   host.assertion = onAssertion;
   context.host = &host;
@@ -173,6 +184,7 @@ int Run::prepare() {
                              : retain->exists() ? RUNG_WARM
                                                 : RUNG_COLD;
     if (!retain->restore(start, symbols, error)) return refuse(options, error);
+    reportChanges(*retain);
   }
   for (const auto& [path, value] : options.sets) {
     const std::string what = applySet(symbols, path, value);

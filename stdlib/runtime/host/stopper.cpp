@@ -27,7 +27,7 @@ void setTimer(int64_t first_ns, int64_t next_ns) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-void handle(int number, siginfo_t*, void* details) {
+void onStopSignal(int number, siginfo_t*, void* details) {
   rung_context* const context = context_to_stop;
   if (context == nullptr) return;
   const bool again = stop_reason != RUNG_STOP_NONE;
@@ -52,7 +52,7 @@ Stopper::Stopper(rung_context& context, Hung hung) {
   stop_site = RUNG_NONE;
   context.stop = RUNG_STOP_NONE;
   struct sigaction action {};
-  action.sa_sigaction = handle;
+  action.sa_sigaction = onStopSignal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
   sigaction(SIGINT, nullptr, &old_interrupt);
   sigaction(SIGALRM, &action, &old_alarm);

@@ -20,12 +20,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int kEndSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int64_t kGraceNs = 3'000'000'000;  // for code that a signal does not stop
 constexpr double kLongSeconds = 3;           // tests that a faster engine would shorten
 
-volatile sig_atomic_t signalled = 0;
-void onSignal(int) { signalled = signalled + 1; }
+volatile sig_atomic_t end_signals = 0;
+void onEndSignal(int) { end_signals = end_signals + 1; }
 
 // ---- messages
 
@@ -205,7 +205,7 @@ class Parent {
     bool open = true;
     while (open) {
       hint();
-      if (signalled != forwarded_) interrupt();
+      if (end_signals != forwarded_) interrupt();
       const int64_t now = Clock::now().time_since_epoch().count();
       if (deadline_ != 0 && now >= deadline_ && !killed_) {
         kill(child_, SIGKILL);
@@ -293,7 +293,7 @@ class Parent {
 
   void interrupt() {
     const bool again = forwarded_ != 0;
-    forwarded_ = signalled;
+    forwarded_ = end_signals;
     if (!running_) return stop();
     interruptTest();
     if (again) {
@@ -339,17 +339,17 @@ std::string runInChildren(const std::vector<uint32_t>& tests, const TestOptions&
                           TestResults& results) {
   void* const shared = mmap(nullptr, kWhereSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) return std::string("cannot start a process for the tests: ") + strerror(errno);
-  struct sigaction before[std::size(kSignals)];
-  for (size_t i = 0; i < std::size(kSignals); ++i) {
-    sigaction(kSignals[i], nullptr, &before[i]);
+  struct sigaction before[std::size(kEndSignals)];
+  for (size_t i = 0; i < std::size(kEndSignals); ++i) {
+    sigaction(kEndSignals[i], nullptr, &before[i]);
     if (before[i].sa_handler == SIG_IGN) continue;
     struct sigaction action {};
-    action.sa_handler = onSignal;
-    sigaction(kSignals[i], &action, nullptr);
+    action.sa_handler = onEndSignal;
+    sigaction(kEndSignals[i], &action, nullptr);
   }
-  signalled = 0;
+  end_signals = 0;
   const std::string error = Parent(tests, options, process, results, static_cast<char*>(shared)).run();
-  for (size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &before[i], nullptr);
+  for (size_t i = 0; i < std::size(kEndSignals); ++i) sigaction(kEndSignals[i], &before[i], nullptr);
   munmap(shared, kWhereSize);
   return error;
 }

@@ -1,8 +1,6 @@
 // ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, formats the values of a failure like the trace,
 // and reports to the host's `assertion` callback. A failing assertion does not end the test.
-#include <cmath>
-#include <cstdio>
-#include <cstring>
+#include <string.h>
 
 #include "rung/code.h"
 #include "rung/values.h"
@@ -61,7 +59,24 @@ bool areEqual(uint8_t kind, uint64_t a, uint64_t b) {
   if (kind == RUNG_WSTRING) return rung_wstring_compare(stringAt<char16_t>(a), stringAt<char16_t>(b)) == 0;
   if (!isReal(kind)) return a == b;
   const double x = rung_f64_of(a), y = rung_f64_of(b);
-  return x == y || (std::isnan(x) && std::isnan(y));
+  return x == y || (x != x && y != y);
+}
+
+// Appends to a string as much as fits.
+template <size_t kSize>
+void append(char (&to)[kSize], const char* from, size_t length) {
+  const size_t at = strlen(to), room = kSize - 1 - at;
+  if (length > room) length = room;
+  memcpy(to + at, from, length);
+  to[at + length] = 0;
+}
+
+// `a = 5`
+template <size_t kSize>
+void appendValue(char (&to)[kSize], const char* name, size_t name_length, const char* value) {
+  append(to, name, name_length);
+  append(to, " = ", 3);
+  append(to, value, strlen(value));
 }
 
 void reportValues(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
@@ -88,16 +103,16 @@ void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bo
   const char* const right_name = left_name + left_length + 1;
   Formatted value;
   char wanted[512], seen[2 * kRoom + 512];
-  snprintf(wanted, sizeof wanted, "%.*s", static_cast<int>(condition_length), condition);
-  int length = 0;
+  wanted[0] = seen[0] = 0;
+  append(wanted, condition, condition_length);
   if (left_length != 0) {
     format(assertion, kind, left, value);
-    length = snprintf(seen, sizeof seen, "%.*s = %s", static_cast<int>(left_length), left_name, value.text);
+    appendValue(seen, left_name, left_length, value.text);
   }
-  if (*right_name != 0 && length < static_cast<int>(sizeof seen)) {
+  if (*right_name != 0) {
     format(assertion, kind, right, value);
-    snprintf(seen + length, sizeof seen - static_cast<size_t>(length), "%s%s = %s", length == 0 ? "" : ", ", right_name,
-             value.text);
+    if (left_length != 0) append(seen, ", ", 2);
+    appendValue(seen, right_name, strlen(right_name), value.text);
   }
   report(ctx, assertion, false, wanted, seen);
 }
@@ -110,8 +125,8 @@ void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8
 
 void rung_assert_near(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, double expected, double actual,
                       double tolerance) {
-  const bool ok =
-      expected == actual || std::fabs(expected - actual) <= tolerance || (std::isnan(expected) && std::isnan(actual));
+  const bool ok = expected == actual || __builtin_fabs(expected - actual) <= tolerance ||
+                  (expected != expected && actual != actual);
   if (ok) return report(ctx, assertion, true, nullptr, nullptr);
   reportValues(ctx, assertion, kind, rung_bits_of_f64(expected), rung_bits_of_f64(actual));
 }

@@ -3,7 +3,6 @@
 // Nothing with a destructor may live across a call into generated code.
 #include <setjmp.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "rung/code.h"
 
@@ -32,9 +31,11 @@ void rung_raise(rung_context* ctx, uint8_t kind, uint32_t site, int64_t value) {
   ctx->fault.kind = kind;
   ctx->fault.site = site;
   ctx->fault.value = value;
-  if (ctx->fault_target == nullptr) abort();  // the host called generated code without a guard: a bug of the host
+  if (ctx->fault_target == nullptr)
+    __builtin_trap();  // the host called generated code without a guard: a bug of the host
   const bool stops = kind == RUNG_FAULT_STOP;
-  if (stops) ctx->fault.value = ctx->stop != RUNG_STOP_NONE ? ctx->stop : RUNG_STOP_STEPS;
+  if (stops) ctx->fault.value = ctx->stop;
+  if (stops && ctx->stop == RUNG_STOP_NONE) ctx->fault.value = RUNG_STOP_STEPS;
   longjmp(*static_cast<jmp_buf*>(stops ? ctx->stop_target : ctx->fault_target), 1);
 }
 

@@ -1,10 +1,10 @@
 // STRING, WSTRING and USTRING in place (rung/code.h): assignment, comparison, conversion between them and to scalars.
 // In: NUL-terminated strings. Out: strings of at most `capacity` characters. `to` may overlap `from`.
-#include <charconv>
-#include <cstdint>
-#include <cstring>
+#include <stdint.h>
+#include <string.h>
 
 #include "rung/code.h"
+#include "rung/reals.h"
 #include "rung/values.h"
 
 namespace {
@@ -108,18 +108,22 @@ uint64_t readLeadingInteger(const char* string) {
   return negative ? 0 - value : value;
 }
 
-template <class T>
-T readLeadingReal(const char* string) {
-  T value = 0;
+// `word` is in lower case.
+bool beginsWith(const char* string, const char* word) {
+  for (; *word != 0; ++string, ++word)
+    if ((*string | 0x20) != *word) return false;
+  return true;
+}
+
+// 0 when there is no number, infinity when it is too large.
+double readLeadingReal(const char* string, bool is_single) {
   const bool negative = *string == '-';
   if (*string == '-' || *string == '+') ++string;
-  if (*string == '-' || *string == '+') return 0;
-  const std::from_chars_result read = std::from_chars(string, string + strlen(string), value);
-  if (read.ec == std::errc::result_out_of_range) {
-    // Too large or too small: the sign of the exponent decides.
-    for (const char* p = string; p != read.ptr; ++p)
-      if ((*p == 'e' || *p == 'E') && p[1] == '-') return 0;
-    value = static_cast<T>(__builtin_inf());
+  double value = 0;
+  size_t size = strlen(string);
+  if (rung_real_parse(string, &size, is_single, &value) == RUNG_REAL_NONE) {
+    if (beginsWith(string, "inf")) value = __builtin_inf();
+    if (beginsWith(string, "nan")) value = __builtin_nan("");
   }
   return negative ? -value : value;
 }
@@ -137,7 +141,8 @@ bool appendCode(char* to, uint32_t capacity, uint32_t& length, uint32_t code) {
 }  // namespace
 
 uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from) {
-  const size_t length = strnlen(from, capacity);
+  const void* const end = memchr(from, 0, capacity);
+  const size_t length = end == nullptr ? capacity : static_cast<size_t>(static_cast<const char*>(end) - from);
   memmove(to, from, length);
   to[length] = 0;
   return static_cast<uint32_t>(length);
@@ -322,8 +327,8 @@ uint64_t rung_scalar_of_string(uint8_t kind, const char* string) {
   while (size > 0 && isBlank(string[size - 1])) --size;
   switch (static_cast<rung_type_kind>(kind)) {
     case RUNG_BOOL: return size == 4 && (memcmp(string, "TRUE", 4) == 0 || memcmp(string, "true", 4) == 0) ? 1 : 0;
-    case RUNG_REAL: return rung_bits_of_f64(readLeadingReal<float>(string));
-    case RUNG_LREAL: return rung_bits_of_f64(readLeadingReal<double>(string));
+    case RUNG_REAL: return rung_bits_of_f64(readLeadingReal(string, true));
+    case RUNG_LREAL: return rung_bits_of_f64(readLeadingReal(string, false));
     case RUNG_TIME:
     case RUNG_LTIME: {
       int64_t wide = 0;

@@ -2,12 +2,10 @@
 // 32-bit seconds, TOD in 32-bit milliseconds since midnight, the L-forms in 64-bit nanoseconds.
 #include "rung/values.h"
 
-#include "rung/code.h"
+#include <string.h>
 
-#include <charconv>
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include "rung/code.h"
+#include "rung/reals.h"
 
 namespace {
 
@@ -57,15 +55,11 @@ void formatSigned(Writer& to, int64_t value) {
   to.number(value < 0 ? 0 - static_cast<uint64_t>(value) : static_cast<uint64_t>(value));
 }
 
-template <class T>
-void formatReal(Writer& to, T value) {
-  if (std::isnan(value)) return to.put("NaN");
-  if (std::isinf(value)) return to.put(value < 0 ? "-Inf" : "Inf");
-  char buffer[40];
-  const std::to_chars_result end = std::to_chars(buffer, buffer + sizeof buffer - 1, value);
-  *end.ptr = 0;
+void formatReal(Writer& to, double value, bool is_single) {
+  char buffer[RUNG_REAL_ROOM + 1];
+  buffer[rung_real_format(value, is_single, buffer)] = 0;
   to.put(buffer);
-  if (strpbrk(buffer, ".e") == nullptr) to.put(".0");
+  if (strpbrk(buffer, ".eNI") == nullptr) to.put(".0");  // and not of `NaN` or `Inf`
 }
 
 void formatDuration(Writer& to, uint64_t magnitude, bool negative, bool nanoseconds) {
@@ -323,17 +317,16 @@ bool storeInteger(const Integer& value, IntegerFormat format_of, void* to) {
   return true;
 }
 
-template <class T>
-bool readReal(Reader from, T& value) {
+bool readReal(Reader from, bool is_single, double& value) {
   skipTypePrefix(from);
   const bool negative = from.take('-');
   if (!negative) from.take('+');
   if (from.take("nan") && from.done()) {
-    value = std::numeric_limits<T>::quiet_NaN();
+    value = __builtin_nan("");
     return true;
   }
   if (from.take("inf")) {
-    value = std::numeric_limits<T>::infinity();
+    value = __builtin_inf();
   } else {
     char text[400];
     size_t size = 0;
@@ -344,12 +337,14 @@ bool readReal(Reader from, T& value) {
     }
     if (size == 0 || text[0] < '0' || text[0] > '9') return false;
     from.at = from.end;
-    const std::from_chars_result read = std::from_chars(text, text + size, value);
-    if (read.ptr != text + size) {
+    size_t read = size;
+    const rung_real_result result = rung_real_parse(text, &read, is_single, &value);
+    if (read != size) {
       Integer integer;  // 16#FF
       if (!readInteger({text, text + size}, integer)) return false;
-      value = static_cast<T>(integer.magnitude);
-    } else if (read.ec == std::errc::result_out_of_range) {
+      value = is_single ? static_cast<double>(static_cast<float>(integer.magnitude))
+                        : static_cast<double>(integer.magnitude);
+    } else if (result != RUNG_REAL_READ) {
       return false;
     }
   }
@@ -389,8 +384,8 @@ bool readDuration(Reader from, Integer& value) {
     value.magnitude += whole * unit;
     double scale = 1;
     for (int i = 0; i < fraction_digits; ++i) scale *= 10;
-    value.magnitude +=
-        static_cast<uint64_t>(std::floor(static_cast<double>(fraction) * static_cast<double>(unit) / scale + 1e-9));
+    // Not negative: the conversion rounds down.
+    value.magnitude += static_cast<uint64_t>(static_cast<double>(fraction) * static_cast<double>(unit) / scale + 1e-9);
     from.take('_');
   } while (!from.done());
   return true;
@@ -564,8 +559,8 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
     case RUNG_INT: formatSigned(to, load<int16_t>(value)); break;
     case RUNG_DINT: formatSigned(to, load<int32_t>(value)); break;
     case RUNG_LINT: formatSigned(to, load<int64_t>(value)); break;
-    case RUNG_REAL: formatReal(to, load<float>(value)); break;
-    case RUNG_LREAL: formatReal(to, load<double>(value)); break;
+    case RUNG_REAL: formatReal(to, static_cast<double>(load<float>(value)), true); break;
+    case RUNG_LREAL: formatReal(to, load<double>(value), false); break;
     case RUNG_TIME: {
       const uint32_t bits = load<uint32_t>(value);
       const bool negative = is_signed && bits >> 31 != 0;
@@ -650,11 +645,13 @@ bool parseBool(const Reader& from, void* value) {
   return true;
 }
 
-template <class Real>
-bool parseReal(const Reader& from, void* value) {
-  Real real;
-  if (!readReal(from, real)) return false;
-  store(value, real);
+bool parseReal(const Reader& from, bool is_single, void* value) {
+  double real = 0;
+  if (!readReal(from, is_single, real)) return false;
+  if (is_single)
+    store(value, static_cast<float>(real));
+  else
+    store(value, real);
   return true;
 }
 
@@ -689,8 +686,8 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
       Integer integer;
       return readInteger(from, integer) && storeInteger(integer, formatOf(kind), value);
     }
-    case RUNG_REAL: return parseReal<float>(from, value);
-    case RUNG_LREAL: return parseReal<double>(from, value);
+    case RUNG_REAL: return parseReal(from, true, value);
+    case RUNG_LREAL: return parseReal(from, false, value);
     case RUNG_TIME:
     case RUNG_LTIME: {
       Integer ns;

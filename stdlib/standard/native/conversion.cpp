@@ -1,6 +1,5 @@
 // Native bodies of conversion.st: values to and from strings, BCD, byte order.
-#include <cstring>
-#include <type_traits>
+#include <string.h>
 
 #include "integers.h"
 #include "rung/code.h"
@@ -32,7 +31,7 @@ struct Read<double> {
 template <class T>
 uint32_t stringOfInteger(T value, char* out, uint32_t capacity) {
   const uint64_t bits = bitsOf(value);
-  const bool negative = std::is_signed<T>::value && static_cast<int64_t>(bits) < 0;
+  const bool negative = static_cast<T>(-1) < static_cast<T>(0) && static_cast<int64_t>(bits) < 0;
   return rung_string_of_integer(out, capacity, negative, negative ? 0 - bits : bits);
 }
 
@@ -84,10 +83,10 @@ uint32_t firstOf(const char16_t* text) {
 }
 
 // The bytes of a number in reverse order.
+float swapped(float value) { return rung_f32_of(__builtin_bswap32(rung_bits_of_f32(value))); }
+double swapped(double value) { return rung_f64_of(__builtin_bswap64(rung_bits_of_f64(value))); }
 template <class T>
 T swapped(T value) {
-  if constexpr (std::is_same<T, float>::value) return rung_f32_of(__builtin_bswap32(rung_bits_of_f32(value)));
-  if constexpr (std::is_same<T, double>::value) return rung_f64_of(__builtin_bswap64(rung_bits_of_f64(value)));
   if constexpr (sizeof(T) == 2) return static_cast<T>(__builtin_bswap16(static_cast<uint16_t>(value)));
   if constexpr (sizeof(T) == 4) return static_cast<T>(__builtin_bswap32(static_cast<uint32_t>(value)));
   if constexpr (sizeof(T) == 8) return static_cast<T>(__builtin_bswap64(static_cast<uint64_t>(value)));

@@ -2,7 +2,7 @@
 // RUNG_EACH_INTEGER(ROW) is ROW(NAME, type) for all twelve. Used by conversion.cpp and numeric.cpp.
 #pragma once
 
-#include <cstdint>
+#include <stdint.h>
 
 #define RUNG_EACH_INTEGER(ROW) \
   ROW(BYTE, uint8_t)           \

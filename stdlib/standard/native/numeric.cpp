@@ -1,20 +1,22 @@
 // Native bodies of numeric.st: one C function per function and type. Domain errors give NaN or an infinity, no fault.
-#include <cmath>
-#include <limits>
+#include <math.h>
 
 #include "integers.h"
 #include "rung/code.h"
-#include "rung/cpp_functions.h"
+#include "rung/real_functions.h"
 
 namespace {
 
 // Towards zero; saturates outside the type's range, NaN gives 0.
 template <class Integer>
 Integer truncated(double value) {
-  if (std::isnan(value)) return 0;
-  if (value <= static_cast<double>(std::numeric_limits<Integer>::min())) return std::numeric_limits<Integer>::min();
+  constexpr bool kIsSigned = static_cast<Integer>(-1) < static_cast<Integer>(0);
+  constexpr uint64_t kHighest = UINT64_MAX >> (64 - 8 * sizeof(Integer) + (kIsSigned ? 1 : 0));
+  constexpr Integer kMax = static_cast<Integer>(kHighest), kMin = kIsSigned ? static_cast<Integer>(-kMax - 1) : 0;
+  if (value != value) return 0;
+  if (value <= static_cast<double>(kMin)) return kMin;
   // The maximum of a 64-bit type is not exact in a double: it is rounded up, as this comparison needs.
-  if (value >= static_cast<double>(std::numeric_limits<Integer>::max())) return std::numeric_limits<Integer>::max();
+  if (value >= static_cast<double>(kMax)) return kMax;
   return static_cast<Integer>(value);
 }
 
@@ -22,14 +24,14 @@ Integer truncated(double value) {
 
 extern "C" {
 
-#define RUNG_ONE_VARIABLE(NAME, function)                                                   \
-  float rung_standard_##NAME##__REAL(rung_context*, float in) { return std::function(in); } \
-  double rung_standard_##NAME##__LREAL(rung_context*, double in) { return std::function(in); }
+#define RUNG_ONE_VARIABLE(NAME, function)                                                 \
+  float rung_standard_##NAME##__REAL(rung_context*, float in) { return function##f(in); } \
+  double rung_standard_##NAME##__LREAL(rung_context*, double in) { return function(in); }
 RUNG_EACH_REAL_FUNCTION(RUNG_ONE_VARIABLE)
 #undef RUNG_ONE_VARIABLE
 
-float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return std::atan2(y, x); }
-double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return std::atan2(y, x); }
+float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return atan2f(y, x); }
+double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return atan2(y, x); }
 
 #define RUNG_TRUNCATION(TYPE, Integer)                                                                 \
   Integer rung_standard_TRUNC__REAL_##TYPE(rung_context*, float in) { return truncated<Integer>(in); } \
@@ -37,7 +39,7 @@ double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return st
 RUNG_EACH_INTEGER(RUNG_TRUNCATION)
 #undef RUNG_TRUNCATION
 
-uint8_t rung_standard_IS_VALID__REAL(rung_context*, float in) { return std::isfinite(in) ? 1 : 0; }
-uint8_t rung_standard_IS_VALID__LREAL(rung_context*, double in) { return std::isfinite(in) ? 1 : 0; }
+uint8_t rung_standard_IS_VALID__REAL(rung_context*, float in) { return __builtin_isfinite(in) ? 1 : 0; }
+uint8_t rung_standard_IS_VALID__LREAL(rung_context*, double in) { return __builtin_isfinite(in) ? 1 : 0; }
 
 }  // extern "C"

@@ -2,7 +2,7 @@
 // at most 255 characters and at most `capacity`; `out` may be one of the inputs. Lengths and positions outside of a
 // string are clipped, so nothing outside of it is ever accessed. CODESYS documents what its functions do there (library
 // Standard, "INSERT", "DELETE", "REPLACE"): position 0 is the first character with a length that is one less.
-#include <cstring>
+#include <string.h>
 
 #include "rung/code.h"
 #include "rung/standard.h"

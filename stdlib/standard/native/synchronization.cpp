@@ -59,8 +59,4 @@ uint8_t rung_standard_HOST_SWAP_DWORD(rung_context*, uint32_t* value, uint32_t o
   return __atomic_compare_exchange_n(value, &old, wanted, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE) ? 1 : 0;
 }
 
-uint8_t rung_standard_HOST_SWAP_LWORD(rung_context*, uint64_t* value, uint64_t old, uint64_t wanted) {
-  return __atomic_compare_exchange_n(value, &old, wanted, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE) ? 1 : 0;
-}
-
 }  // extern "C"

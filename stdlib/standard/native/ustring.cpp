@@ -1,6 +1,6 @@
 // The functions of string.st for USTRING, whose positions and lengths count characters: converted to bytes, passed to
 // the function of STRING, and a character cut in its middle is dropped. Also LEN_CODE_UNIT, and strings as bytes.
-#include <cstring>
+#include <string.h>
 
 #include "rung/code.h"
 
@@ -120,7 +120,10 @@ uint8_t rung_standard_BYTES_OF_WSTRING(rung_context*, const char16_t* in, void* 
   return 1;
 }
 uint32_t rung_standard_STRING_OF_BYTES(rung_context*, void* in, uint64_t size, char* out, uint32_t capacity) {
-  const size_t length = strnlen(static_cast<const char*>(in), size < capacity ? size : capacity);
+  const size_t most = size < capacity ? static_cast<size_t>(size) : capacity;
+  const void* const end = memchr(in, 0, most);
+  const size_t length =
+      end == nullptr ? most : static_cast<size_t>(static_cast<const char*>(end) - static_cast<const char*>(in));
   memcpy(out, in, length);
   out[length] = 0;
   return static_cast<uint32_t>(length);

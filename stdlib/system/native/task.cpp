@@ -1,5 +1,17 @@
-// Native bodies of task.st: the current task, and messages to the operator.
+// Native bodies of task.st: the current task, messages to the operator, and names.
 #include "rung/code.h"
+
+namespace {
+
+uint32_t copyText(const char* text, char* out, uint32_t capacity) {
+  size_t length = strlen(text);
+  if (length > capacity) length = capacity;
+  memcpy(out, text, length);
+  out[length] = 0;
+  return static_cast<uint32_t>(length);
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -11,11 +23,12 @@ int64_t rung_system_HOST_INTERVAL(rung_context* ctx) {
 }
 
 uint32_t rung_system_HOST_PROJECT(rung_context* ctx, char* out, uint32_t capacity) {
-  size_t length = strlen(ctx->module->name);
-  if (length > capacity) length = capacity;
-  memcpy(out, ctx->module->name, length);
-  out[length] = 0;
-  return static_cast<uint32_t>(length);
+  return copyText(ctx->module->name, out, capacity);
+}
+
+uint32_t rung_system_HOST_NAME(rung_context* ctx, char* out, uint32_t capacity) {
+  const char* const name = ctx->host == nullptr ? nullptr : ctx->host->name;
+  return copyText(name == nullptr ? "" : name, out, capacity);
 }
 
 uint8_t rung_system_HOST_MESSAGE(rung_context* ctx, uint8_t severity, const char* text) {

@@ -1,8 +1,9 @@
 // Native body of FB_FormatString in format.st. Nothing is read outside of the format and of the arguments; no heap.
-#include <stdio.h>
+#include <string.h>
 
 #include "rung/code.h"
 #include "rung/native_blocks.h"
+#include "rung/reals.h"
 
 namespace {
 
@@ -75,55 +76,74 @@ struct Specifier {
   int precision;  // -1: none
 };
 
-// %b, which printf lacks: digits, then blanks or zeros to the width.
-void putBits(Output& out, const Specifier& specifier, uint64_t bits) {
-  char digits[64 + 1];
-  int count = 0;
-  do digits[count++] = static_cast<char>('0' + (bits & 1));
-  while ((bits >>= 1) != 0);
-  for (int i = 0; i < count / 2; ++i) {
-    const char other = digits[i];
-    digits[i] = digits[count - 1 - i];
-    digits[count - 1 - i] = other;
-  }
-  bool left = false, zeros = false;
-  for (int i = 0; i < specifier.flag_count; ++i) {
-    left = left || specifier.flags[i] == '-';
-    zeros = zeros || specifier.flags[i] == '0';
-  }
-  const int zero_count = specifier.precision > count ? specifier.precision - count
-                         : specifier.precision < 0 && zeros && !left && specifier.width > count
-                             ? specifier.width - count
-                             : 0;
-  const int blank_count = specifier.width > count + zero_count ? specifier.width - count - zero_count : 0;
-  for (int i = 0; !left && i < blank_count; ++i) out.put(" ", 1);
-  for (int i = 0; i < zero_count; ++i) out.put("0", 1);
-  out.put(digits, static_cast<size_t>(count));
-  for (int i = 0; left && i < blank_count; ++i) out.put(" ", 1);
+bool has(const Specifier& specifier, char flag) {
+  return memchr(specifier.flags, flag, static_cast<size_t>(specifier.flag_count)) != nullptr;
 }
 
-// Writes a conversion for printf: its flags, `*` for width and precision, the length modifier, the type.
-void specify(char* spec, const Specifier& specifier, const char* length, char type) {
-  *spec++ = '%';
-  for (int i = 0; i < specifier.flag_count; ++i) *spec++ = specifier.flags[i];
-  for (const char* at = "*.*"; *at != 0; ++at) *spec++ = *at;
-  for (; *length != 0; ++length) *spec++ = *length;
-  *spec++ = type;
-  *spec = 0;
+// One conversion: sign or `0x`, zeros, digits or characters; and blanks or zeros up to the width.
+void putPadded(Output& out, const Specifier& specifier, const char* front, const char* text, size_t count, size_t zeros,
+               bool may_fill_with_zeros) {
+  const size_t length = strlen(front) + zeros + count;
+  const size_t width = specifier.width < 0 ? 0 : static_cast<size_t>(specifier.width);
+  const size_t room = width > length ? width - length : 0;
+  const bool is_left = has(specifier, '-'), with_zeros = may_fill_with_zeros && !is_left && has(specifier, '0');
+  for (size_t i = 0; !is_left && !with_zeros && i < room; ++i) out.put(" ", 1);
+  out.put(front, strlen(front));
+  for (size_t i = 0; i < zeros + (with_zeros ? room : 0); ++i) out.put("0", 1);
+  out.put(text, count);
+  for (size_t i = 0; is_left && i < room; ++i) out.put(" ", 1);
+}
+
+const char* signOf(const Specifier& specifier, bool negative) {
+  return negative ? "-" : has(specifier, '+') ? "+" : has(specifier, ' ') ? " " : "";
+}
+
+// %d, %i, %u, %o, %x, %X as printf does, and %b.
+void putWhole(Output& out, const Specifier& specifier, char type, bool negative, uint64_t magnitude) {
+  const uint32_t base = type == 'b' ? 2 : type == 'o' ? 8 : type == 'x' || type == 'X' ? 16 : 10;
+  const char* const symbols = type == 'X' ? "0123456789ABCDEF" : "0123456789abcdef";
+  char digits[64];
+  size_t begin = sizeof digits;
+  for (uint64_t rest = magnitude; rest != 0; rest /= base) digits[--begin] = symbols[rest % base];
+  if (magnitude == 0 && (specifier.precision != 0 || type == 'b')) digits[--begin] = '0';
+  const size_t count = sizeof digits - begin;
+  const size_t wanted = specifier.precision < 0 ? 0 : static_cast<size_t>(specifier.precision);
+  size_t zeros = wanted > count ? wanted - count : 0;
+  const char* front = type == 'd' || type == 'i' ? signOf(specifier, negative) : "";
+  if (has(specifier, '#')) {
+    if (base == 16 && magnitude != 0) front = type == 'x' ? "0x" : "0X";
+    if (base == 8 && zeros == 0 && (count == 0 || digits[begin] != '0')) zeros = 1;
+  }
+  putPadded(out, specifier, front, digits + begin, count, zeros, specifier.precision < 0);
+}
+
+// %f, %e, %E, %g, %G as printf does.
+void putReal(Output& out, const Specifier& specifier, char type, double number) {
+  const bool is_upper = type < 'a', is_finite = __builtin_isfinite(number);
+  char text[RUNG_REAL_PRINT_ROOM];
+  uint32_t count = 3;
+  if (is_finite)
+    count = rung_real_print(number, is_upper ? static_cast<char>(type + 'a' - 'A') : type,
+                            specifier.precision < 0 ? 6 : static_cast<uint32_t>(specifier.precision),
+                            has(specifier, '#'), text);
+  else
+    memcpy(text, number != number ? "nan" : "inf", count);
+  for (uint32_t i = 0; is_upper && i < count; ++i)
+    if (text[i] >= 'a') text[i] = static_cast<char>(text[i] - 'a' + 'A');
+  const bool negative = rung_bits_of_f64(number) >> 63 != 0;
+  putPadded(out, specifier, signOf(specifier, negative), text, count, 0, is_finite);
 }
 
 void putArgument(Output& out, const Specifier& specifier, char type, const Argument& argument) {
-  char spec[16], piece[512];
-  const int width = specifier.width < 0 ? 0 : specifier.width;
-  int count = 0, bits_of_type = 64;
+  int bits_of_type = 64;
   switch (type) {
     case 'd':
-    case 'i':
+    case 'i': {
       if (!isWhole(argument.eType_)) break;
-      specify(spec, specifier, "ll", 'd');
-      count = snprintf(piece, sizeof piece, spec, width, specifier.precision,
-                       static_cast<long long>(wholeOf(argument, bits_of_type)));
-      return out.put(piece, static_cast<size_t>(count));
+      const int64_t value = wholeOf(argument, bits_of_type);
+      const uint64_t bits = static_cast<uint64_t>(value);
+      return putWhole(out, specifier, type, value < 0, value < 0 ? 0 - bits : bits);
+    }
     case 'u':
     case 'b':
     case 'o':
@@ -132,32 +152,26 @@ void putArgument(Output& out, const Specifier& specifier, char type, const Argum
       if (!isWhole(argument.eType_)) break;
       uint64_t bits = static_cast<uint64_t>(wholeOf(argument, bits_of_type));
       if (bits_of_type < 64) bits &= (uint64_t{1} << bits_of_type) - 1;
-      if (type == 'b') return putBits(out, specifier, bits);
-      specify(spec, specifier, "ll", type);
-      count = snprintf(piece, sizeof piece, spec, width, specifier.precision, static_cast<unsigned long long>(bits));
-      return out.put(piece, static_cast<size_t>(count));
+      return putWhole(out, specifier, type, false, bits);
     }
     case 'f':
     case 'e':
     case 'E':
     case 'g':
-    case 'G': {
-      if (argument.eType_ != ARGTYPE_REAL_ && argument.eType_ != ARGTYPE_LREAL_) break;
-      const double number = argument.eType_ == ARGTYPE_REAL_ ? static_cast<double>(read<float>(dataOf(argument)))
-                                                             : read<double>(dataOf(argument));
-      specify(spec, specifier, "", type);
-      count = snprintf(piece, sizeof piece, spec, width, specifier.precision < 0 ? 6 : specifier.precision, number);
-      return out.put(piece, static_cast<size_t>(count) < sizeof piece ? static_cast<size_t>(count) : sizeof piece - 1);
-    }
+    case 'G':
+      if (argument.eType_ == ARGTYPE_REAL_)
+        return putReal(out, specifier, type, static_cast<double>(read<float>(dataOf(argument))));
+      if (argument.eType_ == ARGTYPE_LREAL_) return putReal(out, specifier, type, read<double>(dataOf(argument)));
+      break;
     case 's': {
       const char* text = nullptr;
       if (argument.eType_ == ARGTYPE_STRING_) text = static_cast<const char*>(dataOf(argument));
       if (argument.eType_ == ARGTYPE_BOOL_) text = wholeOf(argument, bits_of_type) != 0 ? "TRUE" : "FALSE";
       if (text == nullptr) break;
-      specify(spec, specifier, "", 's');
-      count = snprintf(piece, sizeof piece, spec, width,
-                       specifier.precision < 0 ? static_cast<int>(kMax) : specifier.precision, text);
-      return out.put(piece, static_cast<size_t>(count));
+      const size_t most = specifier.precision < 0 ? kMax : static_cast<size_t>(specifier.precision);
+      const void* const end = memchr(text, 0, most);
+      const size_t count = end == nullptr ? most : static_cast<size_t>(static_cast<const char*>(end) - text);
+      return putPadded(out, specifier, "", text, count, 0, false);
     }
     case 'c': {
       if (!isWhole(argument.eType_)) break;

@@ -171,7 +171,7 @@ class Golden {
         for (size_t i = 1; i < m.module.bodies.size(); ++i) {
           Body& body = m.module.bodies[i];
           if (body.native) continue;
-          pass.run(m.module, body);
+          pass.run(m.module, Exposure(m.module), body);
           const std::string once = print(m.module, body);
           if (!verified(m.module, std::string("after ") + pass.name)) return once;
         }

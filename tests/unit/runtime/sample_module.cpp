@@ -148,6 +148,7 @@ struct Tables {
     sites[1] = {t("Main"), t("main.st"), 14, 3, 1, 10};
 
     module.abi = RUNG_MODULE_ABI;
+    module.layout = RUNG_MODULE_LAYOUT;
     module.pointer_size = sizeof(void*);
     module.name = "sample";
     module.compiler = "by hand";

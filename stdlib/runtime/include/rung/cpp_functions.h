@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "rung/code.h"
+#include "rung/real_functions.h"
 
 namespace rung {
 namespace cpp {
@@ -166,19 +167,6 @@ T ROR(T a, uint64_t n) {
   constexpr uint64_t kBits = 8 * sizeof(T);
   return ROL(a, kBits - n % kBits);
 }
-
-/* ROW(NAME, function) for the functions of one REAL or LREAL; the function is that of <math.h>. */
-#define RUNG_EACH_REAL_FUNCTION(ROW) \
-  ROW(SQRT, sqrt)                    \
-  ROW(LN, log)                       \
-  ROW(LOG, log10)                    \
-  ROW(EXP, exp)                      \
-  ROW(SIN, sin)                      \
-  ROW(COS, cos)                      \
-  ROW(TAN, tan)                      \
-  ROW(ASIN, asin)                    \
-  ROW(ACOS, acos)                    \
-  ROW(ATAN, atan)
 
 #define RUNG_CPP_REAL_FUNCTION(name, function)                                                \
   inline float name(float a) { return static_cast<float>(function(static_cast<double>(a))); } \

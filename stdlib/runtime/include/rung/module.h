@@ -13,7 +13,14 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 6u
+/* The function of a module is visible outside of a shared library; its other symbols are not. */
+#define RUNG_EXPORT __attribute__((visibility("default")))
+#define RUNG_HIDDEN __attribute__((visibility("hidden")))
+
+/* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
+ * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
+#define RUNG_MODULE_ABI 8u
+#define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -254,6 +261,8 @@ typedef struct rung_host {
   /* Lets other tasks run while this one waits for a MUTEX or SEMA; returns 0 when they cannot, or the program ends.
    * Default (null): 0. */
   int (*wait)(void* data);
+  /* The name of the machine. Default (null): unknown. */
+  const char* name;
 } rung_host;
 
 struct rung_context {
@@ -282,7 +291,8 @@ struct rung_context {
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;
 
 typedef struct rung_module {
-  uint32_t abi; /* RUNG_MODULE_ABI */
+  uint32_t abi;    /* RUNG_MODULE_ABI */
+  uint32_t layout; /* RUNG_MODULE_LAYOUT */
   uint32_t pointer_size;
   const char* name;
   const char* compiler; /* version of rung */

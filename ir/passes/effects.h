@@ -1,0 +1,27 @@
+// What a write to a place can change of the variables that a pass knows: the locals and the fields of self. In: a body
+// and its private locals (support.h). Out: the effect of one place. Used by the passes about checks.
+#pragma once
+
+#include <vector>
+
+#include "ir/walk.h"
+
+namespace rung::ir {
+
+struct Effect {
+  enum Kind : uint8_t {
+    None,     // no variable that a pass knows
+    Local,    // one private local: `index`
+    Field,    // one field of self: `index`
+    Exposed,  // fields of self whose address is taken somewhere (exposure.h)
+    Fields    // any field of self
+  } kind;
+  uint32_t index = 0;
+};
+
+Effect effectOfWrite(const Module& module, const Body& body, const std::vector<bool>& private_locals, ExprId place);
+
+// FUNCTION_BLOCK, PROGRAM or an interface: such a variable may be self.
+bool isObject(const types::TypeTable& types, TypeId type);
+
+}  // namespace rung::ir
