@@ -104,6 +104,7 @@ void FunctionWriter::write(ir::BodyId id) {
   if (body_->self) includeRecord(body_->self);
   declareVariables();
   strings().declareLengths();
+  statements().stepOfCall();
   statements().block(body_->first);
   statements().flushCloses(0);
   writeExits();

@@ -191,6 +191,7 @@ class StatementWriter : public BodyPart {
 
   void block(StmtId first);
   void flushCloses(uint32_t lines);
+  void stepOfCall();
 
  private:
   void statement(StmtId id, const Stmt& stmt);
@@ -207,12 +208,15 @@ class StatementWriter : public BodyPart {
   void faultStatement(const ir::FaultStmt& stmt, Loc loc);
   void leave();
   bool endsInJump(StmtId first) const;
-  void loopStatement(const ir::LoopStmt& stmt);
+  void loopStatement(const ir::LoopStmt& stmt, Loc loc);
   void forStatement(StmtId id, const ir::ForStmt& stmt);
-  void countedFor(const ir::ForStmt& stmt, bool fits);
+  void countedFor(const ir::ForStmt& stmt, bool fits, Loc loc);
   void breakLoop();
   void continueLoop();
   ExprId exitTest(StmtId id) const;
+  bool countsSteps() const { return options_.counts_steps && !(body_->library && body_->pure); }
+  void step(Loc loc);
+  void stepsOf(Loc loc, const std::string& count);
   void assign(const ir::AssignStmt& stmt);
 
   // The targets of break and continue.

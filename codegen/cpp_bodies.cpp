@@ -43,8 +43,13 @@ std::string mangled(std::string_view name) {
 
 class Writer {
  public:
-  Writer(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp)
-      : module_(module), types_(module.types), facts_(facts), cpp_(cpp), body_(module.body(cpp.body)) {}
+  Writer(const ir::Module& module, const EmitOptions& options, const Facts& facts, const ir::CppBody& cpp)
+      : module_(module),
+        types_(module.types),
+        options_(options),
+        facts_(facts),
+        cpp_(cpp),
+        body_(module.body(cpp.body)) {}
 
   CppFile write() {
     Group& group = file_.group;
@@ -59,8 +64,9 @@ class Writer {
     group.code += string(body_.spelling);
     group.code += '\n';
     appendSignature(group.code, module_, body_);
-    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + fields_ +
-                  "  {\n" + variables + "    [&]() -> void {\n" + source_ + "\n    }();\n" + ending_ + "  }\n  }\n}\n";
+    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + running() + names_ + "  {\n" +
+                  fields_ + "  {\n" + variables + "    [&]() -> void {\n" + source_ + "\n    }();\n" + ending_ +
+                  "  }\n  }\n}\n";
     return std::move(file_);
   }
 
@@ -87,6 +93,17 @@ class Writer {
     std::vector<TypeId>& records = file_.group.records;
     if (types_.kind(type) == TypeKind::Record && std::find(records.begin(), records.end(), type) == records.end())
       records.push_back(type);
+  }
+
+  // For messages about a body that crashes or does not end.
+  std::string running() const {
+    if (!options_.counts_steps) return {};
+    const std::string where = std::string(module_.sources.path(body_.file)) + '\n' +
+                              std::to_string(module_.sources.location(cpp_.loc).line) + '\n' +
+                              std::string(string(body_.spelling));
+    std::string out = "  const rung::cpp::Running rung_running_(ctx, ";
+    appendQuoted(out, where);
+    return out + ");\n";
   }
 
   // Copies the source with its lines kept; #include lines go to the front of the file.
@@ -630,6 +647,7 @@ class Writer {
 
   const ir::Module& module_;
   const TypeTable& types_;
+  const EmitOptions& options_;
   const Facts& facts_;
   const ir::CppBody& cpp_;
   const ir::Body& body_;
@@ -640,8 +658,8 @@ class Writer {
 
 }  // namespace
 
-CppFile writeCppBody(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp) {
-  return Writer(module, facts, cpp).write();
+CppFile writeCppBody(const ir::Module& module, const EmitOptions& options, const Facts& facts, const ir::CppBody& cpp) {
+  return Writer(module, options, facts, cpp).write();
 }
 
 }  // namespace rung::codegen

@@ -14,6 +14,6 @@ struct CppFile {
   Group group;
   std::string front;  // the body's own #include lines come first
 };
-CppFile writeCppBody(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp);
+CppFile writeCppBody(const ir::Module& module, const EmitOptions& options, const Facts& facts, const ir::CppBody& cpp);
 
 }  // namespace rung::codegen

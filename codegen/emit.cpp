@@ -160,7 +160,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   }
   std::vector<CppFile> cpp_files;
   for (const ir::CppBody& cpp : module.cpp_bodies) {
-    const CppFile& created = cpp_files.emplace_back(writeCppBody(module, facts, cpp));
+    const CppFile& created = cpp_files.emplace_back(writeCppBody(module, options, facts, cpp));
     for (ir::BodyId id : created.group.inlined) {
       if (is_listed[id.index] != 0) continue;
       is_listed[id.index] = 1;

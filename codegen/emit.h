@@ -15,8 +15,9 @@ struct EmitOptions {
   bool line_directives = true;
   bool optimize_all = false;  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h)
   bool (*is_native_of_rung)(std::string_view function) = nullptr;  // the others get a header; none: no header
-  bool bundled = false;     // a C++ file may include several sources: what two of them define is in a header
-  bool with_tests = false;  // `rung test`: entries of the tests instead of tasks
+  bool bundled = false;       // a C++ file may include several sources: what two of them define is in a header
+  bool with_tests = false;    // `rung test`: entries of the tests instead of tasks
+  bool counts_steps = false;  // `rung run`, `rung test`: bodies use up rung_context::steps, so that endless loops end
 };
 
 // What other tools read to find variables (codegen/symbols.h); all other files are for the C++ compiler.

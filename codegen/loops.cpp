@@ -5,13 +5,31 @@
 
 namespace rung::codegen {
 
+// ---- steps: what rung_context::steps counts
+
+void StatementWriter::step(Loc loc) {
+  if (!countsSteps()) return;
+  out_ += " RUNG_CHECK(rung_step(ctx)";
+  checks().endCheck(loc, types::Fault::Stop, "0");
+}
+
+void StatementWriter::stepOfCall() {
+  if (!body_->library) step(body_->loc);
+}
+
+// All iterations of a loop in front of it, so that g++ still sees a plain loop.
+void StatementWriter::stepsOf(Loc loc, const std::string& count) {
+  out_ += "RUNG_CHECK(rung_steps(ctx, " + count + ")";
+  checks().endCheck(loc, types::Fault::Stop, "0");
+}
+
 // The condition of a loop's exit test, with nothing to be done before it; none of other statements.
 ir::ExprId StatementWriter::exitTest(StmtId id) const {
   const ExprId test = ir::exitTest(*body_, id);
   return test && !checks().needsPreparation(test) ? test : ExprId{};
 }
 
-void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
+void StatementWriter::loopStatement(const ir::LoopStmt& stmt, Loc loc) {
   const StmtId first = stmt.body_block, next = stmt.next_block;
   Loop loop;
   loop.number = ++state_.names_created;
@@ -29,6 +47,7 @@ void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
     writeNegated(exitTest(first));
     out_ += ')';
     open();
+    step(loc);
     loops_.push_back(loop);
     block(body_->stmt(first).next);
     close();
@@ -36,6 +55,7 @@ void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
     loop.has_next = false;                                 // `continue` goes to the test
     out_ += "do";
     open();
+    step(loc);
     loops_.push_back(loop);
     block(first);
     close();
@@ -46,6 +66,7 @@ void StatementWriter::loopStatement(const ir::LoopStmt& stmt) {
   } else {
     out_ += "for (;;)";
     open();
+    step(loc);
     loops_.push_back(loop);
     if (next) {
       out_ += " {";
@@ -136,7 +157,21 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 }  // namespace
 
-void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
+namespace {
+
+// Whether the body may leave the loop before its last iteration.
+bool mayLeave(const ir::Body& body, ir::StmtId first) {
+  bool found = false;
+  ir::forEachStmt(body, first, [&](ir::StmtId id) {
+    const ir::StmtKind kind = body.stmt(id).kind;
+    found = found || kind == ir::StmtKind::Break || kind == ir::StmtKind::Return || kind == ir::StmtKind::Jump;
+  });
+  return found;
+}
+
+}  // namespace
+
+void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits, Loc loc) {
   const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
   const TypeKind kind = kindOf(control);
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
@@ -164,12 +199,30 @@ void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits) {
     values().value(to, Prec::Comma);
     out_ += "; ";
   }
-  out_ += "for (" + name + " = ";
-  values().value(from, Prec::Comma);
-  out_ += "; " + name + (step > 0 ? " <= " : " >= ") + limit + "; ";
+  const char* const order = step > 0 ? " <= " : " >= ";
+  const bool pays_first = countsSteps() && !mayLeave(*body_, stmt.body_block);
+  if (pays_first) {
+    out_ += name + " = ";
+    values().value(from, Prec::Comma);
+    out_ += "; if (" + name + order + limit + ") { ";
+    const std::string low = step > 0 ? name : limit, high = step > 0 ? limit : name;
+    std::string count = "((uint64_t)(" + high + ") - (uint64_t)(" + low + "))";
+    if (step != 1 && step != -1) {
+      count += " / ";
+      appendUnsigned(count, step < 0 ? 0 - static_cast<uint64_t>(step) : static_cast<uint64_t>(step));
+    }
+    stepsOf(loc, count);
+    out_ += "} for (; ";
+  } else {
+    out_ += "for (" + name + " = ";
+    values().value(from, Prec::Comma);
+    out_ += "; ";
+  }
+  out_ += name + order + limit + "; ";
   appendStep(out_, name, step);
   out_ += ')';
   open();
+  if (!pays_first) this->step(loc);
   Loop loop;
   loop.number = ++state_.names_created;
   loops_.push_back(loop);
@@ -211,7 +264,7 @@ void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   checks().prepare(from);
   checks().prepare(to);
   if (const CountedLoop* counted = analysis_->loops.find(id)) {
-    countedFor(stmt, counted->fits);
+    countedFor(stmt, counted->fits, body_->stmt(id).loc);
     return;
   }
   const TypeKind kind = kindOf(control);
@@ -252,6 +305,7 @@ void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   places().store(control, next);
   out_ += ", " + test + "))";
   open();
+  this->step(body_->stmt(id).loc);
   Loop loop;
   loop.number = ++state_.names_created;
   loops_.push_back(loop);

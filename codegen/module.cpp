@@ -118,7 +118,7 @@ class Describer {
     for (const ir::Description::Test& test : is_.tests) {
       const ir::Body& body = module_.body(test.body);
       const std::string name = "test" + number(count++);
-      std::string init = "nullptr", exit = "nullptr";
+      std::string init = "nullptr", exit = "nullptr", first, last;
       std::string run = "static void " + name + "(rung_context* ctx) {\n";
       if (body.kind == ir::BodyKind::Function) {
         declare(test.body);
@@ -127,17 +127,23 @@ class Describer {
         const ir::ProgramInstance& program = module_.programs[test.program];
         const uint32_t block = facts_.program_block[test.program];
         run += runOf(program, block);
+        first = "  memset(ctx->blocks[" + number(block) + "], 0, " + number(is_.blocks[block].size) + ");\n";
+        if (hasCode(program.init)) first += callOn(program.init, program.record, block);
+        if (program.setup) first += callOf(program.setup);
+        if (program.after_init) first += callOf(program.after_init);
+        if (program.exit) last = callOf(program.exit);
+      }
+      for (const ir::BodyId setup : test.setups) first += callOf(setup);
+      std::string teardowns;
+      for (const ir::BodyId teardown : test.teardowns) teardowns += callOf(teardown);
+      last.insert(0, teardowns);
+      if (!first.empty()) {
         init = name + "_init";
-        code_ += "static void " + init + "(rung_context* ctx) {\n  memset(ctx->blocks[" + number(block) + "], 0, " +
-                 number(is_.blocks[block].size) + ");\n";
-        if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
-        if (program.setup) code_ += callOf(program.setup);
-        if (program.after_init) code_ += callOf(program.after_init);
-        code_ += "}\n";
-        if (program.exit) {
-          exit = name + "_exit";
-          code_ += "static void " + exit + "(rung_context* ctx) {\n" + callOf(program.exit) + "}\n";
-        }
+        code_ += "static void " + init + "(rung_context* ctx) {\n" + first + "}\n";
+      }
+      if (!last.empty()) {
+        exit = name + "_exit";
+        code_ += "static void " + exit + "(rung_context* ctx) {\n" + last + "}\n";
       }
       code_ += run + "}\n";
       row(test_rows_, {number(test.row.name), number(test.row.file), number(test.row.line),
@@ -184,8 +190,9 @@ class Describer {
         persistent_rows;
     for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
     for (const rung_type& is : is_.types) {
-      row(type_rows, {kTypeKinds[is.kind], is.is_signed != 0 ? "1" : "0", number(is.name), number(is.size),
-                      unsignedOrNone(is.element), number(is.length), number(is.first), number(is.count)});
+      row(type_rows,
+          {kTypeKinds[is.kind], is.is_signed != 0 ? "1" : "0", is.library != 0 ? "1" : "0", number(is.name),
+           number(is.size), unsignedOrNone(is.element), number(is.length), number(is.first), number(is.count)});
     }
     for (const rung_field& is : is_.fields) {
       row(field_rows, {number(is.name), number(is.type), number(is.offset), number(is.flags)});

@@ -119,7 +119,7 @@ void StatementWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::Call: calls().callStatement(id); return;
     case StmtKind::If: ifStatement(stmt.as<ir::IfStmt>()); return;
     case StmtKind::Switch: switchStatement(stmt.as<ir::SwitchStmt>()); return;
-    case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>()); return;
+    case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>(), stmt.loc); return;
     case StmtKind::For: forStatement(id, stmt.as<ir::ForStmt>()); return;
     case StmtKind::Break: breakLoop(); return;
     case StmtKind::Continue: continueLoop(); return;
@@ -132,6 +132,7 @@ void StatementWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::Label:
       appendMangled(out_, string(body_->labels[stmt.as<ir::LabelStmt>().label]));
       out_ += ":;";
+      step(stmt.loc);
       return;
     case StmtKind::Try: tryStatement(stmt.as<ir::TryStmt>()); return;
     case StmtKind::Fault: faultStatement(stmt.as<ir::FaultStmt>(), stmt.loc); return;

@@ -2,6 +2,7 @@
 #include "ir/description.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace rung::ir {
 
@@ -20,6 +21,7 @@ class Describer {
 
   void run(bool with_tests) {
     addBodiesAndFiles();
+    findLibraryBlocks();
     for (uint32_t i = 0; i < blocks_.blocks.size(); ++i) addBlock(i);
     for (const types::MemoryArea& area : module_.areas) addArea(area);
     addSymbols();
@@ -31,6 +33,14 @@ class Describer {
  private:
   uint32_t string(std::string_view string) { return out_.strings.add(string); }
   uint32_t string(NameId name) { return string(module_.names.string(name)); }
+
+  void findLibraryBlocks() {
+    for (const Record& record : module_.records) {
+      const TypeId id = types_.resolve(record.type);
+      if (record.library && types_.info(id).record_kind == types::RecordKind::FunctionBlock)
+        library_blocks_.insert(id.index);
+    }
+  }
 
   void addBodiesAndFiles() {
     std::vector<std::string_view> names, files;
@@ -94,6 +104,7 @@ class Describer {
       }
     }
     const TypeKind plain = types_.plainKind(id);
+    row.library = library_blocks_.count(types_.resolve(id).index) != 0 ? 1 : 0;
     row.is_signed = TypeTable::isScalar(plain) && types_.isSigned(plain) ? 1 : 0;
     row.name = string(types_.toString(id));
     row.size = static_cast<uint32_t>(info->size);
@@ -295,7 +306,15 @@ class Describer {
   void addTests() {
     for (BodyId id : module_.tests) {
       const Body& body = module_.body(id);
-      Description::Test test{{}, id, RUNG_NONE};
+      Description::Test test{{}, id, RUNG_NONE, {}, {}};
+      const auto ofFile = [&](const std::vector<BodyId>& all) {
+        std::vector<BodyId> found;
+        for (const BodyId one : all)
+          if (module_.body(one).file == body.file) found.push_back(one);
+        return found;
+      };
+      test.setups = ofFile(module_.setups);
+      test.teardowns = ofFile(module_.teardowns);
       test.row.done_block = RUNG_NONE;
       for (uint32_t p = 0; body.kind != BodyKind::Function && p < module_.programs.size(); ++p) {
         if (!(module_.programs[p].body == id)) continue;
@@ -352,6 +371,7 @@ class Describer {
   Description& out_;
   std::unordered_map<uint32_t, uint32_t> type_number_;
   std::unordered_map<uint32_t, Kept> kept_;
+  std::unordered_set<uint32_t> library_blocks_;  // TypeIds
 };
 
 }  // namespace

@@ -438,6 +438,8 @@ struct Module {
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
+  // Functions without parameters that run before and after each test of their file.
+  std::vector<BodyId> setups, teardowns;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
 

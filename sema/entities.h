@@ -153,6 +153,8 @@ struct Pou {
     types::Op op = types::Op::Add;
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X
+    bool setup = false, teardown = false;             // {setup}, {teardown}: around each test of the file
+    NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
   } pragmas;
   // How far it has been checked.

@@ -7,6 +7,7 @@
 #include "frontend/source/invariant.h"
 #include "sema/checks/mocks.h"
 #include "sema/checks/object_members.h"
+#include "sema/checks/test_pragmas.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -93,6 +94,7 @@ void check(Project& project) {
   resolveDeclarations(context);
   markOverloads(context);
   resolveConfigurations(context);
+  checkTestPragmas(context);
   checkMocks(context);
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});

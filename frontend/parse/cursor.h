@@ -73,6 +73,7 @@ class Cursor {
   void tooDeep(const char* what, uint32_t limit);
 
   // END_… of what begins at `open` is missing.
+  void skipStructOfC();
   void missingEnd(std::string_view end, const Token* open, std::string_view word);
 
   // ---- nodes
@@ -107,6 +108,7 @@ class Cursor {
   // ---- pragmas and doc comments (pragmas.cpp)
   Slice<Pragma> takePragmas();
   Pragma readPragma(const PragmaRange& pragma);
+  void splitList(const PragmaRange& pragma, std::vector<Pragma>& list);
   Loc takeDoc();
   Loc docAfter(const Token* t) const;
   bool pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const;

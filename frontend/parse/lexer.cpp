@@ -241,6 +241,7 @@ class Lexer {
   const char* stray(const char* p);
   const char* prefixed(const char* begin, const char* p, Prefix prefix);
   void message(const char* begin, const char* end);
+  void switchWarnings(const char* begin, const char* end);
   void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
   bool continuesOverLines(const char* p, char quote) const;
@@ -655,7 +656,8 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
       "attribute", "test",       "info",   "warning", "error",    "text",      "define", "undefine",
       "IF",        "ELSIF",      "ELSE",   "END_IF",  "region",   "endregion", "native", "alias",
       "required",  "extensible", "lazy",   "pure",    "operator", "replaces",  "std",    "sized",
-      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes",  "long_time"};
+      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes",  "long_time",
+      "test_only", "mock",       "skip",   "setup",   "teardown", "case",      "prefix", "slice"};
   static const std::vector<std::string_view> kAttributes = {
       "qualified_only",     "strict",          "test",      "no_final_scan",    "obsolete",
       "to_string",          "call_after_init", "pack_mode", "global_init_slot", "call_after_global_init_slot",
@@ -684,6 +686,33 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
   diagnostics_.report(diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
 }
 
+// {warning disable W0108}, {warning restore C0195, unused-variable}: codes and names of warnings, and the codes of
+// CODESYS. Codes of CODESYS that match no warning are ignored, as its warnings do not exist here.
+void Lexer::switchWarnings(const char* begin, const char* end) {
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == ','; };
+  const auto word = [&] {
+    while (begin < end && isBlank(*begin)) ++begin;
+    const char* const from = begin;
+    while (begin < end && !isBlank(*begin)) ++begin;
+    return std::string_view(from, static_cast<size_t>(begin - from));
+  };
+  const std::string_view action = word();
+  const bool restores = sameIdentifier(action, "restore");
+  if (!restores && !sameIdentifier(action, "disable")) {
+    static const std::vector<std::string_view> kActions = {"disable", "restore"};
+    diagnostics_.report(diag::UnknownPragma, loc(action.data()), {action}).didYouMean(nearest(action, kActions));
+    return;
+  }
+  for (std::string_view name = word(); !name.empty(); name = word()) {
+    const std::vector<Diag> warnings = warningsNamed(name);
+    for (const Diag warning : warnings) diagnostics_.switchWarning(warning, restores, loc(action.data()), loc(end_));
+    if (warnings.empty() && !isCodesysCode(name))
+      diagnostics_.report(diag::UnknownWarning, loc(name.data()), {name})
+          .length(static_cast<uint32_t>(name.size()))
+          .didYouMean(nearestWarning(name));
+  }
+}
+
 // {info 'string'}, {text 'string'}, {WARNING: "string"}, {error 'string'}
 void Lexer::message(const char* begin, const char* end) {
   const auto skip = [&] {
@@ -699,7 +728,11 @@ void Lexer::message(const char* begin, const char* end) {
   skip();
   if (begin < end && *begin == ':') ++begin;
   skip();
-  if (begin == end || (*begin != '\'' && *begin != '"')) return;  // {warning disable C0195}
+  if (begin == end) return;
+  if (*begin != '\'' && *begin != '"') {
+    if (warning) switchWarnings(begin, end);
+    return;
+  }
   const char quote = *begin++;
   const char* string_end = end;
   while (string_end > begin && string_end[-1] != quote) --string_end;

@@ -1,5 +1,6 @@
 #include "frontend/parse/literals.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -15,6 +16,17 @@ int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
   c = lower(c);
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+// 0x10, 0b101 and 0o17 of C and others, as IEC writes them: 16#10. Empty: something else.
+std::string basedForm(std::string_view text) {
+  if (text.size() < 3 || text[0] != '0') return {};
+  const char letter = lower(text[1]);
+  const int base = letter == 'x' ? 16 : letter == 'o' ? 8 : letter == 'b' ? 2 : 0;
+  const std::string_view digits = text.substr(2);
+  const bool fits = base != 0 && std::all_of(digits.begin(), digits.end(),
+                                             [&](char c) { return hexDigit(c) >= 0 && hexDigit(c) < base; });
+  return fits ? std::to_string(base) + '#' + std::string(digits) : std::string();
 }
 
 // `_` only between digits; several in a row are left to the caller.
@@ -196,7 +208,9 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
     return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics, value);
   }
   if (i != text.size()) {
-    diagnostics.report(diag::NumberSuffix, loc, {text});
+    const std::string based = basedForm(text);
+    Report report = diagnostics.report(diag::NumberSuffix, loc, {text});
+    if (!based.empty()) report.note({}, Note{"write `{0}`"}, {based});
     return false;
   }
   for (char c : text) {

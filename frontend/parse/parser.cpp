@@ -68,6 +68,7 @@ void Parser::parseUnknownTopLevel() {
       return;
     }
   }
+  if (at(Tok::Struct) && isName(peek())) return skipStructOfC();
   if (at(Tok::Error)) {
     last_error_ = t_;
   } else {

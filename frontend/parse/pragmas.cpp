@@ -11,8 +11,34 @@ Slice<Pragma> Cursor::takePragmas() {
   auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
                              [](const PragmaRange& p, uint32_t offset) { return p.token_offset < offset; });
   std::vector<Pragma> list;
-  for (; it != all.end() && it->token_offset == t_->offset; ++it) list.push_back(readPragma(*it));
+  for (; it != all.end() && it->token_offset == t_->offset; ++it) {
+    list.push_back(readPragma(*it));
+    if (sameIdentifier(names_.string(list.back().name), "mock")) splitList(*it, list);
+  }
   return tree_.addList<Pragma>(list);
+}
+
+// {mock 'A', 'B'} and {mock A, B} are {mock 'A'} {mock 'B'}.
+void Cursor::splitList(const PragmaRange& pragma, std::vector<Pragma>& list) {
+  const Pragma whole = list.back();
+  std::string_view rest = source_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
+  const auto isBlank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  while (!rest.empty() && isBlank(rest.front())) rest.remove_prefix(1);
+  const std::string_view name = names_.string(whole.name);
+  if (!sameIdentifier(rest.substr(0, name.size()), name)) return;  // {attribute 'mock' := 'A'}
+  rest.remove_prefix(name.size());
+  list.pop_back();
+  for (bool more = true; more;) {
+    const size_t comma = rest.find(',');
+    more = comma != std::string_view::npos;
+    std::string_view one = rest.substr(0, comma);
+    rest.remove_prefix(more ? comma + 1 : rest.size());
+    while (!one.empty() && (isBlank(one.front()) || one.front() == ':' || one.front() == '=')) one.remove_prefix(1);
+    while (!one.empty() && isBlank(one.back())) one.remove_suffix(1);
+    if (one.size() >= 2 && (one.front() == '\'' || one.front() == '"') && one.back() == one.front())
+      one = one.substr(1, one.size() - 2);
+    list.push_back({whole.name, tree_.addString(one), whole.loc});
+  }
 }
 
 // {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; in any other pragma the

@@ -40,11 +40,24 @@ void DeclarationParser::parseTypes(std::vector<DeclId>& out) {
   }
 }
 
+// STRUCT name {fields} END_STRUCT
+void Cursor::skipStructOfC() {
+  slip(diag::StructForm, t_, {textOf(t_ + 1)});
+  tree_.lost_names = true;
+  while (!at(Tok::End) && !at(Tok::EndStruct) && !at(Tok::EndType)) advance();
+  accept(Tok::EndStruct);
+  accept(Tok::Semicolon);
+}
+
 DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
   lost_ = false;
   while (at(Tok::Ident) && isName(peek()) && (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT"))) {
     if (is(t_, "INTERNAL")) access = AccessLevel::Internal;
     advance();
+  }
+  if (at(Tok::Struct) && isName(peek())) {
+    skipStructOfC();
+    return {};
   }
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
   TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}};

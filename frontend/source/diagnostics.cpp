@@ -101,6 +101,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
   if (!closed_lines_.empty() && loc &&
       std::binary_search(closed_lines_.begin(), closed_lines_.end(), lineKey(sources_, loc)))
     return Report(nullptr);
+  if (isDisabledAt(diag, loc)) return Report(nullptr);
   if (!enabled(diag) || !firstAt(diag, sources_.originalLocation(loc))) return Report(nullptr);
   const DiagInfo& info = diagInfo(diag);
   Severity severity = info.severity;
@@ -154,6 +155,21 @@ void Diagnostics::sort() {
 
 bool Diagnostics::enabled(Diag diag) const {
   return std::find(disabled_.begin(), disabled_.end(), diag) == disabled_.end();
+}
+
+void Diagnostics::switchWarning(Diag diag, bool on, Loc loc, Loc end) {
+  if (!on) {
+    disabled_ranges_.push_back({diag, loc, end});
+    return;
+  }
+  for (DisabledRange& range : disabled_ranges_)
+    if (range.diag == diag && range.begin < loc && loc < range.end) range.end = loc;
+}
+
+bool Diagnostics::isDisabledAt(Diag diag, Loc loc) const {
+  return std::any_of(disabled_ranges_.begin(), disabled_ranges_.end(), [&](const DisabledRange& range) {
+    return range.diag == diag && !(loc < range.begin) && loc < range.end;
+  });
 }
 
 bool Diagnostics::setWarning(std::string_view name, bool on) {

@@ -52,6 +52,13 @@ const DiagInfo& diagInfo(Diag diag);
 const DiagInfo* findDiag(std::string_view code);
 // A template with its arguments in place of {0} {1}, each cut to a few hundred bytes.
 std::string formatMessage(const char* text, std::initializer_list<std::string_view> args);
+// The warnings with this code or name ("W0108", "unused-variable"), or those that correspond to this code of CODESYS
+// ("C0195"); see codesys_warnings.def.
+std::vector<Diag> warningsNamed(std::string_view name);
+// C and digits.
+bool isCodesysCode(std::string_view name);
+// The name of a row in `-W` that is nearest to this one, or empty.
+std::string nearestWarning(std::string_view name);
 // The name of the row in `-W`: "unused-variable" for UnusedVariable.
 std::string switchName(const DiagInfo& info);
 // All rows, by number.
@@ -119,13 +126,21 @@ class Diagnostics {
   // -W options such as "no-W0101" or "no-unused-variable", see docs/cli.md. False when the name is unknown.
   bool setWarning(std::string_view name, bool on);
   bool enabled(Diag diag) const;
+  // {warning disable CODE} and {warning restore CODE}: `on` from `loc` to `end` of its source or the next such call.
+  void switchWarning(Diag diag, bool on, Loc loc, Loc end);
 
  private:
   const Sources& sources_;
   std::vector<Diagnostic> list_;
   std::vector<Diag> disabled_;
+  struct DisabledRange {
+    Diag diag;
+    Loc begin, end;
+  };
+  std::vector<DisabledRange> disabled_ranges_;
   uint32_t error_count_ = 0, warning_count_ = 0, dropped_count_ = 0, dropped_warning_count_ = 0;
   bool firstAt(Diag diag, Loc loc);
+  bool isDisabledAt(Diag diag, Loc loc) const;
 
   std::vector<uint64_t> seen_;  // (code, loc) hash set, open addressing
   size_t seen_count_ = 0;

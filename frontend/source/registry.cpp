@@ -61,4 +61,33 @@ const DiagInfo* findDiag(std::string_view code) {
 
 std::span<const DiagInfo> allDiags() { return kByNumber; }
 
+std::vector<Diag> warningsNamed(std::string_view name) {
+  struct Row {
+    const char *codesys, *own;
+  };
+#define RUNG_CODESYS(code, own) {code, own},
+  static constexpr Row kCodesys[] = {
+#include "frontend/source/codesys_warnings.def"
+  };
+  std::vector<Diag> found;
+  for (const Row& row : kCodesys)
+    if (sameIdentifier(row.codesys, name)) found.push_back(findDiag(row.own)->diag);
+  for (const DiagInfo& row : kByNumber)
+    if (row.severity != Severity::Error && (sameIdentifier(row.code, name) || sameIdentifier(switchName(row), name)))
+      found.push_back(row.diag);
+  return found;
+}
+
+bool isCodesysCode(std::string_view name) {
+  return name.size() > 1 && (name[0] | 0x20) == 'c' &&
+         name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+std::string nearestWarning(std::string_view name) {
+  std::vector<std::string> names;
+  for (const DiagInfo& row : kByNumber)
+    if (row.severity != Severity::Error) names.push_back(switchName(row));
+  return std::string(nearest(name, {names.begin(), names.end()}));
+}
+
 }  // namespace rung

@@ -39,7 +39,8 @@ constexpr uint32_t kFrameHeader = sizeof(Linkage), kFrameAlign = 16;
 struct Machine {
   rung_context* ctx = nullptr;
   uint8_t* limit = nullptr;  // end of the stack of frames
-  int64_t budget = 0;        // iterations and calls left, where a run is bounded
+  // The source location of an instruction as a site, from 1; null: unknown.
+  uint32_t (*site_of)(const rung_context* ctx, const Insn* insn) = nullptr;
   // The next instruction, where instructions return to a loop instead of jumping to the next (dispatch.h).
   const Insn* ip = nullptr;
   uint8_t *fp = nullptr, *self = nullptr;
@@ -71,11 +72,13 @@ constexpr uint32_t sizeOf(Scalar s) {
 constexpr bool isReal(Scalar s) { return s >= Scalar::F32; }
 constexpr bool isSigned(Scalar s) { return s >= Scalar::I8 && s <= Scalar::I64; }
 
-// How often a line of the source was executed or, where `function` is set, that POU was called.
+// How often a line of the source was executed or, where `function` is set, that POU was called, or, where `branch` is
+// not 0, that branch of the IF or CASE at line and column was taken.
 struct Counter {
   const char *file, *function;
   uint32_t line;
   uint64_t count;
+  uint32_t column = 0, branch = 0;
 };
 
 // A native library function with a uniform signature: arguments in `slots`, scalars by value and others by address, the

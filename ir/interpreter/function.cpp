@@ -155,7 +155,8 @@ uint8_t runGuarded(NativeThunk native, const Insn* ip, uint8_t* fp, int64_t budg
   Machine machine;
   machine.ctx = &ctx;
   machine.limit = fp + kConstantStack;
-  machine.budget = budget;
+  ctx.step_limit = budget;
+  ctx.steps = budget;
   struct Start {
     NativeThunk native;
     const Insn* ip;
@@ -202,7 +203,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   Call call(module, body, entry.frame);
   call.pass(arguments, names);
   const uint8_t fault = runGuarded(native, code.insns.data() + entry.at, call.fp(), budget);
-  if (fault == RUNG_FAULT_STACK) {
+  if (fault == RUNG_FAULT_STACK || fault == RUNG_FAULT_STOP) {
     result.trouble = "does not end within its bounds";
   } else if (fault != RUNG_FAULT_NONE) {
     result.fault = static_cast<types::Fault>(fault);

@@ -81,8 +81,8 @@ void rethrow(RUNG_HANDLER_PARAMETERS) {
 }
 void raise(RUNG_HANDLER_PARAMETERS) { fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b)); }
 
-void tick(RUNG_HANDLER_PARAMETERS) {
-  if (--m->budget < 0) fail(m, RUNG_FAULT_STACK, 0, 0);
+void step(RUNG_HANDLER_PARAMETERS) {
+  if (rung_step(m->ctx)) fail(m, RUNG_FAULT_STOP, m->site_of == nullptr ? 0 : m->site_of(m->ctx, ip), 0);
   RUNG_NEXT;
 }
 
@@ -145,7 +145,7 @@ Handler nativeHandler() { return native; }
 Handler tryHandler() { return tryBlock; }
 Handler rethrowHandler() { return rethrow; }
 Handler raiseHandler() { return raise; }
-Handler tickHandler() { return tick; }
+Handler stepHandler() { return step; }
 Handler countHandler() { return count; }
 Handler calledHandler() { return called; }
 Handler assertHandler(AssertionKind kind) {

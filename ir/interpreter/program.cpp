@@ -48,6 +48,9 @@ struct Program::Parts {
     machine.ctx = ctx;
     uint8_t* const begin = stack.memory.get();
     machine.limit = begin + stack.size;
+    machine.site_of = [](const rung_context* of_ctx, const Insn* insn) {
+      return of(of_ctx).siteOf(reinterpret_cast<uintptr_t>(insn)) + 1;
+    };
     running = &machine;
     execute(code.insns.data() + entry.at, begin, nullptr, &machine);
   }
@@ -159,6 +162,10 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
       if (program.after_init) first.push_back({Step::CallOf, program.after_init, 0});
       if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
     }
+    for (const BodyId setup : test.setups) first.push_back({Step::CallOf, setup, 0});
+    std::vector<Step> teardowns;
+    for (const BodyId teardown : test.teardowns) teardowns.push_back({Step::CallOf, teardown, 0});
+    last.insert(last.begin(), teardowns.begin(), teardowns.end());
     of_test.push_back(translator.translateSteps(steps));
     of_test_init.push_back(translator.translateSteps(first));
     of_test_exit.push_back(translator.translateSteps(last));
@@ -240,5 +247,23 @@ uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
 const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }
+
+std::string Program::counts() const {
+  std::string bytes;
+  for (const Counter& counter : parts_->code.counters)
+    bytes.append(reinterpret_cast<const char*>(&counter.count), sizeof counter.count);
+  return bytes;
+}
+
+void Program::addCounts(std::string_view counts) {
+  size_t at = 0;
+  for (Counter& counter : parts_->code.counters) {
+    uint64_t count = 0;
+    if (counts.size() - at < sizeof count) return;
+    memcpy(&count, counts.data() + at, sizeof count);
+    counter.count += count;
+    at += sizeof count;
+  }
+}
 
 }  // namespace rung::ir::interpreter

@@ -36,6 +36,9 @@ class Program {
   const std::string& refusal() const;
   const rung_module& description() const;
   const std::deque<Counter>& counters() const;
+  // Their values as bytes, and those of another process that ran this program.
+  std::string counts() const;
+  void addCounts(std::string_view counts);
 
   // For a signal while this thread runs a program: the current site, or RUNG_NONE. `details`: ucontext_t.
   static uint32_t siteOfCrash(const rung_context* ctx, const void* details);

@@ -32,6 +32,17 @@ void BodyTranslator::count(Loc loc, const char* function) {
   emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
 }
 
+bool BodyTranslator::countsBranches(Loc loc) const { return options_.coverage && body_->counted && loc; }
+
+void BodyTranslator::countBranch(Loc loc, uint32_t branch) {
+  if (!countsBranches(loc)) return;
+  count(loc, nullptr);
+  if (loc == body_->loc) return;
+  Counter& counter = code_.counters.back();
+  counter.column = filePosition(module_, *body_, loc).column;
+  counter.branch = branch;
+}
+
 void BodyTranslator::recordLocation(Loc loc) {
   if (!loc || (!code_.line_table.empty() && recorded_loc_ == loc)) return;
   recorded_loc_ = loc;
@@ -59,15 +70,17 @@ void BodyTranslator::statement(const Stmt& stmt) {
       const Label otherwise = newLabel();
       const IfStmt& node = stmt.as<IfStmt>();
       branch(node.condition, false, otherwise);
+      countBranch(stmt.loc, 1);
       block(node.then_block);
-      if (!node.else_block) return place(otherwise);
+      if (!node.else_block && !countsBranches(stmt.loc)) return place(otherwise);
       const Label end = newLabel();
       jump(end);
       place(otherwise);
+      countBranch(stmt.loc, 2);
       block(node.else_block);
       return place(end);
     }
-    case StmtKind::Switch: return switchStatement(stmt.as<SwitchStmt>());
+    case StmtKind::Switch: return switchStatement(stmt.as<SwitchStmt>(), stmt.loc);
     case StmtKind::Loop: return loopStatement(stmt.as<LoopStmt>());
     case StmtKind::For: return forStatement(stmt.as<ForStmt>());
     case StmtKind::Break:
@@ -83,7 +96,7 @@ void BodyTranslator::statement(const Stmt& stmt) {
     }
     case StmtKind::Label:
       place(user_labels_[stmt.as<LabelStmt>().label].label);
-      if (options_.bounded) emit(tickHandler());
+      countStep();
       return;
     case StmtKind::Try: return tryStatement(stmt.as<TryStmt>());
     case StmtKind::Fault: {
@@ -150,7 +163,7 @@ void BodyTranslator::assign(ExprId to, ExprId from) {
 
 // ---- branches
 
-void BodyTranslator::switchStatement(const SwitchStmt& stmt) {
+void BodyTranslator::switchStatement(const SwitchStmt& stmt, Loc loc) {
   const Scalar type = scalarOf(stmt.selector);
   const Operand value_of = inMemory(value(stmt.selector), type);
   const Label otherwise = newLabel(), end = newLabel();
@@ -203,15 +216,22 @@ void BodyTranslator::switchStatement(const SwitchStmt& stmt) {
   }
   for (uint32_t i = 0; i < stmt.cases.count; ++i) {
     place(labels[i]);
+    countBranch(loc, i + 1);
     block(body_->list(stmt.cases)[i].block);
     jump(end);
   }
   place(otherwise);
+  countBranch(loc, stmt.cases.count + 1);
   block(stmt.else_block);
   place(end);
 }
 
 // ---- loops
+
+// Those of pure library functions do not count, so that generated code may keep them in headers.
+void BodyTranslator::countStep() {
+  if (options_.bounded || !(body_->library && body_->pure)) emit(stepHandler());
+}
 
 // The test of a WHILE follows its body, so that an iteration takes one branch.
 void BodyTranslator::loopStatement(const LoopStmt& stmt) {
@@ -225,7 +245,7 @@ void BodyTranslator::loopStatement(const LoopStmt& stmt) {
     jump(on_continue);
   }
   place(iteration);
-  if (options_.bounded) emit(tickHandler());
+  countStep();
   block(first);
   place(on_continue);
   if (test) {
@@ -268,7 +288,7 @@ void BodyTranslator::forStatement(const ForStmt& stmt) {
   }
   loops_.push_back({end, on_continue, depth});
   place(iteration);
-  if (options_.bounded) emit(tickHandler());
+  countStep();
   block(body_block);
   place(on_continue);
   if (is_direct) {

@@ -93,7 +93,7 @@ void BodyTranslator::translate(BodyId id) {
   return_label_ = newLabel();
   for (size_t i = 0; i < body_->labels.size(); ++i) user_labels_.push_back({newLabel(), 0});
   if (body_->has_labels) noteLabels(body_->first, 0);
-  if (options_.bounded) emit(tickHandler());
+  if (options_.bounded || !body_->library) emit(stepHandler());
   if (options_.coverage && body_->counted) {
     code_.strings.emplace_back(module_.names.string(body_->spelling ? body_->spelling : body_->name));
     count(body_->loc, code_.strings.back().c_str());

@@ -14,7 +14,7 @@ namespace rung::ir::interpreter {
 
 struct TranslateOptions {
   std::span<const Native> natives;  // sorted by name
-  bool bounded = false;             // count iterations and calls (Machine::budget)
+  bool bounded = false;             // calls of library functions are steps, too
   bool coverage = false;            // count how often lines run (Code::counters)
   bool trace_calls = false;         // report each call of a POU to the host
 };
@@ -102,7 +102,7 @@ class BodyTranslator : FrameCode {
   void block(StmtId first);
   void statement(const Stmt& stmt);
   void assign(ExprId to, ExprId from);
-  void switchStatement(const SwitchStmt& stmt);
+  void switchStatement(const SwitchStmt& stmt, Loc loc);
   void loopStatement(const LoopStmt& stmt);
   void forStatement(const ForStmt& stmt);
   void tryStatement(const TryStmt& stmt);
@@ -110,7 +110,10 @@ class BodyTranslator : FrameCode {
   void assertStatement(const Stmt& stmt);
   void noteLabels(StmtId first, uint32_t depth);
 
+  void countStep();
   void count(Loc loc, const char* function);
+  bool countsBranches(Loc loc) const;
+  void countBranch(Loc loc, uint32_t branch);
   void recordLocation(Loc loc);
 
   // ---- calls.cpp

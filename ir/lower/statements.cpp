@@ -418,7 +418,9 @@ static uint32_t exceptionCode(types::Fault fault) {
     case types::Fault::Cast:
     case types::Fault::Subrange:
     case types::Fault::Convert:
-    case types::Fault::Lock: break;
+    case types::Fault::Lock:
+    case types::Fault::Stack:
+    case types::Fault::Stop: break;
   }
   return 0xffffffff;  // RTSEXCPT_UNKNOWN
 }

@@ -306,8 +306,13 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
     context.report(diag::WrongType, loc,
                    {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
   } else {
-    context.report(diag::NeedsConversion, loc,
-                   {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
+    Report report = context.report(
+        diag::NeedsConversion, loc,
+        {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
+    const bool is_duration = wanted == TypeKind::Time || wanted == TypeKind::LTime;
+    if (is_duration && TypeTable::isInteger(own) && context.tree().kind(expr) == ExprKind::Literal)
+      report.note({}, Note{"a time has a unit: write `T#{0}ms`"},
+                  {std::to_string(context.tree().as<LiteralExpr>(expr).value())});
   }
   return false;
 }

@@ -7,6 +7,7 @@
 #include "sema/bodies/temporaries.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
+#include "sema/checks/time_equality.h"
 #include "sema/intermediate.h"
 #include "sema/types/arithmetic.h"
 
@@ -368,7 +369,10 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   if (common == types::kError) return node.h.type = types::kError;
   const TypeKind kind = context.types().plainKind(common);
   if (comparison) {
-    if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) checkRealEquality(context, node);
+    if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) {
+      checkRealEquality(context, node);
+      checkTimeEquality(context, node);
+    }
     return node.h.type = types::kBool;
   }
   if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {

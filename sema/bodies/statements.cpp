@@ -13,11 +13,16 @@
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/dangling_address.h"
 #include "sema/checks/for_header.h"
+#include "sema/checks/hidden_globals.h"
 #include "sema/checks/jump_labels.h"
+#include "sema/checks/output_writers.h"
 #include "sema/checks/overlapping_addresses.h"
 #include "sema/checks/recursion.h"
+#include "sema/checks/repeated_timer_call.h"
 #include "sema/checks/result_assigned.h"
 #include "sema/checks/shared_globals.h"
+#include "sema/checks/uncalled_instances.h"
+#include "sema/checks/unset_temporaries.h"
 #include "sema/checks/unused_variables.h"
 #include "sema/checks/writable.h"
 #include "sema/project.h"
@@ -483,6 +488,11 @@ void checkAfterBodies(Context& context) {
   checkUnusedVariables(context);
   checkOverlappingAddresses(context);
   checkSharedGlobals(context);
+  checkOutputWriters(context);
+  checkHiddenGlobals(context);
+  checkRepeatedTimerCalls(context);
+  checkUncalledInstances(context);
+  checkUnsetTemporaries(context);
 }
 
 }  // namespace rung::sema

@@ -29,6 +29,9 @@ void internKnownNames(Context& context) {
       {&Known::test_only, "test_only"},
       {&Known::replaces, "replaces"},
       {&Known::mock, "mock"},
+      {&Known::skip, "skip"},
+      {&Known::setup, "setup"},
+      {&Known::teardown, "teardown"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},
@@ -154,6 +157,13 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   takeAttributes(context, decl.h, pou);
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
+  pou.pragmas.setup = findPragma(context, decl.h, known.setup) != nullptr;
+  pou.pragmas.teardown = findPragma(context, decl.h, known.teardown) != nullptr;
+  pou.pragmas.test_only = pou.pragmas.test_only || pou.pragmas.setup || pou.pragmas.teardown;
+  if (const Pragma* pragma = findPragma(context, decl.h, known.skip); pragma != nullptr) {
+    const std::string_view why = context.tree().string(pragma->value);
+    pou.pragmas.skip = context.names().intern(why.empty() ? "no reason given" : why);
+  }
   if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
     pou.pragmas.replaces = context.names().intern(context.tree().string(pragma->value));
     pou.pragmas.test_only = true;

@@ -326,6 +326,8 @@ const char* word(Fault fault) {
     case Fault::Convert: return "convert";
     case Fault::Overflow: return "overflow";
     case Fault::Lock: return "lock";
+    case Fault::Stack: return "stack";
+    case Fault::Stop: return "stop";
   }
   return "none";
 }

@@ -34,7 +34,7 @@ struct Value {
   friend bool operator==(const Value&, const Value&) = default;
 };
 
-enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow, Lock };
+enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow, Lock, Stack, Stop };
 const char* word(Fault fault);
 
 // How a REAL becomes an integer. ToEven: exact halves to the even number; a value out of range to the nearest one.

@@ -20,6 +20,7 @@
 #include "sema/project.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/diagnostics.h"
+#include "tools/driver/output_files.h"
 
 namespace rung::driver {
 namespace {
@@ -230,6 +231,7 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   emit_options.bundled = options.bundles > 0;
   emit_options.module_name = options.moduleName();
   emit_options.with_tests = with_tests;
+  emit_options.counts_steps = options.counts_steps;
   emit_options.optimize_all = options.level >= 2;
   emit_options.is_native_of_rung = isNativeOfRung;
   files = codegen::emitCpp(*module, emit_options);
@@ -314,10 +316,26 @@ int Compilation::finish() {
     return kUsage;
   }
   prepare(diagnostics);
-  if (!diagnostics.all().empty() || options.format != DiagnosticFormat::Text)
-    sink_.diagnostics(diagnostics, sources, renderOptions());
+  const std::string refused = passDiagnostics();
   if (!internal_error_.empty()) sink_.internalError(internal_error_);
-  return exitCode();
+  if (refused.empty()) return exitCode();
+  sink_.error(refused);
+  return kUsage;
+}
+
+// With --diagnostics the file has the requested format, and the sink gets text.
+std::string Compilation::passDiagnostics() {
+  RenderOptions render_options = renderOptions();
+  std::string error;
+  if (!options.diagnostics_path.empty()) {
+    RenderOptions of_file = render_options;
+    of_file.color = false;
+    error = writeFile(options.diagnostics_path, render(diagnostics, sources, of_file));
+    render_options.format = DiagnosticFormat::Text;
+  }
+  if (!diagnostics.all().empty() || render_options.format != DiagnosticFormat::Text)
+    sink_.diagnostics(diagnostics, sources, render_options);
+  return error;
 }
 
 // Columns of g++ count bytes: it cannot open the user's file.

@@ -86,6 +86,7 @@ class Compilation {
 
  private:
   void noteLibraries();
+  std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;
   void prepare(Diagnostics& own) const;
   RenderOptions renderOptions() const;

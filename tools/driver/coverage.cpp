@@ -42,6 +42,8 @@ void Coverage::add(const ir::interpreter::Program& program) {
   for (const ir::interpreter::Counter& counter : program.counters()) {
     if (counter.function != nullptr) {
       files_[counter.file].functions[{counter.line, counter.function}] += counter.count;
+    } else if (counter.branch != 0) {
+      files_[counter.file].branches[{counter.line, counter.column}][counter.branch] += counter.count;
     } else {
       uint64_t& count = lines[counter.file][counter.line];
       count = std::max(count, counter.count);
@@ -79,6 +81,25 @@ std::string Coverage::text() const {
   return out;
 }
 
+// BRDA: line, number of the IF or CASE on the line, branch, how often it was taken or `-`: the statement never ran.
+void Coverage::appendBranches(std::string& out, const File& file) {
+  uint64_t found = 0, hit = 0;
+  uint32_t line = 0, number = 0;
+  for (const auto& [position, counts] : file.branches) {
+    number = position.first == line ? number + 1 : 0;
+    line = position.first;
+    uint64_t runs = 0;
+    for (const auto& [branch, count] : counts) runs += count;
+    for (const auto& [branch, count] : counts) {
+      out += "BRDA:" + std::to_string(line) + ',' + std::to_string(number) + ',' + std::to_string(branch - 1) + ',' +
+             (runs == 0 ? "-" : std::to_string(count)) + '\n';
+      ++found;
+      hit += count != 0;
+    }
+  }
+  if (found != 0) out += "BRF:" + std::to_string(found) + "\nBRH:" + std::to_string(hit) + '\n';
+}
+
 std::string Coverage::lcov() const {
   std::string out;
   for (const auto& [below, file] : files_) {
@@ -91,6 +112,7 @@ std::string Coverage::lcov() const {
       called += count != 0;
     }
     out += "FNF:" + std::to_string(file.functions.size()) + "\nFNH:" + std::to_string(called) + '\n';
+    appendBranches(out, file);
     for (const auto& [line, count] : file.lines)
       out += "DA:" + std::to_string(line) + ',' + std::to_string(count) + '\n';
     out += "LF:" + std::to_string(file.lines.size()) + "\nLH:" + std::to_string(hitCount(file.lines)) +

@@ -1,4 +1,4 @@
-// `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool.
+// `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool, without Markdown.
 #include <string_view>
 
 #include "errors_pages.h"
@@ -6,6 +6,7 @@
 #include "frontend/source/scanner.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/page.h"
 
 namespace rung::driver {
 namespace {
@@ -35,7 +36,7 @@ int runExplain(const Options& options, Sink& sink) {
     return usageError(sink, "unknown diagnostic `" + options.inputs[0] + "`" +
                                 (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
   }
-  return printResult(sink, pageOf(*info));
+  return printResult(sink, renderPage(pageOf(*info), options.color));
 }
 
 }  // namespace rung::driver

@@ -240,12 +240,25 @@ class Collector {
   void addFolder(const std::string& folder) {
     const size_t before = candidates_.size();
     inputs_.read.push_back(folder);
+    std::error_code ignored;
+    scanned_root_ = fs::canonical(folder, ignored).string();
     scan(folder, 0);
     const std::string prefix = folder.back() == '/' ? folder : folder + "/";
     for (const std::string& below : files_.newFilesIn(folder))
       if (importer::holdsProgram(importer::kindOfExtension(below)))
         candidates_.push_back({absolutePath(prefix + below), prefix + below, {}, false});
     if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(diag::EmptyFolder, folder, {folder});
+  }
+
+  // A link to a file elsewhere would make the project depend on what its folder does not hold.
+  bool leavesFolder(const std::string& path) {
+    std::error_code error;
+    const std::string target = fs::canonical(path, error).string();
+    const std::string root = scanned_root_ == "/" ? "/" : scanned_root_ + '/';
+    if (error || target.starts_with(root)) return false;
+    const FileKind kind = importer::kindOfExtension(path);
+    if (kind != FileKind::Unknown) diagnostics_.report(diag::LinkOutside, {}, {path, target}).path(path);
+    return true;
   }
 
   // A folder with a .plcproj takes the files that it lists.
@@ -261,14 +274,17 @@ class Collector {
     while (const dirent* entry = readdir(dir)) {
       if (entry->d_name[0] == '.') continue;
       std::string path = prefix + entry->d_name;
+      if (!options_.junit.empty() && absolutePath(path) == absolutePath(options_.junit)) continue;
       unsigned char type = entry->d_type;
       if (type == DT_UNKNOWN || type == DT_LNK) {
         struct stat info;
         if (stat(path.c_str(), &info) != 0) continue;  // a dangling link
-        if (S_ISREG(info.st_mode))
+        if (S_ISREG(info.st_mode)) {
+          if (leavesFolder(path)) continue;
           type = DT_REG;
-        else if (S_ISDIR(info.st_mode) && type == DT_UNKNOWN)
+        } else if (S_ISDIR(info.st_mode) && type == DT_UNKNOWN) {
           type = DT_DIR;
+        }
       }
       if (type == DT_DIR) {
         folders.push_back(std::move(path));
@@ -349,6 +365,7 @@ class Collector {
   std::vector<Candidate> candidates_;
   std::vector<Candidate> library_programs_;
   std::vector<std::string> bases_;  // folders of the inputs, absolute
+  std::string scanned_root_;        // of the folder that is read, without links
   std::string project_shown_;
 };
 

@@ -10,6 +10,45 @@
 namespace rung::driver {
 namespace {
 
+// One object of a JSON list: `{"name":"x","line":3}`.
+class JsonRow {
+ public:
+  JsonRow& text(const char* name, std::string_view value) { return raw(name, jsonQuote(value)); }
+  JsonRow& number(const char* name, uint64_t value) { return raw(name, std::to_string(value)); }
+  JsonRow& texts(const char* name, const std::vector<std::string>& values) {
+    std::string list;
+    for (const std::string& value : values) list += (list.empty() ? "" : ",") + jsonQuote(value);
+    return raw(name, '[' + list + ']');
+  }
+  std::string string() const { return '{' + fields_ + '}'; }
+
+ private:
+  JsonRow& raw(const char* name, const std::string& value) {
+    fields_ += (fields_.empty() ? "\"" : ",\"") + std::string(name) + "\":" + value;
+    return *this;
+  }
+  std::string fields_;
+};
+
+// The rows of a list, in the requested format.
+class List {
+ public:
+  explicit List(const Options& options) : is_json_(options.format == DiagnosticFormat::Json) {}
+  void add(const std::string& line, const JsonRow& row) {
+    if (!is_json_) {
+      out_ += line;
+    } else {
+      out_ += (out_.empty() ? "" : ",\n ") + row.string();
+    }
+  }
+  std::string text() const { return is_json_ ? '[' + out_ + "]\n" : out_; }
+  bool empty() const { return out_.empty(); }
+
+ private:
+  bool is_json_;
+  std::string out_;
+};
+
 const char* word(PouKind kind) {
   switch (kind) {
     case PouKind::Function: return "FUNCTION";
@@ -31,31 +70,33 @@ int listPous(const Options& options, Sink& sink) {
   Compilation compilation(reading, times, sink);
   if (!compilation.parse() || compilation.diagnostics.hasErrors()) return compilation.finish();
   const Tree& tree = compilation.tree;
-  std::string out;
+  List list(options);
   for (const FileUnit& unit : tree.files) {
     for (DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Pou) continue;
       const PouDecl& pou = tree.as<PouDecl>(id);
       std::string name(compilation.names.string(pou.name)), shown(compilation.sources.displayPath(unit.file));
-      out += std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" +
-             std::to_string(compilation.sources.location(pou.h.loc).line) + "\n";
+      const uint32_t line = compilation.sources.location(pou.h.loc).line;
+      list.add(std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" + std::to_string(line) + "\n",
+               JsonRow().text("kind", word(pou.pou_kind)).text("name", name).text("file", shown).number("line", line));
     }
   }
   int exit = compilation.finish();
-  return exit == kSuccess ? printResult(sink, out) : exit;
+  return exit == kSuccess ? printResult(sink, list.text()) : exit;
 }
 
 // One line each: the code, the name for `-W` and the message, with A, B, ... for its arguments.
-int listWarnings(Sink& sink) {
-  std::string out;
+int listWarnings(const Options& options, Sink& sink) {
+  List list(options);
   for (const DiagInfo& info : allDiags()) {
     if (info.severity == Severity::Error) continue;
-    std::string name = switchName(info);
-    name.resize(std::max<size_t>(name.size(), 30), ' ');
+    const std::string name = switchName(info);
+    const std::string padding(name.size() < 30 ? 30 - name.size() : 0, ' ');
     const std::string message = formatMessage(info.text, {"A", "B", "C", "D", "E", "F"});
-    out += std::string(info.code) + "  " + name + "  " + message + "\n";
+    list.add(std::string(info.code) + "  " + name + padding + "  " + message + "\n",
+             JsonRow().text("code", info.code).text("name", name).text("message", message));
   }
-  return printResult(sink, out);
+  return printResult(sink, list.text());
 }
 
 // Visits every name that the libraries declare, with the range of its source.
@@ -69,14 +110,14 @@ int listLibraries(const Options& options, Sink& sink) {
   LibrarySet libraries;
   std::string error = libraries.load(options);
   if (!error.empty()) return usageError(sink, error);
-  std::string out, library;
+  List list(options);
+  std::string library;
   std::vector<std::string> names;
   auto flush = [&] {
     if (library.empty()) return;
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    out += library + ":\n";
-    std::string line = " ";
+    std::string out = library + ":\n", line = " ";
     for (const std::string& name : names) {
       if (line.size() + name.size() > 100) {
         out += line + "\n";
@@ -84,7 +125,7 @@ int listLibraries(const Options& options, Sink& sink) {
       }
       line += " " + name;
     }
-    out += line + "\n";
+    list.add(out + line + "\n", JsonRow().text("library", library).texts("names", names));
     names.clear();
   };
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
@@ -94,7 +135,7 @@ int listLibraries(const Options& options, Sink& sink) {
     for (std::string_view name : block.names) names.emplace_back(name);
   });
   flush();
-  return printResult(sink, out);
+  return printResult(sink, list.text());
 }
 
 // The header of a declaration: everything up to the body, with the doc comment above it.
@@ -118,12 +159,15 @@ int listSignature(const Options& options, Sink& sink) {
   LibrarySet libraries;
   std::string error = libraries.load(options);
   if (!error.empty()) return usageError(sink, error);
-  std::string out;
+  List list(options);
   std::vector<std::string_view> known;
   auto add = [&](std::string_view where, std::string_view text, const sema::IndexedBlock& block) {
     for (std::string_view name : block.names) {
       known.push_back(name);
-      if (sameIdentifier(name, options.signature)) out += "// " + std::string(where) + "\n" + header(text, block);
+      if (!sameIdentifier(name, options.signature)) continue;
+      const std::string declaration = header(text, block);
+      list.add("// " + std::string(where) + "\n" + declaration,
+               JsonRow().text("file", where).text("declaration", declaration));
     }
   };
   PhaseTimes times;
@@ -138,7 +182,7 @@ int listSignature(const Options& options, Sink& sink) {
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
     if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.source, block);
   });
-  if (!out.empty()) return printResult(sink, out);
+  if (!list.empty()) return printResult(sink, list.text());
   std::string_view near = nearest(options.signature, known);
   return usageError(sink, "unknown function, block or type `" + options.signature + "`" +
                               (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
@@ -150,7 +194,7 @@ int runList(const Options& options, Sink& sink) {
   if (!options.signature.empty()) return listSignature(options, sink);
   if (options.inputs[0] == "pous") return listPous(options, sink);
   if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options, sink);
-  if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(sink);
+  if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(options, sink);
   return usageError(
       sink, "unknown argument `" + options.inputs[0] +
                 "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`");

@@ -56,8 +56,9 @@ struct Options {
   bool werror = false;
   uint32_t max_errors = 100;
   DiagnosticFormat format = DiagnosticFormat::Text;
-  uint32_t jobs = 0;   // 0: one per processor
-  bool color = false;  // of diagnostics
+  std::string diagnostics_path;  // --diagnostics; empty: to the sink, in `format`
+  uint32_t jobs = 0;             // 0: one per processor
+  bool color = false;            // of diagnostics
   std::string dump_after;
   bool time_phases = false;
   bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
@@ -84,6 +85,7 @@ struct Options {
   uint32_t pointer_size = 8;
   uint32_t native_width = 32;  // of intermediate results in codesys
   bool native_width_given = false;
+  bool counts_steps = false;                 // set by run.cpp and test.cpp
   int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
 
   // run, test
@@ -92,10 +94,14 @@ struct Options {
   bool trace_calls = false;  // set from --trace-calls by run.cpp
 
   // test
-  std::string filter, junit, lcov;
-  bool coverage = false;           // as a table
-  std::vector<std::string> mocks;  // sema::Options::mocks, set by test.cpp
-  bool with_tests = false;         // set by test.cpp
+  std::vector<std::string> filters;
+  std::string junit, lcov;
+  bool allow_none = false;
+  int64_t timeout_ns = 10'000'000'000;  // of each test; 0: none
+  int64_t max_steps = 100'000'000;      // of an activation; 0: none
+  bool coverage = false;                // as a table
+  std::vector<std::string> mocks;       // sema::Options::mocks, set by test.cpp
+  bool with_tests = false;              // set by test.cpp
   bool counts() const { return coverage || !lcov.empty(); }
   bool separate = false;
 

@@ -259,7 +259,11 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   xml::SourceMappedText text(sources);
   std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
-    if (section.kind != "task" || !isModuleName(section.name)) continue;
+    if (section.kind != "task" || section.name.empty()) continue;
+    if (!isModuleName(section.name)) {
+      diagnostics.report(diag::TaskName, section.loc, {section.name});
+      continue;
+    }
     if (text.empty()) text.put(section.loc, "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n");
     text.put(section.loc, "TASK " + section.name + "(");
     const char* separator = "";
@@ -278,16 +282,23 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
     }
     text.put(section.loc, ");\n");
     if (const ProjectEntry* entry = section.find("programs")) {
-      for (const std::string& item : list(entry->value)) {
+      for (const std::string_view part : split(entry->value, ',')) {
+        const std::string item(trim(part));
+        if (item.empty()) continue;
+        const auto at = static_cast<uint32_t>(trim(part).data() - entry->value.data());
+        const Loc loc{entry->value_loc.offset + at};
         // `Type` or `instance : Type`
         size_t colon = item.find(':');
         std::string type(trim(std::string_view(item).substr(colon == std::string::npos ? 0 : colon + 1)));
         std::string name(trim(std::string_view(item).substr(0, colon)));
         if (!isModuleName(name) || !isModuleName(type)) {
-          badValue(diagnostics, *entry, "it takes `Program` or `instance : Program`, separated by commas");
+          diagnostics
+              .report(diag::ProjectValue, loc,
+                      {entry->key, "it takes `Program` or `instance : Program`, separated by commas"})
+              .length(static_cast<uint32_t>(item.size()));
           continue;
         }
-        programs.emplace_back(entry->value_loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");
+        programs.emplace_back(loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");
       }
     }
   }

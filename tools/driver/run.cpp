@@ -23,6 +23,7 @@ int runRun(const Options& options, Sink& sink) {
   PhaseTimes times;
   Options compiling = options;
   compiling.default_interval_ns = run_options.interval_ns;
+  compiling.counts_steps = true;
   compiling.trace_calls = run_options.trace_calls;
   Compilation compilation(compiling, times, sink);
   NativeRequest request;
@@ -69,6 +70,7 @@ int runRun(const Options& options, Sink& sink) {
     run_options.hint_when_long = "rung: a long run is faster with --engine=native";
   }
 
+  for (const InputFile& file : compilation.inputs.files) run_options.paths[file.below] = file.shown;
   times.begin("run");
   constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
   sink.programRuns(true, (compilation.options.checks & kMemoryChecks) == kMemoryChecks);

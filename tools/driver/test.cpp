@@ -1,8 +1,10 @@
 // `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests with the
 // same mocks are one module. With --separate each file is a separate project, so names of different files never
-// clash; a few C++ units include the code of many.
+// clash; a few C++ units include the code of many. The JUnit file is written in every case: one that says that the run
+// did not finish at the beginning, then one with the results or with what ended the run before them.
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "ir/ir.h"
 #include "rung/host.h"
@@ -24,6 +26,8 @@ struct Module {
   std::string name, shown, below;
   bool ok = false;
   std::string messages;
+  std::map<std::string, std::string> skipped;
+  host::ShownPaths paths;
   std::unique_ptr<ir::interpreter::Program> program;  // none: compiled C++
 };
 
@@ -58,23 +62,77 @@ std::string headingOf(const std::vector<std::string>& mocks) {
   return text.empty() ? text : text + ":\n";
 }
 
+// Passes all on, and keeps the messages for the JUnit file.
+class Recorder : public Sink {
+ public:
+  explicit Recorder(Sink& sink) : sink_(sink) {}
+  void message(std::string_view text) override {
+    text_ += text;
+    sink_.message(text);
+  }
+  std::string output(std::string_view text) override { return sink_.output(text); }
+  void diagnostics(const Diagnostics& all, const Sources& sources, const RenderOptions& options) override {
+    RenderOptions plain = options;
+    plain.format = DiagnosticFormat::Text;
+    plain.color = false;
+    text_ += render(all, sources, plain);
+    sink_.diagnostics(all, sources, options);
+  }
+  void error(std::string_view what) override {
+    text_ += "error: " + std::string(what) + '\n';
+    sink_.error(what);
+  }
+  void internalError(std::string_view what) override {
+    text_ += "internal error: " + std::string(what) + '\n';
+    sink_.internalError(what);
+  }
+  void progress(const char* label, size_t done, size_t all) override { sink_.progress(label, done, all); }
+  void programRuns(bool runs, bool checked) override { sink_.programRuns(runs, checked); }
+  std::FILE* programOutput() override { return sink_.programOutput(); }
+  std::FILE* programErrors() override { return sink_.programErrors(); }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  Sink& sink_;
+  std::string text_;
+};
+
 class Tester {
  public:
   Tester(const Options& options, Sink& sink) : options_(options), sink_(sink) {
-    test_options_.filter = options.filter;
+    test_options_.filters = options.filters;
+    test_options_.timeout_ns = options.timeout_ns;
+    test_options_.max_steps = options.max_steps;
+    test_options_.junit_path = options.junit;
     test_options_.out = sink.programOutput();
     test_options_.err = sink.programErrors();
   }
 
   int run() {
+    if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
+      return usageError(sink_, error);
     int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
     if (exit == kSuccess) exit = buildAndRun();
+    if (!reported_) {
+      const std::string error = writeOutcome(exit == kInputErrors ? "compile" : "run", sink_.text());
+      if (!error.empty()) exit = usageError(sink_, error);
+    }
     times_.end();
     if (options_.time_phases) sink_.message(times_.table());
     return exit;
   }
 
  private:
+  // A JUnit file with one error.
+  std::string writeOutcome(const char* what, const std::string& messages) {
+    if (options_.junit.empty()) return {};
+    host::TestResults results;
+    const std::string& path = options_.inputs.front();
+    results.tests.push_back({what, path, 1, host::TestResult::Broken, 0, 0, messages, path});
+    return host::writeJunit(results, options_.junit, sink_.programOutput());
+  }
+
   // Compiles the modules of one project: the tests without mocks, then each set of mocks. `file`: the only file of a
   // project whose errors count as a failed test.
   int compileProject(const Options& options, const InputFile* file) {
@@ -111,7 +169,11 @@ class Tester {
         if (exit != kSuccess || !module.ok) return exit;
       }
       if (!why_.empty()) return usageError(sink_, why_);
-      for (const InputFile& input : compilation.inputs.files) coverage_.nameFile(input.below, input.shown);
+      for (const InputFile& input : compilation.inputs.files) {
+        coverage_.nameFile(input.below, input.shown);
+        module.paths[input.below] = input.shown;
+      }
+      if (module.ok) noteSkipped(*compilation.project, module);
       if (module.ok && i == 0 && sets.size() > 1 && compilation.module->tests.empty()) continue;
       if (file != nullptr || i > 0) part.folder = module.name;
       if (module.ok && !module.program) request_.parts.push_back(std::move(part));
@@ -119,6 +181,12 @@ class Tester {
       if (compilation.hasUserCpp()) with_cpp_.push_back(std::move(owned));
     }
     return kSuccess;
+  }
+
+  static void noteSkipped(const sema::Project& project, Module& module) {
+    for (const sema::Pou& pou : project.pous)
+      if (pou.pragmas.test && pou.pragmas.skip)
+        module.skipped[std::string(project.names.string(pou.name))] = project.names.string(pou.pragmas.skip);
   }
 
   // Interpreted when possible, else as C++ files.
@@ -171,7 +239,6 @@ class Tester {
     }
     times_.begin("run");
     host::TestResults results;
-    test_options_.junit_path = options_.junit;
     if (options_.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
       test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
     for (const Module& module : modules_) {
@@ -179,15 +246,29 @@ class Tester {
       if (exit != kSuccess) return exit;
       if (module.program) coverage_.add(*module.program);
     }
+    if (results.count() == 0 && !results.interrupted && !options_.allow_none) return usageError(sink_, noTest());
     if (options_.coverage)
       if (const std::string error = sink_.output(coverage_.text()); !error.empty()) return usageError(sink_, error);
     const int exit = host::reportTests(results, test_options_);
+    reported_ = true;
+    if (crashed_in_generated_code_) {
+      sink_.internalError(results.crash + " in generated code");
+      return kInternal;
+    }
     const std::string error = options_.lcov.empty() ? "" : writeFile(options_.lcov, coverage_.lcov());
     return error.empty() ? exit : usageError(sink_, error);
   }
 
+  std::string noTest() const {
+    if (options_.filters.empty()) return "no test found; write {test} before a POU, or accept this with `--allow-none`";
+    std::string globs;
+    for (const std::string& glob : options_.filters) globs += (globs.empty() ? "" : " or ") + backquoted(glob);
+    std::vector<std::string_view> names(tests_.begin(), tests_.end());
+    return withSuggestion("no test matches " + globs, options_.filters.front(), names);
+  }
+
   // Prints the messages of g++ about a body, with the source of its file; the other messages were printed before.
-  void refuse(const NativeResult& result) const {
+  void refuse(const NativeResult& result) {
     for (const std::unique_ptr<Compilation>& compilation : with_cpp_)
       if (compilation->printRefusals(result)) return;
     sink_.message(result.message + "\n");
@@ -199,7 +280,8 @@ class Tester {
       if (const std::string error = sink_.output("FAIL " + module.shown + ": does not compile\n"); !error.empty())
         return usageError(sink_, error);
       results.failed++;
-      results.tests.push_back({"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages});
+      results.tests.push_back(
+          {"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages, module.shown});
       return kSuccess;  // the other files count; the exit code reports a failed test
     }
     std::string error;
@@ -209,9 +291,19 @@ class Tester {
       return kInternal;
     }
     const uint32_t passed = results.passed, failed = results.failed;
+    for (uint32_t i = 0; i < description->test_count; ++i)
+      tests_.emplace_back(description->strings + description->tests[i].name);
+    test_options_.skipped = module.skipped;
+    test_options_.paths = module.paths;
+    if (module.program && options_.counts()) {
+      test_options_.collect = [&] { return module.program->counts(); };
+      test_options_.merge = [&](std::string_view counts) { module.program->addCounts(counts); };
+    }
     sink_.programRuns(true, checked_);
     error = host::runTests(*description, test_options_, results);
     sink_.programRuns(false, false);
+    if (!results.crash.empty() && checked_ && !results.crash.starts_with("SIGKILL") && with_cpp_.empty())
+      crashed_in_generated_code_ = true;
     if (!error.empty()) return usageError(sink_, error);
     if (options_.separate)
       return printResult(sink_, std::string(results.failed == failed ? "ok  " : "FAIL") + " " + module.shown + ": " +
@@ -221,14 +313,16 @@ class Tester {
   }
 
   const Options& options_;
-  Sink& sink_;
+  Recorder sink_;
   host::TestOptions test_options_;
   PhaseTimes times_;
   NativeRequest request_;
   std::vector<Module> modules_;
   std::vector<std::unique_ptr<Compilation>> with_cpp_;  // those with bodies in C++
   Coverage coverage_;
+  std::vector<std::string> tests_;  // all that were found
   bool checked_ = true;
+  bool reported_ = false, crashed_in_generated_code_ = false;
   std::string why_;  // a usage error
 };
 
@@ -236,7 +330,7 @@ class Tester {
 
 int runTest(const Options& options, Sink& sink) {
   Options testing = options;
-  testing.with_tests = true;
+  testing.with_tests = testing.counts_steps = true;
   return Tester(testing, sink).run();
 }
 

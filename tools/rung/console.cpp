@@ -41,12 +41,12 @@ void Console::progress(const char* label, size_t done, size_t all) {
 
 void Console::programRuns(bool runs, bool checked) { setProgramRuns(runs, checked); }
 
-bool useColor(Color choice) {
+bool useColor(Color choice, int descriptor) {
   if (choice != Color::Auto) return choice == Color::Always;
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
   if (no_color != nullptr && no_color[0] != '\0') return false;
-  return isatty(2) && terminal != nullptr && strcmp(terminal, "dumb") != 0;
+  return isatty(descriptor) != 0 && terminal != nullptr && strcmp(terminal, "dumb") != 0;
 }
 
 }  // namespace rung::tool

@@ -22,7 +22,7 @@ class Console : public driver::Sink {
   bool shown_ = false;
 };
 
-// Whether diagnostics have colors.
-bool useColor(Color choice);
+// Whether what goes to this descriptor has colors.
+bool useColor(Color choice, int descriptor);
 
 }  // namespace rung::tool

@@ -50,6 +50,6 @@ int main(int argc, char** argv) {
   if (error.empty() && !options.help) error = rung::driver::checkDumpName(options.dump_after);
   if (!error.empty()) return rung::driver::usageError(console, error);
   if (options.help) return rung::driver::printResult(console, rung::tool::helpText(options.command));
-  options.color = rung::tool::useColor(options.color_choice);
+  options.color = rung::tool::useColor(options.color_choice, options.command == Command::Explain ? 1 : 2);
   return runCommand(options, console);
 }

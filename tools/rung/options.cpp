@@ -7,6 +7,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "ir/ir.h"
+#include "rung/host.h"
 
 namespace rung::tool {
 namespace {
@@ -55,6 +56,7 @@ enum class Key : uint8_t {
   Werror,
   MaxErrors,
   Format,
+  Diagnostics,
   Jobs,
   Color,
   DumpAfter,
@@ -74,6 +76,8 @@ enum class Key : uint8_t {
   Host,
   Filter,
   Junit,
+  AllowNone,
+  Limit,
   Coverage,
   Lcov,
   Separate,
@@ -122,7 +126,12 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes CONDITION TRUE"},
     {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "run in real time"},
-    {Key::Filter, "--filter", "GLOB", bit(Command::Test), "run only tests whose name matches"},
+    {Key::Limit, "--timeout", "T", bit(Command::Run) | bit(Command::Test),
+     "end the run, or each test, after T (a test: 10s)"},
+    {Key::Limit, "--max-steps", "N", bit(Command::Run) | bit(Command::Test),
+     "end an activation after N steps (100000000)"},
+    {Key::Filter, "--filter", "GLOB", bit(Command::Test), "run only tests whose name matches; may be repeated"},
+    {Key::AllowNone, "--allow-none", nullptr, bit(Command::Test), "no test is not an error"},
     {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},
     {Key::Coverage, "--coverage", nullptr, bit(Command::Test), "print which lines of the program ran"},
     {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write coverage for lcov and genhtml"},
@@ -131,15 +140,16 @@ constexpr OptionRow kOptions[] = {
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
-     "run-time checks: div,index,null,cast,subrange,\n"
-     "convert,overflow, or default, all, none\n"
-     "(default: div,index,null,cast)"},
+     "run-time checks: div,index,null,cast (default),\n"
+     "subrange,convert,overflow, or all, none"},
     {Key::Level, "-O", "0|1|2", kCompile, "optimization level (default: 1)"},
     {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME disables"},
     {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},
     {Key::MaxErrors, "--max-errors", "N", kReads, "list at most N errors; 0: all (default: 100)"},
-    {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics (default: text)"},
-    {Key::Color, "--color", "auto|always|never", kReads, "use colours (auto: on a terminal; default: auto)"},
+    {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics and lists (default: text)"},
+    {Key::Diagnostics, "--diagnostics", "FILE", kReads, "write diagnostics to FILE in that format, too"},
+    {Key::Color, "--color", "auto|always|never", kReads | bit(Command::Explain),
+     "use colours (auto: on a terminal; default: auto)"},
     {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "make paths in the output relative to DIR"},
@@ -215,6 +225,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       error = parseChoice(row.name, value, row.value, choice);
       options.format = static_cast<DiagnosticFormat>(choice);
       return error;
+    case Key::Diagnostics: options.diagnostics_path = value; return {};
     case Key::PageWidth: return parseNumber(row.name, value, 0, 1'000'000, options.page_width);
     case Key::Jobs: return parseNumber(row.name, value, 1, 1024, options.jobs);
     case Key::Color:
@@ -250,7 +261,12 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.engine = choice == 0 ? Engine::Native : Engine::Interpreter;
       return error;
     case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
-    case Key::Filter: options.filter = value; return {};
+    case Key::Filter: options.filters.push_back(value); return {};
+    case Key::AllowNone: options.allow_none = true; return {};
+    case Key::Limit:
+      if (options.command == Command::Run) options.host_arguments.push_back(row.name + ("=" + value));
+      return std::string_view(row.name) == "--timeout" ? host::parseTimeout(value, options.timeout_ns)
+                                                       : host::parseMaxSteps(value, options.max_steps);
     case Key::Junit: options.junit = value; return {};
     case Key::Coverage: options.coverage = true; return {};
     case Key::Lcov: options.lcov = value; return {};
@@ -344,6 +360,10 @@ std::string checkCombination(const Options& options) {
     if (!options.depfile.empty() && options.output.empty() && options.depfile_target.empty())
       return "`--depfile` needs `-o` or `--depfile-target`";
   }
+  if (!options.diagnostics_path.empty() && options.separate)
+    return "`--diagnostics` and `--separate` cannot be combined; each file is a project of its own";
+  if (options.command == Command::List && options.format == DiagnosticFormat::Sarif)
+    return "`rung list` takes `--format=text` or `--format=json`";
   const bool native = options.engine == Engine::Native || options.keep;
   if (options.counts() && native)
     return std::string(options.coverage ? "`--coverage`" : "`--lcov`") + " needs the interpreter; remove " +

@@ -10,7 +10,7 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kDeepest = 100;
-const rung_type kConditionType = {RUNG_BOOL, 0, 0, 1, RUNG_NONE, 0, 0, 0};
+const rung_type kConditionType = {RUNG_BOOL, 0, 0, 0, 1, RUNG_NONE, 0, 0, 0};
 
 bool isWordCharacter(char c) {
   return c == '_' || c == '%' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||

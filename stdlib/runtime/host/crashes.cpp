@@ -66,6 +66,12 @@ uint8_t guarded(rung_context* ctx, void (*run)(rung_context*)) {
   return kind;
 }
 
+rung_context* runningContext() { return context_of_thread; }
+
+uint32_t currentSite(const rung_context* ctx, const void* details) {
+  return find_site == nullptr ? RUNG_NONE : find_site(ctx, details);
+}
+
 void catchCrashes() {
   struct sigaction action {};
   action.sa_sigaction = handle;
@@ -77,8 +83,8 @@ void raiseCrash(int number, const siginfo_t* info, const void* details) {
   if ((number != SIGSEGV && number != SIGBUS) || context_of_thread == nullptr) return;
   const uintptr_t address = reinterpret_cast<uintptr_t>(info->si_addr), stack = stackPointer(details);
   const bool is_stack = address - (stack - kNearStack) < 2 * kNearStack;
-  const uint32_t site = find_site == nullptr ? RUNG_NONE : find_site(context_of_thread, details);
-  rung_raise(context_of_thread, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL, site, is_stack ? 0 : RUNG_BAD_ADDRESS);
+  rung_raise(context_of_thread, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL, currentSite(context_of_thread, details),
+             is_stack ? 0 : RUNG_BAD_ADDRESS);
 }
 
 void setFindSite(FindSite find) { find_site = find; }

@@ -3,7 +3,35 @@
 
 namespace rung::host {
 
-std::string describeFault(const rung_module& module, const rung_fault& fault) {
+std::string shownPath(const ShownPaths& paths, const std::string& path) {
+  const auto it = paths.find(path);
+  return it == paths.end() ? path : it->second;
+}
+
+namespace {
+
+// Where a body in C++ runs, of which there are no sites.
+struct CppBody {
+  std::string location, pou;
+};
+CppBody cppBodyOf(const rung_context& context, const ShownPaths& paths) {
+  const std::string_view text(context.cpp_body);
+  const size_t line = text.find('\n') + 1, pou = text.find('\n', line) + 1;
+  return {shownPath(paths, std::string(text.substr(0, line - 1))) + ':' +
+              std::string(text.substr(line, pou - 1 - line)) + ": ",
+          " in the C++ body of `" + std::string(text.substr(pou)) + '`'};
+}
+
+}  // namespace
+
+std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what) {
+  if (context.cpp_body == nullptr) return what;
+  const CppBody body = cppBodyOf(context, paths);
+  return body.location + what + body.pou;
+}
+
+std::string describeFault(const rung_context& context, const rung_fault& fault, const ShownPaths& paths) {
+  const rung_module& module = *context.module;
   static const rung_site nowhere{};
   const bool known = fault.site < module.site_count;
   const rung_site& site = known ? module.sites[fault.site] : nowhere;
@@ -56,11 +84,19 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       word = "stack";
       what = "calls are nested too deeply";
       break;
+    case RUNG_FAULT_STOP:
+      word = fault.value == RUNG_STOP_STEPS ? "steps" : fault.value == RUNG_STOP_TIME ? "time" : "interrupt";
+      what = fault.value == RUNG_STOP_STEPS
+                 ? "no end after " + std::to_string(context.step_limit) + " steps (--max-steps)"
+             : fault.value == RUNG_STOP_TIME ? "the time limit is reached (--timeout)"
+                                             : "interrupted";
+      break;
   }
   std::string text;
-  if (known) text = std::string(module.strings + site.file) + ':' + std::to_string(site.line) + ": ";
+  if (known) text = shownPath(paths, module.strings + site.file) + ':' + std::to_string(site.line) + ": ";
   text += "fault[" + word + "]: " + what;
   if (known && module.strings[site.pou] != 0) text += std::string(" in `") + (module.strings + site.pou) + '`';
+  if (!known && context.cpp_body != nullptr) return describeCppBody(context, paths, text);
   if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))
     text += ", in compiled code; `rung run --engine=interp` shows the line";
   return text;

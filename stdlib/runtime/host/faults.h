@@ -3,10 +3,14 @@
 
 #include <string>
 
-#include "rung/module.h"
+#include "rung/host.h"
 
 namespace rung::host {
 
-std::string describeFault(const rung_module& module, const rung_fault& fault);
+// `what`, and which body in C++ runs.
+std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what);
+
+// `context`: of the activation that faulted.
+std::string describeFault(const rung_context& context, const rung_fault& fault, const ShownPaths& paths);
 
 }  // namespace rung::host

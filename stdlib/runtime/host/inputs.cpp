@@ -13,7 +13,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kMaxCycle = 1'000'000'000'000;  // times an interval it is a time in 64 bits
+constexpr int64_t kMaxCycle = 1'000'000'000;  // 115 days of cycles of 10 ms
 
 // An unquoted `a[1,2]` in a header was split at its comma: joins it again while brackets are open.
 CsvRow joinBrackets(const CsvRow& header) {

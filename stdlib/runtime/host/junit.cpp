@@ -44,26 +44,29 @@ std::string className(const std::string& file) {
 }
 
 struct Totals {
-  uint64_t tests = 0, failures = 0, errors = 0;
+  uint64_t tests = 0, failures = 0, errors = 0, skipped = 0;
   double seconds = 0;
 
   void add(const TestResult& test) {
     ++tests;
     failures += test.kind == TestResult::Failed;
     errors += test.kind == TestResult::Broken;
+    skipped += test.kind == TestResult::Skipped;
     seconds += test.seconds;
   }
   std::string attributes() const {
     return attribute("tests", tests) + attribute("failures", failures) + attribute("errors", errors) +
-           attribute("skipped", uint64_t{0}) + attribute("time", seconds);
+           attribute("skipped", skipped) + attribute("time", seconds);
   }
 };
 
 std::string caseElement(const TestResult& test) {
   std::string out = "    <testcase" + attribute("name", test.name) + attribute("classname", className(test.file)) +
-                    attribute("file", test.file) + attribute("line", uint64_t{test.line}) +
+                    attribute("file", test.shown_file) + attribute("line", uint64_t{test.line}) +
                     attribute("assertions", test.assertions) + attribute("time", test.seconds);
   if (test.kind == TestResult::Passed) return out + "/>\n";
+  if (test.kind == TestResult::Skipped)
+    return out + ">\n      <skipped" + attribute("message", test.messages) + "/>\n    </testcase>\n";
   const char* const element = test.kind == TestResult::Failed ? "failure" : "error";
   return out + ">\n      <" + element + attribute("message", test.messages.substr(0, test.messages.find('\n'))) + '>' +
          escaped(test.messages) + "</" + element + ">\n    </testcase>\n";
@@ -87,10 +90,13 @@ std::string junitXml(const TestResults& results) {
       all.add(test);
       of_file.add(test);
       cases += caseElement(test);
-      output += test.messages + (test.kind == TestResult::Passed ? "pass " : "FAIL ") + test.name + '\n';
+      if (test.kind == TestResult::Skipped)
+        output += "skip " + test.name + ": " + test.messages + '\n';
+      else
+        output += test.messages + (test.kind == TestResult::Passed ? "pass " : "FAIL ") + test.name + '\n';
     }
-    suites += "  <testsuite" + attribute("name", file) + of_file.attributes() + ">\n" + cases + "    <system-out>" +
-              escaped(output) + "</system-out>\n  </testsuite>\n";
+    suites += "  <testsuite" + attribute("name", results.tests[first].shown_file) + of_file.attributes() + ">\n" +
+              cases + "    <system-out>" + escaped(output) + "</system-out>\n  </testsuite>\n";
   }
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"rung\"" + all.attributes() + ">\n" + suites +
          "</testsuites>\n";

@@ -18,6 +18,11 @@ bool readDuration(const std::string& text, int64_t& ns) {
   return rung_parse(RUNG_LTIME, true, 0, literal.data(), literal.size(), &ns) && ns > 0;
 }
 
+bool readCount(const std::string& text, int64_t& count) {
+  const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), count);
+  return read.ec == std::errc{} && read.ptr == text.data() + text.size() && count >= 0;
+}
+
 const char kHelp[] =
     "options\n"
     "  --cycles N            run N cycles of the fastest task (default: 100, or all of --inputs)\n"
@@ -32,9 +37,20 @@ const char kHelp[] =
     "  --files-root DIR      the folder for the program's files (default: the current one)\n"
     "  --start cold|warm|origin   default: warm if the retain file exists, else cold\n"
     "  --stop-on CONDITION   stop after the cycle that makes CONDITION TRUE: --stop-on 'Main.n >= 10'\n"
+    "  --timeout TIME        end with exit code 3 after this real time (default: none)\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
 
 }  // namespace
+
+std::string parseTimeout(const std::string& text, int64_t& ns) {
+  ns = 0;
+  if (text == "0" || readDuration(text, ns)) return "";
+  return "--timeout needs a time such as 10s, or 0 for none, not `" + text + "`";
+}
+
+std::string parseMaxSteps(const std::string& text, int64_t& steps) {
+  return readCount(text, steps) ? "" : "--max-steps needs a number, or 0 for none, not `" + text + "`";
+}
 
 std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,
                             std::vector<std::string>& rest) {
@@ -47,9 +63,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles", "--for",   "--interval", "--inputs",
-                                             "--set",    "--watch", "--trace",    "--plot",
-                                             "--retain", "--start", "--stop-on",  "--files-root"};
+    static const char* const with_value[] = {"--cycles",  "--for",        "--interval", "--inputs",   "--set",
+                                             "--watch",   "--trace",      "--plot",     "--retain",   "--start",
+                                             "--stop-on", "--files-root", "--timeout",  "--max-steps"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
@@ -66,14 +82,16 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       value = arguments[++i];
     }
     if (name == "--cycles") {
-      const std::from_chars_result read = std::from_chars(value.data(), value.data() + value.size(), options.cycles);
-      if (read.ec != std::errc{} || read.ptr != value.data() + value.size() || options.cycles < 0)
-        return "--cycles needs a number, not `" + value + "`";
+      if (!readCount(value, options.cycles)) return "--cycles needs a number, not `" + value + "`";
     } else if (name == "--for") {
       if (!readDuration(value, options.for_ns)) return "--for needs a time such as T#2s, not `" + value + "`";
     } else if (name == "--interval") {
       if (!readDuration(value, options.interval_ns))
         return "--interval needs a time such as T#10ms, not `" + value + "`";
+    } else if (name == "--timeout") {
+      if (const std::string error = parseTimeout(value, options.timeout_ns); !error.empty()) return error;
+    } else if (name == "--max-steps") {
+      if (const std::string error = parseMaxSteps(value, options.max_steps); !error.empty()) return error;
     } else if (name == "--inputs") {
       options.inputs_path = value;
     } else if (name == "--set") {

@@ -16,8 +16,7 @@ char unfinished[kMax][kLongest];   // read by the handler
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 void removeUnfinished(int number) {
-  for (const auto& path : unfinished)
-    if (path[0] != '\0') unlink(path);
+  removeUnfinishedFiles();
   signal(number, SIG_DFL);
   raise(number);
 }
@@ -43,6 +42,11 @@ void forget(const std::string& path) {
 }
 
 }  // namespace
+
+void removeUnfinishedFiles() {
+  for (const auto& path : unfinished)
+    if (path[0] != '\0') unlink(path);
+}
 
 OutputFile::~OutputFile() {
   if (file_ != nullptr && !standard_) fclose(file_);

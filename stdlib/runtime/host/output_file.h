@@ -8,6 +8,9 @@
 
 namespace rung::host {
 
+// For a signal handler that ends the process.
+void removeUnfinishedFiles();
+
 class OutputFile {
  public:
   OutputFile() = default;

@@ -84,7 +84,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   if (fault == RUNG_FAULT_LOCK && shared.stop.load()) return false;  // it was waiting when the run ended
   if (fault != RUNG_FAULT_NONE) {
     const std::lock_guard<std::mutex> lock(shared.mutex);
-    if (!shared.result.faulted) shared.result.fault = worker.context.fault;
+    if (!shared.result.faulted || fault == RUNG_FAULT_STOP) shared.result.fault = worker.context.fault;
     shared.result.faulted = true;
     shared.stop.store(true);
     return false;
@@ -140,11 +140,25 @@ void runOnCondition(Shared& shared, Worker& worker, int64_t poll_ns) {
   }
 }
 
+// Asks tasks that still run a moment after the end to stop (rung_poll). False: one does not.
+bool endTasks(const std::vector<std::unique_ptr<Worker>>& workers, uint8_t reason) {
+  const int64_t begin = monotonicNs();
+  const auto runs = [](const std::unique_ptr<Worker>& worker) { return worker->running_since.load() != 0; };
+  while (std::any_of(workers.begin(), workers.end(), runs)) {
+    const int64_t now = monotonicNs();
+    if (now - begin > 2 * kSecond) return false;
+    if (now - begin >= kSecond)
+      for (const std::unique_ptr<Worker>& worker : workers) worker->context.stop = reason;
+    sleepUntil(now + 5'000'000);
+  }
+  return true;
+}
+
 std::string microseconds(int64_t ns) { return std::to_string((ns + 500) / 1000) + " us"; }
 
 }  // namespace
 
-RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows,
+RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows, int64_t timeout_ns,
                            const std::function<void(int64_t)>& before, const std::function<void(int64_t)>& after,
                            const std::function<void()>& idle) {
   Shared shared;
@@ -190,7 +204,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
 
   // This thread makes the rows when no cyclic task does, and watches for signals and for tasks that never end.
   int64_t next_idle = shared.start + kSecond, row = 0;
-  bool hung = false;
+  bool hung = false, out_of_time = false;
   while (!shared.stop.load() && !hung) {
     const int64_t poll = fastest != nullptr ? std::min<int64_t>(schedule.rowNs(), 10'000'000) : schedule.rowNs();
     if (fastest == nullptr) {
@@ -204,6 +218,12 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     }
     if (signalled != 0) break;
     const int64_t now = monotonicNs();
+    if (timeout_ns > 0 && now - shared.start >= timeout_ns) {
+      const std::lock_guard<std::mutex> lock(shared.mutex);
+      shared.result.fault = {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME};
+      shared.result.faulted = out_of_time = true;
+      break;
+    }
     for (const std::unique_ptr<Worker>& worker : workers) {
       const int64_t since = worker->running_since.load();
       const int64_t limit = worker->item->task->watchdog_ns * std::max<int64_t>(1, worker->item->task->sensitivity);
@@ -218,6 +238,10 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     }
   }
   shared.stop.store(true);
+  if (!hung && (signalled != 0 || out_of_time)) {
+    hung = !endTasks(workers, out_of_time ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT);
+    shared.result.hung = hung;
+  }
   for (const std::unique_ptr<Worker>& worker : workers) {
     if (!worker->thread.joinable()) continue;
     if (hung && worker->running_since.load() != 0)

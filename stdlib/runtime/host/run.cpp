@@ -14,11 +14,13 @@
 #include "faults.h"
 #include "files.h"
 #include "inputs.h"
+#include "output_file.h"
 #include "plot.h"
 #include "realtime.h"
 #include "retain.h"
 #include "rung/host.h"
 #include "schedule.h"
+#include "stopper.h"
 #include "trace.h"
 
 namespace rung::host {
@@ -26,7 +28,8 @@ namespace {
 
 constexpr int kSuccess = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
-constexpr int64_t kLongRunNs = 3'000'000'000;  // a run that a faster engine would shorten
+constexpr int64_t kEndAfterStopNs = 1'000'000'000;  // for FB_Exit after a limit
+constexpr int64_t kLongRunNs = 3'000'000'000;       // a run that a faster engine would shorten
 
 int refuse(const RunOptions& options, const std::string& what) {
   fflush(options.out);
@@ -54,6 +57,10 @@ int64_t processorNs() {
   return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
 }
 
+struct Run;
+Run* running = nullptr;
+void endHungRun(const rung_context* context, uint8_t reason);
+
 struct Run {
   Run(const rung_module& chosen, const RunOptions& chosen_options)
       : module(chosen),
@@ -67,6 +74,8 @@ struct Run {
         plot(chosen),
         calls(chosen, memory),
         files(chosen_options.files_root) {}
+
+  ~Run() { running = nullptr; }
 
   int prepare();
   int runVirtual();
@@ -99,6 +108,7 @@ struct Run {
   CallTrace calls;
   Files files;
   std::optional<Retain> retain;
+  std::optional<Stopper> stopper;  // in virtual time
   rung_host host{};
   char machine_name[256] = {};
   std::vector<std::string> reported;  // locations of violated assertions
@@ -106,6 +116,18 @@ struct Run {
   int64_t cycles = 0;
   int64_t rows_done = 0;
 };
+
+// Code that cannot be stopped: a body in C++, or output to a full pipe. In a signal handler.
+void endHungRun(const rung_context* context, uint8_t reason) {
+  const std::string what =
+      describeCppBody(*context, running->options.paths,
+                      reason == RUNG_STOP_TIME ? "fault[time]: the time limit is reached (--timeout)"
+                                               : "fault[interrupt]: interrupted");
+  fprintf(running->options.err, "%s\n", what.c_str());
+  fflush(running->options.err);
+  removeUnfinishedFiles();
+  _exit(kFaulted);
+}
 
 // In virtual time the wall clock starts at 0 with the program.
 int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.context().now_ns; }
@@ -121,7 +143,7 @@ void onCall(void* data, const char* pou, const void* instance) { static_cast<Run
 void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
   if (passed) return;
   Run& run = *static_cast<Run*>(data);
-  const std::string location = std::string(assertion->file) + ':' + std::to_string(assertion->line);
+  const std::string location = shownPath(run.options.paths, assertion->file) + ':' + std::to_string(assertion->line);
   const std::lock_guard<std::mutex> lock(run.reported_mutex);
   if (std::find(run.reported.begin(), run.reported.end(), location) != run.reported.end()) return;
   run.reported.push_back(location);
@@ -146,8 +168,14 @@ int Run::prepare() {
   host.assertion = onAssertion;
   context.host = &host;
   context.host_data = this;
+  context.step_limit = options.max_steps;
+  if (!options.realtime) {
+    running = this;
+    stopper.emplace(context, endHungRun);
+    stopper->limitTime(options.timeout_ns);
+  }
   if (memory.reset() != RUNG_FAULT_NONE) {
-    fprintf(options.err, "%s\n", describeFault(module, context.fault).c_str());
+    fprintf(options.err, "%s\n", describeFault(context, context.fault, options.paths).c_str());
     return kFaulted;
   }
   if (!options.retain_path.empty()) {
@@ -179,6 +207,7 @@ int Run::prepare() {
 
 int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
   std::string error;
+  if (stopper) stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
   const std::string last_row = options.trace_path.empty() && !faulted ? trace.lastRow() : std::string();
   if (memory.end() != RUNG_FAULT_NONE && !faulted) {
     faulted = true;
@@ -195,7 +224,7 @@ int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
   if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? options.err : options.out);
   fflush(options.out);
   if (faulted) {
-    fprintf(options.err, "%s\n", describeFault(module, fault).c_str());
+    fprintf(options.err, "%s\n", describeFault(memory.context(), fault, options.paths).c_str());
     return kFaulted;
   }
   return refused.empty() ? kSuccess : refuse(options, refused);
@@ -211,6 +240,7 @@ int Run::runVirtual() {
     const uint8_t fault = schedule.run(row, context);
     if (options.trace_calls) fputs(calls.line(row).c_str(), options.out);
     if (fault != RUNG_FAULT_NONE) return finish(true, context.fault, "");
+    if (stopper->reason() != RUNG_STOP_NONE) return finish(true, stopper->fault(), "");
     trace.row(row, row * row_ns);
     plot.row();
     rows_done = row + 1;
@@ -233,20 +263,25 @@ int Run::runInRealTime() {
   const int64_t row_ns = schedule.rowNs();
   if (cycles == 0) return finish(false, {}, "");
   const RealtimeResult result = runRealtime(
-      schedule, memory.context(), cycles, [&](int64_t row) { inputs.apply(row); },
+      schedule, memory.context(), cycles, options.timeout_ns, [&](int64_t row) { inputs.apply(row); },
       [&](int64_t row) {
         trace.row(row, row * row_ns);
         plot.row();
       },
       [&] { saveRetained(); });
   rows_done = result.rows;
-  if (!result.watchdog.empty()) {
+  if (!result.watchdog.empty() || result.hung) {
     memory.makeOutputsSafe();
     std::string error;
     trace.close(error);
     plot.close(row_ns, error);
     fflush(options.out);
-    fprintf(options.err, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
+    const std::string what =
+        result.hung ? describeFault(memory.context(),
+                                    {RUNG_FAULT_STOP, RUNG_NONE, result.faulted ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT},
+                                    options.paths)
+                    : "fault[watchdog]: task `" + result.watchdog + "` ran longer than its watchdog allows";
+    fprintf(options.err, "%s\n", what.c_str());
     fflush(options.err);
     _exit(kFaulted);  // a thread may still be inside the program
   }

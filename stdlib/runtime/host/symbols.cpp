@@ -9,7 +9,7 @@ namespace rung::host {
 namespace {
 
 rung_type elementary(rung_type_kind kind, uint32_t size) {
-  return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0};
+  return {static_cast<uint8_t>(kind), 0, 0, 0, size, RUNG_NONE, 0, 0, 0};
 }
 const rung_type kBoolType = elementary(RUNG_BOOL, 1);
 const rung_type kByteType = elementary(RUNG_BYTE, 1);
@@ -304,7 +304,7 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   return true;
 }
 
-void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const {
+void Symbols::expand(const Variable& variable, std::vector<Variable>& to, bool own) const {
   const rung_type& type = *variable.type;
   if (type.kind == RUNG_RECORD) {
     for (uint32_t i = 0; i < type.count; ++i) {
@@ -313,6 +313,8 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 ||
           strncmp(name, "__", 2) == 0)
         continue;
+      constexpr uint32_t kSeen = RUNG_FIELD_INPUT | RUNG_FIELD_OUTPUT | RUNG_FIELD_BASE;
+      if (own && type.library != 0 && (field.flags & kSeen) == 0) continue;
       Variable part = variable;
       if ((field.flags & RUNG_FIELD_BASE) == 0) {
         part.path += '.';
@@ -321,7 +323,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
       part.setFlags(field.flags);
-      expand(part, to);
+      expand(part, to, own);
     }
   } else if (type.kind == RUNG_ARRAY) {
     const rung_type& element = module_.types[type.element];
@@ -338,7 +340,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       part.path += ']';
       part.type = &element;
       part.lastOffset() += n * element.size;
-      expand(part, to);
+      expand(part, to, own);
       size_t d = index.size();
       while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {
         index[d - 1] = module_.dimensions[type.first + d - 1].low;
@@ -355,12 +357,12 @@ std::vector<Variable> Symbols::ofPrograms() const {
   std::vector<Variable> all;
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
     if (!module_.symbols[i].is_program) continue;
-    expand(root(i), all);
+    expand(root(i), all, true);
     // Its located variables are separate roots: `Main.valve`.
     const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
     for (uint32_t j = 0; j < module_.symbol_count; ++j)
       if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)
-        expand(root(j), all);
+        expand(root(j), all, true);
   }
   return all;
 }

@@ -45,8 +45,10 @@ class Symbols {
   // False: `error` has the message ("did you mean" included).
   bool find(std::string_view path, Variable& variable, std::string& error) const;
   // The elementary variables, enumerations and pointers inside `variable`, in order of declaration.
-  void expand(const Variable& variable, std::vector<Variable>& to) const;
-  // All elementary variables of all program instances, without in-outs, pointers and constants.
+  // `own`: without the variables of library blocks that are not pins.
+  void expand(const Variable& variable, std::vector<Variable>& to, bool own = false) const;
+  // All elementary variables of all program instances, without in-outs, pointers, constants and the internal variables
+  // of library blocks.
   std::vector<Variable> ofPrograms() const;
   // Every root, whole.
   std::vector<Variable> roots() const;

@@ -1,10 +1,11 @@
-// `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports. A failing assertion or
-// a fault fails its test only. See rung/host.h.
+// `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports. A failing assertion, a
+// fault or a crash fails its test only. See rung/host.h.
 #include <fnmatch.h>
 #include <unistd.h>
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
-#include <functional>
 
 #include "crashes.h"
 #include "faults.h"
@@ -12,18 +13,21 @@
 #include "memory.h"
 #include "output_file.h"
 #include "rung/host.h"
+#include "stopper.h"
 #include "symbols.h"
+#include "test_process.h"
 
 namespace rung::host {
 namespace {
 
 constexpr int64_t kCycleNs = 10'000'000;
 constexpr int64_t kMaxCycles = 100'000;
-constexpr size_t kMaxMessages = 20;  // of one test
-constexpr double kLongSeconds = 3;   // tests that a faster engine would shorten
+constexpr size_t kMaxMessages = 20;        // of one test
+constexpr int64_t kEndNs = 1'000'000'000;  // for FB_Exit of a test that was stopped
 
 struct Case {
   rung_context* context;
+  const ShownPaths* paths;
   TestResult result;
   uint64_t failures = 0;
 
@@ -57,7 +61,7 @@ void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, c
   Case& test = *static_cast<Case*>(data);
   ++test.result.assertions;
   if (passed) return;
-  std::string message = std::string(assertion->file) + ':' + std::to_string(assertion->line);
+  std::string message = shownPath(*test.paths, assertion->file) + ':' + std::to_string(assertion->line);
   if (assertion->column != 0) message += ':' + std::to_string(assertion->column);
   message += std::string(": assertion failed: expected ") + expected + ", got " + actual;
   if (assertion->message != nullptr) message += std::string(" (") + assertion->message + ')';
@@ -65,99 +69,193 @@ void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, c
   test.fail(TestResult::Failed, message);
 }
 
-void runCycles(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
-               const std::function<bool(uint8_t)>& faulted, const std::function<void()>& onCycle) {
-  rung_context& context = memory.context();
-  if (test.init != nullptr && faulted(guarded(&context, test.init))) return;
-  const bool has_done = test.done_block != RUNG_NONE;
-  for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
-    if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
-    context.activation = static_cast<uint32_t>(cycle) + 1;
-    if (faulted(guarded(&context, test.run))) return;
-    if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
-    onCycle();
+// What is running, for signal handlers. They allocate, but the interrupted code runs no more: at worst the process dies
+// without the note.
+char* where_of_test = nullptr;
+const ShownPaths* paths_of_test = nullptr;
+const TestResult* result_of_test = nullptr;
+void noteWhere(const rung_context* context, const std::string& what) {
+  const TestResult& test = *result_of_test;
+  const bool in_cpp = context != nullptr && context->cpp_body != nullptr;
+  const std::string where =
+      in_cpp ? describeCppBody(*context, *paths_of_test, what)
+             : test.shown_file + ':' + std::to_string(test.line) + ": " + what + " in `" + test.name + '`';
+  const size_t size = std::min(where.size(), kWhereSize - 1);
+  std::copy_n(where.data(), size, where_of_test);
+  where_of_test[size] = '\0';
+}
+void onHung(const rung_context* context, uint8_t reason) {
+  noteWhere(context, reason == RUNG_STOP_TIME ? "fault[time]: the time limit is reached (--timeout)"
+                                              : "fault[interrupt]: interrupted");
+  raise(SIGKILL);
+}
+void onCrash(const char* signal) { noteWhere(runningContext(), std::string("crash: ") + signal); }
+
+class TestRunner {
+ public:
+  TestRunner(const rung_module& module, const TestOptions& options)
+      : module_(module), options_(options), memory_(module) {
+    host_.wall_clock = testClock;
+    host_.assertion = onTestAssertion;
+    memory_.context().host = &host_;
+    memory_.context().step_limit = options.max_steps;
   }
-  result.fail(TestResult::Failed, std::string(module.strings + test.file) + ':' + std::to_string(test.line) +
-                                      ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
+
+  TestResult describe(uint32_t number) const {
+    const rung_test& test = module_.tests[number];
+    TestResult result;
+    result.name = module_.strings + test.name;
+    result.file = module_.strings + test.file;
+    result.shown_file = shownPath(options_.paths, result.file);
+    result.line = test.line;
+    return result;
+  }
+
+  bool interrupted() const { return interrupted_; }
+
+  TestResult run(uint32_t number, char* where) {
+    Case one{&memory_.context(), &options_.paths, describe(number)};
+    memory_.context().host_data = &one;
+    paths_of_test = &options_.paths;
+    result_of_test = &one.result;
+    where_of_test = where;
+    const auto begin = std::chrono::steady_clock::now();
+    {
+      Stopper stopper(memory_.context(), onHung);
+      stopper.limitTime(options_.timeout_ns);
+      runCase(module_.tests[number], one, stopper);
+      interrupted_ = stopper.reason() == RUNG_STOP_INTERRUPT;
+    }
+    one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (one.failures > kMaxMessages)
+      one.result.messages += "and " + std::to_string(one.failures - kMaxMessages) + " more\n";
+    return std::move(one.result);
+  }
+
+ private:
+  bool faulted(Case& result, uint8_t kind) {
+    rung_context& context = memory_.context();
+    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(context, context.fault, options_.paths));
+    return kind != RUNG_FAULT_NONE;
+  }
+
+  // Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
+  void runCase(const rung_test& test, Case& result, Stopper& stopper) {
+    rung_context& context = memory_.context();
+    if (faulted(result, memory_.reset())) return;
+    context.entry = &test;
+    context.task = 1;
+    runCycles(test, result, stopper);
+    if (stopper.reason() != RUNG_STOP_NONE) stopper.limitTime(kEndNs);
+    if (test.exit != nullptr) faulted(result, guarded(&context, test.exit));
+    faulted(result, memory_.end());
+  }
+
+  void runCycles(const rung_test& test, Case& result, const Stopper& stopper) {
+    rung_context& context = memory_.context();
+    if (test.init != nullptr && faulted(result, guarded(&context, test.init))) return;
+    const bool has_done = test.done_block != RUNG_NONE;
+    for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
+      if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
+      context.activation = static_cast<uint32_t>(cycle) + 1;
+      if (faulted(result, guarded(&context, test.run))) return;
+      if (stopper.reason() != RUNG_STOP_NONE) {  // seen by no poll
+        result.fail(TestResult::Broken, describeFault(context, stopper.fault(), options_.paths));
+        return;
+      }
+      if (!has_done || memory_.block(test.done_block)[test.done_offset] != 0) return;
+    }
+    result.fail(TestResult::Failed, result.result.shown_file + ':' + std::to_string(test.line) +
+                                        ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
+  }
+
+  const rung_module& module_;
+  const TestOptions& options_;
+  Memory memory_;
+  rung_host host_{};
+  bool interrupted_ = false;
+};
+
+const char* wordOf(TestResult::Kind kind) {
+  switch (kind) {
+    case TestResult::Passed: return "pass";
+    case TestResult::Skipped: return "skip";
+    case TestResult::Failed:
+    case TestResult::Broken: break;
+  }
+  return "FAIL";
 }
 
-// Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
-void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
-             const std::function<void()>& onCycle) {
-  rung_context& context = memory.context();
-  const auto faulted = [&](uint8_t kind) {
-    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(module, context.fault));
-    return kind != RUNG_FAULT_NONE;
-  };
-  if (faulted(memory.reset())) return;
-  context.entry = &test;
-  context.task = 1;
-  runCycles(module, test, memory, result, faulted, onCycle);
-  if (test.exit != nullptr) faulted(guarded(&context, test.exit));
-  faulted(memory.end());
+void report(TestResult result, const TestOptions& options, TestResults& results) {
+  const bool skipped = result.kind == TestResult::Skipped;
+  ++(skipped ? results.skipped : result.kind == TestResult::Passed ? results.passed : results.failed);
+  if (!skipped) fputs(result.messages.c_str(), options.out);
+  fprintf(options.out, "%s %s%s%s\n", wordOf(result.kind), result.name.c_str(), skipped ? ": " : "",
+          skipped ? result.messages.c_str() : "");
+  fflush(options.out);
+  results.seconds += result.seconds;
+  results.tests.push_back(std::move(result));
 }
 
 }  // namespace
 
 bool isChosen(const TestOptions& options, const std::string& name) {
-  return options.filter.empty() || fnmatch(lowerCase(options.filter).c_str(), lowerCase(name).c_str(), 0) == 0;
+  return options.filters.empty() ||
+         std::any_of(options.filters.begin(), options.filters.end(), [&](const std::string& filter) {
+           return fnmatch(lowerCase(filter).c_str(), lowerCase(name).c_str(), 0) == 0;
+         });
 }
 
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results) {
   if (const char* const why = refusal(module)) return why;
-  Memory memory(module);
-  rung_host host{};
-  host.wall_clock = testClock;
-  host.assertion = onTestAssertion;
-  memory.context().host = &host;
-
+  if (results.interrupted) return "";
+  TestRunner runner(module, options);
+  std::vector<uint32_t> chosen;
   for (uint32_t i = 0; i < module.test_count; ++i) {
-    const rung_test& test = module.tests[i];
-    const char* const name = module.strings + test.name;
+    const std::string name = module.strings + module.tests[i].name;
     if (!isChosen(options, name)) continue;
-    Case one{&memory.context(), {}};
-    one.result.name = name;
-    one.result.file = module.strings + test.file;
-    one.result.line = test.line;
-    memory.context().host_data = &one;
-    const auto begin = std::chrono::steady_clock::now();
-    const auto onCycle = [&] {
-      one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      if (results.hinted || options.hint_when_long.empty() || isatty(2) == 0) return;
-      results.hinted = results.seconds + one.result.seconds >= kLongSeconds;
-      if (results.hinted) fprintf(options.err, "%s\n", options.hint_when_long.c_str());
-    };
-    runCase(module, test, memory, one, onCycle);
-    onCycle();
-    if (one.failures > kMaxMessages)
-      one.result.messages += "and " + std::to_string(one.failures - kMaxMessages) + " more\n";
-    const bool ok = one.result.kind == TestResult::Passed;
-    ++(ok ? results.passed : results.failed);
-    fputs(one.result.messages.c_str(), options.out);
-    fprintf(options.out, "%s %s\n", ok ? "pass" : "FAIL", name);
-    results.seconds += one.result.seconds;
-    results.tests.push_back(std::move(one.result));
+    const auto skip = options.skipped.find(name);
+    if (skip == options.skipped.end()) {
+      chosen.push_back(i);
+      continue;
+    }
+    TestResult result = runner.describe(i);
+    result.kind = TestResult::Skipped;
+    result.messages = skip->second;
+    report(std::move(result), options, results);
   }
-  return "";
+  const TestProcess process = {
+      [&](uint32_t test, char* where) { return runner.run(test, where); },
+      [&] { return runner.interrupted(); },
+      onCrash,
+      [&](uint32_t test) { return runner.describe(test); },
+      [&](TestResult result) { report(std::move(result), options, results); },
+  };
+  return chosen.empty() ? "" : runInChildren(chosen, options, process, results);
+}
+
+std::string writeJunit(const TestResults& results, const std::string& path, std::FILE* out) {
+  OutputFile file;
+  std::string error;
+  if (!file.open(path, out, error)) return error;
+  file.write(junitXml(results));
+  file.close(error);
+  return error;
 }
 
 int reportTests(const TestResults& results, const TestOptions& options) {
-  fprintf(options.out, "%u passed, %u failed\n", results.passed, results.failed);
+  fprintf(options.out, "%u passed, %u failed", results.passed, results.failed);
+  if (results.skipped != 0) fprintf(options.out, ", %u skipped", results.skipped);
+  fprintf(options.out, "%s\n", results.interrupted ? "; interrupted, the other tests did not run" : "");
   fflush(options.out);
   if (!options.junit_path.empty()) {
-    OutputFile file;
-    std::string error;
-    bool ok = file.open(options.junit_path, options.out, error);
-    if (ok) {
-      file.write(junitXml(results));
-      ok = file.close(error);
-    }
-    if (!ok) {
+    const std::string error = writeJunit(results, options.junit_path, options.out);
+    if (!error.empty()) {
       fprintf(options.err, "error: %s\n", error.c_str());
       return 2;
     }
   }
-  return results.failed == 0 ? 0 : 4;
+  return results.failed == 0 && !results.interrupted ? 0 : 4;
 }
 
 int test(const rung_module& module, const TestOptions& options) {

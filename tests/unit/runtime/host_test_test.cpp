@@ -38,10 +38,10 @@ TEST(TestHost, ReportsEachTest) {
 
 TEST(TestHost, FilterAndJUnit) {
   TestOptions options;
-  options.filter = "Good*";
+  options.filters = {"Good*"};
   options.junit_path = testing::TempDir() + "rung_junit.xml";
   EXPECT_EQ(go(options, 0), "pass good_test\n1 passed, 0 failed\n");
-  options.filter = "bad_test";
+  options.filters = {"bad_test"};
   go(options, 4);
   std::ostringstream xml;
   xml << std::ifstream(options.junit_path).rdbuf();
@@ -64,9 +64,9 @@ TEST(TestHost, FilterAndJUnit) {
 
 TEST(TestHost, JUnitTellsFaultsFromFailures) {
   TestResults results;
-  results.tests.push_back({"a", "plc/x.st", 1, TestResult::Passed, 1, 0.5, ""});
-  results.tests.push_back({"b", "y.st", 2, TestResult::Broken, 0, 0.25, "y.st:3: fault[div]\n"});
-  results.tests.push_back({"c", "plc/x.st", 9, TestResult::Failed, 1, 0.25, "<&>\n"});
+  results.tests.push_back({"a", "plc/x.st", 1, TestResult::Passed, 1, 0.5, "", "plc/x.st"});
+  results.tests.push_back({"b", "y.st", 2, TestResult::Broken, 0, 0.25, "y.st:3: fault[div]\n", "y.st"});
+  results.tests.push_back({"c", "plc/x.st", 9, TestResult::Failed, 1, 0.25, "<&>\n", "plc/x.st"});
   EXPECT_EQ(junitXml(results),
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<testsuites name=\"rung\" tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\" time=\"1.000000\">\n"

@@ -82,7 +82,7 @@ void testUntilDone(rung_context* ctx) {
 void testNever(rung_context*) {}
 
 rung_type plain(rung_type_kind kind, uint32_t size) {
-  return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0};
+  return {static_cast<uint8_t>(kind), 0, 0, 0, size, RUNG_NONE, 0, 0, 0};
 }
 
 struct Tables {
@@ -102,12 +102,12 @@ struct Tables {
     enum : uint32_t { Bool, Int, DInt, Real, Time, Color, Row, Text, PointT, Word, MainT };
     types = {plain(RUNG_BOOL, 1), plain(RUNG_INT, 2), plain(RUNG_DINT, 4), plain(RUNG_REAL, 4), plain(RUNG_TIME, 4)};
     items = {{t("Red"), 0}, {t("Green"), 1}, {t("Blue"), 2}};
-    types.push_back({RUNG_ENUM, 0, t("Color"), 2, Int, 0, 0, 3});
+    types.push_back({RUNG_ENUM, 0, 0, t("Color"), 2, Int, 0, 0, 3});
     dimensions = {{1, 2}, {0, 2}};
-    types.push_back({RUNG_ARRAY, 0, 0, 12, Int, 0, 0, 2});
-    types.push_back({RUNG_STRING, 0, 0, 11, RUNG_NONE, 10, 0, 0});
+    types.push_back({RUNG_ARRAY, 0, 0, 0, 12, Int, 0, 0, 2});
+    types.push_back({RUNG_STRING, 0, 0, 0, 11, RUNG_NONE, 10, 0, 0});
     fields = {{t("x"), Int, 0, 0}, {t("y"), Int, 2, 0}};
-    types.push_back({RUNG_RECORD, 0, t("Point"), 4, RUNG_NONE, 0, 0, 2});
+    types.push_back({RUNG_RECORD, 0, 0, t("Point"), 4, RUNG_NONE, 0, 0, 2});
     types.push_back(plain(RUNG_WORD, 2));
     const uint32_t first = static_cast<uint32_t>(fields.size());
     const auto field = [&](const char* name, uint32_t type, size_t offset, uint32_t flags = 0) {
@@ -127,8 +127,8 @@ struct Tables {
     field("start_event", Bool, offsetof(Main, start_event));
     field("kept", DInt, offsetof(Main, kept), RUNG_FIELD_RETAIN);
     field("kept_always", DInt, offsetof(Main, kept_always), RUNG_FIELD_PERSISTENT);
-    types.push_back(
-        {RUNG_RECORD, 0, t("Main"), sizeof(Main), RUNG_NONE, 0, first, static_cast<uint32_t>(fields.size()) - first});
+    types.push_back({RUNG_RECORD, 0, 0, t("Main"), sizeof(Main), RUNG_NONE, 0, first,
+                     static_cast<uint32_t>(fields.size()) - first});
 
     symbols.push_back({t("Main"), MainT, RUNG_IN_BLOCK, 255, 1, 0, 0, 0, t("Plant.Cpu.")});
     symbols.push_back({t("Main.valve"), Bool, RUNG_IN_AREA, 2, 0, 1, 0, 0, t("Plant.Cpu.")});

@@ -162,7 +162,7 @@ TEST(Driver, FilesAndPages) {
   EXPECT_NE(readFile(folder.path() + "/out/pump.xml").content.find("name=\"Pump\""), std::string::npos);
   options.inputs = {"E0231"};
   EXPECT_EQ(runExplain(options, sink), kSuccess);
-  EXPECT_EQ(sink.outputs.find("# E0231"), 0u);
+  EXPECT_EQ(sink.outputs.find("E0231: "), 0u);
   options.inputs = {"nothing"};
   EXPECT_EQ(runList(options, sink), kUsage);
   EXPECT_NE(sink.messages.find("rung: error: unknown argument `nothing`"), std::string::npos);

@@ -271,6 +271,21 @@ uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) RUNG_PURE;
 /* ---- faults */
 /* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
 uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
+/* Asked when ctx->steps is below 0 or ctx->stop is set: whether the activation ends here, by rung_raise with
+ * RUNG_FAULT_STOP. */
+bool rung_poll(rung_context* ctx);
+static inline bool rung_step(rung_context* ctx) {
+  return RUNG_UNLIKELY((--ctx->steps < 0) | (ctx->stop != 0)) && rung_poll(ctx);
+}
+/* The steps of a loop with `repeats` + 1 iterations, at once. */
+static inline bool rung_steps(rung_context* ctx, uint64_t repeats) {
+  if (RUNG_UNLIKELY((repeats >= (uint64_t)ctx->steps) | (ctx->stop != 0))) {
+    ctx->steps = -1;
+    return rung_poll(ctx);
+  }
+  ctx->steps -= (int64_t)repeats + 1;
+  return false;
+}
 
 /* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as in rung_string_of_scalar, and
  * RUNG_ENUM; for RUNG_STRING and RUNG_WSTRING the bits are the address. Equal means IEC `=` (NaN is equal to NaN here).

@@ -18,6 +18,21 @@
 namespace rung {
 namespace cpp {
 
+/* Names the body that runs, for messages about crashes and bodies that do not end. */
+class Running {
+ public:
+  Running(rung_context* context, const char* where) : context_(context), outer_(context->cpp_body) {
+    context->cpp_body = where;
+  }
+  ~Running() { context_->cpp_body = outer_; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  rung_context* context_;
+  const char* outer_;
+};
+
 /* One byte, TRUE when it is not 0. */
 struct RUNG_MAY_ALIAS BOOL {
   uint8_t byte;

@@ -6,13 +6,22 @@
 
 #include <csignal>
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "rung/module.h"
 
 namespace rung::host {
+
+// Paths of files as the module has them (relative to the project's root), and as messages show them.
+using ShownPaths = std::map<std::string, std::string>;
+std::string shownPath(const ShownPaths& paths, const std::string& path);
+
+constexpr int64_t kDefaultMaxSteps = 100'000'000;
 
 struct RunOptions {
   int64_t cycles = -1;                                    // --cycles; -1: not given
@@ -29,7 +38,10 @@ struct RunOptions {
   std::string stop_on;       // --stop-on CONDITION
   bool trace_calls = false;  // --trace-calls, for interpreted modules that report their calls
   bool realtime = false;
+  int64_t max_steps = kDefaultMaxSteps;  // --max-steps, of an activation; 0: none
+  int64_t timeout_ns = 0;                // --timeout; 0: none
   bool color = false;
+  ShownPaths paths;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
   std::FILE* out = stdout;     // for results, traces to `-` and traced calls
   std::FILE* err = stderr;     // for faults and other messages
@@ -39,35 +51,52 @@ struct RunOptions {
 int run(const rung_module& module, const RunOptions& options);
 
 struct TestOptions {
-  std::string filter;          // --filter GLOB
-  std::string junit_path;      // --junit
-  std::string hint_when_long;  // as in RunOptions
+  std::vector<std::string> filters;            // --filter GLOB; none: all tests
+  std::map<std::string, std::string> skipped;  // {skip 'why'}: test and reason
+  std::string junit_path;                      // --junit
+  std::string hint_when_long;                  // as in RunOptions
+  int64_t max_steps = kDefaultMaxSteps;        // as in RunOptions
+  int64_t timeout_ns = 10'000'000'000;         // --timeout, of each test; 0: none
+  ShownPaths paths;
   std::FILE* out = stdout;
   std::FILE* err = stderr;
+  // Tests run in a child process. What the first returns there at the end is passed to the second in this one.
+  std::function<std::string()> collect;
+  std::function<void(std::string_view)> merge;
 };
+// Returns 0, 2 or 4; no test is not an error here.
 int test(const rung_module& module, const TestOptions& options);
 
 // `rung test` in two steps, for many modules: runs and prints the tests of one, then writes all results.
 struct TestResult {
-  std::string name, file;
+  // Broken: a fault, a crash, or a file that does not compile.
+  enum Kind : uint8_t { Passed, Skipped, Failed, Broken };
+  std::string name;
+  std::string file;  // in the module
   uint32_t line = 0;
-  enum Kind : uint8_t { Passed, Failed, Broken } kind = Passed;  // Broken: a fault, or a file that does not compile
+  Kind kind = Passed;
   uint64_t assertions = 0;
   double seconds = 0;
   std::string messages;
+  std::string shown_file;  // ShownPaths
 };
 struct TestResults {
-  uint32_t passed = 0, failed = 0;
+  uint32_t passed = 0, failed = 0, skipped = 0;
   std::vector<TestResult> tests;
-  double seconds = 0;   // for all of them
-  bool hinted = false;  // TestOptions::hint_when_long was printed
+  double seconds = 0;        // for all of them
+  bool hinted = false;       // TestOptions::hint_when_long was printed
+  bool interrupted = false;  // SIGINT, SIGTERM or SIGHUP: the tests that follow do not run
+  std::string crash;         // the signal of the last crash
+  uint32_t count() const { return passed + failed + skipped; }
 };
 // True when --filter accepts a test of this name.
 bool isChosen(const TestOptions& options, const std::string& name);
 // Returns why the module cannot run here, or an empty string. Does not write `options.junit_path`.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
-// Returns 0, 2 or 4, like test().
+// Prints the totals and writes the JUnit file; returns 0, 2 or 4.
 int reportTests(const TestResults& results, const TestOptions& options);
+// Writes only the JUnit file. Returns an error message, or an empty string.
+std::string writeJunit(const TestResults& results, const std::string& path, std::FILE* out);
 
 // main() of an executable made by `rung build`: the options of `rung run` on its own command line.
 int applicationMain(const rung_module& module, int argc, char** argv);
@@ -78,6 +107,10 @@ void raiseCrash(int number, const siginfo_t* info, const void* details);
 // Finds the current site of interpreted code, or RUNG_NONE; unknown for compiled code.
 using FindSite = uint32_t (*)(const rung_context* ctx, const void* details);
 void setFindSite(FindSite find);
+
+// The values of --timeout and --max-steps. Return an error message, or an empty string.
+std::string parseTimeout(const std::string& text, int64_t& ns);
+std::string parseMaxSteps(const std::string& text, int64_t& steps);
 
 // Parses the run options from arguments; unknown ones stay in `rest`. Returns an error message, or an empty string.
 std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,

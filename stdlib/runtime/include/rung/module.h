@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 7u
+#define RUNG_MODULE_ABI 8u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -65,6 +65,7 @@ typedef enum rung_type_kind {
 typedef struct rung_type {
   uint8_t kind;      /* rung_type_kind */
   uint8_t is_signed; /* TIME: signed in iec, unsigned in codesys */
+  uint8_t library;   /* a function block of a library: users see its pins */
   uint32_t name;     /* offset in `strings` */
   uint32_t size;     /* bytes */
   uint32_t element;  /* type index or RUNG_NONE */
@@ -169,8 +170,9 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
   RUNG_FAULT_OVERFLOW,
-  RUNG_FAULT_LOCK, /* a MUTEX or SEMA: value is a rung_lock_error */
-  RUNG_FAULT_STACK /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
+  RUNG_FAULT_LOCK,  /* a MUTEX or SEMA: value is a rung_lock_error */
+  RUNG_FAULT_STACK, /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
+  RUNG_FAULT_STOP   /* the host ends the activation: value is a rung_stop. No __TRY sees it */
 } rung_fault_kind;
 /* rung_fault.value of two faults that differ from others of their kind. */
 #define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of something that is not an object with that method */
@@ -181,6 +183,13 @@ enum rung_lock_error {
   RUNG_LOCK_NOT_OWN, /* UNLOCK: this task does not have it */
   RUNG_SEMA_EMPTY,   /* ACQUIRE: all are taken, and no task can release one while this one waits */
   RUNG_SEMA_FULL     /* RELEASE: none is taken */
+};
+/* Why an activation was ended before it was complete. */
+enum rung_stop {
+  RUNG_STOP_NONE,
+  RUNG_STOP_STEPS, /* it used up rung_context::step_limit */
+  RUNG_STOP_TIME,
+  RUNG_STOP_INTERRUPT
 };
 #define RUNG_BAD_ADDRESS (-1) /* NULL: the program accessed invalid memory; from the bundled host */
 /* The location of a check: a table of the module, indexed by the number that the code passes. */
@@ -272,6 +281,13 @@ struct rung_context {
   const void* entry;
   uint32_t task;       /* the number of the task that runs, from 1; 0 outside of tasks */
   uint32_t activation; /* of that task: 1 the first time */
+  /* Bounds of an activation, in interpreted modules and in those that `rung run` and `rung test` compile; other
+   * compiled modules do not read them. A step is an iteration of a loop, a label that is passed, or a call of a POU. */
+  int64_t step_limit;            /* 0: none */
+  int64_t steps;                 /* left; below 0 the code asks rung_poll */
+  volatile uint8_t stop;         /* a rung_stop, set by others, such as a signal handler, to end the activation */
+  void* stop_target;             /* jmp_buf of the outermost rung_guarded */
+  const char* volatile cpp_body; /* the body in C++ that runs: path, line and POU, a line each; or null */
 };
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;

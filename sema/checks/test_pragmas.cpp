@@ -1,0 +1,39 @@
+// Forbids pragmas of tests that would have no effect. A function marked {setup} runs before each test of its file, one
+// marked {teardown} after it; nothing gives them arguments.
+//   passes  {setup} FUNCTION fill ...                  {test} {skip 'needs the new valve'} PROGRAM closes ...
+//   fails   {setup} PROGRAM fill ...                                                              E1170
+//   fails   {teardown} FUNCTION drain VAR_INPUT level : INT; END_VAR ...                          E1170
+//   fails   {skip 'later'} FUNCTION Level ...                                                     E1171
+#include "sema/checks/test_pragmas.h"
+
+#include <algorithm>
+
+#include "sema/checks/diagnostics.h"
+#include "sema/declarations/declarations.h"
+#include "sema/project.h"
+
+namespace rung::sema {
+
+void checkTestPragmas(Context& context) {
+  Symbols& symbols = context.symbols;
+  if (!context.project.options.mocks.empty()) return;  // was checked without mocks
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    const Pou& pou = symbols.pous[i];
+    if (pou.library) continue;
+    const Pou::Pragmas& pragmas = pou.pragmas;
+    const std::string_view name = context.names().string(pou.name);
+    if (pragmas.skip && !pragmas.test) context.report(diag::SkipOutsideTest, pou.loc, {name});
+    if (!pragmas.setup && !pragmas.teardown) continue;
+    resolvePou(context, PouId{i});
+    const Pou& resolved = symbols.pous[i];
+    const bool has_pins = std::any_of(resolved.vars.begin(), resolved.vars.end(), [&](VarId var) {
+      const SectionKind section = symbols.var(var).section;
+      return section == SectionKind::Input || section == SectionKind::Output || section == SectionKind::InOut;
+    });
+    if (resolved.kind != PouKind::Function || resolved.pragmas.test || resolved.owner || has_pins ||
+        (resolved.result && context.types().kind(resolved.result) != types::TypeKind::None))
+      context.report(diag::SetupForm, resolved.loc, {pragmas.setup ? "setup" : "teardown", name});
+  }
+}
+
+}  // namespace rung::sema

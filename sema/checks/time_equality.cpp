@@ -1,0 +1,42 @@
+// Warns of `=` and `<>` between a TIME output of a block, such as the ET of a timer, and a constant other than 0:
+// between two cycles the time passes over the value. CODESYS Static Analysis SA0054 has the same for REAL. Comparisons
+// of two variables, mostly settings, are not reported, and neither are tests, which advance the time themselves.
+//   passes  IF delay.ET >= T#2s THEN    IF delay.ET = T#0s THEN    IF setting <> old_setting THEN
+//   fails   IF delay.ET = T#2s THEN
+// Called by operators.cpp when both sides are typed.
+#include "sema/checks/time_equality.h"
+
+#include "sema/checks/diagnostics.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool isOutputOfBlock(const Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Convert) expr = tree.as<ConvertExpr>(expr).operand;
+  if (tree.kind(expr) != ExprKind::Member) return false;
+  const Entity field = tree.as<MemberExpr>(expr).entity;
+  if (field.entityKind() != EntityKind::Var) return false;
+  const Var& var = context.symbols.var({field.index});
+  return var.section == SectionKind::Output && var.pou && context.symbols.pou(var.pou).kind == PouKind::FunctionBlock;
+}
+
+bool isConstantTime(const Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Convert) expr = tree.as<ConvertExpr>(expr).operand;
+  return tree.kind(expr) == ExprKind::Literal && tree.as<LiteralExpr>(expr).value() != 0;
+}
+
+}  // namespace
+
+void checkTimeEquality(Context& context, const BinaryExpr& node) {
+  if (context.library || (context.pou && context.symbols.pou(context.pou).pragmas.test)) return;
+  const types::TypeKind kind = context.types().plainKind(context.tree().expr(node.left).type);
+  if (kind != types::TypeKind::Time && kind != types::TypeKind::LTime) return;
+  if ((isOutputOfBlock(context, node.left) && isConstantTime(context, node.right)) ||
+      (isOutputOfBlock(context, node.right) && isConstantTime(context, node.left)))
+    context.report(diag::TimeEquality, node.h.loc, {spelling(node.op())});
+}
+
+}  // namespace rung::sema

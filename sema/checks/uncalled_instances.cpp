@@ -1,0 +1,87 @@
+// Warns of a local instance whose outputs are read but that nothing calls: the outputs never change. Only instances are
+// reported of which nothing but the outputs is used, and that neither other code nor a task can reach.
+//   passes  delay(IN := run, PT := T#1s); lamp := delay.Q;
+//   fails   lamp := delay.Q;                                         with VAR delay : TON; END_VAR
+// Called once, when all bodies are checked. Linear in the expressions.
+#include "sema/checks/uncalled_instances.h"
+
+#include "frontend/syntax/children.h"
+#include "sema/checks/diagnostics.h"
+#include "sema/declarations/declarations.h"
+#include "sema/project.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+namespace {
+
+// How the bodies of the project use each variable.
+class Uses {
+ public:
+  explicit Uses(const Context& context)
+      : tree_(context.tree()), context_(context), reads_(context.symbols.vars.size()), other_(reads_.size()) {}
+
+  void note(VarId id) { other_[id.index] = true; }
+  bool onlyRead(VarId id) const { return reads_[id.index] && !other_[id.index]; }
+
+  void walk(StmtId id) {
+    forEachChild(tree_, id, [&](auto child) { walk(child); });
+  }
+  void walk(ExprId id) {
+    if (tree_.kind(id) == ExprKind::Member && noteRead(tree_.as<MemberExpr>(id))) return;
+    if (const Entity entity = entityOf(context_, id); entity.entityKind() == EntityKind::Var)
+      other_[entity.index] = true;
+    forEachChild(tree_, id, [&](auto child) { walk(child); });
+  }
+  void walk(TypeExprId) {}
+  void walk(DeclId) {}
+
+ private:
+  // instance.OUTPUT
+  bool noteRead(const MemberExpr& member) {
+    const Entity base = entityOf(context_, member.base);
+    if (base.entityKind() != EntityKind::Var || member.entity.entityKind() != EntityKind::Var) return false;
+    if (tree_.kind(member.base) != ExprKind::Name) return false;
+    if (context_.symbols.var({member.entity.index}).section != SectionKind::Output) return false;
+    reads_[base.index] = true;
+    return true;
+  }
+
+  const Tree& tree_;
+  const Context& context_;
+  std::vector<bool> reads_, other_;
+};
+
+bool hasBody(const Context& context, PouId id) {
+  const Pou& pou = context.symbols.pou(id);
+  if (pou.kind != PouKind::FunctionBlock || pou.object.extended || !pou.decl) return false;
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  return pou.pragmas.native || pou.cpp || decl.body_kind == BodyKind::Native || !decl.body.empty();
+}
+
+}  // namespace
+
+void checkUncalledInstances(Context& context) {
+  const Symbols& symbols = context.symbols;
+  if (symbols.diagnostics.hasErrors()) return;
+  Uses uses(context);
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    const Pou& pou = symbols.pous[i];
+    if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp) continue;
+    for (const StmtId id : context.tree().list(context.tree().as<PouDecl>(pou.decl).body)) uses.walk(id);
+  }
+  for (const BlockTask& task : context.project.block_tasks) uses.note(task.block);
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    const Pou& pou = symbols.pous[i];
+    if (pou.library || pou.cpp || pou.object.extended || pou.base || !pou.decl || !pou.progress.checked()) continue;
+    for (const VarId id : pou.vars) {
+      const Var& var = symbols.var(id);
+      if (var.section != SectionKind::Local || !var.name || !uses.onlyRead(id)) continue;
+      const NamedType* named = context.scopes.named(context.types().resolve(var.type));
+      if (named == nullptr || !named->pou || !hasBody(context, named->pou)) continue;
+      context.report(diag::NeverCalled, var.loc, {string(context, var.name)});
+    }
+  }
+}
+
+}  // namespace rung::sema
