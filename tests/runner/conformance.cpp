@@ -4,7 +4,7 @@
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each as a separate project, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
-// golden file. A file with a body in C++ is only compiled.
+// golden file. A file with a body in C++ is only compiled. Sessions in **.test show what outlives a run: console.cpp.
 #include <algorithm>
 #include <map>
 #include <set>

@@ -1,7 +1,7 @@
-// Console tests: .test files in tests/golden and tests/programs. Line 1 is `# purpose`; a line `# features: 40/4a`
-// names rows of the standard as in conformance tests. A session runs in an empty folder, with the tool in PATH and the
-// project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# release only: reason` leaves the file
-// out of debug builds and of those with sanitizers.
+// Console tests: .test files in tests/golden, tests/programs and tests/conformance. Line 1 is `# purpose`; a line
+// `# features: 40/4a` names rows of the standard as in conformance tests. A session runs in an empty folder, with the
+// tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# release only: reason`
+// leaves the file out of debug builds and of those with sanitizers.
 #include "tests/runner/console.h"
 
 #include <cstdio>
@@ -106,7 +106,7 @@ std::string folderLikeRoot(const Setting& setting) {
 }
 
 void addConsole(const Setting& setting, std::vector<Job>& jobs) {
-  for (const char* folder : {"tests/golden", "tests/programs"}) {
+  for (const char* folder : {"tests/golden", "tests/programs", "tests/conformance"}) {
     for (const std::string& file : filesBelow(setting, folder, ".test")) {
 #if defined(RUNG_SANITIZED) || !defined(NDEBUG)
       const std::string reason = valueOf(splitLines(readContent(setting.root + "/" + file)), "release only");

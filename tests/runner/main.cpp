@@ -31,7 +31,7 @@ const char kHelp[] =
   --list          only print the jobs
 
   tests/golden/**.st        `// expect: ` headings of `rung check`; `// expect tree:` and other emitted text
-  tests/golden/**.test      sessions at a console, also in tests/programs
+  tests/golden/**.test      sessions at a console, also in tests/programs and tests/conformance
   tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
