@@ -3,6 +3,7 @@
 // per second" (2021). What 128 bits do not decide, and printing with a given precision, is computed exactly in Big.
 #include "rung/reals.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "rung/code.h"
@@ -492,8 +493,49 @@ double exactValue(const Digits& number, bool is_single) {
   return value;
 }
 
+#if FLT_EVAL_METHOD == 0
+// The usual case: digits and power of ten are exact, so that one operation rounds once. False: they are not.
+template <class Real>
+bool valueInOneOperation(const Digits& number, uint64_t exact_below, int highest_power, double& value) {
+  constexpr Real kTens[] = {1e0F,
+                            1e1F,
+                            1e2F,
+                            1e3F,
+                            1e4F,
+                            1e5F,
+                            1e6F,
+                            1e7F,
+                            1e8F,
+                            1e9F,
+                            1e10F,
+                            static_cast<Real>(1e11),
+                            static_cast<Real>(1e12),
+                            static_cast<Real>(1e13),
+                            static_cast<Real>(1e14),
+                            static_cast<Real>(1e15),
+                            static_cast<Real>(1e16),
+                            static_cast<Real>(1e17),
+                            static_cast<Real>(1e18),
+                            static_cast<Real>(1e19),
+                            static_cast<Real>(1e20),
+                            static_cast<Real>(1e21),
+                            static_cast<Real>(1e22)};
+  const int power = number.exponent < 0 ? -number.exponent : number.exponent;
+  if (number.has_more || number.first > exact_below || power > highest_power) return false;
+  const Real digits = static_cast<Real>(number.first);
+  value = static_cast<double>(number.exponent < 0 ? digits / kTens[power] : digits * kTens[power]);
+  return true;
+}
+#endif
+
 double valueOf(const Digits& number, bool is_single) {
   if (number.first == 0) return 0;
+#if FLT_EVAL_METHOD == 0
+  double exact = 0;
+  const bool is_exact = is_single ? valueInOneOperation<float>(number, uint64_t{1} << 24, 10, exact)
+                                  : valueInOneOperation<double>(number, uint64_t{1} << 53, 22, exact);
+  if (is_exact) return exact;
+#endif
   const int magnitude = number.exponent + number.count;  // the value is below 10^magnitude
   if (magnitude > 310) return __builtin_inf();
   if (magnitude < -330) return 0;
