@@ -1,7 +1,7 @@
-// Appended texts: `line := CONCAT(line, DINT_TO_STRING(n))` makes the text of `n` in a temporary and copies it behind
-// the line. Where nothing else reads the temporary, the text is made behind the line at once. In: the measured strings
-// of a body, and where their lengths are known. Out: the statements that make such a text. Called by analysis.cpp;
-// written by calls.cpp.
+// Appended texts: `line := CONCAT(line, DINT_TO_STRING(n))` makes the text of `n` in a temporary and copies it to the
+// end of the line. Where nothing else reads the temporary, the text is made at the end of the line at once. In: the
+// measured strings of a body, and where their lengths are known. Out: the statements that make such a text. Called by
+// analysis.cpp; written by calls.cpp.
 //
 // Without it (tests/bench/run.sh kernels) `builder` takes 1.3 times as long.
 #pragma once
