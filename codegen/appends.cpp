@@ -42,7 +42,7 @@ class Finder {
 
   bool isNarrow(ExprId id) const { return module_.types.kind(body_.expr(id).type) == TypeKind::String; }
 
-  // A text of something that is no text, in a temporary that is read once.
+  // A text made from something else, in a temporary that is read once.
   bool makesText(const ir::CallStmt& call) const {
     const ir::Body& callee = module_.body(call.callee);
     if (!callee.native || !callee.pure || call.self || !call.result || !isNarrow(call.result)) return false;

@@ -1,5 +1,5 @@
-// Appended texts: `line := CONCAT(line, DINT_TO_STRING(n))` makes the text of `n` in a temporary and copies it behind
-// the line. Where nothing else reads the temporary, the text is made behind the line at once. In: the measured strings
+// Appended texts: `line := CONCAT(line, DINT_TO_STRING(n))` makes the text of `n` in a temporary and copies it after
+// the line. Where nothing else reads the temporary, the text is made after the line at once. In: the measured strings
 // of a body, and where their lengths are known. Out: the statements that make such a text. Called by analysis.cpp;
 // written by calls.cpp.
 //

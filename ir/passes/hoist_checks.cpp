@@ -131,7 +131,7 @@ class Hoister {
 
   // ---- the checks that the first iteration reaches first
 
-  // Whether the walk may go on behind the expression. Its checks that can leave the loop are in found_.
+  // Whether the walk may go on after the expression. Its checks that can leave the loop are in found_.
   bool collect(ExprId id) {
     const size_t before = found_.size();
     bool goes_on = true;
@@ -207,7 +207,7 @@ class Hoister {
       }
     }
   }
-  // Moves the loop behind the statements of the open block. Returns its new id.
+  // Moves the loop after the statements of the open block. Returns its new id.
   StmtId insert(StmtId loop, Block outer) {
     StmtId last = build_.block().last;
     const StmtId first = build_.close(outer);
