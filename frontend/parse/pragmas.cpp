@@ -25,8 +25,13 @@ void Cursor::splitList(const PragmaRange& pragma, std::vector<Pragma>& list) {
   const auto isBlank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   while (!rest.empty() && isBlank(rest.front())) rest.remove_prefix(1);
   const std::string_view name = names_.string(whole.name);
-  if (!sameIdentifier(rest.substr(0, name.size()), name)) return;  // {attribute 'mock' := 'A'}
-  rest.remove_prefix(name.size());
+  if (sameIdentifier(rest.substr(0, name.size()), name)) {
+    rest.remove_prefix(name.size());
+  } else {  // {attribute 'mock' := 'A', 'B'}
+    const size_t sign = rest.find(":=");
+    if (sign == std::string_view::npos) return;
+    rest.remove_prefix(sign + 2);
+  }
   list.pop_back();
   for (bool more = true; more;) {
     const size_t comma = rest.find(',');
