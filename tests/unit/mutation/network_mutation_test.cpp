@@ -104,7 +104,7 @@ const char* const kXml = R"(<?xml version="1.0" encoding="utf-8"?>
 TEST(NetworkMutation, what_is_cut_off_inside_a_network_is_reported) {
   uint32_t cuts = 0;
   for (const std::string& program : programs()) {
-    const size_t begin = program.find("{network"), end = program.find("END_FUNCTION_BLOCK", begin);
+    const size_t begin = program.find("{network"), end = program.find("{end_network", begin);
     for (size_t at = begin + 12 + cuts % 5; at + 1 < end; at += 37, ++cuts) {
       const uint32_t errors = errorsIn(program.substr(0, at), false);
       EXPECT_GE(errors, 1u) << program.substr(0, at);
