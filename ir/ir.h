@@ -346,6 +346,7 @@ struct ProgramInstance {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource;  // tasks of one resource share a processor; none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;
@@ -354,6 +355,7 @@ struct Task {
   std::string external_event;
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
+  int64_t duration_ns = 0;  // in virtual time
 };
 
 // A located variable: name as a symbol, view of the image.
@@ -442,6 +444,7 @@ struct Module {
   std::vector<BodyId> setups, teardowns;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
+  bool aligned_globals = false;                       // tasks work on copies of the global variables
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

@@ -240,12 +240,14 @@ void Reader::task() {
   Task created;
   created.name = name();
   if (!acceptOneOf(kTaskKinds, created.kind)) expected("the task's kind");
+  if (accept("resource")) created.resource = name();
   if (accept("interval")) created.interval_ns = integer();
   if (accept("priority")) created.priority = static_cast<uint32_t>(integer());
   if (accept("trigger")) created.trigger = quotedText(TokenKind::String);
   if (accept("external")) created.external_event = quotedText(TokenKind::String);
   if (accept("watchdog")) created.watchdog_ns = integer();
   if (accept("sensitivity")) created.sensitivity = static_cast<uint32_t>(integer());
+  if (accept("duration")) created.duration_ns = integer();
   if (failed_) return;
   task_by_name_[created.name.index] = static_cast<uint32_t>(module_.tasks.size());
   module_.tasks.push_back(std::move(created));

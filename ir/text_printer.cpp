@@ -264,6 +264,7 @@ void Printer::task(const Task& task) {
   name(task.name);
   put(" ");
   put(kKinds[static_cast<size_t>(task.kind)]);
+  clause(" resource ", task.resource);
   if (task.interval_ns != 0) {
     put(" interval ");
     signedNumber(task.interval_ns);
@@ -282,6 +283,10 @@ void Printer::task(const Task& task) {
     signedNumber(task.watchdog_ns);
   }
   clause(" sensitivity ", task.sensitivity);
+  if (task.duration_ns != 0) {
+    put(" duration ");
+    signedNumber(task.duration_ns);
+  }
   put("\n");
 }
 

@@ -15,6 +15,7 @@ namespace rung::sema {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource, configuration;  // none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;

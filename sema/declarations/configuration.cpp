@@ -427,6 +427,8 @@ void resolveConfigurations(Context& context) {
     }
     Task task;
     task.name = decl.name;
+    task.resource = part.resource;
+    task.configuration = part.configuration;
     task.priority = 1;
     task.loc = decl.h.loc;
     Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
