@@ -77,9 +77,10 @@ int64_t TokenReader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item : {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",  "area",
-                           "data", "interface", "classes",    "dispatch", "list",  "task",    "instance", "located",
-                           "test", "exit",      "after_init", "function", "body",  "init"})
+  for (const char* item :
+       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",        "area",
+        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",       "located",
+        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals"})
     if (word == item) return true;
   return false;
 }
@@ -246,6 +247,7 @@ void Reader::task() {
   if (accept("external")) created.external_event = quotedText(TokenKind::String);
   if (accept("watchdog")) created.watchdog_ns = integer();
   if (accept("sensitivity")) created.sensitivity = static_cast<uint32_t>(integer());
+  if (accept("duration")) created.duration_ns = integer();
   if (failed_) return;
   task_by_name_[created.name.index] = static_cast<uint32_t>(module_.tasks.size());
   module_.tasks.push_back(std::move(created));
@@ -498,6 +500,10 @@ void Reader::declareItem() {
       {"instance", &Reader::instance}, {"located", &Reader::located}, {"function", &Reader::function}};
   for (const auto& item : kItems) {
     if (isWord(item.text)) return (this->*item.value)();
+  }
+  if (accept("aligned_globals")) {
+    module_.aligned_globals = true;
+    return;
   }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.

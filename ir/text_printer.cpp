@@ -282,6 +282,10 @@ void Printer::task(const Task& task) {
     signedNumber(task.watchdog_ns);
   }
   clause(" sensitivity ", task.sensitivity);
+  if (task.duration_ns != 0) {
+    put(" duration ");
+    signedNumber(task.duration_ns);
+  }
   put("\n");
 }
 
@@ -372,6 +376,7 @@ void Printer::items() {
     }
     put("\n");
   }
+  if (module_.aligned_globals) put("aligned_globals\n");
   for (const Task& one : module_.tasks) task(one);
   for (const ProgramInstance& one : module_.programs) instance(one);
   for (const Located& one : module_.located) located(one);
