@@ -355,7 +355,7 @@ struct Task {
   std::string external_event;
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
-  int64_t duration_ns = 0;  // in virtual time
+  int64_t duration_ns = 0;  // simulated execution time, in virtual time only
 };
 
 // A located variable: name as a symbol, view of the image.
@@ -444,7 +444,7 @@ struct Module {
   std::vector<BodyId> setups, teardowns;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
-  bool aligned_globals = false;                       // tasks work on copies of the global variables
+  bool aligned_globals = false;  // tasks work on copies of the globals, exchanged at the alignment point
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

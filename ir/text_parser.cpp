@@ -77,9 +77,10 @@ int64_t TokenReader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item : {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",  "area",
-                           "data", "interface", "classes",    "dispatch", "list",  "task",    "instance", "located",
-                           "test", "exit",      "after_init", "function", "body",  "init"})
+  for (const char* item :
+       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",        "area",
+        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",       "located",
+        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals"})
     if (word == item) return true;
   return false;
 }
@@ -500,6 +501,10 @@ void Reader::declareItem() {
       {"instance", &Reader::instance}, {"located", &Reader::located}, {"function", &Reader::function}};
   for (const auto& item : kItems) {
     if (isWord(item.text)) return (this->*item.value)();
+  }
+  if (accept("aligned_globals")) {
+    module_.aligned_globals = true;
+    return;
   }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.

@@ -377,6 +377,7 @@ void Printer::items() {
     }
     put("\n");
   }
+  if (module_.aligned_globals) put("aligned_globals\n");
   for (const Task& one : module_.tasks) task(one);
   for (const ProgramInstance& one : module_.programs) instance(one);
   for (const Located& one : module_.located) located(one);

@@ -23,6 +23,7 @@ struct Task {
   std::string external_event;  // External
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
+  int64_t duration_ns = 0;  // simulated execution time, in virtual time only
   Loc loc;
 };
 struct ProgramInstance {  // without a task it never runs (warned)

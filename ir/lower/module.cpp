@@ -67,6 +67,7 @@ void ModuleLowering::run() {
   addTasks();
   addLocated();
   addAccessPaths();
+  module.aligned_globals = project.options.aligned_globals;
   module.areas = project.options.areas;
   for (size_t area = 0; area < module.areas.size(); ++area) module.areas[area].bytes = project.area_bytes[area];
   setPhaseSubject("", 0);
@@ -536,6 +537,7 @@ void ModuleLowering::addTasks() {
     created.external_event = task.external_event;
     created.watchdog_ns = task.watchdog_ns;
     created.sensitivity = task.sensitivity;
+    created.duration_ns = task.duration_ns;
     module.tasks.push_back(created);
   }
 }

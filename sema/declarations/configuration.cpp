@@ -382,6 +382,25 @@ void checkExternals(Context& context, const Part& part, const SectionDecl& secti
   }
 }
 
+// Forbids a duration in rung.project for a task that does not exist.
+//   fails   [task fsat] duration = 12ms                   E0815, did you mean `fast`?
+void setDurations(Context& context) {
+  std::vector<Task>& tasks = context.project.tasks;
+  for (const TaskDuration& duration : context.project.options.task_durations) {
+    bool found = false;
+    std::vector<std::string_view> names;
+    for (Task& task : tasks) {
+      const std::string_view name = context.names().string(task.name);
+      names.push_back(name);
+      if (!sameIdentifier(name, duration.task)) continue;
+      task.duration_ns = duration.duration_ns;
+      found = true;
+    }
+    if (!found)
+      context.report(diag::UnknownTask, duration.loc, {duration.task}).didYouMean(nearest(duration.task, names));
+  }
+}
+
 }  // namespace
 
 void collectConfigurations(Context& context) {
@@ -439,13 +458,14 @@ void resolveConfigurations(Context& context) {
   });
   if (!configured) {
     if (project.tasks.empty()) addDefaultTask(context);
-    return;
+    return setDurations(context);
   }
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) != DeclKind::ProgramInstance) return;
     Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
     addInstance(there, part, tree.as<ProgramInstanceDecl>(member), tasks);
   });
+  setDurations(context);
 }
 
 }  // namespace rung::sema

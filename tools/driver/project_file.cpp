@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "frontend/import/source_mapped_text.h"
+#include "frontend/parse/literals.h"
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
@@ -18,8 +19,8 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std native-width libraries checks optimize warnings defines"},
-    {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
+    {"project", false, "name sources std native-width libraries checks optimize warnings defines globals"},
+    {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
     {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
     {"area", true, "owner bytes"},
@@ -177,6 +178,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "defines") {
       for (const std::string& item : list(entry.value))
         if (error.empty()) error = parseDefine(item, project.defines);
+    } else if (entry.key == "globals") {
+      project.aligned_globals = entry.value == "aligned";
+      if (!project.aligned_globals && entry.value != "shared") error = "it takes `shared` or `aligned`";
     } else if (entry.key == "warnings") {
       for (const std::string& item : list(entry.value)) {
         bool on = !item.starts_with("no-");
@@ -243,6 +247,23 @@ std::string duration(const std::string& value) {
   return "T#" + value;
 }
 
+// How long a task runs in virtual time. Not in the generated ST: the section may be about a task of the program.
+void readDuration(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  const ProjectEntry* const entry = section.find("duration");
+  if (entry == nullptr) return;
+  const bool has_prefix = entry->value.find('#') != std::string::npos;
+  const Loc begin = has_prefix ? entry->value_loc : Loc{entry->value_loc.offset - 2};
+  text::TimeValue time;
+  if (!text::readDuration(duration(entry->value), begin, diagnostics, time)) return;
+  if (time.is_negative) return badValue(diagnostics, *entry, "it takes a time of 0 or more");
+  project.task_durations.push_back({section.name, static_cast<int64_t>(time.value), section.loc});
+}
+
+// True for `[task NAME]` with nothing but a duration: NAME is a task of the program.
+bool isAboutDeclaredTask(const ProjectSection& section) {
+  return section.entries.size() == 1 && section.entries[0].key == "duration";
+}
+
 // Everything that goes into the generated ST must be a word, number or path of ST, so that no value can inject other
 // code.
 bool isPlain(std::string_view value) {
@@ -259,7 +280,7 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   xml::SourceMappedText text(sources);
   std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
-    if (section.kind != "task" || section.name.empty()) continue;
+    if (section.kind != "task" || section.name.empty() || isAboutDeclaredTask(section)) continue;
     if (!isModuleName(section.name)) {
       diagnostics.report(diag::TaskName, section.loc, {section.name});
       continue;
@@ -268,7 +289,7 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
     text.put(section.loc, "TASK " + section.name + "(");
     const char* separator = "";
     for (const ProjectEntry& entry : section.entries) {
-      if (entry.key == "programs") continue;
+      if (entry.key == "programs" || entry.key == "duration") continue;
       if (!isPlain(entry.value)) {
         badValue(diagnostics, entry, "it takes one number, time or name");
         continue;
@@ -326,6 +347,8 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
       readPoolSection(section, diagnostics, project);
     else if (section.kind == "area" && !section.name.empty())
       readAreaSection(section, diagnostics, project);
+    else if (section.kind == "task")
+      readDuration(section, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);
 }
 

@@ -9,6 +9,7 @@
 
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
+#include "sema/options.h"
 #include "sema/types/areas.h"
 #include "tools/driver/options.h"
 
@@ -40,6 +41,8 @@ struct ProjectFile {
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
   types::MemoryAreas areas = types::standardAreas();
+  bool aligned_globals = false;
+  std::vector<sema::TaskDuration> task_durations;
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
