@@ -116,13 +116,11 @@ const Case kCases[] = {
      }},
 };
 
-// The target separate, as the first input, as the second, and as both inputs.
+// The target separate, as the first input, as the second, and as both inputs, which may be longer than it is.
 void check(const Case& one, const Arguments& x, uint32_t capacity) {
   for (int alias = 0; alias < 4; ++alias) {
     Arguments used = x;
     if (alias == 3) used.in2 = used.in1;
-    if ((alias == 1 || alias == 3) && used.in1.size() > capacity) continue;
-    if (alias == 2 && used.in2.size() > capacity) continue;
     const std::string expected = one.expected(used).substr(0, capacity);
     for (const auto& form : {one.plain, one.sized}) {
       char in1[16], in2[16], out[kMaxCapacity + 2];
@@ -137,7 +135,10 @@ void check(const Case& one, const Arguments& x, uint32_t capacity) {
       ASSERT_EQ(expected, out) << one.name << "('" << used.in1 << "', '" << used.in2 << "', L " << x.l << ", P " << x.p
                                << ") in " << capacity << ", alias " << alias;
       ASSERT_EQ(expected.size(), given) << one.name;
-      ASSERT_EQ('#', out[capacity + 1]) << one.name << " wrote past its target";
+      const bool was_longer = alias != 0 && strlen(a == out ? in1 : in2) > capacity;
+      if (!was_longer) {
+        ASSERT_EQ('#', out[capacity + 1]) << one.name << " wrote past its target";
+      }
     }
   }
 }

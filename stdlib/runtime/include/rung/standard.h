@@ -1,8 +1,8 @@
 /* String functions of the library Standard for strings whose lengths the generated code keeps in C++ locals: the sized
  * forms of the functions marked {sized} in standard/string.st, and the slice forms of those marked {slice}. In: each
  * string followed by its length. Out: the result in `out`, and its length. Semantics are those of
- * standard/native/string.cpp: a result has at most 255 characters and at most `capacity`. `out` is one of the inputs or
- * overlaps none. Included by generated code that calls one of them. */
+ * standard/native/string.cpp: a result has at most 255 characters and at most `capacity`. `out` is one of the inputs,
+ * which then may be longer than `capacity`, or overlaps none. Included by generated code that calls one of them. */
 #ifndef RUNG_STANDARD_H
 #define RUNG_STANDARD_H
 
@@ -86,8 +86,7 @@ uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, ui
                           uint32_t capacity);
 uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                 int32_t p, char* out, uint32_t capacity);
-uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
-                                                uint32_t capacity);
+uint32_t rung_string_delete(const char* in, uint32_t length, int32_t l, int32_t p, char* out, uint32_t capacity);
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                  int32_t l, int32_t p, char* out, uint32_t capacity);
 uint32_t rung_string_search(const char* in, uint32_t length, char unit) RUNG_PURE; /* as rung_string_find_unit */
@@ -99,10 +98,21 @@ static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, u
                                                               uint32_t length2, char* out, uint32_t capacity) {
   const uint32_t limit = rung_string_limit(capacity);
   if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
-  if (capacity > limit && length1 > limit) length1 = limit;
+  if (length1 > limit) length1 = limit;
   const uint32_t room = limit - length1;
   if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* keeps a constant length */
   return limit - room + rung_string_part(out + length1, in2, room);
+}
+
+/* From inside a string, in place: the rest moves. */
+static inline uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p,
+                                                              char* out, uint32_t capacity) {
+  if (out != in || l <= 0 || p <= 0 || (uint32_t)p > length || length > rung_string_limit(capacity))
+    return rung_string_delete(in, length, l, p, out, capacity);
+  const uint32_t begin = (uint32_t)p - 1, count = rung_min_u32((uint32_t)l, length - begin);
+  memmove(out + begin, out + begin + count, length - begin - count);
+  out[length - count] = 0;
+  return length - count;
 }
 
 /* Sets the top bit of each byte that equals `unit`; the lowest bit set is that of the first one. */
