@@ -114,20 +114,27 @@ void CallWriter::callStatement(StmtId id) {
   out_ += text.after;
 }
 
-// line_n += rung_standard_TO_STRING__DINT(ctx, n, line + line_n, 80 - line_n); an in-out may be longer than its type.
+// line_n += rung_standard_TO_STRING__DINT_sized(n, line + line_n, 80 - line_n); an in-out may be longer than its type.
 void CallWriter::appendText(const ir::CallStmt& make, ExprId to) {
   const std::string length = captured([&] { strings().lengthName(to); });
-  call(make.callee);
+  const Body& callee = module_.body(make.callee);
   if (!lengths().isOwn(to)) {
     out_ += length + " = rung_min_u32(" + length + ", ";
     appendUnsigned(out_, capacityOf(expr(to).type));
     out_ += "); ";
   }
-  out_ += length + " += " + ir::nativeName(module_, module_.body(make.callee)) + "(ctx, ";
-  for (const ExprId operand : body_->list(make.operands)) {
-    values().value(operand, Prec::Ternary);
-    out_ += ", ";
+  out_ += length + " += ";
+  if (isSized(module_, callee)) {
+    strings().sizedCall(callee, make.operands);
+  } else {
+    call(make.callee);
+    out_ += ir::nativeName(module_, callee) + "(ctx";
+    for (const ExprId operand : body_->list(make.operands)) {
+      out_ += ", ";
+      values().value(operand, Prec::Ternary);
+    }
   }
+  out_ += ", ";
   places().place(to);
   out_ += " + " + length + ", ";
   appendUnsigned(out_, capacityOf(expr(to).type));

@@ -30,7 +30,8 @@ bool isString(const ir::Module& module, TypeId type) { return TypeTable::isStrin
 
 bool isSized(const ir::Module& module, const ir::Body& callee) {
   const auto is_other = [&](TypeId type) {
-    return isString(module, type) && module.types.kind(type) != TypeKind::String;
+    const TypeKind kind = module.types.plainKind(type);
+    return kind != TypeKind::String && !TypeTable::isInteger(kind) && !TypeTable::isBits(kind);
   };
   if (!callee.sized || is_other(callee.result)) return false;
   for (const ir::Local& local : callee.locals) {

@@ -8,7 +8,7 @@
 // what it knows at its end (passesLength in signature.h). A shared string may be longer than its type says: a variable
 // of a longer type was passed.
 // Sized functions are natives marked {sized}: their second form in rung/<library>.h takes the length after each string
-// and returns the length of the result.
+// and returns the length of the result. Of a generic function the instances for STRING and integers have one.
 // In: the uses of a body. Out: the measured strings; then, with the slices, where each length is known and where it is
 // counted. Called by analysis.cpp; written by measured.cpp, strings.cpp and calls.cpp.
 //
@@ -56,7 +56,7 @@ struct StringsOfBody {
   }
 };
 
-// The second form of a native: marked {sized}, and all its strings are STRING.
+// The second form of a native: marked {sized}, and all its types are STRING or integers.
 bool isSized(const ir::Module& module, const ir::Body& callee);
 
 // The strings whose lengths are known at a point of a body; a block forgets at its end what became known in it.

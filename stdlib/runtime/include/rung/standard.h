@@ -174,18 +174,65 @@ static inline bool rung_string_digits(const char* in, uint32_t length, uint64_t*
     rung_string_part(text, in, length < 255 ? length : 255);                                \
     return rung_standard_STRING_TO_##TYPE(nullptr, text);                                   \
   }
-RUNG_SIZED_NUMBER(BYTE, uint8_t)
-RUNG_SIZED_NUMBER(WORD, uint16_t)
-RUNG_SIZED_NUMBER(DWORD, uint32_t)
-RUNG_SIZED_NUMBER(LWORD, uint64_t)
-RUNG_SIZED_NUMBER(SINT, int8_t)
-RUNG_SIZED_NUMBER(INT, int16_t)
-RUNG_SIZED_NUMBER(DINT, int32_t)
-RUNG_SIZED_NUMBER(LINT, int64_t)
-RUNG_SIZED_NUMBER(USINT, uint8_t)
-RUNG_SIZED_NUMBER(UINT, uint16_t)
-RUNG_SIZED_NUMBER(UDINT, uint32_t)
-RUNG_SIZED_NUMBER(ULINT, uint64_t)
+/* Numbers of up to five digits are written without a call, two digits at a time. */
+static inline uint32_t rung_string_number(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
+  static const char pairs[] =
+      "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"
+      "5051525354555657585960616263646566676869707172737475767778798081828384858687888990919293949596979899";
+  if (magnitude >= 100000 || capacity < 6) return rung_string_of_integer(to, capacity, negative, magnitude);
+  uint32_t rest = (uint32_t)magnitude, length = 1;
+  *to = '-';
+  char* at = to + negative;
+  if (rest >= 1000) {
+    length = 4;
+    if (rest >= 10000) {
+      length = 5;
+      *at++ = (char)('0' + rest / 10000);
+      rest %= 10000;
+    }
+    memcpy(at, pairs + rest / 100 * 2, 2);
+    memcpy(at + 2, pairs + rest % 100 * 2, 2);
+    at[4] = 0;
+  } else if (rest >= 10) {
+    length = 2;
+    if (rest >= 100) {
+      length = 3;
+      *at++ = (char)('0' + rest / 100);
+      rest %= 100;
+    }
+    memcpy(at, pairs + rest * 2, 2);
+    at[2] = 0;
+  } else {
+    at[0] = (char)('0' + rest);
+    at[1] = 0;
+  }
+  return length + negative;
+}
+#define RUNG_SIZED_TEXT(TYPE, T)                                                                        \
+  static inline uint32_t rung_standard_TO_STRING__##TYPE##_sized(T in, char* out, uint32_t capacity) { \
+    const bool negative = (T)-1 < (T)0 && (int64_t)in < 0;                                              \
+    return rung_string_number(out, capacity, negative, negative ? 0 - (uint64_t)in : (uint64_t)in);     \
+  }
+static inline uint32_t rung_standard_TO_STRING__STRING_255_sized(const char* in, uint32_t length, char* out,
+                                                                 uint32_t capacity) {
+  return rung_string_put(out, rung_string_limit(capacity), in, length);
+}
+
+#define RUNG_SIZED_BOTH(TYPE, T) RUNG_SIZED_NUMBER(TYPE, T) RUNG_SIZED_TEXT(TYPE, T)
+RUNG_SIZED_BOTH(BYTE, uint8_t)
+RUNG_SIZED_BOTH(WORD, uint16_t)
+RUNG_SIZED_BOTH(DWORD, uint32_t)
+RUNG_SIZED_BOTH(LWORD, uint64_t)
+RUNG_SIZED_BOTH(SINT, int8_t)
+RUNG_SIZED_BOTH(INT, int16_t)
+RUNG_SIZED_BOTH(DINT, int32_t)
+RUNG_SIZED_BOTH(LINT, int64_t)
+RUNG_SIZED_BOTH(USINT, uint8_t)
+RUNG_SIZED_BOTH(UINT, uint16_t)
+RUNG_SIZED_BOTH(UDINT, uint32_t)
+RUNG_SIZED_BOTH(ULINT, uint64_t)
+#undef RUNG_SIZED_BOTH
+#undef RUNG_SIZED_TEXT
 #undef RUNG_SIZED_NUMBER
 
 #endif
