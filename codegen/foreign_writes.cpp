@@ -13,20 +13,21 @@ bool ForeignWrites::by(const ir::Stmt& stmt) const {
   if (stmt.kind == ir::StmtKind::Bind) return true;
   if (const auto* call = stmt.tryAs<ir::CallStmt>(); call != nullptr && !module_.body(call->callee).pure) return true;
   bool found = false;
-  ir::forEachRoot(module_, body_, stmt, [&](ExprId root, ir::Use use) {
-    found = found || (use != ir::Use::Read && isShared(root));
-  });
+  ir::forEachRoot(module_, body_, stmt,
+                  [&](ExprId root, ir::Use use) { found = found || (use != ir::Use::Read && isShared(root)); });
   return found;
 }
 
-// A scalar output is a temporary of the caller, who stores it after the call. The field next to the end of a path decides: with its address taken, all paths to it may be one variable.
+// A scalar output is a temporary of the caller, who stores it after the call. The field next to the end of a path
+// decides: with its address taken, all paths to it may be one variable.
 bool ForeignWrites::isShared(ExprId place) const {
   bool has_field = false;
   for (ExprId at = place; at; at = ir::baseOf(body_.expr(at))) {
     const ir::Expr& e = body_.expr(at);
     if (const uint32_t* local = ir::localOf(e)) {
       const ir::Local& of = body_.locals[*local];
-      const bool is_temporary = of.kind == LocalKind::Output && types::TypeTable::isScalar(module_.types.plainKind(of.type));
+      const bool is_temporary =
+          of.kind == LocalKind::Output && types::TypeTable::isScalar(module_.types.plainKind(of.type));
       return of.by_reference && !is_temporary && (of.kind == LocalKind::InOut || of.kind == LocalKind::Output);
     }
     const auto* field = e.tryAs<ir::FieldExpr>();

@@ -1,7 +1,7 @@
 // Which statements may change a variable that more than this body reaches: an in-out, or a variable whose address left
 // the body. Such a variable may be the same memory as another in-out, as the target of a pointer, or as a field that
-// was passed by reference somewhere. In: a body and the exposure of fields. Out: an answer for each statement. Called by
-// lengths.cpp: the length of such a string is unknown afterwards.
+// was passed by reference somewhere. In: a body and the exposure of fields. Out: an answer for each statement. Called
+// by lengths.cpp: the length of such a string is unknown afterwards.
 #pragma once
 
 #include "ir/exposure.h"

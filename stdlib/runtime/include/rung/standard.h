@@ -165,14 +165,16 @@ static inline bool rung_string_digits(const char* in, uint32_t length, uint64_t*
   *number = is_negative ? 0 - value : value;
   return true;
 }
-#define RUNG_SIZED_NUMBER(TYPE, T)                                                          \
-  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);           \
-  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) { \
-    uint64_t number;                                                                        \
-    char text[256];                                                                         \
-    if (rung_string_digits(in, length, &number)) return (T)number;                          \
-    rung_string_part(text, in, length < 255 ? length : 255);                                \
-    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                   \
+#define RUNG_SIZED_NUMBER(TYPE, T)                                                                  \
+  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);                   \
+  static inline RUNG_COLD T rung_string_to_##TYPE(const char* in, uint32_t length) {                \
+    char text[256];                                                                                 \
+    rung_string_part(text, in, length < 255 ? length : 255);                                        \
+    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                           \
+  }                                                                                                 \
+  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) {         \
+    uint64_t number;                                                                                \
+    return rung_string_digits(in, length, &number) ? (T)number : rung_string_to_##TYPE(in, length); \
   }
 /* Numbers of up to five digits are written without a call, two digits at a time. */
 static inline uint32_t rung_string_number(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
@@ -208,10 +210,10 @@ static inline uint32_t rung_string_number(char* to, uint32_t capacity, bool nega
   }
   return length + negative;
 }
-#define RUNG_SIZED_TEXT(TYPE, T)                                                                        \
+#define RUNG_SIZED_TEXT(TYPE, T)                                                                       \
   static inline uint32_t rung_standard_TO_STRING__##TYPE##_sized(T in, char* out, uint32_t capacity) { \
-    const bool negative = (T)-1 < (T)0 && (int64_t)in < 0;                                              \
-    return rung_string_number(out, capacity, negative, negative ? 0 - (uint64_t)in : (uint64_t)in);     \
+    const bool negative = (T)-1 < (T)0 && (int64_t)in < 0;                                             \
+    return rung_string_number(out, capacity, negative, negative ? 0 - (uint64_t)in : (uint64_t)in);    \
   }
 static inline uint32_t rung_standard_TO_STRING__STRING_255_sized(const char* in, uint32_t length, char* out,
                                                                  uint32_t capacity) {
