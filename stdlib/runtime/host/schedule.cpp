@@ -20,8 +20,9 @@ Schedule::Schedule(const Symbols& symbols, int64_t interval_ns) : symbols_(symbo
     Item item{&task, task.interval_ns, 0, false, 0, {}};
     if (task.kind == RUNG_CYCLIC) {
       if (task.interval_ns <= 0) item.interval_ns = interval_ns;
-      row_ns_ = row_ns_ == 0 ? item.interval_ns : std::min(row_ns_, item.interval_ns);
     }
+    const bool is_periodic = task.kind == RUNG_CYCLIC || (task.kind == RUNG_EVENT && task.interval_ns > 0);
+    if (is_periodic) row_ns_ = row_ns_ == 0 ? item.interval_ns : std::min(row_ns_, item.interval_ns);
     items_.push_back(std::move(item));
   }
   if (row_ns_ == 0) row_ns_ = interval_ns;
@@ -60,6 +61,10 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
         const bool is_true = readBool(item.trigger);
         if (is_true && !item.was_true) due_.push_back({begin, item.task->priority, i});
         item.was_true = is_true;
+        // With INTERVAL also periodic while SINGLE is 0 (IEC 61131-3 ed. 3, 6.8.2). The grid goes on while it is 1.
+        if (item.interval_ns <= 0 || item.next_ns >= end) break;
+        if (!is_true) due_.push_back({item.next_ns, item.task->priority, i});
+        item.next_ns += item.interval_ns;
         break;
       }
       case RUNG_STATUS:
