@@ -347,6 +347,7 @@ struct ProgramInstance {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource;  // tasks of one resource share a processor; none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;

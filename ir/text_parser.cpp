@@ -249,6 +249,7 @@ void Reader::task() {
   Task created;
   const NameId key = numberedName(created.name);
   if (!acceptOneOf(kTaskKinds, created.kind)) expected("the task's kind");
+  if (accept("resource")) created.resource = name();
   if (accept("interval")) created.interval_ns = integer();
   if (accept("priority")) created.priority = static_cast<uint32_t>(integer());
   if (accept("trigger")) created.trigger = quotedText(TokenKind::String);

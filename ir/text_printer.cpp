@@ -265,6 +265,7 @@ void Printer::task(uint32_t index) {
   numbered(module_.tasks, index);
   put(" ");
   put(kKinds[static_cast<size_t>(task.kind)]);
+  clause(" resource ", task.resource);
   if (task.interval_ns != 0) {
     put(" interval ");
     signedNumber(task.interval_ns);

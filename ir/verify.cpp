@@ -193,6 +193,7 @@ void Verifier::checkModule() {
     }
   }
   seen.clear();
+  for (const Task& task : module_.tasks) unique(task.name, "task", task.resource);
   for (const Located& located : module_.located)
     require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
   for (BodyId test : module_.tests)

@@ -15,6 +15,7 @@ namespace rung::sema {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource, configuration;  // none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;
@@ -25,7 +26,6 @@ struct Task {
   int64_t duration_ns = 0;  // simulated execution time, in virtual time only
   Loc loc;
   Loc priority_loc, interval_loc, watchdog_loc;  // of the values; none: not written
-  NameId resource, configuration;
 };
 struct ProgramInstance {  // without a task it never runs (warned)
   NameId name;

@@ -193,6 +193,7 @@ void Program::Parts::describe() {
   is.abi = RUNG_MODULE_ABI;
   is.layout = RUNG_MODULE_LAYOUT;
   is.pointer_size = sizeof(void*);
+  is.flags = from.aligned_globals ? RUNG_ALIGNED_GLOBALS : 0;
   is.name = name.c_str();
   is.compiler = "rung";
   is.strings = from.strings.bytes().c_str();
@@ -203,7 +204,10 @@ void Program::Parts::describe() {
   };
   table(from.blocks, is.blocks, is.block_count);
   table(from.areas, is.areas, is.area_count);
+  table(from.resources, is.resources, is.resource_count);
   table(tasks, is.tasks, is.task_count);
+  table(from.writes, is.writes, is.write_count);
+  table(from.safe, is.safe, is.safe_count);
   table(from.symbols, is.symbols, is.symbol_count);
   table(from.types, is.types, is.type_count);
   table(from.fields, is.fields, is.field_count);

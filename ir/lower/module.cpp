@@ -519,6 +519,7 @@ void ModuleLowering::addTasks() {
   for (const sema::Task& task : project.tasks) {
     Task created;
     created.name = task.name;
+    created.resource = task.resource;
     created.kind = static_cast<TaskKind>(task.kind);
     created.interval_ns = task.interval_ns;
     created.priority = task.priority;

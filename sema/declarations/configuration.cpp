@@ -455,10 +455,10 @@ void resolveConfigurations(Context& context) {
     }
     Task task;
     task.name = decl.name;
-    task.priority = 1;
-    task.loc = decl.h.loc;
     task.resource = part.resource;
     task.configuration = part.configuration;
+    task.priority = 1;
+    task.loc = decl.h.loc;
     Context there = atPart(context, part);
     TaskReader reader{.context = there, .task = task};
     reader.read(decl);

@@ -48,7 +48,21 @@ uint8_t Memory::reset() {
 
 void Memory::makeOutputsSafe() {
   for (uint32_t i = 0; i < module_.area_count; ++i)
-    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memset(areas_[i], 0, module_.areas[i].size);
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) safeOutputs(i, areas_[i]);
+}
+
+void Memory::safeOutputs(uint32_t area, uint8_t* values) const {
+  memset(values, 0, module_.areas[area].size);
+  for (uint32_t i = 0; i < module_.safe_count; ++i) {
+    const rung_safe& safe = module_.safe[i];
+    if (safe.area != area) continue;
+    if (safe.mask != 255) {
+      values[safe.offset] = static_cast<uint8_t>(values[safe.offset] | (safe.value & safe.mask));
+      continue;
+    }
+    for (uint32_t byte = 0; byte < safe.size; ++byte)
+      values[safe.offset + byte] = static_cast<uint8_t>(safe.value >> 8 * byte);
+  }
 }
 
 }  // namespace rung::host

@@ -24,6 +24,8 @@ class Memory {
   uint8_t end();
   // Sets outputs to their safe values, after a fault.
   void makeOutputsSafe();
+  // The safe values of an output area: as many bytes as it has.
+  void safeOutputs(uint32_t area, uint8_t* values) const;
 
  private:
   const rung_module& module_;

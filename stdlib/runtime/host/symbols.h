@@ -53,12 +53,12 @@ class Symbols {
   std::vector<Variable> ofPrograms() const;
   // Every root, whole.
   std::vector<Variable> roots() const;
+  Variable root(uint32_t symbol) const;
 
   const rung_module& module() const { return module_; }
   const char* text(uint32_t offset) const { return module_.strings + offset; }
 
  private:
-  Variable root(uint32_t symbol) const;
   bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
   bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
   bool step(Variable& variable, std::string_view& rest, std::string& error) const;
