@@ -246,7 +246,9 @@ class Describer {
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
-      const std::string path = std::string(module_.names.string(module_.lists[i].name)) + ".";
+      const std::string configuration(module_.names.string(module_.lists[i].configuration));
+      const std::string path = (configuration.empty() ? "" : configuration + ".") +
+                               std::string(module_.names.string(module_.lists[i].name)) + ".";
       for (const Field& field : record.fields) {
         rung_symbol row = inBlock(field.type, blocks_.list_block[i], field.offset);
         row.flags = flags(field);

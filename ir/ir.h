@@ -325,6 +325,7 @@ struct List {
   TypeId record;
   BodyId init;
   int32_t slot = kListSlot;
+  NameId configuration = {};  // of the globals of a resource
 };
 struct ProgramInstance {
   NameId name;
@@ -383,6 +384,7 @@ struct AccessPath {
 struct BlockTask {
   uint32_t task = 0;  // index + 1
   BodyId run;
+  uint32_t program = 0;  // index in Module::programs
 };
 
 // The objects that have a type id, each after the one that it extends: the number of a class is its index + 1.

@@ -51,6 +51,14 @@ std::string TokenReader::sigilName() {
   return text;
 }
 
+NameId TokenReader::numberedName(NameId& base) {
+  base = name();
+  if (failed_ || !isPunct(".") || token(1).kind != TokenKind::Number) return base;
+  const std::string text = std::string(names_.string(base)) + "." + std::string(token(1).text);
+  at_ += 2;
+  return names_.intern(text);
+}
+
 std::string TokenReader::quotedText(TokenKind kind) {
   if (failed_) return {};
   if (token().kind != kind) {
@@ -239,7 +247,7 @@ void Reader::dataItem() {
 void Reader::task() {
   ++at_;
   Task created;
-  created.name = name();
+  const NameId key = numberedName(created.name);
   if (!acceptOneOf(kTaskKinds, created.kind)) expected("the task's kind");
   if (accept("resource")) created.resource = name();
   if (accept("interval")) created.interval_ns = integer();
@@ -250,7 +258,7 @@ void Reader::task() {
   if (accept("sensitivity")) created.sensitivity = static_cast<uint32_t>(integer());
   if (accept("duration")) created.duration_ns = integer();
   if (failed_) return;
-  task_by_name_[created.name.index] = static_cast<uint32_t>(module_.tasks.size());
+  task_by_name_[key.index] = static_cast<uint32_t>(module_.tasks.size());
   module_.tasks.push_back(std::move(created));
 }
 
@@ -267,10 +275,10 @@ void Reader::instance() {
   ++at_;
   expect("$");
   ProgramInstance created;
-  created.name = name();
+  const NameId key = numberedName(created.name);
   expect(":");
   created.record = type();
-  if (accept("task")) created.task = numberOf(task_by_name_, "task") + 1;
+  if (accept("task")) created.task = numberOf(task_by_name_, "task", true) + 1;
   created.retain = accept("retain");
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();
@@ -281,7 +289,7 @@ void Reader::instance() {
   if (accept("after_init")) created.after_init = bodyNamed("function");
   if (accept("exit")) created.exit = bodyNamed("function");
   if (failed_) return;
-  program_by_name_[created.name.index] = static_cast<uint32_t>(module_.programs.size());
+  program_by_name_[key.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(created);
 }
 
@@ -342,7 +350,7 @@ void Reader::located() {
   if (accept(".")) created.bit = static_cast<uint32_t>(integer());
   if (accept("of")) {
     expect("$");
-    created.owner_program = numberOf(program_by_name_, "program") + 1;
+    created.owner_program = numberOf(program_by_name_, "program", true) + 1;
   }
   if (!failed_) module_.located.push_back(created);
 }
@@ -489,6 +497,7 @@ void Reader::list() {
   expect(":");
   created.record = type();
   if (accept("slot")) created.slot = static_cast<int32_t>(integer());
+  if (accept("configuration")) created.configuration = name();
   if (failed_) return;
   list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
   module_.lists.push_back(created);

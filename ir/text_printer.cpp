@@ -258,10 +258,11 @@ void Printer::dataItem(size_t index) {
   put("\"\n");
 }
 
-void Printer::task(const Task& task) {
+void Printer::task(uint32_t index) {
   static constexpr const char* kKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
+  const Task& task = module_.tasks[index];
   put("task ");
-  name(task.name);
+  numbered(module_.tasks, index);
   put(" ");
   put(kKinds[static_cast<size_t>(task.kind)]);
   clause(" resource ", task.resource);
@@ -290,12 +291,21 @@ void Printer::task(const Task& task) {
   put("\n");
 }
 
-void Printer::instance(const ProgramInstance& instance) {
-  put("instance $");
-  name(instance.name);
+void Printer::programName(uint32_t index) {
+  put("$");
+  numbered(module_.programs, index);
+}
+
+void Printer::instance(uint32_t index) {
+  const ProgramInstance& instance = module_.programs[index];
+  put("instance ");
+  programName(index);
   put(": ");
   type(instance.record);
-  if (instance.task != 0) clause(" task ", module_.tasks[instance.task - 1].name);
+  if (instance.task != 0) {
+    put(" task ");
+    numbered(module_.tasks, instance.task - 1);
+  }
   if (instance.retain) put(" retain");
   if (instance.is_test) put(" test");
   clause(" resource ", instance.resource);
@@ -327,7 +337,10 @@ void Printer::located(const Located& located) {
     put(".");
     number(located.bit);
   }
-  if (located.owner_program != 0) clause(" of $", module_.programs[located.owner_program - 1].name);
+  if (located.owner_program != 0) {
+    put(" of ");
+    programName(located.owner_program - 1);
+  }
   put("\n");
 }
 
@@ -375,11 +388,12 @@ void Printer::items() {
       put(" slot ");
       signedNumber(list.slot);
     }
+    clause(" configuration ", list.configuration);
     put("\n");
   }
   if (module_.aligned_globals) put("aligned_globals\n");
-  for (const Task& one : module_.tasks) task(one);
-  for (const ProgramInstance& one : module_.programs) instance(one);
+  for (uint32_t i = 0; i < module_.tasks.size(); ++i) task(i);
+  for (uint32_t i = 0; i < module_.programs.size(); ++i) instance(i);
   for (const Located& one : module_.located) located(one);
   classes();
   if (module_.after_init) {

@@ -207,6 +207,7 @@ struct GlobalList {
   NameId name;  // the file's stem, the configuration's or the resource's name
   bool qualified_only = false;
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;  // of the declarations that are collected now
+  NameId configuration, resource;                                      // whose VAR_GLOBAL it is; none: of a file or POU
   int32_t init_slot = 49990;  // {attribute 'global_init_slot'}: lists and programs are initialised in this order
   TypeId record;
   std::vector<VarId> vars;

@@ -70,6 +70,7 @@ struct PouScope {
   State resolved = State::New;
   bool declared = false;  // its variables have their names
   RegionId region;
+  NameId resource;  // of a program with instances in one resource only: its key
   NameMap names;
   std::vector<Substitution> substitutions;
 };
@@ -132,8 +133,9 @@ struct Scopes {
   std::vector<uint64_t> reported;  // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
-  NameMap items;       // enumeration items by their bare name: the first that was declared
-  NameMap qualifiers;  // global lists, program instances
+  NameMap items;             // enumeration items by their bare name: the first that was declared
+  NameMap qualifiers;        // global lists, program instances
+  NameMap resource_globals;  // name -> Project::resource_globals; the entity's kind is unused
   NameMap programs_with_instance, programs_with_several;  // programs with one, with several instances; a set
   std::vector<bool> item_is_ambiguous;                    // by index of the first EnumValue
 

@@ -63,6 +63,7 @@ void ModuleLowering::run() {
   addClasses();
   addDispatches();
   simplifyLimits();
+  copyForResources();
   markFaulting();
   addTasks();
   addLocated();
@@ -442,7 +443,7 @@ void ModuleLowering::addLists() {
     const sema::GlobalList& list = project.global_lists[index];
     list_index[index] = static_cast<uint32_t>(module.lists.size());
     declareRecordsOf(list.record);
-    module.lists.push_back({list.name, list.record, {}, list.init_slot});
+    module.lists.push_back({list.name, list.record, {}, list.init_slot, list.resource ? list.configuration : NameId{}});
     if (list.init_slot >= module.lists[last_list_].slot) last_list_ = list_index[index];
   }
 }
@@ -515,17 +516,6 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   return index;
 }
 
-std::string ModuleLowering::pathOf(sema::VarId id) {
-  const sema::Var& var = project.var(id);
-  std::string path;
-  if (var.pou) {
-    path = project.names.string(module.programs[instanceOf(var.pou)].name);
-    path += '.';
-  }
-  path += project.names.string(var.name);
-  return path;
-}
-
 void ModuleLowering::addTasks() {
   for (const sema::Task& task : project.tasks) {
     Task created;
@@ -534,7 +524,7 @@ void ModuleLowering::addTasks() {
     created.kind = static_cast<TaskKind>(task.kind);
     created.interval_ns = task.interval_ns;
     created.priority = task.priority;
-    if (task.trigger) created.trigger = pathOf(task.trigger);
+    created.trigger = task.trigger;
     created.external_event = task.external_event;
     created.watchdog_ns = task.watchdog_ns;
     created.sensitivity = task.sensitivity;

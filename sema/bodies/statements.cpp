@@ -474,7 +474,8 @@ void checkBody(Context& context, PouId id) {
                 .file = pou.file,
                 .body = &body,
                 .library = pou.library,
-                .region = context.region};
+                .region = context.region,
+                .resource = context.resource};
   if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
   schedule(inner, decl);
   body.statements = decl.body;

@@ -303,6 +303,27 @@ ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc
   return list_id;
 }
 
+// Adds a global variable to those of its name in other resources. False: both are of one resource, or of none.
+static bool addToResourceGlobals(Context& context, NameId key, VarId first, VarId added) {
+  Project& project = context.project;
+  const auto resourceOf = [&](VarId id) {
+    const NameId resource = project.global_lists[project.var(id).list.index].resource;
+    return resource ? keyOf(context, resource) : NameId{};
+  };
+  Entity family = context.scopes.resource_globals.find(key);
+  if (!family) {
+    if (resourceOf(first) == resourceOf(added)) return false;
+    family = Entity::of(EntityKind::Var, static_cast<uint32_t>(project.resource_globals.size()));
+    context.scopes.resource_globals.insert(key, family);
+    project.resource_globals.push_back({{{resourceOf(first), first}}});
+  }
+  std::vector<ResourceGlobals::Own>& all = project.resource_globals[family.index].all;
+  for (const ResourceGlobals::Own& own : all)
+    if (own.resource == resourceOf(added)) return false;
+  all.push_back({resourceOf(added), added});
+  return true;
+}
+
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -330,6 +351,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     if (bare.insert(key, entity(list.vars[i]))) continue;
     const Entity other = bare.find(key);
     if (other.entityKind() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    if (&bare == &scopes.globals && addToResourceGlobals(context, key, VarId{other.index}, list.vars[i])) continue;
     const std::string_view here = context.names().string(list.name);
     const std::string_view there =
         context.names().string(project.global_lists[project.vars[other.index].list.index].name);

@@ -33,8 +33,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
-    {Command::List, "list", "libraries|warnings | pous PATH ... | --signature NAME",
-     "list libraries, warnings, POUs or a declaration"},
+    {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -346,7 +345,8 @@ std::string checkCombination(const Options& options) {
       break;
     case Command::List:
       if (options.inputs.empty() && options.signature.empty())
-        return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`";
+        return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, `warnings` or `--signature "
+               "NAME`";
       break;
     case Command::None:
     case Command::Version:

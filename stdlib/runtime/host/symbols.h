@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "memory.h"
@@ -65,6 +66,7 @@ class Symbols {
   const rung_module& module_;
   const Memory& memory_;
   std::unordered_map<std::string, uint32_t> roots_;  // lower case, with and without their prefixes
+  std::unordered_set<uint32_t> shared_names_;        // of symbols whose name alone is that of another one too
 };
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.
