@@ -124,6 +124,7 @@ constexpr OptionRow kOptions[] = {
      "stop, start, reset and single cycles: commands, each after its cycle"},
     {Key::Host, "--driver", "LIB[=ARG]", bit(Command::Run), "devices of a product: a library with rung_drivers"},
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE between runs"},
+    {Key::Host, "--retain-interval", "T", bit(Command::Run), "how often the retain file is written (default: 1s)"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "default: warm if the retain file exists, else cold"},
     {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder for the program's files (default: current)"},
     {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes CONDITION TRUE"},

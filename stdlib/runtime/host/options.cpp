@@ -34,6 +34,7 @@ const char kHelp[] =
     "  --trace FILE|-        write a CSV row after each cycle\n"
     "  --plot FILE           plot the variables over time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE between runs\n"
+    "  --retain-interval TIME   how often the file is written (default: 1s)\n"
     "  --files-root DIR      the folder for the program's files (default: the current one)\n"
     "  --start cold|warm|origin   default: warm if the retain file exists, else cold\n"
     "  --stop-on CONDITION   stop after the cycle that makes CONDITION TRUE: --stop-on 'Main.n >= 10'\n"
@@ -67,10 +68,10 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles",  "--for",        "--interval", "--inputs",    "--set",
-                                             "--watch",   "--trace",      "--plot",     "--retain",    "--start",
-                                             "--stop-on", "--files-root", "--timeout",  "--max-steps", "--driver",
-                                             "--control", "--on-fault"};
+    static const char* const with_value[] = {"--cycles",  "--for",        "--interval",       "--inputs",    "--set",
+                                             "--watch",   "--trace",      "--plot",           "--retain",    "--start",
+                                             "--stop-on", "--files-root", "--timeout",        "--max-steps", "--driver",
+                                             "--control", "--on-fault",   "--retain-interval"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
@@ -118,6 +119,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
         return "--files-root needs an existing folder, not `" + value + "`";
       options.files_root = value;
+    } else if (name == "--retain-interval") {
+      if (!readDuration(value, options.retain_interval_ns))
+        return "--retain-interval needs a time such as 100ms, not `" + value + "`";
     } else if (name == "--driver") {
       options.drivers.push_back(value);
     } else if (name == "--control") {

@@ -167,7 +167,8 @@ class Saver {
   void work() {
     std::string last;
     std::unique_lock<std::mutex> lock(mutex_);
-    while (!end_.wait_for(lock, std::chrono::seconds(1), [this] { return done_; })) {
+    const std::chrono::nanoseconds interval(run_.options.retain_interval_ns);
+    while (!end_.wait_for(lock, interval, [this] { return done_; })) {
       const std::string refused = run_.saveRetained();
       if (!refused.empty() && refused != last) fprintf(run_.options.err, "warning: %s\n", refused.c_str());
       last = refused;
@@ -427,7 +428,7 @@ std::string driverText(const std::string& driver) { return "fault[driver]: `" + 
 int Run::runVirtual() {
   rung_context& context = memory.context();
   const int64_t row_ns = tasks.rowNs();
-  int64_t next_save = processorNs() + 1'000'000'000;
+  int64_t next_save = processorNs() + options.retain_interval_ns;
   int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
   const auto ended = [&](const rung_fault& fault) {
     stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
@@ -461,7 +462,7 @@ int Run::runVirtual() {
     if (retain && row % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
       if (!refused.empty()) return refuse(options, refused);
-      next_save = processorNs() + 1'000'000'000;
+      next_save = processorNs() + options.retain_interval_ns;
     }
   }
   stopper->limitTime(0);

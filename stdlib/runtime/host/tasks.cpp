@@ -15,24 +15,18 @@ std::string microseconds(int64_t ns) {
   return text;
 }
 
-// The time that all but one of a thousand are below: the end of a bucket.
-int64_t almostAll(const Histogram& histogram) {
+// The time that all but one of a thousand are below.
+int64_t almostAll(const Histogram& histogram, int64_t latest_ns) {
   uint64_t total = 0, seen = 0;
-  for (const uint64_t count : histogram.counts) total += count;
-  for (uint32_t i = 0; i < Histogram::kBuckets; ++i) {
+  for (const uint32_t count : histogram.counts) total += count;
+  for (uint32_t i = 0; i + 1 < Histogram::kBuckets; ++i) {
     seen += histogram.counts[i];
-    if (seen * 1000 >= total * 999) return (int64_t{2} << i) * 1000;
+    if (seen * 1000 >= total * 999) return (i + 1) * int64_t{1000};
   }
-  return 0;
+  return latest_ns;
 }
 
 }  // namespace
-
-void Histogram::add(int64_t ns) {
-  uint32_t bucket = 0;
-  for (int64_t us = ns / 1000; us > 1 && bucket + 1 < kBuckets; us >>= 1) ++bucket;
-  ++counts[bucket];
-}
 
 bool readBool(const Variable& variable) {
   const uint8_t* const at = variable.address();
@@ -171,7 +165,7 @@ std::string Tasks::statistics(int64_t elapsed_ns) const {
         text += ", jitter " + microseconds(state.earliest_ns) + ".." + microseconds(state.latest_ns) +
                 " us, started up to " + microseconds(task.latest_start) + " us late";
       if (task.row->kind == RUNG_CYCLIC && state.activations >= 1000)
-        text += ", 99.9 % below " + microseconds(almostAll(task.lateness)) + " us";
+        text += ", 99.9 % below " + microseconds(almostAll(task.lateness, task.latest_start)) + " us";
       if (elapsed_ns > 0) {
         char load[32];
         snprintf(load, sizeof load, ", load %.1f %%",

@@ -12,11 +12,11 @@
 
 namespace rung::host {
 
-// Lateness and execution times by powers of two: bucket n counts values from 2^n to 2^(n+1)-1 microseconds.
+// How often a start was late by how many microseconds; the last bucket has all that were later.
 struct Histogram {
-  static constexpr uint32_t kBuckets = 24;
-  uint64_t counts[kBuckets] = {};
-  void add(int64_t ns);
+  static constexpr uint32_t kBuckets = 2048;
+  uint32_t counts[kBuckets] = {};
+  void add(int64_t ns) { ++counts[ns < 0 ? 0 : ns / 1000 < kBuckets ? ns / 1000 : kBuckets - 1]; }
 };
 
 struct Task {

@@ -33,6 +33,7 @@ struct RunOptions {
   std::string trace_path;                                 // --trace; "-": stdout
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
+  int64_t retain_interval_ns = 1'000'000'000;             // --retain-interval: how often it is written
   std::string files_root = ".";                           // --files-root
   std::vector<std::string> drivers;                       // --driver PATH[=ARGUMENT]
   std::string control_path;                               // --control: commands to the running program

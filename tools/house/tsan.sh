@@ -1,0 +1,43 @@
+#!/bin/sh
+# The bundled host under ThreadSanitizer: compiles it with -fsanitize=thread and runs the programs with several tasks in
+# tools/house/tsan in real time, with tasks that take turns and, where permitted, with SCHED_FIFO. The code of the
+# programs is not instrumented: plain globals are shared without order by design (docs/language.md). Called by
+# tools/long.sh.
+set -eu
+here=$(cd "$(dirname "$0")/../.." && pwd)
+rung=${RUNG:-$here/build/bin/rung}
+lib=$(dirname "$rung")/../lib
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+runtime=$here/stdlib/runtime
+mkdir "$folder/host"
+flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime/host"
+ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
+  'g++ '"$flags"' -c {} -o '"$folder"'/host/$(basename $(dirname {}))_$(basename {} .cpp).o'
+gcc -std=c99 -shared -fPIC -I "$runtime/include" "$here/tests/programs/tasks/log_driver.c" -o "$folder/log.so"
+cat > "$folder/main.cpp" <<'END'
+#include "rung/host.h"
+extern "C" const rung_module* plant_module(void);
+int main(int argc, char** argv) { return rung::host::applicationMain(*plant_module(), argc, argv); }
+END
+failed=0
+for program in "$here"/tools/house/tsan/*.st; do
+  name=$(basename "$program" .st)
+  "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
+  ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
+  g++ $flags "$folder/main.cpp" "$folder/$name"/*.o "$folder"/host/*.o "$lib"/librung_natives.a -lpthread -ldl -o "$folder/$name/app"
+  for rights in with without; do
+    runner=""
+    [ $rights = with ] || runner="setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-all"
+    (cd "$folder" && $runner "$name/app" --realtime --for 3s --driver log.so=log --retain "$name.kept" --retain-interval 5ms \
+      --control "$here/tools/house/tsan/commands.txt" --trace "$name.csv" > "$name.out" 2>&1) || status=$?
+    if grep -q 'WARNING: ThreadSanitizer' "$folder/$name.out" || [ "${status:-0}" != 0 ]; then
+      echo "$name, $rights rights: status ${status:-0}"
+      head -60 "$folder/$name.out"
+      failed=1
+    fi
+    status=0
+  done
+  echo "$name: done"
+done
+exit $failed
