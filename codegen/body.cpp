@@ -145,6 +145,7 @@ void FunctionWriter::writeHead(ir::BodyId id) {
   if (is_hot) to += "RUNG_INLINE ";
   if (analysis_->effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
   if (analysis_->effort == Effort::Loops) to += "RUNG_LOOPS ";
+  if (analysis_->effort == Effort::CheckedLoops) to += "RUNG_CHECKED_LOOPS ";
 }
 
 void BodyWriter::write(ir::BodyId id) {

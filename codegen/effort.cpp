@@ -55,7 +55,10 @@ Effort effortFor(const ir::Body& body, bool measures_strings) {
                            !(measures_strings && body.kind == ir::BodyKind::Function) && work.statements > kSmall &&
                            work.runs <= (1 + kLoopShare) * work.statements;
   if (is_straight) return Effort::Straight;
-  return work.loops || body.has_labels ? Effort::Loops : Effort::Plain;
+  if (!work.loops && !body.has_labels) return Effort::Plain;
+  const bool has_checks = std::any_of(body.exprs.begin(), body.exprs.end(),
+                                      [](const ir::Expr& e) { return (e.checks & ir::kCheckIndex) != 0; });
+  return has_checks ? Effort::CheckedLoops : Effort::Loops;
 }
 
 }  // namespace rung::codegen

@@ -82,26 +82,6 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
 }
 
 // Reports calls by code of the project, not calls inside libraries, of their functions or of initialisers.
-void BodyTranslator::traceCall(BodyId id, const Address* self) {
-  const Body& callee = module_.body(id);
-  if (!options_.trace_calls || body_->library || (callee.library && !callee.self)) return;
-  if (callee.kind == BodyKind::Init || !callee.spelling) return;
-  if (code_.called.size() <= id.index) code_.called.resize(module_.bodies.size());
-  const char*& name = code_.called[id.index];
-  if (name == nullptr) {
-    code_.strings.push_back(callee.self ? types_.toString(callee.self)
-                                        : std::string(module_.names.string(callee.spelling)));
-    name = code_.strings.back().c_str();
-  }
-  Ref instance = slot();
-  if (self != nullptr) {
-    instance = pointerTo(*self);
-  } else {
-    emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), instance);
-  }
-  emit(calledHandler(), {}, instance, {}, 0, reinterpret_cast<int64_t>(name));
-}
-
 void BodyTranslator::emitCall(BodyId id, const Address* self, uint32_t site) {
   const Ref frame{0, true};
   uint32_t insn;

@@ -22,36 +22,6 @@ void BodyTranslator::block(StmtId first) {
   }
 }
 
-void BodyTranslator::count(Loc loc, const char* function) {
-  if (!options_.coverage || !body_->counted || !loc) return;
-  if (function == nullptr && loc == body_->loc) return;  // made for the header: not a statement of the source
-  const FilePosition position = filePosition(module_, *body_, loc);
-  const char* file = code_.counters.empty() ? nullptr : code_.counters.back().file;
-  if (file == nullptr || position.path != file) file = code_.strings.emplace_back(position.path).c_str();
-  code_.counters.push_back({file, function, position.line, 0});
-  emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
-}
-
-bool BodyTranslator::countsBranches(Loc loc) const { return options_.coverage && body_->counted && loc; }
-
-void BodyTranslator::countBranch(Loc loc, uint32_t branch) {
-  if (!countsBranches(loc)) return;
-  count(loc, nullptr);
-  if (loc == body_->loc) return;
-  Counter& counter = code_.counters.back();
-  counter.column = filePosition(module_, *body_, loc).column;
-  counter.branch = branch;
-}
-
-void BodyTranslator::recordLocation(Loc loc) {
-  if (!loc || (!code_.line_table.empty() && recorded_loc_ == loc)) return;
-  recorded_loc_ = loc;
-  const FilePosition at = filePosition(module_, *body_, loc);
-  const NameId pou = body_->spelling ? body_->spelling : body_->name;
-  code_.line_table.push_back({static_cast<uint32_t>(code_.insns.size()), pool_.add(module_.names.string(pou)),
-                              pool_.add(at.path), at.line, at.column});
-}
-
 void BodyTranslator::statement(const Stmt& stmt) {
   recordLocation(stmt.loc);
   if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
@@ -229,10 +199,6 @@ void BodyTranslator::switchStatement(const SwitchStmt& stmt, Loc loc) {
 // ---- loops
 
 // Those of pure library functions do not count, so that generated code may keep them in headers.
-void BodyTranslator::countStep() {
-  if (options_.bounded || !(body_->library && body_->pure)) emit(stepHandler());
-}
-
 // The test of a WHILE follows its body, so that an iteration takes one branch.
 void BodyTranslator::loopStatement(const LoopStmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());

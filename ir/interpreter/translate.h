@@ -7,17 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "ir/interpreter/frame_code.h"
+#include "ir/interpreter/recorded_code.h"
 #include "ir/walk.h"
 
 namespace rung::ir::interpreter {
-
-struct TranslateOptions {
-  std::span<const Native> natives;  // sorted by name
-  bool bounded = false;             // calls of library functions are steps, too
-  bool coverage = false;            // count how often lines run (Code::counters)
-  bool trace_calls = false;         // report each call of a POU to the host
-};
 
 // Whether an expression or something below it is of that kind.
 inline bool contains(const Body& body, ExprId root, ExprKind kind) {
@@ -27,11 +20,11 @@ inline bool contains(const Body& body, ExprId root, ExprKind kind) {
 }
 inline bool isImage(const Body& body, ExprId place) { return body.expr(rootOf(body, place)).kind == ExprKind::Image; }
 
-class BodyTranslator : FrameCode {
+class BodyTranslator : RecordedCode {
  public:
   BodyTranslator(const Module& module, const MemoryBlocks& blocks, StringPool& pool, const TranslateOptions& options,
                  Code& code)
-      : FrameCode(module, pool, code), blocks_(blocks), options_(options) {}
+      : RecordedCode(module, pool, options, code), blocks_(blocks) {}
 
   void translate(BodyId id);
   // Code that an entry of the module runs: calls of initialisers, bodies and functions, then Halt.
@@ -110,14 +103,7 @@ class BodyTranslator : FrameCode {
   void assertStatement(const Stmt& stmt);
   void noteLabels(StmtId first, uint32_t depth);
 
-  void countStep();
-  void count(Loc loc, const char* function);
-  bool countsBranches(Loc loc) const;
-  void countBranch(Loc loc, uint32_t branch);
-  void recordLocation(Loc loc);
-
   // ---- calls.cpp
-  void traceCall(BodyId callee, const Address* self);
   void callStatement(const CallStmt& stmt, Loc loc);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callString(const Expr& e);
@@ -136,9 +122,7 @@ class BodyTranslator : FrameCode {
   void emitCall(BodyId callee, const Address* self, uint32_t site);
 
   const MemoryBlocks& blocks_;
-  const TranslateOptions& options_;
 
-  Loc recorded_loc_;  // the last one of code_.line_table
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;
   std::vector<std::pair<uint32_t, Ref>> block_slots_, image_slots_;

@@ -35,13 +35,17 @@
  * passes that are off took 8 % of the time without effect, since the others find the same. Loops: a swap of two
  * neighbours must not become one wide load and store, whose next load waits for both (every sort would be four times
  * slower); loops are still vectorized; aligned, since the speed of a loop depends by up to 15 % on its position in
- * cache lines. As attributes: a pragma costs time at each declaration. */
+ * cache lines. Checked loops: where checks are left, the check of an index that does not change, but is reached after
+ * one that does, leaves the inner loop, of which there are then two. As attributes: a pragma costs time at each
+ * declaration. */
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && defined(__GNUC__) && !defined(__clang__)
 #define RUNG_STRAIGHT __attribute__((optimize("Og", "no-forward-propagate", "no-cprop-registers", "no-tree-ccp")))
 #define RUNG_LOOPS __attribute__((aligned(64), optimize("no-tree-slp-vectorize")))
+#define RUNG_CHECKED_LOOPS __attribute__((aligned(64), optimize("no-tree-slp-vectorize", "unswitch-loops")))
 #else
 #define RUNG_STRAIGHT
 #define RUNG_LOOPS
+#define RUNG_CHECKED_LOOPS
 #endif
 
 /* Scalars accessed through POINTER and UNION: memory of any type at any address. */

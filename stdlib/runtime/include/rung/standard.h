@@ -98,10 +98,10 @@ static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, u
                                                               uint32_t length2, char* out, uint32_t capacity) {
   const uint32_t limit = rung_string_limit(capacity);
   if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
+  if (length1 + length2 <= limit) /* keeps a constant length */
+    return length1 + rung_string_part(out + length1, in2, length2);
   if (length1 > limit) length1 = limit;
-  const uint32_t room = limit - length1;
-  if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* keeps a constant length */
-  return limit - room + rung_string_part(out + length1, in2, room);
+  return length1 + rung_string_part(out + length1, in2, limit - length1);
 }
 
 /* From inside a string, in place: the rest moves. */

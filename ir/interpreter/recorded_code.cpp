@@ -1,0 +1,60 @@
+// See recorded_code.h.
+#include "ir/interpreter/recorded_code.h"
+
+namespace rung::ir::interpreter {
+
+void RecordedCode::count(Loc loc, const char* function) {
+  if (!options_.coverage || !body_->counted || !loc) return;
+  if (function == nullptr && loc == body_->loc) return;  // made for the header: not a statement of the source
+  const FilePosition position = filePosition(module_, *body_, loc);
+  const char* file = code_.counters.empty() ? nullptr : code_.counters.back().file;
+  if (file == nullptr || position.path != file) file = code_.strings.emplace_back(position.path).c_str();
+  code_.counters.push_back({file, function, position.line, 0});
+  emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
+}
+
+bool RecordedCode::countsBranches(Loc loc) const { return options_.coverage && body_->counted && loc; }
+
+void RecordedCode::countBranch(Loc loc, uint32_t branch) {
+  if (!countsBranches(loc)) return;
+  count(loc, nullptr);
+  if (loc == body_->loc) return;
+  Counter& counter = code_.counters.back();
+  counter.column = filePosition(module_, *body_, loc).column;
+  counter.branch = branch;
+}
+
+void RecordedCode::recordLocation(Loc loc) {
+  if (!loc || (!code_.line_table.empty() && recorded_loc_ == loc)) return;
+  recorded_loc_ = loc;
+  const FilePosition at = filePosition(module_, *body_, loc);
+  const NameId pou = body_->spelling ? body_->spelling : body_->name;
+  code_.line_table.push_back({static_cast<uint32_t>(code_.insns.size()), pool_.add(module_.names.string(pou)),
+                              pool_.add(at.path), at.line, at.column});
+}
+
+void RecordedCode::countStep() {
+  if (options_.bounded || !(body_->library && body_->pure)) emit(stepHandler());
+}
+
+void RecordedCode::traceCall(BodyId id, const Address* self) {
+  const Body& callee = module_.body(id);
+  if (!options_.trace_calls || body_->library || (callee.library && !callee.self)) return;
+  if (callee.kind == BodyKind::Init || !callee.spelling) return;
+  if (code_.called.size() <= id.index) code_.called.resize(module_.bodies.size());
+  const char*& name = code_.called[id.index];
+  if (name == nullptr) {
+    code_.strings.push_back(callee.self ? types_.toString(callee.self)
+                                        : std::string(module_.names.string(callee.spelling)));
+    name = code_.strings.back().c_str();
+  }
+  Ref instance = slot();
+  if (self != nullptr) {
+    instance = pointerTo(*self);
+  } else {
+    emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), instance);
+  }
+  emit(calledHandler(), {}, instance, {}, 0, reinterpret_cast<int64_t>(name));
+}
+
+}  // namespace rung::ir::interpreter
