@@ -90,6 +90,7 @@ class Reader : TokenReader {
   void dispatch();
   void task();
   void instance();
+  void test(BodyId body);
   void area();
   struct AddressInArea {
     types::AreaId area;

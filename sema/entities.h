@@ -114,6 +114,17 @@ enum class ImplicitCheck : uint8_t {
   Count_
 };
 
+// {case a := 1, b := 2} before a test: runs it once with these inputs.
+struct TestCase {
+  struct Input {
+    VarId var;
+    ExprId value;  // checked, in the type of `var`
+  };
+  NameId name;  // `adds(a := 1, b := 2)`
+  Loc loc;
+  std::vector<Input> inputs;
+};
+
 struct Pou {
   NameId name;
   Loc loc;
@@ -156,6 +167,7 @@ struct Pou {
     bool setup = false, teardown = false;             // {setup}, {teardown}: around each test of the file
     NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
+    std::vector<TestCase> cases;                      // of a test; none: it runs once
   } pragmas;
   // How far it has been checked.
   struct Progress {

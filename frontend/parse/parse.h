@@ -28,6 +28,10 @@ Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, Fi
 Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics);
 
+// Parses `a := 1, b := [2, 3]` in [begin, end) of its file, the content of a {case …}.
+Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
+                                 Diagnostics& diagnostics);
+
 // Parses `text` of `file` as a single expression (for --set, --stop-on and --inputs cells); none when it is not one.
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics);

@@ -43,9 +43,7 @@ void ModuleLowering::run() {
       continue;  // follows when called
     bodyOf({i});
   }
-  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // in source order
-    return module.body(a).loc.offset < module.body(b).loc.offset;
-  });
+  addTests();
   addActivations();
   addBlockTasks();
   do {  // an initial value may need a function that nothing else calls
@@ -157,7 +155,6 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   }
   to_lower_.push_back(id);
   if (Record* record = recordOf(pou.record)) record->body = known;
-  if (pou.pragmas.test && !pou.excluded) module.tests.push_back(known);
   return known;
 }
 
