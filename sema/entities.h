@@ -120,7 +120,7 @@ struct TestCase {
     VarId var;
     ExprId value;  // checked, in the type of `var`
   };
-  NameId name;  // `adds(a := 1, b := 2)`
+  NameId name;  // `Math.adds(a := 1, b := 2)`
   Loc loc;
   std::vector<Input> inputs;
 };

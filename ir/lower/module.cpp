@@ -500,7 +500,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   uint32_t index = static_cast<uint32_t>(module.programs.size());
   instance_of_[program.index] = index;
   ProgramInstance created;
-  created.name = pou.name;
+  created.name = pou.pragmas.test ? pou.unique_name : pou.name;
   created.record = pou.record;
   created.slot = pou.pragmas.init_slot;
   module.programs.push_back(created);

@@ -1,6 +1,6 @@
-// The tests of the module: each POU marked {test} is a test, or each of its cases ({case a := 1}). In: POUs with checked
-// cases. Out: Module::tests. A block with cases has one instance: a function sets its inputs before the first cycle. A
-// function with parameters is called by one without: its open inputs have their initial values.
+// The tests of the module: each POU marked {test} is a test, or each of its cases ({case a := 1}). In: POUs with
+// checked cases. Out: Module::tests. A block with cases has one instance: a function sets its inputs before the first
+// cycle. A function with parameters is called by one without: its open inputs have their initial values.
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
@@ -15,7 +15,7 @@ void ModuleLowering::addTests() {
     const bool calls = module.body(body).kind == BodyKind::Function && !parameters(module.body(body)).empty();
     if (pou.pragmas.cases.empty()) {
       const BodyId code = calls ? addTestCall({i}, {}, "~test") : body;
-      module.tests.push_back({code, module.body(body).spelling, {}, pou.loc});
+      module.tests.push_back({code, pou.unique_name, {}, pou.loc});
     }
     uint32_t number = 0;
     for (const sema::TestCase& one : pou.pragmas.cases) {
@@ -49,9 +49,9 @@ BodyId ModuleLowering::addTestSetup(sema::PouId test, std::span<const sema::Test
   for (const sema::TestCase::Input& input : inputs) {
     const sema::Var& var = project.var(input.var);
     const bool located = var.storage == sema::Storage::Image;
-    const ExprId place =
-        located ? lowering.places.varPlace(input.var, body.loc)
-                : lowering.places.pinPlace(lowering.places.programPlace(program, body.loc), var, body.loc);
+    const ExprId place = located
+                             ? lowering.places.varPlace(input.var, body.loc)
+                             : lowering.places.pinPlace(lowering.places.programPlace(program, body.loc), var, body.loc);
     lowering.objects.storeInitial(place, var.type, input.value, false);
   }
   lowering.finish();

@@ -92,7 +92,8 @@ struct CaseResolver {
   bool hasReferences(const Pragma& pragma) const {
     for (const VarId id : pou().vars) {
       const Var& var = context.symbols.var(id);
-      const bool is_open = var.section == SectionKind::Input && context.types().isOpenArray(context.types().resolve(var.type));
+      const bool is_open =
+          var.section == SectionKind::Input && context.types().isOpenArray(context.types().resolve(var.type));
       if (var.section != SectionKind::InOut && !is_open) continue;
       report(diag::CaseOfReference, pragma, {string(pou().name), is_open ? "ARRAY[*]" : "VAR_IN_OUT", string(var.name)})
           .declaredHere(var.loc);
@@ -109,7 +110,7 @@ struct CaseResolver {
       report(diag::CaseForm, pragma, {});
       return;
     }
-    TestCase added{.name = context.names().intern(toString(context, pou().name) + "(" + line + ")"),
+    TestCase added{.name = context.names().intern(toString(context, pou().unique_name) + "(" + line + ")"),
                    .loc = pragma.loc,
                    .inputs = {}};
     std::vector<TestCase>& cases = context.symbols.pou(test).pragmas.cases;

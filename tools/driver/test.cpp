@@ -46,7 +46,7 @@ using MockSets = std::vector<std::vector<std::string>>;
 std::vector<std::string> testNames(const sema::Project& project, const sema::Pou& pou) {
   std::vector<std::string> names;
   for (const sema::TestCase& one : pou.pragmas.cases) names.emplace_back(project.names.string(one.name));
-  if (names.empty()) names.emplace_back(project.names.string(pou.name));
+  if (names.empty()) names.emplace_back(project.names.string(pou.unique_name));
   return names;
 }
 
@@ -119,8 +119,9 @@ class Tester {
   }
 
   int run() {
-    if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
-      return usageError(sink_, error);
+    if (options_.junit != "-")  // there, nothing would replace it
+      if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
+        return usageError(sink_, error);
     int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
     if (exit == kSuccess) exit = buildAndRun();
     if (!reported_) {
