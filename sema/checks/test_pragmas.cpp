@@ -16,19 +16,22 @@
 namespace rung::sema {
 namespace {
 
-// Forbids {test} where no test runs: methods, classes, interfaces, types, lists of globals.
+// Forbids {test} where no test runs: methods, classes, interfaces, generic functions, types, lists of globals.
 void checkTestForm(Context& context, const DeclHeader& decl, std::string_view what) {
   if (const Pragma* pragma = findPragma(context, decl, context.scopes.known_names.test))
     context.report(diag::TestForm, pragma->loc, {what}).length(pragma->end.offset - pragma->loc.offset);
 }
 
 void checkTestForms(Context& context) {
-  for (const Pou& pou : context.symbols.pous) {
+  for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
+    const Pou& pou = context.symbols.pous[i];
     if (pou.library || !pou.decl) continue;
+    if (pou.pragmas.test) resolvePou(context, PouId{i});  // shows whether it is generic
     const bool is_form =
         pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.kind == PouKind::FunctionBlock;
-    if (pou.owner || !is_form)
-      checkTestForm(context, context.tree().decl(pou.decl), "`" + toString(context, pou.name) + "`");
+    if (!pou.owner && is_form && !pou.generic) continue;
+    const std::string name = "`" + toString(context, pou.name) + "`";
+    checkTestForm(context, context.tree().decl(pou.decl), pou.generic ? "the generic function " + name : name);
   }
   for (const FileUnit& unit : context.tree().files)
     for (const DeclId id : context.tree().list(unit.decls)) {

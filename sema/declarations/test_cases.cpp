@@ -94,9 +94,10 @@ struct CaseResolver {
       const Var& var = context.symbols.var(id);
       const bool is_open =
           var.section == SectionKind::Input && context.types().isOpenArray(context.types().resolve(var.type));
-      if (var.section != SectionKind::InOut && !is_open) continue;
-      report(diag::CaseOfReference, pragma, {string(pou().name), is_open ? "ARRAY[*]" : "VAR_IN_OUT", string(var.name)})
-          .declaredHere(var.loc);
+      const bool is_any = var.section == SectionKind::Input && var.any;
+      if (var.section != SectionKind::InOut && !is_open && !is_any) continue;
+      const char* const what = is_open ? "ARRAY[*]" : is_any ? "input of any type" : "VAR_IN_OUT";
+      report(diag::CaseOfReference, pragma, {string(pou().name), what, string(var.name)}).declaredHere(var.loc);
       return true;
     }
     return false;
