@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "ir/image_writes.h"
+
 namespace rung::ir {
 
 using types::Field;
@@ -28,6 +30,7 @@ class Describer {
     addTasks();
     if (with_tests) addTests();
     out_.layout_hash = layoutHash();
+    out_.aligned_globals = module_.aligned_globals;
   }
 
  private:
@@ -243,7 +246,9 @@ class Describer {
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
-      const std::string path = std::string(module_.names.string(module_.lists[i].name)) + ".";
+      const std::string configuration(module_.names.string(module_.lists[i].configuration));
+      const std::string path = (configuration.empty() ? "" : configuration + ".") +
+                               std::string(module_.names.string(module_.lists[i].name)) + ".";
       for (const Field& field : record.fields) {
         rung_symbol row = inBlock(field.type, blocks_.list_block[i], field.offset);
         row.flags = flags(field);
@@ -289,7 +294,8 @@ class Describer {
   // ---- tasks and tests
 
   void addTasks() {
-    for (const Task& task : module_.tasks) {
+    for (uint32_t i = 0; i < module_.tasks.size(); ++i) {
+      const Task& task = module_.tasks[i];
       rung_task row{};
       row.name = string(task.name);
       row.kind = static_cast<uint8_t>(task.kind);  // in the order of rung_task_kind
@@ -299,8 +305,22 @@ class Describer {
       row.sensitivity = task.sensitivity;
       row.trigger = string(task.trigger);
       row.external_event = string(task.external_event);
+      row.resource = resource(task.resource);
+      row.duration_ns = task.duration_ns;
+      const std::vector<rung_write> writes = imageWrites(module_, i);
+      row.first_write = static_cast<uint32_t>(out_.writes.size());
+      row.write_count = static_cast<uint32_t>(writes.size());
+      out_.writes.insert(out_.writes.end(), writes.begin(), writes.end());
       out_.tasks.push_back(row);
     }
+  }
+
+  uint32_t resource(NameId name) {
+    const uint32_t text = name ? string(name) : 0;
+    const auto known = std::find(out_.resources.begin(), out_.resources.end(), text);
+    const auto index = static_cast<uint32_t>(known - out_.resources.begin());
+    if (known == out_.resources.end()) out_.resources.push_back(text);
+    return index;
   }
 
   void addTests() {

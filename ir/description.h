@@ -59,7 +59,9 @@ struct Description {
   std::vector<rung_dimension> dimensions;
   std::vector<rung_symbol> symbols;  // sorted by name
   std::vector<rung_range> retain, persistent;
+  std::vector<uint32_t> resources;
   std::vector<rung_task> tasks;  // `run` is not set
+  std::vector<rung_write> writes;
   struct Test {
     rung_test row;  // `init` and `run` are not set
     BodyId body;
@@ -68,6 +70,7 @@ struct Description {
   };
   std::vector<Test> tests;
   uint64_t layout_hash = 0;
+  bool aligned_globals = false;
 };
 
 // The rung/module.h kind of a type, through aliases, enumerations and subranges; a pointer for types without a kind.

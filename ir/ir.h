@@ -325,6 +325,7 @@ struct List {
   TypeId record;
   BodyId init;
   int32_t slot = kListSlot;
+  NameId configuration = {};  // of the globals of a resource
 };
 struct ProgramInstance {
   NameId name;
@@ -346,6 +347,7 @@ struct ProgramInstance {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource;  // tasks of one resource share a processor; none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;
@@ -354,6 +356,7 @@ struct Task {
   std::string external_event;
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
+  int64_t duration_ns = 0;  // simulated execution time, in virtual time only
 };
 
 // A located variable: name as a symbol, view of the image.
@@ -381,6 +384,7 @@ struct AccessPath {
 struct BlockTask {
   uint32_t task = 0;  // index + 1
   BodyId run;
+  uint32_t program = 0;  // index in Module::programs
 };
 
 // The objects that have a type id, each after the one that it extends: the number of a class is its index + 1.
@@ -444,12 +448,14 @@ struct Module {
   std::vector<Class> classes;
   BodyId after_init;                 // a function without parameters that runs after all initialisers, or none
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
+  BodyId safe;                       // a function without parameters that sets outputs to safe values, or none
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
   // Functions without parameters that run before and after each test of their file.
   std::vector<BodyId> setups, teardowns;
   std::vector<Test> tests;                            // in source order
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
+  bool aligned_globals = false;  // tasks work on copies of the globals, exchanged at the alignment point
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

@@ -315,7 +315,7 @@ ExprId Reader::primary(TypeId wanted) {
   }
   if (isPunct("@")) return afterSigil();
   if (accept("$")) {
-    const uint32_t found = numberOf(program_by_name_, "program");
+    const uint32_t found = numberOf(program_by_name_, "program", true);
     return failed_ ? ExprId{} : postfix(b.program(found));
   }
   if (accept("%")) {
@@ -375,9 +375,10 @@ ExprId Reader::primary(TypeId wanted) {
 }
 
 // What the name that follows stands for in a table; fails when it is not there.
-uint32_t Reader::numberOf(const Map& by_name, std::string_view what) {
+uint32_t Reader::numberOf(const Map& by_name, std::string_view what, bool numbered) {
   const Loc loc = token().loc;
-  const NameId id = name();
+  NameId base;
+  const NameId id = numbered ? numberedName(base) : name();
   if (failed_) return 0;
   const auto found = by_name.find(id.index);
   if (found != by_name.end()) return found->second;

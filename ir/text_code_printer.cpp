@@ -346,7 +346,7 @@ void Printer::place(const Expr& e) {
     case ExprKind::Local: return localName(body_->locals[e.as<LocalExpr>().local]);
     case ExprKind::Self: return put("self");
     case ExprKind::Global: put("@"); return name(module_.lists[e.as<GlobalExpr>().list].name);
-    case ExprKind::Program: put("$"); return name(module_.programs[e.as<ProgramExpr>().program].name);
+    case ExprKind::Program: return programName(e.as<ProgramExpr>().program);
     case ExprKind::Image: {
       const ImageExpr& image = e.as<ImageExpr>();
       type(e.type);

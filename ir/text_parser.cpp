@@ -51,6 +51,14 @@ std::string TokenReader::sigilName() {
   return text;
 }
 
+NameId TokenReader::numberedName(NameId& base) {
+  base = name();
+  if (failed_ || !isPunct(".") || token(1).kind != TokenKind::Number) return base;
+  const std::string text = std::string(names_.string(base)) + "." + std::string(token(1).text);
+  at_ += 2;
+  return names_.intern(text);
+}
+
 std::string TokenReader::quotedText(TokenKind kind) {
   if (failed_) return {};
   if (token().kind != kind) {
@@ -77,9 +85,10 @@ int64_t TokenReader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item : {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",  "area",
-                           "data", "interface", "classes",    "dispatch", "list",  "task",    "instance", "located",
-                           "test", "exit",      "after_init", "function", "body",  "init"})
+  for (const char* item :
+       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",         "area",
+        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",        "located",
+        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals", "safe"})
     if (word == item) return true;
   return false;
 }
@@ -238,16 +247,18 @@ void Reader::dataItem() {
 void Reader::task() {
   ++at_;
   Task created;
-  created.name = name();
+  const NameId key = numberedName(created.name);
   if (!acceptOneOf(kTaskKinds, created.kind)) expected("the task's kind");
+  if (accept("resource")) created.resource = name();
   if (accept("interval")) created.interval_ns = integer();
   if (accept("priority")) created.priority = static_cast<uint32_t>(integer());
   if (accept("trigger")) created.trigger = quotedText(TokenKind::String);
   if (accept("external")) created.external_event = quotedText(TokenKind::String);
   if (accept("watchdog")) created.watchdog_ns = integer();
   if (accept("sensitivity")) created.sensitivity = static_cast<uint32_t>(integer());
+  if (accept("duration")) created.duration_ns = integer();
   if (failed_) return;
-  task_by_name_[created.name.index] = static_cast<uint32_t>(module_.tasks.size());
+  task_by_name_[key.index] = static_cast<uint32_t>(module_.tasks.size());
   module_.tasks.push_back(std::move(created));
 }
 
@@ -264,10 +275,10 @@ void Reader::instance() {
   ++at_;
   expect("$");
   ProgramInstance created;
-  created.name = name();
+  const NameId key = numberedName(created.name);
   expect(":");
   created.record = type();
-  if (accept("task")) created.task = numberOf(task_by_name_, "task") + 1;
+  if (accept("task")) created.task = numberOf(task_by_name_, "task", true) + 1;
   created.retain = accept("retain");
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();
@@ -278,7 +289,7 @@ void Reader::instance() {
   if (accept("after_init")) created.after_init = bodyNamed("function");
   if (accept("exit")) created.exit = bodyNamed("function");
   if (failed_) return;
-  program_by_name_[created.name.index] = static_cast<uint32_t>(module_.programs.size());
+  program_by_name_[key.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(created);
 }
 
@@ -347,7 +358,7 @@ void Reader::located() {
   if (accept(".")) created.bit = static_cast<uint32_t>(integer());
   if (accept("of")) {
     expect("$");
-    created.owner_program = numberOf(program_by_name_, "program") + 1;
+    created.owner_program = numberOf(program_by_name_, "program", true) + 1;
   }
   if (!failed_) module_.located.push_back(created);
 }
@@ -494,6 +505,7 @@ void Reader::list() {
   expect(":");
   created.record = type();
   if (accept("slot")) created.slot = static_cast<int32_t>(integer());
+  if (accept("configuration")) created.configuration = name();
   if (failed_) return;
   list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
   module_.lists.push_back(created);
@@ -507,9 +519,14 @@ void Reader::declareItem() {
   for (const auto& item : kItems) {
     if (isWord(item.text)) return (this->*item.value)();
   }
+  if (accept("aligned_globals")) {
+    module_.aligned_globals = true;
+    return;
+  }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.
-  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
+  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") &&
+      !isWord("dispatch"))
     record();
 }
 
@@ -530,7 +547,7 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
+        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") && !isWord("dispatch"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -548,13 +565,16 @@ bool Reader::read() {
   }
   forEachItem([&] {
     const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
-    if (!is_exit && !is_after_init && !accept("test")) return;
+    const bool is_safe = !is_exit && !is_after_init && accept("safe");
+    if (!is_exit && !is_after_init && !is_safe && !accept("test")) return;
     const BodyId named = bodyNamed("body");
     if (failed_) return;
     if (is_exit)
       module_.exit = named;
     else if (is_after_init)
       module_.after_init = named;
+    else if (is_safe)
+      module_.safe = named;
     else
       test(named);
   });

@@ -258,12 +258,14 @@ void Printer::dataItem(size_t index) {
   put("\"\n");
 }
 
-void Printer::task(const Task& task) {
+void Printer::task(uint32_t index) {
   static constexpr const char* kKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
+  const Task& task = module_.tasks[index];
   put("task ");
-  name(task.name);
+  numbered(module_.tasks, index);
   put(" ");
   put(kKinds[static_cast<size_t>(task.kind)]);
+  clause(" resource ", task.resource);
   if (task.interval_ns != 0) {
     put(" interval ");
     signedNumber(task.interval_ns);
@@ -282,15 +284,28 @@ void Printer::task(const Task& task) {
     signedNumber(task.watchdog_ns);
   }
   clause(" sensitivity ", task.sensitivity);
+  if (task.duration_ns != 0) {
+    put(" duration ");
+    signedNumber(task.duration_ns);
+  }
   put("\n");
 }
 
-void Printer::instance(const ProgramInstance& instance) {
-  put("instance $");
-  name(instance.name);
+void Printer::programName(uint32_t index) {
+  put("$");
+  numbered(module_.programs, index);
+}
+
+void Printer::instance(uint32_t index) {
+  const ProgramInstance& instance = module_.programs[index];
+  put("instance ");
+  programName(index);
   put(": ");
   type(instance.record);
-  if (instance.task != 0) clause(" task ", module_.tasks[instance.task - 1].name);
+  if (instance.task != 0) {
+    put(" task ");
+    numbered(module_.tasks, instance.task - 1);
+  }
   if (instance.retain) put(" retain");
   if (instance.is_test) put(" test");
   clause(" resource ", instance.resource);
@@ -322,7 +337,10 @@ void Printer::located(const Located& located) {
     put(".");
     number(located.bit);
   }
-  if (located.owner_program != 0) clause(" of $", module_.programs[located.owner_program - 1].name);
+  if (located.owner_program != 0) {
+    put(" of ");
+    programName(located.owner_program - 1);
+  }
   put("\n");
 }
 
@@ -370,14 +388,20 @@ void Printer::items() {
       put(" slot ");
       signedNumber(list.slot);
     }
+    clause(" configuration ", list.configuration);
     put("\n");
   }
-  for (const Task& one : module_.tasks) task(one);
-  for (const ProgramInstance& one : module_.programs) instance(one);
+  if (module_.aligned_globals) put("aligned_globals\n");
+  for (uint32_t i = 0; i < module_.tasks.size(); ++i) task(i);
+  for (uint32_t i = 0; i < module_.programs.size(); ++i) instance(i);
   for (const Located& one : module_.located) located(one);
   classes();
   if (module_.after_init) {
     clause("after_init @", module_.after_init);
+    put("\n");
+  }
+  if (module_.safe) {
+    clause("safe @", module_.safe);
     put("\n");
   }
   if (module_.exit) {

@@ -56,8 +56,9 @@ class TokenReader {
   }
   void expected(std::string_view what);
   void fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args);
-  NameId name();            // of anything; not a keyword without backticks
-  std::string sigilName();  // after `@`: `Color`, `Color.2`
+  NameId name();                      // of anything; not a keyword without backticks
+  std::string sigilName();            // after `@`: `Color`, `Color.2`
+  NameId numberedName(NameId& base);  // of a task or program instance: `t`, `t.2`
   std::string quotedText(TokenKind kind);
   int64_t integer();  // with sign; up to 2^64-1 as bits
 
@@ -134,7 +135,7 @@ class Reader : TokenReader {
   ExprId afterSigil();
   ExprId conversion(types::Rounding rounding);
   ExprId operation(Op op);
-  uint32_t numberOf(const Map& by_name, std::string_view what);
+  uint32_t numberOf(const Map& by_name, std::string_view what, bool numbered = false);
   ExprId postfix(ExprId base);
   ExprId literal(TypeId type);
   ExprId variable();

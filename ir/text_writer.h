@@ -36,6 +36,17 @@ class Printer {
   }
   void name(std::string_view text);
   void name(NameId id) { name(module_.names.string(id)); }
+  // The name of a task or program instance; `t.2` is the second one of that name, in another resource.
+  template <class T>
+  void numbered(const T& all, uint32_t index) {
+    name(all[index].name);
+    uint32_t count = 1;
+    for (uint32_t i = 0; i < index; ++i) count += all[i].name == all[index].name ? 1 : 0;
+    if (count == 1) return;
+    put(".");
+    number(count);
+  }
+  void programName(uint32_t index);
   void quoted(std::string_view text, char quote);
   void newLine() {
     out += '\n';
@@ -56,8 +67,8 @@ class Printer {
   void clause(const char* word, NameId value);
   void clause(const char* word, BodyId value);
   void dataItem(size_t index);
-  void task(const Task& task);
-  void instance(const ProgramInstance& instance);
+  void task(uint32_t index);
+  void instance(uint32_t index);
   void located(const Located& located);
   void classes();
   void header(const Body& body);

@@ -151,9 +151,9 @@ void Verifier::report(int rule, std::string_view what) {
 // ---- module
 
 void Verifier::checkModule() {
-  std::unordered_set<uint32_t> seen;
-  auto unique = [&](NameId name, std::string_view what) {
-    require(seen.insert(name.index).second, 1,
+  std::unordered_set<uint64_t> seen;
+  auto unique = [&](NameId name, std::string_view what, NameId resource = {}) {
+    require(seen.insert(uint64_t{resource.index} << 32 | name.index).second, 1,
             [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.string(name)) + "`"; });
   };
   auto isRecord = [&](TypeId type) { return type.index < types_.count() && types_.kind(type) == TypeKind::Record; };
@@ -177,15 +177,15 @@ void Verifier::checkModule() {
   }
   seen.clear();
   for (const ProgramInstance& program : module_.programs) {
-    unique(program.name, "program instance");
+    unique(program.name, "program instance", program.resource);
     require(isRecord(program.record), 2, "a program instance without a record type");
     require(isBodyOf(program.init, BodyKind::Init, program.record), 2,
             "the init of a program does not belong to its record");
     require(isBodyOf(program.body, BodyKind::Block, program.record), 2,
             "the body of a program does not belong to its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
-    for (BodyId function :
-         {program.run, program.setup, program.after_init, program.exit, module_.after_init, module_.exit}) {
+    for (BodyId function : {program.run, program.setup, program.after_init, program.exit, module_.after_init,
+                            module_.exit, module_.safe}) {
       require(
           !function || (function.index < module_.bodies.size() && module_.body(function).kind == BodyKind::Function &&
                         !module_.body(function).result && parameters(module_.body(function)).empty()),
@@ -193,7 +193,7 @@ void Verifier::checkModule() {
     }
   }
   seen.clear();
-  for (const Task& task : module_.tasks) unique(task.name, "task");
+  for (const Task& task : module_.tasks) unique(task.name, "task", task.resource);
   for (const Located& located : module_.located)
     require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
   for (const Test& test : module_.tests) {

@@ -36,6 +36,7 @@ struct Context {
   bool library = false;       // inside a library: read as codesys, names of the project are not visible
   RegionId region = {};       // the namespaces around the current location
   TypeId record = {};         // a structure whose members get their initial values: THIS
+  NameId resource = {};       // the key of the only resource that runs this code, or none: whose globals it sees
   ListId list = {};           // a list of globals that is being declared: its variables need no qualifier
 
   Tree& tree() const { return symbols.tree; }

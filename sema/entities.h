@@ -165,6 +165,7 @@ struct Pou {
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X
     bool setup = false, teardown = false;             // {setup}, {teardown}: around each test of the file
+    bool safe_values = false;                         // {safe_values}: sets outputs when the program stops
     NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
     std::vector<TestCase> cases;                      // of a test; none: it runs once
@@ -218,6 +219,7 @@ struct GlobalList {
   NameId name;  // the file's stem, the configuration's or the resource's name
   bool qualified_only = false;
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;  // of the declarations that are collected now
+  NameId configuration, resource;                                      // whose VAR_GLOBAL it is; none: of a file or POU
   int32_t init_slot = 49990;  // {attribute 'global_init_slot'}: lists and programs are initialised in this order
   TypeId record;
   std::vector<VarId> vars;

@@ -45,6 +45,13 @@ struct LibraryProject {
 using CallConstant = std::function<std::optional<types::Value>(
     Project& project, PouId function, std::span<const types::Value> values, FunctionRef<bool(PouId)> ready)>;
 
+// `duration` of [task NAME] in rung.project: how long a task runs in virtual time.
+struct TaskDuration {
+  std::string task;
+  int64_t duration_ns = 0;
+  Loc loc;  // of the section
+};
+
 // The choices of the command line and rung.project.
 struct Options {
   Dialect dialect = Dialect::Codesys;
@@ -65,6 +72,8 @@ struct Options {
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is created when there is no CONFIGURATION
+  std::vector<TaskDuration> task_durations;
+  bool aligned_globals = false;  // a task works on a copy of the globals that it exchanges at the alignment point
 };
 
 }  // namespace rung::sema

@@ -7,6 +7,7 @@
 #include "frontend/source/invariant.h"
 #include "sema/checks/mocks.h"
 #include "sema/checks/object_members.h"
+#include "sema/checks/task_settings.h"
 #include "sema/checks/test_pragmas.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
@@ -29,6 +30,18 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
       options(std::move(the_options)) {
   for (const types::MemoryArea& area : options.areas) area_bytes.push_back(area.bytes);
   types.time_is_signed = dialect != Dialect::Codesys;
+}
+
+VarId ResourceGlobals::of(NameId resource) const {
+  VarId found = all.front().var;
+  bool is_outer = false;
+  for (const Own& own : all) {
+    if (own.resource == resource) return own.var;
+    if (own.resource || is_outer) continue;
+    found = own.var;
+    is_outer = true;
+  }
+  return found;
 }
 
 bool ensureBody(Context& context, PouId id) {
@@ -104,6 +117,9 @@ void check(Project& project) {
       checkObjectMembers(context, PouId{i});
   }
   checkBodies(context);
+  addFreeProgram(context);
+  setTaskDurations(context);
+  checkTaskSettings(context);
   declareLiteralStorage(context);
   orderInitialValues(context);
   resolveInstancePaths(context);

@@ -15,14 +15,17 @@ namespace rung::sema {
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
   NameId name;
+  NameId resource, configuration;  // none: of the project
   TaskKind kind = TaskKind::Cyclic;
   int64_t interval_ns = 0;
   uint32_t priority = 0;
-  VarId trigger;               // Event (SINGLE or TRIGGER), Status
+  std::string trigger;         // Event (SINGLE or TRIGGER), Status: path of a BOOL in the symbol map
   std::string external_event;  // External
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
+  int64_t duration_ns = 0;  // simulated execution time, in virtual time only
   Loc loc;
+  Loc priority_loc, interval_loc, watchdog_loc;  // of the values; none: not written
 };
 struct ProgramInstance {  // without a task it never runs (warned)
   NameId name;
@@ -72,6 +75,18 @@ struct BlockTask {
   Loc loc;
 };
 
+// Global variables of one name in several resources, or in a resource and outside of all: each resource sees its own,
+// else that of its configuration. IEC 61131-3 ed. 3, 6.8.1.
+struct ResourceGlobals {
+  struct Own {
+    NameId resource;  // its key; none: of the configuration or a file
+    VarId var;
+  };
+  std::vector<Own> all;  // in order of declaration; code that several resources run names the first
+
+  VarId of(NameId resource) const;
+};
+
 struct Project : Symbols {
   Project(Sources& sources, Names& names, Diagnostics& diagnostics, Tree& tree, Options options);
 
@@ -82,6 +97,7 @@ struct Project : Symbols {
   std::vector<InstancePath> instance_paths;
   std::vector<AccessPath> access_paths;
   std::vector<BlockTask> block_tasks;
+  std::vector<ResourceGlobals> resource_globals;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the location of the call: for the recursion rule.

@@ -70,6 +70,7 @@ struct PouScope {
   State resolved = State::New;
   bool declared = false;  // its variables have their names
   RegionId region;
+  NameId resource;  // of a program with instances in one resource only: its key
   NameMap names;
   std::vector<Substitution> substitutions;
 };
@@ -132,8 +133,9 @@ struct Scopes {
   std::vector<uint64_t> reported;  // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
-  NameMap items;       // enumeration items by their bare name: the first that was declared
-  NameMap qualifiers;  // global lists, program instances
+  NameMap items;             // enumeration items by their bare name: the first that was declared
+  NameMap qualifiers;        // global lists, program instances
+  NameMap resource_globals;  // name -> Project::resource_globals; the entity's kind is unused
   NameMap programs_with_instance, programs_with_several;  // programs with one, with several instances; a set
   std::vector<bool> item_is_ambiguous;                    // by index of the first EnumValue
 
@@ -186,8 +188,8 @@ struct Scopes {
   // Name keys of pragmas and keywords that declarations look for.
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, skip,
-        setup, teardown, test_case, alias, required, lazy, extensible, long_time, prefix, sized, slice, pure, native,
-        op, std, no_final_scan, list, fault, no_copy, bytes, attribute_no_check, attribute_obsolete,
+        setup, teardown, test_case, safe_values, alias, required, lazy, extensible, long_time, prefix, sized, slice,
+        pure, native, op, std, no_final_scan, list, fault, no_copy, bytes, attribute_no_check, attribute_obsolete,
         attribute_to_string, attribute_call_after_init, attribute_pack_mode, attribute_global_init_slot,
         attribute_after_globals, attribute_initialize_on_call, attribute_is_connected, attribute_no_exit,
         attribute_reflection, attribute_symbol;

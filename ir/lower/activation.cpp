@@ -37,34 +37,35 @@ void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance
     copies = copies || path.located;
     sets = sets || path.init || (path.located && project.var(path.var).init);
   }
-  auto make = [&](const char* what) {
-    const BodyId code = module.programs[program].body;
-    module.bodies.emplace_back();
-    const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
-    Body& body = module.bodies.back();
-    const std::string name = std::string(module.names.string(module.programs[program].name));
-    std::string unique = name + what;
-    if (NameId resource = module.programs[program].resource)
-      unique = std::string(module.names.string(resource)) + "__" + unique;
-    body.name = module.names.intern(unique);
-    body.spelling = module.programs[program].name;
-    body.kind = BodyKind::Function;
-    body.loc = instance != nullptr ? instance->loc : module.body(code).loc;
-    body.file = project.sources.fileOf(body.loc);
-    return id;
-  };
+  const Loc loc = instance != nullptr ? instance->loc : module.body(module.programs[program].body).loc;
   if (call || copies) {
-    const BodyId id = make("__run");
+    const BodyId id = newActivation(program, "__run", loc);
     BodyLowering lowering(*this, module.body(id), {});
     lowering.statements.lowerActivation(program, module.programs[program].body, call, paths);
     module.programs[program].run = id;
   }
   if (sets) {
-    const BodyId id = make("__setup");
+    const BodyId id = newActivation(program, "__setup", loc);
     BodyLowering lowering(*this, module.body(id), {});
     lowering.statements.lowerSetup(program, paths);
     module.programs[program].setup = id;
   }
+}
+
+// A function without parameters that a program instance has for itself.
+BodyId ModuleLowering::newActivation(uint32_t program, const char* what, Loc loc) {
+  module.bodies.emplace_back();
+  const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
+  Body& body = module.bodies.back();
+  std::string unique = std::string(module.names.string(module.programs[program].name)) + what;
+  if (NameId resource = module.programs[program].resource)
+    unique = std::string(module.names.string(resource)) + "__" + unique;
+  body.name = module.names.intern(unique);
+  body.spelling = module.programs[program].name;
+  body.kind = BodyKind::Function;
+  body.loc = loc;
+  body.file = project.sources.fileOf(body.loc);
+  return id;
 }
 
 void ModuleLowering::addBlockTasks() {
@@ -86,7 +87,7 @@ void ModuleLowering::addBlockTasks() {
     body.file = project.sources.fileOf(body.loc);
     BodyLowering lowering(*this, body, {});
     lowering.statements.lowerBlockTask(program, task.block);
-    module.block_tasks.push_back({task.task, id});
+    module.block_tasks.push_back({task.task, id, program});
   }
 }
 

@@ -20,6 +20,13 @@ struct VariableLimit {
   StmtId loop;
 };
 
+// A place that names a global variable of which each resource has its own.
+struct ResourcePlace {
+  const Body* body;
+  ExprId place;
+  uint32_t globals;  // index into Project::resource_globals
+};
+
 struct ModuleLowering {
   ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
 
@@ -62,6 +69,7 @@ struct ModuleLowering {
     return record.index < pou_of_record_.size() ? pou_of_record_[record.index] : sema::PouId{};
   }
   uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
+  void noteGlobal(const Body& body, ExprId place, sema::VarId var);
   bool isZero(TypeId type);  // initial value of a type: all bytes zero
   bool beginsWithZeros(TypeId type, const types::TypeInfo& info);
 
@@ -114,8 +122,10 @@ struct ModuleLowering {
   void addLocated();
   void addAccessPaths();
   void addBlockTasks();
-  std::string pathOf(sema::VarId var);
+  BodyId newActivation(uint32_t program, const char* what, Loc loc);
+  void copyForResources();
 
+  std::vector<ResourcePlace> resource_places_;
   std::vector<BodyId> body_of_;                            // by PouId
   std::unordered_map<uint32_t, BodyId> init_of_;           // by record TypeId
   std::unordered_map<uint32_t, BodyId> exit_of_;           // by record TypeId

@@ -61,10 +61,12 @@ void ModuleLowering::run() {
   addClasses();
   addDispatches();
   simplifyLimits();
+  copyForResources();
   markFaulting();
   addTasks();
   addLocated();
   addAccessPaths();
+  module.aligned_globals = project.options.aligned_globals;
   module.areas = project.options.areas;
   for (size_t area = 0; area < module.areas.size(); ++area) module.areas[area].bytes = project.area_bytes[area];
   setPhaseSubject("", 0);
@@ -438,7 +440,7 @@ void ModuleLowering::addLists() {
     const sema::GlobalList& list = project.global_lists[index];
     list_index[index] = static_cast<uint32_t>(module.lists.size());
     declareRecordsOf(list.record);
-    module.lists.push_back({list.name, list.record, {}, list.init_slot});
+    module.lists.push_back({list.name, list.record, {}, list.init_slot, list.resource ? list.configuration : NameId{}});
     if (list.init_slot >= module.lists[last_list_].slot) last_list_ = list_index[index];
   }
 }
@@ -488,6 +490,7 @@ void ModuleLowering::addPrograms() {
     const sema::Pou& pou = project.pous[i];
     const bool is_called = pou.kind == PouKind::Program && pou.pragmas.after_globals;
     if ((pou.pragmas.test || is_called) && !pou.excluded && pou.record) instanceOf({i});
+    if (pou.pragmas.safe_values && !pou.excluded) module.safe = bodyOf({i});
     if (pou.pragmas.setup && !pou.excluded) module.setups.push_back(bodyOf({i}));
     if (pou.pragmas.teardown && !pou.excluded) module.teardowns.push_back(bodyOf({i}));
   }
@@ -510,28 +513,19 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   return index;
 }
 
-std::string ModuleLowering::pathOf(sema::VarId id) {
-  const sema::Var& var = project.var(id);
-  std::string path;
-  if (var.pou) {
-    path = project.names.string(module.programs[instanceOf(var.pou)].name);
-    path += '.';
-  }
-  path += project.names.string(var.name);
-  return path;
-}
-
 void ModuleLowering::addTasks() {
   for (const sema::Task& task : project.tasks) {
     Task created;
     created.name = task.name;
+    created.resource = task.resource;
     created.kind = static_cast<TaskKind>(task.kind);
     created.interval_ns = task.interval_ns;
     created.priority = task.priority;
-    if (task.trigger) created.trigger = pathOf(task.trigger);
+    created.trigger = task.trigger;
     created.external_event = task.external_event;
     created.watchdog_ns = task.watchdog_ns;
     created.sensitivity = task.sensitivity;
+    created.duration_ns = task.duration_ns;
     module.tasks.push_back(created);
   }
 }

@@ -99,7 +99,9 @@ ExprId PlaceLowering::named(rung::ExprId id) {
     case EntityKind::Var: {
       const sema::VarId var{entity.index};
       if (state_.result_local != kNoBit && var == project_.pou(pou_).result_var) return local(state_.result_local, loc);
-      return varPlace(var, loc);
+      const ExprId place = varPlace(var, loc);
+      in_.noteGlobal(body_, place, var);
+      return place;
     }
     case EntityKind::Pou: return programPlace(in_.instanceOf({entity.index}), loc);
     case EntityKind::Program: return programPlace(in_.programOfInstance(entity.index), loc);

@@ -306,9 +306,19 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   return Entity::of(EntityKind::Error, 0);
 }
 
+static bool isSharedGlobal(const Context& context, Entity entity) {
+  return entity.entityKind() == EntityKind::Var && context.symbols.vars[entity.index].list &&
+         !context.symbols.vars[entity.index].external;
+}
+
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
   NameExpr& node = context.tree().as<NameExpr>(expr);
   node.entity = resolveName(context, node.name, node.h.loc, expected);
+  if (isSharedGlobal(context, node.entity) && differsByResource(context, keyOf(context, node.name))) {
+    if (isFirstReport(context, node.name))
+      context.report(diag::GlobalDiffers, node.h.loc, {string(context, node.name)});
+    node.entity = Entity::of(EntityKind::Error, 0);
+  }
   if (node.entity.entityKind() == EntityKind::Pou && node.entity.index == context.pou.index) {
     // The name of a function is its result inside its body.
     if (const VarId result = context.symbols.pou(context.pou).result_var) {

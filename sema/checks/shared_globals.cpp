@@ -11,6 +11,13 @@
 
 namespace rung::sema {
 
+// The variable that code means when this resource runs it.
+static VarId ofResource(const Context& context, VarId global, NameId resource) {
+  for (const ResourceGlobals& globals : context.project.resource_globals)
+    if (resource && globals.all.front().var == global) return globals.of(context.names().key(resource));
+  return global;
+}
+
 void checkSharedGlobals(Context& context) {
   const Project& project = context.project;
   if (project.tasks.size() < 2) return;
@@ -36,10 +43,11 @@ void checkSharedGlobals(Context& context) {
     }
     for (const auto& write : project.global_writes) {
       if (seen[write.pou.index] != task) continue;
-      uint32_t& by = writer[write.var.index];
+      const VarId written = ofResource(context, write.var, project.tasks[task - 1].resource);
+      uint32_t& by = writer[written.index];
       if (by == 0) by = task;
       if (by == task || by == ~0u) continue;
-      const Var& var = project.var(write.var);
+      const Var& var = project.var(written);
       if (uncopiedIn(context, var.type)) continue;  // a lock, or an object that contains one
       context.report(diag::TwoTasksWrite, var.loc,
                      {string(context, var.name), string(context, project.tasks[by - 1].name),

@@ -33,6 +33,7 @@ void internKnownNames(Context& context) {
       {&Known::setup, "setup"},
       {&Known::teardown, "teardown"},
       {&Known::test_case, "case"},
+      {&Known::safe_values, "safe_values"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},
@@ -160,6 +161,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   pou.pragmas.setup = findPragma(context, decl.h, known.setup) != nullptr;
   pou.pragmas.teardown = findPragma(context, decl.h, known.teardown) != nullptr;
+  pou.pragmas.safe_values = findPragma(context, decl.h, known.safe_values) != nullptr;
   pou.pragmas.test_only = pou.pragmas.test_only || pou.pragmas.setup || pou.pragmas.teardown;
   if (const Pragma* pragma = findPragma(context, decl.h, known.skip); pragma != nullptr) {
     const std::string_view why = context.tree().string(pragma->value);
@@ -302,6 +304,27 @@ ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc
   return list_id;
 }
 
+// Adds a global variable to those of its name in other resources. False: both are of one resource, or of none.
+static bool addToResourceGlobals(Context& context, NameId key, VarId first, VarId added) {
+  Project& project = context.project;
+  const auto resourceOf = [&](VarId id) {
+    const NameId resource = project.global_lists[project.var(id).list.index].resource;
+    return resource ? keyOf(context, resource) : NameId{};
+  };
+  Entity family = context.scopes.resource_globals.find(key);
+  if (!family) {
+    if (resourceOf(first) == resourceOf(added)) return false;
+    family = Entity::of(EntityKind::Var, static_cast<uint32_t>(project.resource_globals.size()));
+    context.scopes.resource_globals.insert(key, family);
+    project.resource_globals.push_back({{{resourceOf(first), first}}});
+  }
+  std::vector<ResourceGlobals::Own>& all = project.resource_globals[family.index].all;
+  for (const ResourceGlobals::Own& own : all)
+    if (own.resource == resourceOf(added)) return false;
+  all.push_back({resourceOf(added), added});
+  return true;
+}
+
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -329,6 +352,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     if (bare.insert(key, entity(list.vars[i]))) continue;
     const Entity other = bare.find(key);
     if (other.entityKind() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    if (&bare == &scopes.globals && addToResourceGlobals(context, key, VarId{other.index}, list.vars[i])) continue;
     const std::string_view here = context.names().string(list.name);
     const std::string_view there =
         context.names().string(project.global_lists[project.vars[other.index].list.index].name);

@@ -3,10 +3,12 @@
 #include "sema/declarations/configuration.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "frontend/source/scanner.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/task_triggers.h"
 #include "sema/project.h"
 
 namespace rung::sema {
@@ -113,6 +115,7 @@ struct TaskReader {
     const auto value = number(expr, "PRIORITY", 0, context.iec() ? kLowestPriority : kUsualPriority);
     if (!value) return;
     task.priority = static_cast<uint32_t>(*value);
+    task.priority_loc = context.tree().begin(expr);
     if (*value > kUsualPriority)
       context.report(diag::PriorityUnusual, context.tree().begin(expr), {std::to_string(*value)});
   }
@@ -129,6 +132,7 @@ struct TaskReader {
           context.report(diag::TaskInterval, context.tree().begin(argument.value));
         } else {
           task.interval_ns = *ns;
+          task.interval_loc = context.tree().begin(argument.value);
         }
       }
     } else if (name == "PRIORITY") {
@@ -141,6 +145,7 @@ struct TaskReader {
     } else if (name == "TRIGGER") {
       trigger = argument.value;
     } else if (name == "WATCHDOG") {
+      task.watchdog_loc = context.tree().begin(argument.value);
       if (const auto ns = time(argument.value, name)) task.watchdog_ns = *ns;
     } else if (name == "SENSITIVITY") {
       if (const auto value = number(argument.value, name, 0, 1'000'000))
@@ -154,9 +159,9 @@ struct TaskReader {
     }
   }
 
-  // Forbids a trigger that is not a global BOOL. IEC 61131-3 ed. 3, 6.8.2.
-  //   fails   TASK t(SINGLE := 1);                        E0813
-  void resolveTrigger(Loc loc) {
+  // Forbids a task without what starts it.
+  //   fails   TASK t(KIND := STATUS);                     E0819
+  void checkTrigger(Loc loc) {
     if (task.kind == TaskKind::External) {
       if (trigger) task.external_event = settingOf(context, trigger);
       if (task.external_event.empty()) {
@@ -164,26 +169,8 @@ struct TaskReader {
       }
       return;
     }
-    if (task.kind != TaskKind::Event && task.kind != TaskKind::Status) return;
-    if (!trigger) {
+    if ((task.kind == TaskKind::Event || task.kind == TaskKind::Status) && !trigger)
       context.report(diag::TaskNeedsTrigger, loc, {context.names().string(task.name), "a BOOL variable"});
-      return;
-    }
-    const TypeId type = checkExpr(context, trigger, types::kBool);
-    if (type == types::kError) return;
-    Entity found;
-    if (context.tree().kind(trigger) == ExprKind::Name) found = context.tree().as<NameExpr>(trigger).entity;
-    if (context.tree().kind(trigger) == ExprKind::Member) found = context.tree().as<MemberExpr>(trigger).entity;
-    const bool is_bool = context.types().kind(type) == TypeKind::Bool;
-    if (found.entityKind() != EntityKind::Var || !is_bool ||
-        (context.symbols.vars[found.index].storage == Storage::Field &&
-         (!context.symbols.vars[found.index].pou ||
-          context.symbols.pou(context.symbols.vars[found.index].pou).kind != PouKind::Program))) {
-      context.report(diag::TaskTriggerType, context.tree().begin(trigger), {context.names().string(task.name)});
-      return;
-    }
-    task.trigger = VarId{found.index};
-    context.symbols.var(task.trigger).use.read = true;
   }
 
   void read(const TaskDecl& decl) {
@@ -201,9 +188,32 @@ struct TaskReader {
     if (task.kind == TaskKind::Cyclic && !has_interval) {
       context.report(diag::TaskInterval, decl.h.loc);
     }
-    resolveTrigger(decl.h.loc);
+    checkTrigger(decl.h.loc);
   }
 };
+
+// The trigger of an event or status task, resolved when all program instances are known.
+struct Trigger {
+  uint32_t task;  // index into Project::tasks
+  ExprId expr;
+  Part part;
+};
+
+// A resource's part of the project: its globals and program instances come before those of others.
+Context atPart(Context& context, const Part& part) {
+  Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
+  if (part.resource) there.resource = keyOf(context, part.resource);
+  return there;
+}
+
+void resolveTriggers(Context& context, std::span<const Trigger> triggers) {
+  for (const Trigger& trigger : triggers) {
+    Task& task = context.project.tasks[trigger.task];
+    if (task.kind != TaskKind::Event && task.kind != TaskKind::Status) continue;
+    Context there = atPart(context, trigger.part);
+    task.trigger = triggerPath(there, trigger.expr, context.names().string(task.name));
+  }
+}
 
 struct DeclaredTask {
   NameId key, resource_key;
@@ -255,14 +265,17 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
 
 // The task of programs that name none: runs as often as possible, after all others. IEC 61131-3 ed. 3, 6.8.2 and table
 // 62, 6c. It has no source location.
-uint32_t backgroundTask(Context& context) {
+uint32_t backgroundTask(Context& context, const Part& part) {
   std::vector<Task>& tasks = context.project.tasks;
   std::string name = "background";
   for (uint32_t i = 0; i < tasks.size(); ++i) {
+    if (!(tasks[i].resource == part.resource)) continue;
     if (!tasks[i].loc) return i + 1;
     if (sameIdentifier(context.names().string(tasks[i].name), name)) name += '_';
   }
   Task task;
+  task.resource = part.resource;
+  task.configuration = part.configuration;
   task.name = context.names().intern(name);
   task.kind = TaskKind::Freewheeling;
   task.priority = kUsualPriority;
@@ -310,7 +323,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   if (decl.task.name) {
     instance.task = findTask(context, part, decl.task, tasks);
   } else if (context.iec()) {
-    instance.task = backgroundTask(context);
+    instance.task = backgroundTask(context, part);
   } else {
     context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});
   }
@@ -333,23 +346,25 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   }
 }
 
+// A program that may run without being asked for: none of a library or test.
+bool isMainProgram(Context& context, const Pou& pou) {
+  return pou.kind == PouKind::Program && !pou.pragmas.test && !pou.library && pou.name &&
+         libraryOfSource(context, pou.file) == kNoLibrary;
+}
+
 // PLC_PRG or MAIN if there is one, else every PROGRAM in source order, in one cyclic task.
 void addDefaultTask(Context& context) {
   Project& project = context.project;
-  const auto runs = [&](const Pou& pou) {
-    return pou.kind == PouKind::Program && !pou.pragmas.test && !pou.library && pou.name &&
-           libraryOfSource(context, pou.file) == kNoLibrary;
-  };
   PouId only;
   for (const char* name : {"PLC_PRG", "MAIN"}) {
     const NameId id = context.names().find(name);
     const Entity found = id ? context.scopes.pous_and_types.find(keyOf(context, id)) : Entity{};
     if (only || found.entityKind() != EntityKind::Pou) continue;
-    if (runs(project.pous[found.index])) only = PouId{found.index};
+    if (isMainProgram(context, project.pous[found.index])) only = PouId{found.index};
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (!runs(pou) || (only && only.index != i)) continue;
+    if (!isMainProgram(context, pou) || (only && only.index != i)) continue;
     if (project.tasks.empty()) {
       Task task;
       task.name = context.names().intern("MainTask");
@@ -370,7 +385,7 @@ void addDefaultTask(Context& context) {
 // IEC 61131-3 ed. 3 table 62, 13.
 void checkExternals(Context& context, const Part& part, const SectionDecl& section) {
   if (section.section != SectionKind::External) return;
-  Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
+  Context there = atPart(context, part);
   NameMap names;
   std::vector<VarId> externals;
   for (uint32_t i = 0; i < section.vars.count; ++i) {
@@ -386,11 +401,15 @@ void checkExternals(Context& context, const Part& part, const SectionDecl& secti
 
 void collectConfigurations(Context& context) {
   Tree& tree = context.tree();
+  std::unordered_map<uint32_t, NameId> resources;  // by the key of a program: the only resource that runs it, or none
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) == DeclKind::ProgramInstance) {
       const ProgramInstanceDecl& decl = tree.as<ProgramInstanceDecl>(member);
       if (decl.type.empty()) return;
       const NameId key = keyOf(context, tree.list(decl.type)[decl.type.count - 1].name);
+      const NameId resource = part.resource ? keyOf(context, part.resource) : NameId{};
+      NameId& only = resources.try_emplace(key.index, resource).first->second;
+      if (!(only == resource)) only = {};
       const Entity mark = Entity::of(EntityKind::Program, 0);
       if (!context.scopes.programs_with_instance.insert(key, mark))
         context.scopes.programs_with_several.insert(key, mark);
@@ -404,14 +423,23 @@ void collectConfigurations(Context& context) {
     const NameId name = part.resource ? part.resource : part.configuration;
     const ListId list = listNamed(context, std::string(context.names().string(name)), part.file, section.h.loc,
                                   context.scopes.qualifiers);
+    context.project.global_lists[list.index].configuration = part.configuration;
+    context.project.global_lists[list.index].resource = part.resource;
     addGlobals(context, list, member, context.scopes.globals);
   });
+  for (uint32_t i = 1; i < context.project.pous.size(); ++i) {
+    const Pou& pou = context.project.pous[i];
+    const auto found = resources.find(keyOf(context, pou.name).index);
+    if (pou.kind == PouKind::Program && !pou.library && found != resources.end())
+      context.scopes.pous[i].resource = found->second;
+  }
 }
 
 void resolveConfigurations(Context& context) {
   Tree& tree = context.tree();
   Project& project = context.project;
   std::vector<DeclaredTask> tasks;
+  std::vector<Trigger> triggers;
   bool configured = false;
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) == DeclKind::ProgramInstance) configured = true;
@@ -427,23 +455,78 @@ void resolveConfigurations(Context& context) {
     }
     Task task;
     task.name = decl.name;
+    task.resource = part.resource;
+    task.configuration = part.configuration;
     task.priority = 1;
     task.loc = decl.h.loc;
-    Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
+    Context there = atPart(context, part);
     TaskReader reader{.context = there, .task = task};
     reader.read(decl);
+    if (reader.trigger) triggers.push_back({static_cast<uint32_t>(project.tasks.size()), reader.trigger, part});
     project.tasks.push_back(task);
     tasks.push_back({keyOf(context, decl.name), resource_key, static_cast<uint32_t>(project.tasks.size())});
   });
   if (!configured) {
     if (project.tasks.empty()) addDefaultTask(context);
-    return;
+    return resolveTriggers(context, triggers);
   }
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) != DeclKind::ProgramInstance) return;
-    Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
+    Context there = atPart(context, part);
     addInstance(there, part, tree.as<ProgramInstanceDecl>(member), tasks);
   });
+  resolveTriggers(context, triggers);
+}
+
+// PLC_PRG runs without a task, as often as possible and after all others. TM/TP manual 1.2 and 1.6.
+void addFreeProgram(Context& context) {
+  Project& project = context.project;
+  const NameId name = context.names().find("PLC_PRG");
+  const Entity found = name ? context.scopes.pous_and_types.find(keyOf(context, name)) : Entity{};
+  if (found.entityKind() != EntityKind::Pou || project.tasks.empty()) return;
+  const Pou& pou = project.pous[found.index];
+  if (!isMainProgram(context, pou)) return;
+  for (const Project::CallEdge& call : project.call_edges)
+    if (call.callee.index == found.index && !project.pou(call.caller).pragmas.test_only &&
+        !project.pou(call.caller).pragmas.test)
+      return;
+  for (const ProgramInstance& instance : project.instances)
+    if (instance.program.index == found.index) return;
+  const Task& neighbour = project.tasks.front();
+  Task task;
+  task.name = pou.name;
+  task.kind = TaskKind::Freewheeling;
+  task.priority = kUsualPriority;
+  task.resource = neighbour.resource;
+  task.configuration = neighbour.configuration;
+  ProgramInstance instance;
+  instance.name = pou.name;
+  instance.program = PouId{found.index};
+  instance.resource = neighbour.resource;
+  instance.configuration = neighbour.configuration;
+  instance.loc = pou.loc;
+  project.tasks.push_back(task);
+  instance.task = static_cast<uint32_t>(project.tasks.size());
+  project.instances.push_back(instance);
+}
+
+// Forbids a duration in rung.project for a task that does not exist.
+//   fails   [task fsat] duration = 12ms                   E0815, did you mean `fast`?
+void setTaskDurations(Context& context) {
+  std::vector<Task>& tasks = context.project.tasks;
+  for (const TaskDuration& duration : context.project.options.task_durations) {
+    bool found = false;
+    std::vector<std::string_view> names;
+    for (Task& task : tasks) {
+      const std::string_view name = context.names().string(task.name);
+      names.push_back(name);
+      if (!sameIdentifier(name, duration.task)) continue;
+      task.duration_ns = duration.duration_ns;
+      found = true;
+    }
+    if (!found)
+      context.report(diag::UnknownTask, duration.loc, {duration.task}).didYouMean(nearest(duration.task, names));
+  }
 }
 
 }  // namespace rung::sema

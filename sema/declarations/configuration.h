@@ -12,6 +12,11 @@ namespace rung::sema {
 void collectConfigurations(Context& context);
 void resolveConfigurations(Context& context);
 
+// What follows when all bodies are checked: PLC_PRG that nothing calls gets a task, and tasks get the times of
+// rung.project.
+void addFreeProgram(Context& context);
+void setTaskDurations(Context& context);
+
 // VAR_ACCESS, when all instances are laid out. (access_paths.cpp)
 void resolveAccessPaths(Context& context);
 

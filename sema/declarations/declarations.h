@@ -23,8 +23,11 @@ inline Context at(Context& context, PouId pou, FileId file, bool library, Region
                  .region = region};
 }
 inline Context atPou(Context& context, PouId pou) {
-  return at(context, pou, context.symbols.pou(pou).file, context.symbols.pou(pou).library,
-            context.scopes.pous[pou.index].region);
+  Context there = at(context, pou, context.symbols.pou(pou).file, context.symbols.pou(pou).library,
+                     context.scopes.pous[pou.index].region);
+  const PouId owner = context.symbols.pou(pou).owner;
+  there.resource = context.scopes.pous[owner ? owner.index : pou.index].resource;
+  return there;
 }
 inline Entity entity(VarId id) { return Entity::of(EntityKind::Var, id.index); }
 inline Entity entity(PouId id) { return Entity::of(EntityKind::Pou, id.index); }
@@ -45,6 +48,12 @@ const Pragma* findPragma(const Context& context, const DeclHeader& header, NameI
 void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 // Adds the items of an enumeration to a table; their values are resolved later.
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
+
+// ---- names.cpp
+// A global variable as the resource of `context` sees its name.
+Entity globalOfResource(const Context& context, NameId key, Entity global);
+// Whether code that several resources run cannot name it, because they declare it differently.
+bool differsByResource(Context& context, NameId key);
 
 // ---- namespaces.cpp
 struct DeclInRegion {

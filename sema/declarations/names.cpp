@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -68,6 +69,18 @@ Entity findOwnItem(Context& context, NameId key) {
   return known ? found : Entity{};
 }
 
+// Of several program instances with one name, that of the resource.
+Entity instanceOfResource(const Context& context, NameId key, Entity found) {
+  if (found.entityKind() != EntityKind::Program || !context.resource) return found;
+  const auto& instances = context.project.instances;
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    if (keyOf(context, instances[i].name) == key && instances[i].resource &&
+        keyOf(context, instances[i].resource) == context.resource)
+      return Entity::of(EntityKind::Program, i);
+  }
+  return found;
+}
+
 // An entity of the project, its namespaces or the libraries.
 Entity findDeclared(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
@@ -77,13 +90,14 @@ Entity findDeclared(Context& context, NameId key, Loc loc) {
     // A block is not a value, so in an expression the name is that of the global instance: Trace : Trace.
     const bool block =
         found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
-    if (const Entity global = block ? scopes.globals.find(key) : Entity{}) return global;
+    if (const Entity global = block ? scopes.globals.find(key) : Entity{})
+      return globalOfResource(context, key, global);
     return found;
   }
-  if (const Entity found = scopes.globals.find(key)) return found;
+  if (const Entity found = scopes.globals.find(key)) return globalOfResource(context, key, found);
   if (const Entity found = scopes.items.find(key)) return found;
   if (const Entity found = scopes.namespaces.find(key)) return found;
-  if (const Entity found = scopes.qualifiers.find(key)) return found;
+  if (const Entity found = scopes.qualifiers.find(key)) return instanceOfResource(context, key, found);
   if (context.region)
     if (const Entity found = lookUpOpened(context, key, loc, false)) return found;
   if (!context.library) {
@@ -118,6 +132,32 @@ Entity findName(Context& context, NameId key, Loc loc) {
 }
 
 }  // namespace
+
+Entity globalOfResource(const Context& context, NameId key, Entity global) {
+  if (!context.resource) return global;
+  const Entity family = context.scopes.resource_globals.find(key);
+  if (!family) return global;
+  return entity(context.project.resource_globals[family.index].of(context.resource));
+}
+
+bool differsByResource(Context& context, NameId key) {
+  if (context.resource) return false;
+  const Entity family = context.scopes.resource_globals.find(key);
+  if (!family) return false;
+  const ResourceGlobals& globals = context.project.resource_globals[family.index];
+  for (const ResourceGlobals::Own& own : globals.all) {
+    ensureVarType(context, own.var);
+    if (context.symbols.var(own.var).constant) ensureInitialValue(context, own.var);
+  }
+  const Var& first = context.symbols.var(globals.all.front().var);
+  for (const ResourceGlobals::Own& own : globals.all) {
+    const Var& var = context.symbols.var(own.var);
+    if (context.types().resolve(var.type) != context.types().resolve(first.type)) return true;
+    if (var.constant != first.constant || var.has_value != first.has_value) return true;
+    if (var.has_value && var.value.bits != first.value.bits) return true;
+  }
+  return false;
+}
 
 Entity orMock(Context& context, NameId key, Entity found) {
   if (context.library || found.entityKind() != EntityKind::Pou) return found;

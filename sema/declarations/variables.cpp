@@ -81,6 +81,8 @@ Context contextOf(Context& context, VarId id) {
   Context there = at(context, {}, context.symbols.sources.fileOf(var.loc), list != nullptr && list->library,
                      region == regions.end() ? RegionId{} : region->second);
   there.list = var.list;
+  if (const NameId resource = var.list ? context.symbols.global_lists[var.list.index].resource : NameId{})
+    there.resource = keyOf(context, resource);
   return there;
 }
 
@@ -204,13 +206,19 @@ void matchExternal(Context& context, VarId id) {
   for (const Namespace* space = namespaceAround(context); space != nullptr && !found;
        space = space->outer == kNoLibrary ? nullptr : &context.scopes.libraries.list[space->outer])
     found = space->globals.find(keyOf(context, name));
-  if (!found) found = context.scopes.globals.find(keyOf(context, name));
+  if (!found)
+    found = globalOfResource(context, keyOf(context, name), context.scopes.globals.find(keyOf(context, name)));
   if (found.entityKind() != EntityKind::Var) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(
         [&](NameId, Entity global) { candidates.push_back(context.names().string(symbols.vars[global.index].name)); });
     context.report(diag::ExternalUnknown, loc, {context.names().string(name)})
         .didYouMean(nearest(context.names().string(name), candidates));
+    symbols.var(id).type = types::kError;
+    return;
+  }
+  if (differsByResource(context, keyOf(context, name))) {
+    context.report(diag::GlobalDiffers, loc, {context.names().string(name)});
     symbols.var(id).type = types::kError;
     return;
   }

@@ -70,5 +70,6 @@ bool isLossless(const TypeTable& table, TypeId from, TypeId to);
 
 // The format of traces and messages: `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`, `Red`.
 std::string toString(const TypeTable& table, const Names& names, const Value& value);
+std::string durationText(int64_t ns);  // T#2s500ms, T#500us
 
 }  // namespace rung::types

@@ -168,6 +168,12 @@ std::string TypeTable::toString(TypeId id) const {
   return "unknown type";
 }
 
+std::string durationText(int64_t ns) {
+  std::string out;
+  appendDuration(out, ns < 0 ? 0 - static_cast<uint64_t>(ns) : static_cast<uint64_t>(ns), ns < 0, false);
+  return out;
+}
+
 std::string toString(const TypeTable& table, const Names& names, const Value& value) {
   std::string out;
   const TypeInfo& resolved = table.info(table.resolve(value.type));

@@ -1,4 +1,4 @@
-// `rung list`: the libraries, the POUs of a project, the warnings, or the declaration of a library block.
+// `rung list`: the libraries, the POUs or tasks of a project, the warnings, or the declaration of a library block.
 #include <algorithm>
 #include <cstdio>
 
@@ -6,48 +6,10 @@
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/libraries.h"
+#include "tools/driver/list.h"
 
 namespace rung::driver {
 namespace {
-
-// One object of a JSON list: `{"name":"x","line":3}`.
-class JsonRow {
- public:
-  JsonRow& text(const char* name, std::string_view value) { return raw(name, jsonQuote(value)); }
-  JsonRow& number(const char* name, uint64_t value) { return raw(name, std::to_string(value)); }
-  JsonRow& texts(const char* name, const std::vector<std::string>& values) {
-    std::string list;
-    for (const std::string& value : values) list += (list.empty() ? "" : ",") + jsonQuote(value);
-    return raw(name, '[' + list + ']');
-  }
-  std::string string() const { return '{' + fields_ + '}'; }
-
- private:
-  JsonRow& raw(const char* name, const std::string& value) {
-    fields_ += (fields_.empty() ? "\"" : ",\"") + std::string(name) + "\":" + value;
-    return *this;
-  }
-  std::string fields_;
-};
-
-// The rows of a list, in the requested format.
-class List {
- public:
-  explicit List(const Options& options) : is_json_(options.format == DiagnosticFormat::Json) {}
-  void add(const std::string& line, const JsonRow& row) {
-    if (!is_json_) {
-      out_ += line;
-    } else {
-      out_ += (out_.empty() ? "" : ",\n ") + row.string();
-    }
-  }
-  std::string text() const { return is_json_ ? '[' + out_ + "]\n" : out_; }
-  bool empty() const { return out_.empty(); }
-
- private:
-  bool is_json_;
-  std::string out_;
-};
 
 const char* word(PouKind kind) {
   switch (kind) {
@@ -193,11 +155,12 @@ int listSignature(const Options& options, Sink& sink) {
 int runList(const Options& options, Sink& sink) {
   if (!options.signature.empty()) return listSignature(options, sink);
   if (options.inputs[0] == "pous") return listPous(options, sink);
+  if (options.inputs[0] == "tasks") return listTasks(options, sink);
   if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options, sink);
   if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(options, sink);
-  return usageError(
-      sink, "unknown argument `" + options.inputs[0] +
-                "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`");
+  return usageError(sink, "unknown argument `" + options.inputs[0] +
+                              "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, "
+                              "`warnings` or `--signature NAME`");
 }
 
 }  // namespace rung::driver

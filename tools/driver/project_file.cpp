@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "frontend/import/source_mapped_text.h"
+#include "frontend/parse/literals.h"
 #include "frontend/parse/parse.h"
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
@@ -19,8 +20,8 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std native-width libraries checks optimize warnings defines"},
-    {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
+    {"project", false, "name sources std native-width libraries checks optimize warnings defines globals"},
+    {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
     {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
     {"area", true, "owner bytes"},
@@ -178,6 +179,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "defines") {
       for (const std::string& item : list(entry.value))
         if (error.empty()) error = parseDefine(item, project.defines);
+    } else if (entry.key == "globals") {
+      project.aligned_globals = entry.value == "aligned";
+      if (!project.aligned_globals && entry.value != "shared") error = "it takes `shared` or `aligned`";
     } else if (entry.key == "warnings") {
       for (const std::string& item : list(entry.value)) {
         bool on = !item.starts_with("no-");
@@ -244,6 +248,23 @@ std::string duration(const std::string& value) {
   return "T#" + value;
 }
 
+// How long a task runs in virtual time. Not in the generated ST: the section may be about a task of the program.
+void readDuration(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  const ProjectEntry* const entry = section.find("duration");
+  if (entry == nullptr) return;
+  const bool has_prefix = entry->value.find('#') != std::string::npos;
+  const Loc begin = has_prefix ? entry->value_loc : Loc{entry->value_loc.offset - 2};
+  text::TimeValue time;
+  if (!text::readDuration(duration(entry->value), begin, diagnostics, time)) return;
+  if (time.is_negative) return badValue(diagnostics, *entry, "it takes a time of 0 or more");
+  project.task_durations.push_back({section.name, static_cast<int64_t>(time.value), section.loc});
+}
+
+// True for `[task NAME]` with nothing but a duration: NAME is a task of the program.
+bool isAboutDeclaredTask(const ProjectSection& section) {
+  return section.entries.size() == 1 && section.entries[0].key == "duration";
+}
+
 // Everything that goes into the generated ST must be a word, number or path of ST, so that no value can inject other
 // code.
 bool isPlain(std::string_view value) {
@@ -260,7 +281,7 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   xml::SourceMappedText text(sources);
   std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
-    if (section.kind != "task" || section.name.empty()) continue;
+    if (section.kind != "task" || section.name.empty() || isAboutDeclaredTask(section)) continue;
     if (const bool reserved = text::isReservedWord(section.name); reserved || !isModuleName(section.name)) {
       diagnostics.report(diag::TaskName, section.loc,
                          {section.name, reserved ? "it is a keyword" : "use letters, digits and `_`"});
@@ -270,7 +291,7 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
     text.put(section.loc, "TASK " + section.name + "(");
     const char* separator = "";
     for (const ProjectEntry& entry : section.entries) {
-      if (entry.key == "programs") continue;
+      if (entry.key == "programs" || entry.key == "duration") continue;
       if (!isPlain(entry.value)) {
         badValue(diagnostics, entry, "it takes one number, time or name");
         continue;
@@ -310,6 +331,31 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   return text.finish(sources, project.file);
 }
 
+// The section [safe]: a function that gives outputs their values, each path and value at its place in the file.
+FileId writeSafeValues(Sources& sources, Diagnostics& diagnostics, const ProjectFile& project) {
+  xml::SourceMappedText text(sources);
+  for (const ProjectSection& section : project.sections) {
+    if (section.kind != "safe") continue;
+    for (const ProjectEntry& entry : section.entries) {
+      std::string path;
+      for (const char c : entry.key)
+        if (c != '[' && c != ']' && c != ',' && c != ' ') path += c;  // `lamps[2, 3]`
+      const std::string_view digits = std::string_view(entry.value).substr(entry.value.starts_with('-') ? 1 : 0);
+      if (!isPlain(path) || !isPlain(digits)) {
+        badValue(diagnostics, entry, "[safe] takes lines `OUTPUT = VALUE`, with one literal or constant");
+        continue;
+      }
+      if (text.empty()) text.put(section.loc, "{safe_values}\nFUNCTION rung_project_safe_values\n");
+      text.put(entry.key_loc, entry.key + " := ");
+      text.put(entry.value_loc, entry.value);
+      text.put(entry.value_loc, ";\n");
+    }
+  }
+  if (text.empty()) return {};
+  text.word("END_FUNCTION\n");
+  return text.finish(sources, project.file);
+}
+
 }  // namespace
 
 const ProjectEntry* ProjectSection::find(std::string_view key) const {
@@ -328,7 +374,10 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
       readPoolSection(section, diagnostics, project);
     else if (section.kind == "area" && !section.name.empty())
       readAreaSection(section, diagnostics, project);
+    else if (section.kind == "task")
+      readDuration(section, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);
+  project.safe_values = writeSafeValues(sources, diagnostics, project);
 }
 
 void applyProjectFile(const ProjectFile& project, Options& options) {

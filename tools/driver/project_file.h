@@ -9,6 +9,7 @@
 
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
+#include "sema/options.h"
 #include "sema/types/areas.h"
 #include "tools/driver/options.h"
 
@@ -40,9 +41,12 @@ struct ProjectFile {
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
   types::MemoryAreas areas = types::standardAreas();
+  bool aligned_globals = false;
+  std::vector<sema::TaskDuration> task_durations;
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
+  FileId safe_values;    // the section [safe] as a function in ST, mapped to this file; none: no such section
   FileId configuration;  // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };
 

@@ -33,8 +33,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
-    {Command::List, "list", "libraries|warnings | pous PATH ... | --signature NAME",
-     "list libraries, warnings, POUs or a declaration"},
+    {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -120,6 +119,10 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (default: all)"},
     {Key::Host, "--trace", "FILE", bit(Command::Run), "write a CSV row after each cycle; - is stdout"},
     {Key::Host, "--plot", "FILE", bit(Command::Run), "plot the variables over time, as SVG"},
+    {Key::Host, "--on-fault", "all|task", bit(Command::Run), "what a fault stops: all tasks, or the one that it is in"},
+    {Key::Host, "--control", "FILE", bit(Command::Run),
+     "stop, start, reset and single cycles: commands, each after its cycle"},
+    {Key::Host, "--driver", "LIB[=ARG]", bit(Command::Run), "devices of a product: a library with rung_drivers"},
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE between runs"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "default: warm if the retain file exists, else cold"},
     {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder for the program's files (default: current)"},
@@ -342,7 +345,8 @@ std::string checkCombination(const Options& options) {
       break;
     case Command::List:
       if (options.inputs.empty() && options.signature.empty())
-        return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`";
+        return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, `warnings` or `--signature "
+               "NAME`";
       break;
     case Command::None:
     case Command::Version:

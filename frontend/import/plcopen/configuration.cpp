@@ -113,7 +113,7 @@ class TaskWriter {
 
   void write() {
     import_.out.put(task_.loc, "TASK ");
-    writeName(import_, task_);
+    writeIdentifier(import_, task_, "Task");
     import_.out.word("(");
     writeKind();
     writePriority();
@@ -129,12 +129,13 @@ class TaskWriter {
   }
 
   bool writeInterval() {
-    const xml::Attribute* interval = import_.document.attribute(task_, "interval");
-    std::string unit;
-    if (interval == nullptr || isBlank(interval->raw)) {
-      interval = settings_ == nullptr ? nullptr : import_.document.attribute(*settings_, "Interval");
-      if (settings_ != nullptr) unit = import_.document.value(*settings_, "IntervalUnit");
-    }
+    if (writeInterval(import_.document.attribute(task_, "interval"), "")) return true;
+    return settings_ != nullptr && writeInterval(import_.document.attribute(*settings_, "Interval"),
+                                                 import_.document.value(*settings_, "IntervalUnit"));
+  }
+
+  // False: there is no time, or it is 0.
+  bool writeInterval(const xml::Attribute* interval, const std::string& unit) {
     if (interval == nullptr || isBlank(interval->raw)) return false;
     const std::string time = timeOf(import_, *interval, unit);
     if (time.empty()) return true;
@@ -161,6 +162,7 @@ class TaskWriter {
       setting("TRIGGER", trigger->loc, import_.document.decoded(*trigger));
     } else if (trigger != nullptr && !kindIs("Cyclic")) {
       setting("SINGLE", trigger->loc, import_.document.decoded(*trigger));
+      if (kind.empty()) writeInterval();  // of the standard, which runs it periodically too
     } else if (!writeInterval()) {
       setting("KIND", task_.loc, "FREEWHEELING");
     }
@@ -225,7 +227,7 @@ class BlocksInTasks {
       if (block.program != name) continue;
       import.out.put(block.instance->loc, any ? ", " : "(");
       import.out.put(block.instance->loc, block.path + " WITH ");
-      writeName(import, *block.task);
+      writeIdentifier(import, *block.task, "Task");
       any = true;
     }
     if (any) import.out.word(")");
@@ -261,7 +263,7 @@ void writeProgram(Import& import, const xml::Element& instance, const xml::Eleme
   writeIdentifier(import, instance, identifierOf(import.document.value(instance, type)));
   if (task != nullptr) {
     import.out.word(" WITH ");
-    writeName(import, *task);
+    writeIdentifier(import, *task, "Task");
   }
   import.out.word(" : ");
   writeName(import, instance, type);
@@ -338,6 +340,12 @@ void writeConfiguration(Import& import, const xml::Element& configuration) {
     if (e.name == "resource" && !import.isLeftOut(e)) writeResource(import, e);
   }
   import.out.put(configuration.end, "END_CONFIGURATION\n");
+}
+
+void writeApplications(Import& import, std::span<const xml::Element* const> resources) {
+  import.out.put(resources.front()->loc, "CONFIGURATION Device\n");
+  for (const xml::Element* resource : resources) writeResource(import, *resource);
+  import.out.put(resources.back()->end, "END_CONFIGURATION\n");
 }
 
 }  // namespace rung::importer::plcopen

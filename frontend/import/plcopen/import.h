@@ -2,6 +2,7 @@
 // declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -85,6 +86,8 @@ void writeControls(Import& import, const xml::Element& pou);
 // ---- configuration.cpp
 
 void writeConfiguration(Import& import, const xml::Element& configuration);
+// Resources outside of configurations: an application that CODESYS exported without its device.
+void writeApplications(Import& import, std::span<const xml::Element* const> resources);
 
 // ---- sfc.cpp
 

@@ -32,6 +32,7 @@ class PlcopenReader {
   void excludeApplications();
   void addLibraries(const xml::Element& libraries);
   void noteExtensions();
+  bool isApplication(const xml::Element& resource) const;
   bool holdsProgram(const xml::Element& configuration) const;
 
   Import& import_;
@@ -115,6 +116,12 @@ void PlcopenReader::excludeApplications() {
                  import_.document.value(element, "name")})
         .length(called == nullptr ? 0 : static_cast<uint32_t>(called->raw.size()));
   }
+}
+
+// <data name="http://www.3s-software.com/plcopenxml/application"><resource>
+bool PlcopenReader::isApplication(const xml::Element& resource) const {
+  const xml::Element* const parent = parentOf(resource);
+  return parent != nullptr && parent->name == "data" && kindOfData(import_, *parent) == "application";
 }
 
 bool PlcopenReader::holdsProgram(const xml::Element& configuration) const {
@@ -233,6 +240,11 @@ void PlcopenReader::run() {
   }
   for (const xml::Element& element : import_.document.elements)
     if (element.name == "configuration" && holdsProgram(element)) writeConfiguration(import_, element);
+  std::vector<const xml::Element*> applications;
+  for (const xml::Element& element : import_.document.elements)
+    if (element.name == "resource" && !import_.isLeftOut(element) && isApplication(element))
+      applications.push_back(&element);
+  if (!applications.empty()) writeApplications(import_, applications);
   noteExtensions();
 }
 

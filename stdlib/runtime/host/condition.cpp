@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "schedule.h"
+#include "tasks.h"
 #include "value_format.h"
 
 namespace rung::host {

@@ -38,6 +38,10 @@ const char kHelp[] =
     "  --start cold|warm|origin   default: warm if the retain file exists, else cold\n"
     "  --stop-on CONDITION   stop after the cycle that makes CONDITION TRUE: --stop-on 'Main.n >= 10'\n"
     "  --timeout TIME        end with exit code 3 after this real time (default: none)\n"
+    "  --on-fault all|task   what a fault stops: all tasks (default), or the one that it is in\n"
+    "  --control FILE        stop, start, reset and single cycles: commands, each after the number of its cycle;\n"
+    "                        in real time also a pipe\n"
+    "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
 
 }  // namespace
@@ -63,9 +67,10 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles",  "--for",        "--interval", "--inputs",   "--set",
-                                             "--watch",   "--trace",      "--plot",     "--retain",   "--start",
-                                             "--stop-on", "--files-root", "--timeout",  "--max-steps"};
+    static const char* const with_value[] = {"--cycles",  "--for",        "--interval", "--inputs",    "--set",
+                                             "--watch",   "--trace",      "--plot",     "--retain",    "--start",
+                                             "--stop-on", "--files-root", "--timeout",  "--max-steps", "--driver",
+                                             "--control", "--on-fault"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
@@ -113,6 +118,13 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
         return "--files-root needs an existing folder, not `" + value + "`";
       options.files_root = value;
+    } else if (name == "--driver") {
+      options.drivers.push_back(value);
+    } else if (name == "--control") {
+      options.control_path = value;
+    } else if (name == "--on-fault") {
+      if (value != "task" && value != "all") return "--on-fault needs `all` or `task`, not `" + value + "`";
+      options.others_go_on = value == "task";
     } else if (name == "--retain") {
       options.retain_path = value;
     } else {

@@ -2,23 +2,18 @@
 #include "realtime.h"
 
 #include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
+#include <unistd.h>
 #include <algorithm>
-#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <ctime>
-#include <memory>
-#include <mutex>
-#include <thread>
 
-#include "crashes.h"
 namespace rung::host {
 namespace {
 
-constexpr int64_t kSecond = 1'000'000'000;
-volatile sig_atomic_t signalled = 0;
-void onSignal(int) { signalled = 1; }
+constexpr int64_t kSecond = 1'000'000'000, kMillisecond = 1'000'000;
+constexpr size_t kPrefaulted = 64 * 1024;  // of each stack
 
 int64_t monotonicNs() {
   timespec now;
@@ -26,245 +21,432 @@ int64_t monotonicNs() {
   return now.tv_sec * kSecond + now.tv_nsec;
 }
 
+timespec timeOf(int64_t ns) { return {static_cast<time_t>(ns / kSecond), static_cast<long>(ns % kSecond)}; }
+
 void sleepUntil(int64_t ns) {
-  const timespec until = {static_cast<time_t>(ns / kSecond), static_cast<long>(ns % kSecond)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0 && signalled == 0) {
+  const timespec until = timeOf(ns);
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }
 
-struct Worker {
-  const Schedule::Item* item;
-  rung_context context;  // shares the memory, has its own time and fault
-  bool makes_rows = false;
-  std::atomic<int64_t> running_since{0};  // 0: idle
-  int64_t activations = 0, skipped = 0, overruns_in_a_row = 0;
-  int64_t worst_late_ns = 0, longest_run_ns = 0;
-  std::thread thread;
+void touchStack() {
+  char pages[kPrefaulted];
+  for (size_t i = 0; i < kPrefaulted; i += 4096) static_cast<volatile char*>(pages)[i] = 0;
+}
+
+class Held {
+ public:
+  explicit Held(pthread_mutex_t& mutex) : mutex_(mutex) { pthread_mutex_lock(&mutex_); }
+  ~Held() { pthread_mutex_unlock(&mutex_); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+ private:
+  pthread_mutex_t& mutex_;
 };
 
-struct Shared {
-  std::atomic<bool> stop{false};
-  std::atomic<int64_t> rows_done{0};
-  int64_t rows, start;
-  std::mutex mutex;  // guards the result
-  RealtimeResult result;
-  const std::function<void(int64_t)>*before, *after;
-};
-
-std::atomic<Shared*> running_host{nullptr};  // for callbacks that only have the program's context
-
-// Called by a task that waits for a MUTEX or SEMA. Sleeps, so a task of lower priority may run.
-int waitForOthers(void*) {
-  constexpr int64_t kMoment = 50'000;
-  const Shared* const shared = running_host.load();
-  if (shared == nullptr || shared->stop.load()) return 0;
-  sleepUntil(monotonicNs() + kMoment);
-  return 1;
+// The signals that end a run; threads of tasks do not receive them.
+sigset_t endingSignals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
 }
-
-// Priority 0 is the highest of 32; without the right to use SCHED_FIFO nothing changes.
-void raisePriority(uint32_t priority) {
-  sched_param parameters{};
-  parameters.sched_priority = std::max(1, 80 - 2 * static_cast<int>(std::min(priority, 31u)));
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
-}
-
-// One activation with its watchdog; false when the run must stop.
-bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
-  const int64_t begin = monotonicNs();
-  worker.running_since.store(begin);
-  worker.context.now_ns = now_ns;
-  worker.context.entry = worker.item->task;
-  ++worker.context.activation;
-  const uint8_t fault = guarded(&worker.context, worker.item->task->run);
-  worker.running_since.store(0);
-  const int64_t took = monotonicNs() - begin;
-  worker.longest_run_ns = std::max(worker.longest_run_ns, took);
-  ++worker.activations;
-  if (fault == RUNG_FAULT_LOCK && shared.stop.load()) return false;  // it was waiting when the run ended
-  if (fault != RUNG_FAULT_NONE) {
-    const std::lock_guard<std::mutex> lock(shared.mutex);
-    if (!shared.result.faulted || fault == RUNG_FAULT_STOP) shared.result.fault = worker.context.fault;
-    shared.result.faulted = true;
-    shared.stop.store(true);
-    return false;
-  }
-  // Too long `sensitivity` times in a row stops the run; tasks that never end are noticed by the caller's thread.
-  const int64_t limit = worker.item->task->watchdog_ns;
-  worker.overruns_in_a_row = limit > 0 && took > limit ? worker.overruns_in_a_row + 1 : 0;
-  if (limit > 0 && worker.overruns_in_a_row >= std::max<int64_t>(1, worker.item->task->sensitivity)) {
-    const std::lock_guard<std::mutex> lock(shared.mutex);
-    shared.result.watchdog = worker.context.module->strings + worker.item->task->name;
-    shared.stop.store(true);
-    return false;
-  }
-  return true;
-}
-
-void runCyclic(Shared& shared, Worker& worker) {
-  const int64_t interval = worker.item->interval_ns;
-  for (int64_t n = 0; !shared.stop.load(); ++n) {
-    const int64_t deadline = shared.start + n * interval;
-    sleepUntil(deadline);
-    if (shared.stop.load()) return;
-    const int64_t late = monotonicNs() - deadline;
-    worker.worst_late_ns = std::max(worker.worst_late_ns, late);
-    if (worker.makes_rows) (*shared.before)(n);
-    if (!activate(shared, worker, n * interval)) return;
-    if (worker.makes_rows) {
-      (*shared.after)(n);
-      shared.rows_done.store(n + 1);
-      if (shared.rows >= 0 && n + 1 >= shared.rows) shared.stop.store(true);
-    } else {
-      // A missed start is skipped and counted; the task that makes rows catches up instead, so no row is lost.
-      const int64_t missed = (monotonicNs() - deadline) / interval;
-      if (missed > 0) {
-        worker.skipped += missed;
-        n += missed;
-      }
-    }
-  }
-}
-
-void runOnCondition(Shared& shared, Worker& worker, int64_t poll_ns) {
-  bool was_true = false;
-  for (int64_t next = shared.start; !shared.stop.load(); next = std::max(next + poll_ns, monotonicNs())) {
-    sleepUntil(next);
-    bool due = worker.item->task->kind == RUNG_FREEWHEELING;
-    if (!due && worker.item->trigger.type != nullptr) {
-      const bool is_true = readBool(worker.item->trigger);
-      due = is_true && (worker.item->task->kind == RUNG_STATUS || !was_true);
-      was_true = is_true;
-    }
-    if (due && !shared.stop.load() && !activate(shared, worker, monotonicNs() - shared.start)) return;
-  }
-}
-
-// Asks tasks that still run a moment after the end to stop (rung_poll). False: one does not.
-bool endTasks(const std::vector<std::unique_ptr<Worker>>& workers, uint8_t reason) {
-  const int64_t begin = monotonicNs();
-  const auto runs = [](const std::unique_ptr<Worker>& worker) { return worker->running_since.load() != 0; };
-  while (std::any_of(workers.begin(), workers.end(), runs)) {
-    const int64_t now = monotonicNs();
-    if (now - begin > 2 * kSecond) return false;
-    if (now - begin >= kSecond)
-      for (const std::unique_ptr<Worker>& worker : workers) worker->context.stop = reason;
-    sleepUntil(now + 5'000'000);
-  }
-  return true;
-}
-
-std::string microseconds(int64_t ns) { return std::to_string((ns + 500) / 1000) + " us"; }
 
 }  // namespace
 
-RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows, int64_t timeout_ns,
-                           const std::function<void(int64_t)>& before, const std::function<void(int64_t)>& after,
-                           const std::function<void()>& idle) {
-  Shared shared;
-  shared.rows = rows;
-  shared.before = &before;
-  shared.after = &after;
-  rung_host host = context.host != nullptr ? *context.host : rung_host{};
-  host.wait = waitForOthers;
-  running_host.store(&shared);
-  signalled = 0;
-  struct sigaction action {
-  }, old_interrupt{}, old_terminate{};
-  action.sa_handler = onSignal;
-  sigaction(SIGINT, &action, &old_interrupt);
-  sigaction(SIGTERM, &action, &old_terminate);
-  mlockall(MCL_CURRENT | MCL_FUTURE);  // where permitted
+thread_local Realtime::Place Realtime::place_{};
 
-  std::vector<std::unique_ptr<Worker>> workers;
-  Worker* fastest = nullptr;
-  for (const Schedule::Item& item : schedule.items()) {
-    auto worker = std::make_unique<Worker>();
-    worker->item = &item;
-    worker->context = context;
-    worker->context.host = &host;
-    worker->context.task = static_cast<uint32_t>(workers.size()) + 1;
-    worker->context.activation = 0;
-    if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns))
-      fastest = worker.get();
-    workers.push_back(std::move(worker));
+Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks)
+    : tasks_(tasks), options_(options), hooks_(hooks), common_(context) {
+  pthread_mutexattr_t attributes;
+  pthread_mutexattr_init(&attributes);
+  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
+  pthread_mutex_init(&activity_, &attributes);
+  pthread_mutexattr_destroy(&attributes);
+  if (context.host != nullptr) host_ = *context.host;
+  host_.wait = waitForOthers;
+  tick_ns_ = std::min(tasks.rowNs(), kMillisecond);
+  resources_ = std::max(1u, context.module->resource_count);
+  processors_ = std::make_unique<Processor[]>(resources_);
+}
+
+Realtime::~Realtime() {
+  if (!result_.hung)
+    for (const std::unique_ptr<Worker>& worker : workers_) sem_destroy(&worker->event);
+  pthread_mutex_destroy(&activity_);
+}
+
+// Called by a task that waits for a MUTEX or SEMA, so that a task of lower priority may run.
+int Realtime::waitForOthers(void*) {
+  constexpr int64_t kMoment = 50'000;
+  if (place_.host == nullptr || place_.host->stop_.load()) return 0;
+  place_.processor->release();
+  sleepUntil(monotonicNs() + kMoment);
+  place_.processor->acquire(place_.priority);
+  return 1;
+}
+
+int64_t Realtime::programNs() const { return options_.base_ns + monotonicNs() - start_ns_; }
+
+void Realtime::stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker) {
+  const Held held(activity_);
+  // The first reason counts; but a task that did not end by itself after a signal is a fault.
+  const bool was_ended = worker != nullptr && worker->context.fault.kind == RUNG_FAULT_STOP;
+  if (result_.kind == RealtimeResult::Complete || (result_.kind == RealtimeResult::Signal && was_ended)) {
+    result_.kind = kind;
+    result_.name = name;
+    if (worker != nullptr) {
+      result_.fault = worker->context.fault;
+      result_.context = &worker->context;
+    }
   }
-  if (fastest != nullptr) fastest->makes_rows = true;
-  shared.start = monotonicNs() + 1'000'000;
-  for (const std::unique_ptr<Worker>& worker : workers) {
-    if (worker->item->task->kind == RUNG_EXTERNAL) continue;
-    worker->thread = std::thread([&shared, &worker = *worker, &schedule] {
-      raisePriority(worker.item->task->priority);
-      if (worker.item->task->kind == RUNG_CYCLIC)
-        runCyclic(shared, worker);
-      else
-        runOnCondition(shared, worker, std::min<int64_t>(schedule.rowNs(), 1'000'000));
+  stop_.store(true);
+}
+
+// ---- activations
+
+// One activation; false when the thread must end. `row`: < 0 for tasks that make none. A row comes also where the task
+// itself is stopped.
+bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t program_ns) {
+  Processor& processor = processorOf(worker);
+  processor.acquire(worker.task->row->priority);
+  bool is_active = false;
+  {
+    const Held held(activity_);
+    is_active = !stop_.load() && !paused_.load() && !worker.task->stopped;
+    if (is_active) ++active_;
+  }
+  if (!is_active) {
+    if (row >= 0 && !stop_.load()) makeRow(row);
+    processor.release();
+    return !stop_.load();
+  }
+  const int64_t began_ns = monotonicNs();
+  worker.running_since.store(began_ns);
+  if (row >= 0) {
+    const Exchange::Lock lock(tasks_.exchange());
+    hooks_.before(row);
+  }
+  const uint8_t fault = tasks_.begin(*worker.task, worker.context, program_ns, std::max<int64_t>(0, began_ns - due_ns));
+  const bool goes_on = complete(worker, fault, began_ns, program_ns);
+  if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
+  processor.release();
+  return goes_on;
+}
+
+void Realtime::makeRow(int64_t row) {
+  {
+    const Exchange::Lock lock(tasks_.exchange());
+    hooks_.before(row);
+  }
+  hooks_.after(row);
+}
+
+bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns) {
+  bool goes_on = true;
+  const bool waited = fault == RUNG_FAULT_LOCK && stop_.load();  // it was waiting when the run ended
+  const int64_t now_ns = monotonicNs();
+  if (fault == RUNG_FAULT_NONE) {
+    goes_on = tasks_.end(*worker.task, worker.context, program_ns, now_ns - began_ns);
+    if (!goes_on) stopBecause(RealtimeResult::Watchdog, tasks_.nameOf(*worker.task));
+  } else if (options_.others_go_on && fault != RUNG_FAULT_STOP) {
+    tasks_.stopOne(*worker.task, worker.context.fault);
+  } else {
+    if (!waited) stopBecause(RealtimeResult::Faulted, "", &worker);
+    goes_on = false;
+  }
+  const std::string lost = tasks_.lostDriver();
+  if (!lost.empty()) stopBecause(RealtimeResult::Driver, lost);
+  worker.running_since.store(0);
+  const Held held(activity_);
+  const bool ends_well = result_.kind == RealtimeResult::Complete || result_.kind == RealtimeResult::Signal;
+  if (--active_ == 0 && ends_well) hooks_.complete(program_ns);
+  return goes_on && !stop_.load();
+}
+
+// A start that comes while the task still runs is dropped and counted; the grid of its periods stays.
+void Realtime::runCyclic(Worker& worker) {
+  const int64_t interval = worker.task->interval_ns;
+  const bool makes_rows = worker.task == tasks_.fastest();
+  for (int64_t n = 0; !stop_.load(); ++n) {
+    const int64_t due = start_ns_ + n * interval;
+    sleepUntil(due);
+    if (stop_.load() || !activate(worker, makes_rows ? n : -1, due, options_.base_ns + n * interval)) return;
+    if (makes_rows) {
+      rows_done_.store(n + 1);
+      if (options_.rows >= 0 && n + 1 >= options_.rows) stop_.store(true);
+    }
+    const int64_t missed = (monotonicNs() - due) / interval;
+    if (missed <= 0) continue;
+    tasks_.countOverruns(*worker.task, static_cast<uint32_t>(missed));
+    n += missed;
+    if (makes_rows && options_.rows >= 0 && n + 1 >= options_.rows) {
+      rows_done_.store(options_.rows);
+      stop_.store(true);
+    }
+  }
+}
+
+// It rests for a moment between its turns, so that tasks of lower priority are not starved.
+void Realtime::runFreewheeling(Worker& worker) {
+  for (int64_t next = start_ns_; !stop_.load(); next = monotonicNs() + tick_ns_) {
+    sleepUntil(next);
+    const int64_t now = monotonicNs();
+    if (stop_.load() || !activate(worker, -1, now, options_.base_ns + now - start_ns_)) return;
+  }
+}
+
+void Realtime::runOnEvent(Worker& worker) {
+  for (;;) {
+    while (sem_wait(&worker.event) != 0 && errno == EINTR) {
+    }
+    if (stop_.load()) return;
+    const int64_t due = worker.due_ns.load();
+    const bool goes_on = activate(worker, -1, due, options_.base_ns + due - start_ns_);
+    const uint32_t missed = worker.missed.exchange(0);
+    tasks_.countOverruns(*worker.task, missed);
+    worker.is_posted.store(false);
+    if (!goes_on) return;
+  }
+}
+
+void Realtime::post(Worker& worker, int64_t due_ns) {
+  if (worker.is_posted.exchange(true)) {
+    worker.missed.fetch_add(1);
+    return;
+  }
+  worker.due_ns.store(due_ns);
+  sem_post(&worker.event);
+}
+
+bool Realtime::isDue(Worker& worker, int64_t now_ns) {
+  const Task& task = *worker.task;
+  const bool is_true = readBool(task.trigger), was_true = worker.was_true;
+  worker.was_true = is_true;
+  if (task.row->kind == RUNG_STATUS) return is_true && !worker.is_posted.load();
+  bool due = is_true && !was_true;
+  if (task.row->interval_ns > 0 && now_ns >= worker.next_ns) {
+    worker.next_ns += ((now_ns - worker.next_ns) / task.row->interval_ns + 1) * task.row->interval_ns;
+    due = due || !is_true;
+  }
+  return due;
+}
+
+// The triggers of a resource: one thread looks at all of them at each tick.
+void Realtime::sample(uint32_t resource) {
+  processors_[resource].join(0, true);
+  waitForStart();
+  for (int64_t next = start_ns_; !stop_.load(); next = std::max(next + tick_ns_, monotonicNs())) {
+    sleepUntil(next);
+    if (paused_.load()) continue;
+    for (const std::unique_ptr<Worker>& worker : workers_) {
+      const uint8_t kind = worker->task->row->kind;
+      if (worker->task->row->resource != resource || (kind != RUNG_EVENT && kind != RUNG_STATUS)) continue;
+      if (worker->task->trigger.type != nullptr && isDue(*worker, next)) post(*worker, next);
+    }
+  }
+}
+
+bool Realtime::raise(const std::string& event) {
+  bool found = false;
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    const rung_task& row = *worker->task->row;
+    if (row.kind != RUNG_EXTERNAL || event != common_.module->strings + row.external_event) continue;
+    found = true;
+    post(*worker, monotonicNs());
+  }
+  return found;
+}
+
+// ---- threads
+
+void Realtime::createWorkers() {
+  for (Task& task : tasks_.all()) {
+    auto worker = std::make_unique<Worker>();
+    worker->task = &task;
+    worker->context = common_;
+    worker->context.host = &host_;
+    sem_init(&worker->event, 0, 0);
+    workers_.push_back(std::move(worker));
+  }
+}
+
+void Realtime::waitForStart() {
+  std::unique_lock<std::mutex> lock(start_mutex_);
+  start_condition_.wait(lock, [&] { return started_; });
+}
+
+// All threads wait for the common start, the alignment point of all periods, before they take their priority: none
+// keeps the others from being created.
+void Realtime::startThreads() {
+  bool has_triggers = false;
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    const uint8_t kind = worker->task->row->kind;
+    has_triggers = has_triggers || kind == RUNG_EVENT || kind == RUNG_STATUS;
+    worker->thread = std::thread([this, &worker = *worker] {
+      touchStack();
+      waitForStart();
+      place_ = {this, &processorOf(worker), worker.task->row->priority};
+      place_.processor->join(place_.priority);
+      switch (static_cast<rung_task_kind>(worker.task->row->kind)) {
+        case RUNG_CYCLIC: runCyclic(worker); break;
+        case RUNG_FREEWHEELING: runFreewheeling(worker); break;
+        case RUNG_EVENT:
+        case RUNG_STATUS:
+        case RUNG_EXTERNAL: runOnEvent(worker); break;
+      }
     });
   }
+  for (uint32_t i = 0; has_triggers && i < resources_; ++i) samplers_.emplace_back([this, i] { sample(i); });
+  processors_[0].join(0, true);
+  const std::lock_guard<std::mutex> lock(start_mutex_);
+  start_ns_ = monotonicNs() + kMillisecond + static_cast<int64_t>(workers_.size()) * 50'000;
+  for (const std::unique_ptr<Worker>& worker : workers_) worker->next_ns = start_ns_;
+  started_ = true;
+  start_condition_.notify_all();
+}
 
-  // This thread makes the rows when no cyclic task does, and watches for signals and for tasks that never end.
-  int64_t next_idle = shared.start + kSecond, row = 0;
-  bool hung = false, out_of_time = false;
-  while (!shared.stop.load() && !hung) {
-    const int64_t poll = fastest != nullptr ? std::min<int64_t>(schedule.rowNs(), 10'000'000) : schedule.rowNs();
-    if (fastest == nullptr) {
-      sleepUntil(shared.start + row * schedule.rowNs());
-      before(row);
-      after(row);
-      shared.rows_done.store(++row);
-      if (rows >= 0 && row >= rows) break;
-    } else {
-      sleepUntil(monotonicNs() + poll);
-    }
-    if (signalled != 0) break;
+// Asks tasks that still run a moment after the end to stop (rung_poll). False: one does not.
+bool Realtime::endActivations(uint8_t reason) {
+  const int64_t begin = monotonicNs();
+  const auto runs = [](const std::unique_ptr<Worker>& worker) { return worker->running_since.load() != 0; };
+  while (std::any_of(workers_.begin(), workers_.end(), runs)) {
     const int64_t now = monotonicNs();
-    if (timeout_ns > 0 && now - shared.start >= timeout_ns) {
-      const std::lock_guard<std::mutex> lock(shared.mutex);
-      shared.result.fault = {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME};
-      shared.result.faulted = out_of_time = true;
-      break;
-    }
-    for (const std::unique_ptr<Worker>& worker : workers) {
-      const int64_t since = worker->running_since.load();
-      const int64_t limit = worker->item->task->watchdog_ns * std::max<int64_t>(1, worker->item->task->sensitivity);
-      if (since == 0 || limit <= 0 || now - since <= limit) continue;
-      const std::lock_guard<std::mutex> lock(shared.mutex);
-      shared.result.watchdog = context.module->strings + worker->item->task->name;
-      hung = true;
-    }
-    if (now >= next_idle) {
-      next_idle = now + kSecond;
-      idle();
-    }
+    if (now - begin > 2 * kSecond) return false;
+    if (now - begin >= kSecond || reason == RUNG_STOP_TIME)
+      for (const std::unique_ptr<Worker>& worker : workers_) worker->context.stop = reason;
+    sleepUntil(now + 2 * kMillisecond);
   }
-  shared.stop.store(true);
-  if (!hung && (signalled != 0 || out_of_time)) {
-    hung = !endTasks(workers, out_of_time ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT);
-    shared.result.hung = hung;
+  return true;
+}
+
+bool Realtime::isTooLong() {
+  const Held held(activity_);
+  const bool out_of_time = result_.kind == RealtimeResult::Faulted && result_.fault.kind == RUNG_FAULT_STOP;
+  return out_of_time || result_.kind == RealtimeResult::Watchdog;
+}
+
+// ---- the caller's thread
+
+// Tasks that do not end by themselves.
+void Realtime::watch(int64_t now_ns) {
+  if (options_.timeout_ns > 0 && now_ns - start_ns_ >= options_.timeout_ns) {
+    const Held held(activity_);
+    if (result_.kind == RealtimeResult::Complete) {
+      result_.kind = RealtimeResult::Faulted;
+      result_.fault = {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME};
+    }
+    stop_.store(true);
   }
-  for (const std::unique_ptr<Worker>& worker : workers) {
-    if (!worker->thread.joinable()) continue;
-    if (hung && worker->running_since.load() != 0)
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    const int64_t since = worker->running_since.load(), limit = Tasks::limitOf(*worker->task);
+    if (since == 0 || limit <= 0 || now_ns - since <= limit) continue;
+    stopBecause(RealtimeResult::Watchdog, tasks_.nameOf(*worker->task));
+    worker->context.stop = RUNG_STOP_TIME;
+  }
+}
+
+// Makes the rows when no cyclic task does, and waits for signals.
+void Realtime::supervise() {
+  constexpr int64_t kPoll = 10 * kMillisecond;
+  const sigset_t signals = endingSignals();
+  const bool makes_rows = tasks_.fastest() == nullptr;
+  const int64_t poll = makes_rows ? tasks_.rowNs() : std::min(tasks_.rowNs(), kPoll);
+  int64_t row = 0;
+  for (int64_t next = start_ns_ + poll; !stop_.load(); next = std::max(next + poll, monotonicNs())) {
+    if (makes_rows) {
+      const Exchange::Lock lock(tasks_.exchange());
+      hooks_.before(row);
+    }
+    const timespec wait = timeOf(std::max<int64_t>(0, next - monotonicNs()));
+    if (sigtimedwait(&signals, nullptr, &wait) > 0) {
+      stopBecause(RealtimeResult::Signal, "");
+      return;
+    }
+    if (makes_rows) {
+      hooks_.after(row);
+      rows_done_.store(++row);
+      if (options_.rows >= 0 && row >= options_.rows) return;
+    }
+    watch(monotonicNs());
+    hooks_.idle();
+  }
+}
+
+bool Realtime::pause() {
+  paused_.store(true);
+  const int64_t begin = monotonicNs();
+  for (;;) {
+    {
+      const Held held(activity_);
+      if (active_ == 0) return true;
+    }
+    if (monotonicNs() - begin > kSecond) return false;
+    sleepUntil(monotonicNs() + kMillisecond);
+  }
+}
+
+bool Realtime::cycle() {
+  std::vector<Worker*> order;
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    const uint8_t kind = worker->task->row->kind;
+    if ((kind == RUNG_CYCLIC || kind == RUNG_FREEWHEELING) && !worker->task->stopped) order.push_back(worker.get());
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Worker* a, const Worker* b) { return a->task->row->priority < b->task->row->priority; });
+  for (Worker* const worker : order) {
+    {
+      const Held held(activity_);
+      ++active_;
+    }
+    const int64_t began = monotonicNs(), now = programNs();
+    const uint8_t fault = tasks_.begin(*worker->task, worker->context, now, 0);
+    if (!complete(*worker, fault, began, now)) return false;
+  }
+  return true;
+}
+
+void Realtime::joinThreads() {
+  for (const std::unique_ptr<Worker>& worker : workers_) sem_post(&worker->event);
+  for (std::thread& sampler : samplers_) sampler.join();
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    if (result_.hung && worker->running_since.load() != 0)
       worker->thread.detach();  // the task never ends; the process will
     else
       worker->thread.join();
   }
-  running_host.store(nullptr);
-  sigaction(SIGINT, &old_interrupt, nullptr);
-  sigaction(SIGTERM, &old_terminate, nullptr);
+}
 
-  shared.result.rows = shared.rows_done.load();
-  for (const std::unique_ptr<Worker>& worker : workers) {
-    if (worker->item->task->kind != RUNG_CYCLIC) continue;
-    const char* const name = context.module->strings + worker->item->task->name;
-    shared.result.statistics +=
-        std::string("task ") + (*name != 0 ? name : "(default)") + ": " + std::to_string(worker->activations) +
-        " activations, " + std::to_string(worker->skipped) + " skipped, latest start " +
-        microseconds(worker->worst_late_ns) + " late, longest run " + microseconds(worker->longest_run_ns) + '\n';
-  }
-  if (hung)
-    for (std::unique_ptr<Worker>& worker : workers) (void)worker.release();  // detached threads still use them
-  return shared.result;
+RealtimeResult Realtime::run() {
+  const Rights rights = findRights();
+  result_.missing = rights.missing;
+  for (uint32_t i = 0; i < resources_; ++i) processors_[i].prepare(i, rights);
+  const sigset_t signals = endingSignals();
+  sigset_t before;
+  pthread_sigmask(SIG_BLOCK, &signals, &before);
+  int policy = SCHED_OTHER;
+  sched_param priority{};
+  cpu_set_t cpus;
+  pthread_getschedparam(pthread_self(), &policy, &priority);
+  sched_getaffinity(0, sizeof cpus, &cpus);
+
+  createWorkers();
+  startThreads();
+  supervise();
+  stop_.store(true);
+  // A second signal ends the process at once.
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  result_.hung = !endActivations(isTooLong() ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT);
+  result_.elapsed_ns = monotonicNs() - start_ns_;
+  joinThreads();
+  pthread_setschedparam(pthread_self(), policy, &priority);
+  sched_setaffinity(0, sizeof cpus, &cpus);
+  result_.rows = rows_done_.load();
+  if (result_.hung)
+    for (std::unique_ptr<Worker>& worker : workers_) (void)worker.release();  // detached threads still use them
+  return result_;
 }
 
 }  // namespace rung::host

@@ -1,27 +1,130 @@
-// Real time: a thread per task with absolute deadlines, SCHED_FIFO where the system permits, watchdogs, and statistics
-// of periods. In: a schedule and the hooks of a row. Out: why the run ended. Stops at a signal (SIGINT, SIGTERM).
+// Real time: a thread per task with absolute deadlines, on the processor of its resource. What an activation does is in
+// tasks.h; here is when it begins. In: the tasks and the hooks of a run. Out: why the run ended. Stops at SIGINT and
+// SIGTERM: the activations that run are completed.
 #pragma once
 
+#include <semaphore.h>
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
-#include "schedule.h"
+#include "processor.h"
+#include "tasks.h"
 
 namespace rung::host {
 
-struct RealtimeResult {
-  int64_t rows = 0;
-  bool faulted = false;
-  rung_fault fault{};
-  bool hung = false;       // after a signal or the time limit, a thread is still inside the program
-  std::string watchdog;    // the task whose watchdog ended the run
-  std::string statistics;  // lines for the user
+struct RealtimeOptions {
+  int64_t rows = -1;          // < 0: until a signal arrives or the time is over
+  int64_t timeout_ns = 0;     // 0: none
+  int64_t base_ns = 0;        // the program's time at the start
+  bool others_go_on = false;  // a fault stops its task alone
 };
 
-// `before(row)` and `after(row)` run in the thread of the fastest cyclic task, around its activation. `rows` < 0: until
-// a signal arrives or `timeout_ns` are over (0: none). `idle` runs about once a second in the caller's thread.
-RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows, int64_t timeout_ns,
-                           const std::function<void(int64_t)>& before, const std::function<void(int64_t)>& after,
-                           const std::function<void()>& idle);
+struct RealtimeHooks {
+  // In the thread of the fastest cyclic task, around its activation. Rows whose start was missed have none.
+  std::function<void(int64_t row)> before, after;
+  // When no task is within an activation: what is kept is that of complete cycles.
+  std::function<void(int64_t program_ns)> complete;
+  // In the caller's thread, about a hundred times a second.
+  std::function<void()> idle;
+};
+
+struct RealtimeResult {
+  enum Kind : uint8_t { Complete, Faulted, Watchdog, Driver, Signal } kind = Complete;
+  int64_t rows = 0;
+  rung_fault fault{};
+  const rung_context* context = nullptr;  // of the task that faulted
+  bool hung = false;                      // a thread is still inside the program: it could not be ended
+  std::string name;                       // of the task whose watchdog, or of the driver that ended the run
+  std::string missing;                    // rights, for the user
+  int64_t elapsed_ns = 0;
+};
+
+class Realtime {
+ public:
+  Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks);
+  ~Realtime();
+  Realtime(const Realtime&) = delete;
+  Realtime& operator=(const Realtime&) = delete;
+
+  RealtimeResult run();
+
+  // What a user may ask of the running program; called from the hook `idle`.
+  // Lets the activations that run end, and begins no others. False: one did not end within a second.
+  bool pause();
+  void resume() { paused_.store(false); }
+  // One activation of every task that no event starts, by priority; only while paused. False: the run ends.
+  bool cycle();
+  // The named host event that starts external tasks; false: no task waits for it.
+  bool raise(const std::string& event);
+  void end() { stop_.store(true); }
+  int64_t programNs() const;
+
+ private:
+  struct Worker {
+    Task* task = nullptr;
+    rung_context context{};                 // shares the memory, has its own time and fault
+    std::atomic<int64_t> running_since{0};  // 0: not within an activation
+    std::atomic<int64_t> due_ns{0};         // of an event that was posted
+    std::atomic<bool> is_posted{false};
+    std::atomic<uint32_t> missed{0};
+    bool was_true = false;  // of the trigger, in the thread that samples
+    int64_t next_ns = 0;    // event tasks that are also periodic
+    sem_t event;
+    std::thread thread;
+  };
+  // What a thread that waits for a MUTEX or SEMA leaves and takes up again.
+  struct Place {
+    Realtime* host;
+    Processor* processor;
+    uint32_t priority;
+  };
+  static thread_local Place place_;
+  static int waitForOthers(void*);
+
+  void createWorkers();
+  void startThreads();
+  void waitForStart();
+  Processor& processorOf(const Worker& worker) { return processors_[worker.task->row->resource]; }
+  void runCyclic(Worker& worker);
+  void runFreewheeling(Worker& worker);
+  void runOnEvent(Worker& worker);
+  void sample(uint32_t resource);
+  bool isDue(Worker& worker, int64_t now_ns);
+  void post(Worker& worker, int64_t due_ns);
+  void makeRow(int64_t row);
+  bool activate(Worker& worker, int64_t row, int64_t due_ns, int64_t program_ns);
+  bool complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns);
+  void stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker = nullptr);
+  void watch(int64_t now_ns);
+  bool endActivations(uint8_t reason);
+  bool isTooLong();
+  void supervise();
+  void joinThreads();
+
+  Tasks& tasks_;
+  const RealtimeOptions options_;
+  const RealtimeHooks& hooks_;
+  rung_context& common_;
+  rung_host host_{};
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::thread> samplers_;
+  std::unique_ptr<Processor[]> processors_;
+  uint32_t resources_ = 1;
+  int64_t tick_ns_ = 1'000'000;
+  int64_t start_ns_ = 0;
+
+  std::atomic<bool> stop_{false}, paused_{false};
+  std::atomic<int64_t> rows_done_{0};
+  std::mutex start_mutex_;
+  std::condition_variable start_condition_;
+  bool started_ = false;
+  pthread_mutex_t activity_;  // guards the next two; passes priority on
+  uint32_t active_ = 0;       // activations between begin and end
+  RealtimeResult result_;
+};
 
 }  // namespace rung::host

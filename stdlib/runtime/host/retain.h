@@ -1,55 +1,63 @@
-// Retained and persistent variables in a file (--retain). The file has two slots, each with sequence number, layout
-// hash, length and CRC-32. A save writes the older slot and syncs it before it returns, so a power failure at any
-// instruction leaves the old or the new state, whole. In: the ranges of the module. Out: memory restored.
+// Retained and persistent variables of a run (--retain). The values are those of complete cycles: they are copied where
+// no task is within an activation, and written to the file off the cycle. In: the ranges of the module. Out: memory
+// restored, and a sentence for each variable whose value is lost.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "memory.h"
+#include "retain_file.h"
 #include "symbols.h"
 
 namespace rung::host {
 
 class Retain {
  public:
-  Retain(const rung_module& module, Memory& memory, std::string path);
-  ~Retain();
-  Retain(const Retain&) = delete;
-  Retain& operator=(const Retain&) = delete;
+  Retain(const Symbols& symbols, Memory& memory, std::string path);
 
-  bool exists() const;
+  // Opens the file and reads it. False: `error` is a complete sentence.
+  bool open(std::string& error);
+  bool hasData() const { return !found_.empty(); }
   // Restores after init: a warm start keeps retained and persistent variables, a cold start persistent ones, origin
-  // none. From a file of another layout, variables with the same path and type are restored. False: `error` is set.
-  bool restore(rung_start start, const Symbols& symbols, std::string& error);
-  // After restore: a sentence for each variable that keeps its initial value because its type is another one now.
+  // none. From a file of another layout, variables with the same path and type are restored. Sets the time of the
+  // context where timers go on.
+  void restore(rung_start start);
+  // After restore: a sentence for each variable that does not keep its value, and for a damaged file.
   const std::vector<std::string>& changes() const { return changes_; }
-  // Writes the current values.
-  bool save(const Symbols& symbols, std::string& error);
+
+  // Copies the current values; no task runs. Quick, and from any thread.
+  void copy(int64_t now_ns);
+  // Writes the last copy, if it is another one than that in the file. One thread at a time.
+  bool save(std::string& error);
 
  private:
-  struct Slot {
-    uint64_t sequence = 0;
-    uint64_t layout_hash = 0;
-    uint32_t value_bytes = 0;  // the directory follows
-    std::string payload;
+  struct Entry {
+    unsigned kind = 0, offset = 0, size = 0;
+    std::string type;
   };
-  bool readSlot(int index, Slot& slot) const;
-  std::string directory(const Symbols& symbols) const;
-  bool open(std::string& error);
-  struct Entry;
+  std::string directory() const;
   static bool readEntry(const std::string& line, std::string& path, Entry& entry);
-  void restoreByName(const Slot& slot, rung_start start, const Symbols& symbols);
+  template <class F>
+  static void forEachEntry(const std::string& directory, F use);
+  void restoreByName(rung_start start);
+  void note(const std::string& path, const std::string& what);
+  void restoreVariable(const std::string& path, const Entry& before, const Entry& now);
 
   const rung_module& module_;
+  const Symbols& symbols_;
   Memory& memory_;
-  std::string path_;
-  int file_ = -1;
+  RetainFile file_;
   uint64_t sequence_ = 0;
   std::string directory_;
   std::vector<std::string> changes_;
+  std::vector<uint8_t> found_;    // the slot in the file at the start
+  std::vector<uint8_t> written_;  // the values of the last save
+  std::mutex mutex_;              // guards the next two
+  std::vector<uint8_t> latest_;
+  bool is_new_ = false;
+  std::vector<uint8_t> saving_;
 };
-
-uint32_t crc32(const void* data, size_t size, uint32_t crc = 0);
 
 }  // namespace rung::host

@@ -1,15 +1,18 @@
 // `rung run` and executables of `rung build`: runs a module in virtual or real time. See rung/host.h.
 #include <unistd.h>
 #include <algorithm>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "call_trace.h"
+#include "commands.h"
 #include "condition.h"
 #include "faults.h"
 #include "files.h"
@@ -19,6 +22,7 @@
 #include "realtime.h"
 #include "retain.h"
 #include "rung/host.h"
+#include "rung/retain.h"
 #include "schedule.h"
 #include "stopper.h"
 #include "trace.h"
@@ -67,7 +71,9 @@ struct Run {
         options(chosen_options),
         memory(chosen),
         symbols(chosen, memory),
-        schedule(symbols, chosen_options.interval_ns),
+        drivers(chosen, memory),
+        tasks(symbols, memory, drivers, chosen_options.interval_ns),
+        schedule(tasks, memory.context(), chosen_options.others_go_on),
         inputs(symbols),
         trace(symbols),
         stop_on(symbols),
@@ -78,21 +84,32 @@ struct Run {
   ~Run() { running = nullptr; }
 
   int prepare();
+  bool loadAll(std::string& error);
+  int start();
   int runVirtual();
   int runInRealTime();
-  int finish(bool faulted, rung_fault fault, const std::string& extra);
-  // A changed array of thousands of elements is one mistake.
-  void reportChanges(const Retain& restored) const {
-    constexpr size_t kMost = 10;
-    const std::vector<std::string>& changes = restored.changes();
-    for (size_t i = 0; i < changes.size() && i < kMost; ++i)
-      fprintf(options.err, "%s: %s\n", options.retain_path.c_str(), changes[i].c_str());
-    if (changes.size() > kMost)
-      fprintf(options.err, "%s: and %zu more\n", options.retain_path.c_str(), changes.size() - kMost);
+  int finish(bool faulted, const std::string& what, const std::string& extra);
+
+  // Commands. False: the run ends.
+  bool obey(int64_t row);
+  bool obey(const Command& command);
+  bool cycleOnce();
+  // Statistics of virtual time say something where activations take time.
+  bool hasTimes() const {
+    return std::any_of(module.tasks, module.tasks + module.task_count,
+                       [](const rung_task& task) { return task.duration_ns > 0; });
   }
+  bool reset(rung_start kind);
+  void stop();
+  int64_t nowNs() { return realtime ? realtime->programNs() : memory.context().now_ns; }
+  std::string describe(const rung_context& context, const rung_fault& fault) const {
+    return describeFault(context, fault, options.paths);
+  }
+  void reportStopped();
+  void reportChanges() const;
   std::string saveRetained() {
     std::string error;
-    if (retain && !retain->save(symbols, error)) return error;
+    if (retain && !retain->save(error)) return error;
     return "";
   }
 
@@ -100,6 +117,8 @@ struct Run {
   const RunOptions& options;
   Memory memory;
   Symbols symbols;
+  Drivers drivers;
+  Tasks tasks;
   Schedule schedule;
   Inputs inputs;
   Trace trace;
@@ -107,14 +126,59 @@ struct Run {
   Plot plot;
   CallTrace calls;
   Files files;
+  Commands commands;
   std::optional<Retain> retain;
   std::optional<Stopper> stopper;  // in virtual time
+  Realtime* realtime = nullptr;    // while it runs
   rung_host host{};
   char machine_name[256] = {};
   std::vector<std::string> reported;  // locations of violated assertions
   std::mutex reported_mutex;          // tasks in real time are threads
+  std::vector<bool> is_reported;      // by task: that a fault has stopped it
   int64_t cycles = 0;
   int64_t rows_done = 0;
+  int64_t base_ns = 0;      // the program's time at row 0
+  bool is_stopped = false;  // by a command
+  bool single_cycle = false;
+  bool has_quit = false;
+  bool cannot_pause = false;
+  std::string cycle_fault;  // of an activation that a command began
+};
+
+// Writes retained data off the cycle: a thread of the lowest priority.
+class Saver {
+ public:
+  explicit Saver(Run& run) : run_(run) {
+    if (run.retain) thread_ = std::thread([this] { work(); });
+  }
+  ~Saver() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      done_ = true;
+    }
+    end_.notify_one();
+    thread_.join();
+  }
+  Saver(const Saver&) = delete;
+  Saver& operator=(const Saver&) = delete;
+
+ private:
+  void work() {
+    std::string last;
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!end_.wait_for(lock, std::chrono::seconds(1), [this] { return done_; })) {
+      const std::string refused = run_.saveRetained();
+      if (!refused.empty() && refused != last) fprintf(run_.options.err, "warning: %s\n", refused.c_str());
+      last = refused;
+    }
+  }
+
+  Run& run_;
+  std::thread thread_;
+  std::mutex mutex_;
+  std::condition_variable end_;
+  bool done_ = false;
 };
 
 // Code that cannot be stopped: a body in C++, or output to a full pipe. In a signal handler.
@@ -133,7 +197,7 @@ void endHungRun(const rung_context* context, uint8_t reason) {
 int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.context().now_ns; }
 void onMessage(void* data, uint8_t severity, const char* text) {
   static const char* const words[] = {"note", "warning", "error"};
-  const int64_t ms = static_cast<Run*>(data)->memory.context().now_ns / 1'000'000;
+  const int64_t ms = static_cast<Run*>(data)->nowNs() / 1'000'000;
   fprintf(static_cast<Run*>(data)->options.err, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000),
           static_cast<int>(ms % 1000), words[severity <= RUNG_MESSAGE_ERROR ? severity : 0], text);
 }
@@ -152,14 +216,56 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
   fprintf(run.options.err, "%s\n", message.c_str());
 }
 
+void Run::reportChanges() const {
+  constexpr size_t kMost = 10;  // a changed array of thousands of elements is one mistake
+  const std::vector<std::string>& changes = retain->changes();
+  for (size_t i = 0; i < changes.size() && i < kMost; ++i)
+    fprintf(options.err, "%s: %s\n", options.retain_path.c_str(), changes[i].c_str());
+  if (changes.size() > kMost)
+    fprintf(options.err, "%s: and %zu more\n", options.retain_path.c_str(), changes.size() - kMost);
+}
+
+// All input of the user is checked before anything runs or is written.
+bool Run::loadAll(std::string& error) {
+  for (const std::string& driver : options.drivers)
+    if (!drivers.load(driver, error)) return error.insert(0, "--driver: "), false;
+  if (!tasks.prepare(error)) return false;
+  if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return false;
+  if (!options.control_path.empty() && !commands.open(options.control_path, options.realtime, error)) return false;
+  if (!trace.choose(options.watch, error)) return error.insert(0, "--watch: "), false;
+  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return error.insert(0, "--stop-on: "), false;
+  if (options.retain_path.empty()) return true;
+  retain.emplace(symbols, memory, options.retain_path);
+  return true;
+}
+
+// Initial values, retained data, --set.
+int Run::start() {
+  rung_context& context = memory.context();
+  if (memory.reset() != RUNG_FAULT_NONE) {
+    fprintf(options.err, "%s\n", describe(context, context.fault).c_str());
+    return kFaulted;
+  }
+  std::string error;
+  if (retain) {
+    if (!retain->open(error)) return refuse(options, error);
+    retain->restore(options.start >= 0  ? static_cast<rung_start>(options.start)
+                    : retain->hasData() ? RUNG_WARM
+                                        : RUNG_COLD);
+    reportChanges();
+    base_ns = context.now_ns;
+    schedule.restart(base_ns);
+  }
+  for (const auto& [path, value] : options.sets) {
+    const std::string what = applySet(symbols, path, value);
+    if (!what.empty()) return refuse(options, "--set " + path + "=" + value + ": " + what);
+  }
+  return kSuccess;
+}
+
 int Run::prepare() {
   std::string error;
-  if (!schedule.prepare(error)) return refuse(options, error);
-  // All input of the user is checked before anything runs or is written.
-  if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(options, error);
-  if (!trace.choose(options.watch, error)) return refuse(options, "--watch: " + error);
-  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return refuse(options, "--stop-on: " + error);
-
+  if (!loadAll(error)) return refuse(options, error);
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
   host.message = onMessage;
@@ -169,32 +275,19 @@ int Run::prepare() {
   context.host = &host;
   context.host_data = this;
   context.step_limit = options.max_steps;
+  is_reported.resize(module.task_count);
   if (!options.realtime) {
     running = this;
     stopper.emplace(context, endHungRun);
     stopper->limitTime(options.timeout_ns);
   }
-  if (memory.reset() != RUNG_FAULT_NONE) {
-    fprintf(options.err, "%s\n", describeFault(context, context.fault, options.paths).c_str());
-    return kFaulted;
-  }
-  if (!options.retain_path.empty()) {
-    retain.emplace(module, memory, options.retain_path);
-    const rung_start start = options.start >= 0 ? static_cast<rung_start>(options.start)
-                             : retain->exists() ? RUNG_WARM
-                                                : RUNG_COLD;
-    if (!retain->restore(start, symbols, error)) return refuse(options, error);
-    reportChanges(*retain);
-  }
-  for (const auto& [path, value] : options.sets) {
-    const std::string what = applySet(symbols, path, value);
-    if (!what.empty()) return refuse(options, "--set " + path + "=" + value + ": " + what);
-  }
+  const int started = start();
+  if (started != kSuccess) return started;
   if (!trace.open(options.trace_path, options.out, error)) return refuse(options, error);
   if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
     return refuse(options, error);
 
-  const int64_t row_ns = schedule.rowNs();
+  const int64_t row_ns = tasks.rowNs();
   if (options.cycles >= 0)
     cycles = options.cycles;
   else if (options.for_ns >= 0)
@@ -205,47 +298,162 @@ int Run::prepare() {
   return kSuccess;
 }
 
-int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
+// ---- commands
+
+void Run::stop() {
+  is_stopped = true;
+  tasks.makeOutputsSafe(nowNs());
+}
+
+// TM/TP manual 4.1.4: what a reset keeps. The program is stopped after it.
+bool Run::reset(rung_start kind) {
+  std::vector<uint64_t> kept(rung_retain_bytes(&module) / 8 + 1);
+  memory.end();
+  rung_retain_pack(&memory.context(), kept.data());
+  const int64_t now = nowNs();
+  if (memory.reset(true) != RUNG_FAULT_NONE) {
+    cycle_fault = describe(memory.context(), memory.context().fault);
+    return false;
+  }
+  rung_retain_unpack(&memory.context(), kept.data(), kind);
+  memory.context().now_ns = now;
+  schedule.restart(base_ns + rows_done * tasks.rowNs());
+  tasks.restart();
+  stop();
+  return true;
+}
+
+// In virtual time the row that follows is the cycle.
+bool Run::cycleOnce() {
+  if (!is_stopped) return true;
+  tasks.restoreOutputs();
+  if (realtime == nullptr) {
+    single_cycle = true;
+    is_stopped = false;
+    return true;
+  }
+  const bool goes_on = realtime->cycle();
+  tasks.makeOutputsSafe(nowNs());
+  return goes_on;
+}
+
+bool Run::obey(const Command& command) {
+  switch (command.kind) {
+    case Command::Stop: stop(); break;
+    case Command::Start:
+      is_stopped = false;
+      tasks.restoreOutputs();
+      break;
+    case Command::Cycle: return cycleOnce();
+    case Command::Reset: return reset(command.start);
+    case Command::Event:
+      if (!(realtime != nullptr ? realtime->raise(command.event) : schedule.raise(command.event)))
+        fprintf(options.err, "warning: no task waits for the event `%s`\n", command.event.c_str());
+      break;
+    case Command::Status: fputs(tasks.statistics(0).c_str(), options.err); break;
+    case Command::Quit: has_quit = true; return false;
+  }
+  return true;
+}
+
+// What counts before this row. In real time other tasks rest meanwhile.
+bool Run::obey(int64_t row) {
+  if (options.control_path.empty()) return true;
+  Command command;
   std::string error;
-  if (stopper) stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
+  bool goes_on = true;
+  while (goes_on && commands.next(row, command, error)) {
+    const bool pauses = realtime != nullptr && command.kind != Command::Event && command.kind != Command::Status;
+    if (pauses && !realtime->pause()) {
+      cannot_pause = true;
+      return false;
+    }
+    goes_on = obey(command);
+    if (realtime != nullptr && goes_on && !is_stopped) realtime->resume();
+    if (single_cycle) return goes_on;
+  }
+  if (!error.empty()) fprintf(options.err, "warning: %s\n", error.c_str());
+  return goes_on;
+}
+
+void Run::reportStopped() {
+  if (!options.others_go_on) return;
+  for (const Task& task : tasks.all()) {
+    if (!task.stopped || is_reported[task.index]) continue;
+    is_reported[task.index] = true;
+    fprintf(options.err, "%s; task `%s` is stopped\n", describe(memory.context(), task.fault).c_str(),
+            tasks.nameOf(task).c_str());
+  }
+}
+
+// ---- the end
+
+// `what`: why it faulted, a line; `extra`: lines for the user.
+int Run::finish(bool faulted, const std::string& what, const std::string& extra) {
+  std::string error, reason = what;
   const std::string last_row = options.trace_path.empty() && !faulted ? trace.lastRow() : std::string();
   if (memory.end() != RUNG_FAULT_NONE && !faulted) {
     faulted = true;
-    fault = memory.context().fault;
+    reason = describe(memory.context(), memory.context().fault);
   }
-  if (faulted) memory.makeOutputsSafe();
+  // What FB_Exit leaves is kept; after a fault it is the last complete cycle.
+  if (!faulted && retain) retain->copy(base_ns + rows_done * tasks.rowNs());
+  tasks.makeOutputsSafe(nowNs());
   const std::string refused = saveRetained();
-  if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(options, error);
+  if (!trace.close(error) || !plot.close(tasks.rowNs(), error)) return refuse(options, error);
   if (options.trace_path.empty()) {
     fprintf(options.out, "%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
-            static_cast<long long>(rows_done), durationText(schedule.rowNs()).c_str(),
-            durationText(rows_done * schedule.rowNs()).c_str());
+            static_cast<long long>(rows_done), durationText(tasks.rowNs()).c_str(),
+            durationText(rows_done * tasks.rowNs()).c_str());
   }
   if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? options.err : options.out);
   fflush(options.out);
   if (faulted) {
-    fprintf(options.err, "%s\n", describeFault(memory.context(), fault, options.paths).c_str());
+    fprintf(options.err, "%s\n", reason.c_str());
     return kFaulted;
   }
-  return refused.empty() ? kSuccess : refuse(options, refused);
+  if (!refused.empty()) return refuse(options, refused);
+  const bool one_stopped = std::any_of(is_reported.begin(), is_reported.end(), [](bool reported) { return reported; });
+  return one_stopped ? kFaulted : kSuccess;
 }
+
+std::string watchdogText(const std::string& task) {
+  return "fault[watchdog]: task `" + task + "` ran longer than its watchdog allows";
+}
+std::string driverText(const std::string& driver) { return "fault[driver]: `" + driver + "` does not answer"; }
+
+// ---- virtual time
 
 int Run::runVirtual() {
   rung_context& context = memory.context();
-  const int64_t row_ns = schedule.rowNs();
+  const int64_t row_ns = tasks.rowNs();
   int64_t next_save = processorNs() + 1'000'000'000;
   int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
+  const auto ended = [&](const rung_fault& fault) {
+    stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
+    return finish(true, describe(context, fault), "");
+  };
   for (int64_t row = 0; row < cycles; ++row) {
+    if (!obey(row)) break;
     inputs.apply(row);
-    const uint8_t fault = schedule.run(row, context);
+    const Schedule::Ending ending = is_stopped ? Schedule::Ending::Complete : schedule.run(base_ns + row * row_ns);
     if (options.trace_calls) fputs(calls.line(row).c_str(), options.out);
-    if (fault != RUNG_FAULT_NONE) return finish(true, context.fault, "");
-    if (stopper->reason() != RUNG_STOP_NONE) return finish(true, stopper->fault(), "");
+    if (ending == Schedule::Ending::Faulted) return ended(context.fault);
+    if (stopper->reason() != RUNG_STOP_NONE) return ended(stopper->fault());
+    if (ending == Schedule::Ending::Watchdog)
+      return finish(true, watchdogText(tasks.nameOf(*schedule.stoppedTask())), tasks.statistics(0));
+    if (const std::string lost = tasks.lostDriver(); !lost.empty()) return finish(true, driverText(lost), "");
+    reportStopped();
     trace.row(row, row * row_ns);
     plot.row();
     rows_done = row + 1;
+    if (retain && schedule.isIdle()) retain->copy(base_ns + rows_done * row_ns);
+    if (single_cycle) {
+      single_cycle = false;
+      stop();
+    }
     if (!options.stop_on.empty() && stop_on.holds())
-      return finish(false, {}, "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
+      return finish(false, "", "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
     if (next_hint != INT64_MAX && processorNs() >= next_hint) {
       fprintf(options.err, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
@@ -256,36 +464,84 @@ int Run::runVirtual() {
       next_save = processorNs() + 1'000'000'000;
     }
   }
-  return finish(false, {}, options.stop_on.empty() ? "" : "never became TRUE: " + options.stop_on + "\n");
+  stopper->limitTime(0);
+  if (!cycle_fault.empty()) return finish(true, cycle_fault, "");
+  std::string extra = hasTimes() ? tasks.statistics(rows_done * row_ns) : "";
+  if (!options.stop_on.empty() && !has_quit) extra += "never became TRUE: " + options.stop_on + "\n";
+  return finish(false, "", extra);
 }
 
+// ---- real time
+
 int Run::runInRealTime() {
-  const int64_t row_ns = schedule.rowNs();
-  if (cycles == 0) return finish(false, {}, "");
-  const RealtimeResult result = runRealtime(
-      schedule, memory.context(), cycles, options.timeout_ns, [&](int64_t row) { inputs.apply(row); },
-      [&](int64_t row) {
-        trace.row(row, row * row_ns);
-        plot.row();
-      },
-      [&] { saveRetained(); });
+  const int64_t row_ns = tasks.rowNs();
+  if (cycles == 0) return finish(false, "", "");
+  RealtimeOptions wanted;
+  wanted.rows = cycles;
+  wanted.timeout_ns = options.timeout_ns;
+  wanted.base_ns = base_ns;
+  wanted.others_go_on = options.others_go_on;
+  std::atomic<int64_t> row_now{0};
+  RealtimeHooks hooks;
+  hooks.before = [&](int64_t row) {
+    row_now.store(row);
+    inputs.apply(row);
+  };
+  hooks.after = [&](int64_t row) {
+    trace.row(row, row * row_ns);
+    plot.row();
+  };
+  hooks.complete = [&](int64_t now_ns) {
+    if (retain) retain->copy(now_ns);
+  };
+  RealtimeResult result;
+  Realtime threads(tasks, memory.context(), wanted, hooks);
+  hooks.idle = [&] {
+    reportStopped();
+    if (!obey(row_now.load())) threads.end();
+  };
+  {
+    const Saver saver(*this);
+    realtime = &threads;
+    result = threads.run();
+  }
   rows_done = result.rows;
-  if (!result.watchdog.empty() || result.hung) {
-    memory.makeOutputsSafe();
+  if (!result.missing.empty()) fprintf(options.err, "note: %s\n", result.missing.c_str());
+  std::string what = cycle_fault;
+  bool faulted = !cycle_fault.empty();
+  switch (result.kind) {
+    case RealtimeResult::Complete:
+    case RealtimeResult::Signal: break;
+    case RealtimeResult::Faulted:
+      faulted = true;
+      what = describe(result.context != nullptr ? *result.context : memory.context(), result.fault);
+      break;
+    case RealtimeResult::Watchdog:
+      faulted = true;
+      what = watchdogText(result.name);
+      break;
+    case RealtimeResult::Driver:
+      faulted = true;
+      what = driverText(result.name);
+      break;
+  }
+  if (result.hung || cannot_pause) {
+    // A thread may still be inside the program, so nothing of it runs any more.
+    tasks.makeOutputsSafe(nowNs());
+    saveRetained();
     std::string error;
     trace.close(error);
     plot.close(row_ns, error);
     fflush(options.out);
-    const std::string what =
-        result.hung ? describeFault(memory.context(),
-                                    {RUNG_FAULT_STOP, RUNG_NONE, result.faulted ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT},
-                                    options.paths)
-                    : "fault[watchdog]: task `" + result.watchdog + "` ran longer than its watchdog allows";
+    if (what.empty()) what = describe(memory.context(), {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_INTERRUPT});
     fprintf(options.err, "%s\n", what.c_str());
     fflush(options.err);
-    _exit(kFaulted);  // a thread may still be inside the program
+    _exit(kFaulted);
   }
-  return finish(result.faulted, result.fault, result.statistics);
+  reportStopped();
+  const int status = finish(faulted, what, tasks.statistics(result.elapsed_ns));
+  realtime = nullptr;
+  return status;
 }
 
 }  // namespace

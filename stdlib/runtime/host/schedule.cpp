@@ -2,86 +2,150 @@
 #include "schedule.h"
 
 #include <algorithm>
-
-#include "crashes.h"
+#include <cstring>
 
 namespace rung::host {
 
-bool readBool(const Variable& variable) {
-  const uint8_t* const at = variable.address();
-  if (at == nullptr) return false;
-  return variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0;
+Schedule::Schedule(Tasks& tasks, rung_context& context, bool others_go_on)
+    : tasks_(tasks), context_(context), others_go_on_(others_go_on), states_(tasks.all().size()) {}
+
+void Schedule::restart(int64_t now_ns) {
+  jobs_.clear();
+  for (State& state : states_) state = {now_ns, false, false};
 }
 
-Schedule::Schedule(const Symbols& symbols, int64_t interval_ns) : symbols_(symbols), row_ns_(0) {
-  const rung_module& module = symbols.module();
-  for (uint32_t i = 0; i < module.task_count; ++i) {
-    const rung_task& task = module.tasks[i];
-    Item item{&task, task.interval_ns, 0, false, 0, {}};
-    if (task.kind == RUNG_CYCLIC) {
-      if (task.interval_ns <= 0) item.interval_ns = interval_ns;
-      row_ns_ = row_ns_ == 0 ? item.interval_ns : std::min(row_ns_, item.interval_ns);
-    }
-    items_.push_back(std::move(item));
+bool Schedule::raise(const std::string& event) {
+  bool found = false;
+  for (const Task& task : tasks_.all()) {
+    if (task.row->kind != RUNG_EXTERNAL || event != context_.module->strings + task.row->external_event) continue;
+    states_[task.index].raised = found = true;
   }
-  if (row_ns_ == 0) row_ns_ = interval_ns;
+  return found;
 }
 
-bool Schedule::prepare(std::string& error) {
-  for (Item& item : items_) {
-    if (item.task->kind != RUNG_EVENT && item.task->kind != RUNG_STATUS) continue;
-    const std::string name = symbols_.text(item.task->name);
-    if (!symbols_.find(symbols_.text(item.task->trigger), item.trigger, error)) {
-      error = "task `" + name + "`: " + error;
-      return false;
-    }
-    if (item.trigger.type->kind != RUNG_BOOL) {
-      error = "task `" + name + "`: the trigger `" + item.trigger.path + "` is not a BOOL";
-      return false;
-    }
-  }
-  return true;
+void Schedule::releasePeriods(uint32_t task, int64_t end_ns) {
+  State& state = states_[task];
+  for (; state.next_ns < end_ns; state.next_ns += tasks_.all()[task].interval_ns) due_.push_back({state.next_ns, task});
 }
 
-uint8_t Schedule::run(int64_t row, rung_context& context) {
-  const int64_t begin = row * row_ns_, end = begin + row_ns_;
+// What becomes due in a row. Triggers and host events are sampled at its begin.
+void Schedule::release(int64_t begin_ns, int64_t end_ns) {
   due_.clear();
-  for (uint32_t i = 0; i < items_.size(); ++i) {
-    Item& item = items_[i];
-    switch (static_cast<rung_task_kind>(item.task->kind)) {
-      case RUNG_CYCLIC:
-        // The period is at least a row, so at most once.
-        if (item.next_ns >= end) break;
-        due_.push_back({item.next_ns, item.task->priority, i});
-        item.next_ns += item.interval_ns;
-        break;
-      case RUNG_FREEWHEELING: due_.push_back({begin, item.task->priority, i}); break;
+  for (uint32_t i = 0; i < states_.size(); ++i) {
+    const Task& task = tasks_.all()[i];
+    if (task.stopped) continue;
+    State& state = states_[i];
+    switch (static_cast<rung_task_kind>(task.row->kind)) {
+      case RUNG_CYCLIC: releasePeriods(i, end_ns); break;
+      case RUNG_FREEWHEELING: due_.push_back({begin_ns, i}); break;
       case RUNG_EVENT: {
-        const bool is_true = readBool(item.trigger);
-        if (is_true && !item.was_true) due_.push_back({begin, item.task->priority, i});
-        item.was_true = is_true;
+        const bool is_true = readBool(task.trigger);
+        if (is_true && !state.was_true) due_.push_back({begin_ns, i});
+        state.was_true = is_true;
+        if (task.row->interval_ns > 0 && !is_true) releasePeriods(i, end_ns);
+        while (task.row->interval_ns > 0 && state.next_ns < end_ns) state.next_ns += task.row->interval_ns;
         break;
       }
       case RUNG_STATUS:
-        if (readBool(item.trigger)) due_.push_back({begin, item.task->priority, i});
+        if (readBool(task.trigger)) due_.push_back({begin_ns, i});
         break;
-      case RUNG_EXTERNAL: break;  // virtual time has no external events
+      case RUNG_EXTERNAL:
+        if (state.raised) due_.push_back({begin_ns, i});
+        state.raised = false;
+        break;
     }
   }
   if (due_.size() > 1)
-    std::stable_sort(due_.begin(), due_.end(), [](const Activation& a, const Activation& b) {
-      return a.time_ns != b.time_ns ? a.time_ns < b.time_ns : a.priority < b.priority;
-    });
-  for (const Activation& activation : due_) {
-    context.now_ns = activation.time_ns;
-    Item& item = items_[activation.item];
-    context.entry = item.task;
-    context.task = activation.item + 1;
-    context.activation = ++item.activations;
-    const uint8_t fault = guarded(&context, item.task->run);
-    if (fault != RUNG_FAULT_NONE) return fault;
+    std::stable_sort(due_.begin(), due_.end(),
+                     [](const Release& a, const Release& b) { return a.time_ns < b.time_ns; });
+}
+
+void Schedule::enter(const Release& release) {
+  const uint32_t priority = tasks_.all()[release.task].row->priority;
+  size_t at = jobs_.size();
+  for (size_t i = 0; i < jobs_.size(); ++i) {
+    if (jobs_[i].task == release.task) {
+      // It still runs or waits: this start is dropped, the grid of its periods stays. A freewheeling task has none.
+      if (tasks_.all()[release.task].row->kind != RUNG_FREEWHEELING)
+        tasks_.countOverruns(tasks_.all()[release.task], 1);
+      return;
+    }
+    if (at == jobs_.size() && tasks_.all()[jobs_[i].task].row->priority > priority) at = i;
   }
-  return RUNG_FAULT_NONE;
+  jobs_.insert(jobs_.begin() + static_cast<ptrdiff_t>(at), {release.task, release.time_ns});
+}
+
+bool Schedule::isFirstOfResource(size_t job) const {
+  const uint32_t resource = tasks_.all()[jobs_[job].task].row->resource;
+  for (size_t i = 0; i < job; ++i)
+    if (tasks_.all()[jobs_[i].task].row->resource == resource) return false;
+  return true;
+}
+
+bool Schedule::begin(size_t job, int64_t now_ns, Ending& ending) {
+  Job& chosen = jobs_[job];
+  Task& task = tasks_.all()[chosen.task];
+  chosen.start_ns = now_ns;
+  chosen.left_ns = task.row->duration_ns;
+  if (tasks_.begin(task, context_, chosen.release_ns, now_ns - chosen.release_ns) == RUNG_FAULT_NONE) {
+    if (chosen.left_ns > 0) tasks_.exchange().drop(context_);  // its copies stay until its end
+    return true;
+  }
+  if (others_go_on_ && context_.fault.kind != RUNG_FAULT_STOP) {
+    tasks_.stopOne(task, context_.fault);
+    jobs_.erase(jobs_.begin() + static_cast<ptrdiff_t>(job));
+    return true;
+  }
+  ending = Ending::Faulted;
+  return false;
+}
+
+bool Schedule::finish(size_t job, int64_t now_ns, Ending& ending) {
+  Task& task = tasks_.all()[jobs_[job].task];
+  const int64_t took_ns = now_ns - jobs_[job].start_ns;
+  jobs_.erase(jobs_.begin() + static_cast<ptrdiff_t>(job));
+  if (tasks_.end(task, context_, now_ns, took_ns)) return true;
+  stopped_ = &task;
+  ending = Ending::Watchdog;
+  return false;
+}
+
+bool Schedule::advance(int64_t now_ns, Ending& ending) {
+  for (size_t i = 0; i < jobs_.size(); ++i) {
+    if (!isFirstOfResource(i)) continue;
+    if (jobs_[i].start_ns >= 0 && jobs_[i].left_ns == 0) return finish(i, now_ns, ending);
+    if (jobs_[i].start_ns < 0) return begin(i, now_ns, ending);
+  }
+  return false;
+}
+
+// Lets the first job of each resource run until the next one is complete, or `until_ns`. Returns that time.
+int64_t Schedule::spend(int64_t now_ns, int64_t until_ns) {
+  for (size_t i = 0; i < jobs_.size(); ++i)
+    if (isFirstOfResource(i)) until_ns = std::min(until_ns, now_ns + jobs_[i].left_ns);
+  for (size_t i = 0; i < jobs_.size(); ++i)
+    if (isFirstOfResource(i)) jobs_[i].left_ns -= until_ns - now_ns;
+  return until_ns;
+}
+
+Schedule::Ending Schedule::run(int64_t begin_ns) {
+  const int64_t end_ns = begin_ns + tasks_.rowNs();
+  release(begin_ns, end_ns);
+  Ending ending = Ending::Complete;
+  size_t next = 0;
+  for (int64_t now = begin_ns;;) {
+    // What ends now leaves before what becomes due now.
+    while (
+        std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.start_ns >= 0 && job.left_ns == 0; }))
+      if (!advance(now, ending)) return ending;
+    for (; next < due_.size() && due_[next].time_ns <= now; ++next) enter(due_[next]);
+    while (advance(now, ending)) {
+    }
+    if (ending != Ending::Complete) return ending;
+    const int64_t then = spend(now, next < due_.size() ? due_[next].time_ns : end_ns);
+    if (then >= end_ns) return ending;
+    now = then;
+  }
 }
 
 }  // namespace rung::host

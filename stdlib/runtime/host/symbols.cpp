@@ -93,7 +93,8 @@ Symbols::Symbols(const rung_module& module, const Memory& memory) : module_(modu
   for (uint32_t i = 0; i < module.symbol_count; ++i) {
     const std::string name = lowerCase(text(module.symbols[i].name));
     if (name.empty()) continue;
-    roots_.emplace(name, i);
+    const auto [first, is_first] = roots_.emplace(name, i);
+    if (!is_first) shared_names_.insert({first->second, i});
     // `Config.Resource.` may precede it, or `Resource.` alone.
     const std::string prefix = lowerCase(text(module.symbols[i].path));
     for (size_t begin = 0; begin < prefix.size();) {
@@ -109,6 +110,7 @@ Variable Symbols::root(uint32_t index) const {
   const rung_symbol& symbol = module_.symbols[index];
   Variable variable;
   variable.path = text(symbol.name);
+  if (shared_names_.count(index) != 0) variable.path.insert(0, text(symbol.path));
   variable.type = &module_.types[symbol.type];
   variable.base = symbol.storage == RUNG_IN_BLOCK ? memory_.block(symbol.index) : memory_.area(symbol.index);
   variable.offset = symbol.offset;

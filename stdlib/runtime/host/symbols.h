@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "memory.h"
@@ -52,12 +53,12 @@ class Symbols {
   std::vector<Variable> ofPrograms() const;
   // Every root, whole.
   std::vector<Variable> roots() const;
+  Variable root(uint32_t symbol) const;
 
   const rung_module& module() const { return module_; }
   const char* text(uint32_t offset) const { return module_.strings + offset; }
 
  private:
-  Variable root(uint32_t symbol) const;
   bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
   bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
   bool step(Variable& variable, std::string_view& rest, std::string& error) const;
@@ -65,6 +66,7 @@ class Symbols {
   const rung_module& module_;
   const Memory& memory_;
   std::unordered_map<std::string, uint32_t> roots_;  // lower case, with and without their prefixes
+  std::unordered_set<uint32_t> shared_names_;        // of symbols whose name alone is that of another one too
 };
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.

@@ -134,9 +134,9 @@ struct Tables {
     symbols.push_back({t("Main.valve"), Bool, RUNG_IN_AREA, 2, 0, 1, 0, 0, t("Plant.Cpu.")});
     symbols.push_back({t("speed"), Word, RUNG_IN_AREA, 255, 0, 0, 2, 0, 0});
 
-    tasks.push_back({t("Slow"), RUNG_CYCLIC, 1, 30'000'000, 0, 0, 0, 0, slow});
-    tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, fast});
-    tasks.push_back({t("Edge"), RUNG_EVENT, 0, 0, 0, 0, t("Main.start_event"), 0, onEvent});
+    tasks.push_back({t("Slow"), RUNG_CYCLIC, 1, 30'000'000, 0, 0, 0, 0, 0, 0, 0, 0, slow});
+    tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, 0, 0, 0, 0, fast});
+    tasks.push_back({t("Edge"), RUNG_EVENT, 0, 0, 0, 0, t("Main.start_event"), 0, 0, 0, 0, 0, onEvent});
 
     tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testOk, nullptr});
     tests.push_back({t("bad_test"), t("t.st"), 6, RUNG_NONE, 0, nullptr, testBad, nullptr});

@@ -39,7 +39,7 @@ TEST(Configuration, tasks_and_their_settings) {
   EXPECT_EQ(checked.project.tasks[0].interval_ns, 500'000);
   EXPECT_EQ(checked.project.tasks[0].watchdog_ns, 20'000'000);
   EXPECT_EQ(checked.project.tasks[1].kind, TaskKind::Event);
-  EXPECT_TRUE(checked.project.tasks[1].trigger);
+  EXPECT_EQ(checked.project.tasks[1].trigger, "go");
   EXPECT_EQ(checked.project.tasks[2].kind, TaskKind::Status);
   EXPECT_EQ(checked.project.tasks[3].kind, TaskKind::Freewheeling);
   EXPECT_EQ(checked.project.tasks[4].external_event, "ax_interrupt");

@@ -34,6 +34,9 @@ struct RunOptions {
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
   std::string files_root = ".";                           // --files-root
+  std::vector<std::string> drivers;                       // --driver PATH[=ARGUMENT]
+  std::string control_path;                               // --control: commands to the running program
+  bool others_go_on = false;                              // --on-fault=task: a fault stops its task alone
   int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
   std::string stop_on;       // --stop-on CONDITION
   bool trace_calls = false;  // --trace-calls, for interpreted modules that report their calls

@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 8u
+#define RUNG_MODULE_ABI 9u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -139,15 +139,46 @@ typedef struct rung_area {
 typedef enum rung_task_kind { RUNG_CYCLIC, RUNG_FREEWHEELING, RUNG_EVENT, RUNG_STATUS, RUNG_EXTERNAL } rung_task_kind;
 typedef struct rung_task {
   uint32_t name;
-  uint8_t kind;      /* rung_task_kind */
-  uint32_t priority; /* 0 highest .. 31 */
-  int64_t interval_ns;
+  uint8_t kind;        /* rung_task_kind */
+  uint32_t priority;   /* 0 highest .. 31 */
+  int64_t interval_ns; /* of an EVENT task that is not 0: it also runs cyclically while its trigger is FALSE */
   int64_t watchdog_ns; /* 0: none */
   uint32_t sensitivity;
-  uint32_t trigger;        /* EVENT, STATUS: path of a BOOL, offset in strings */
-  uint32_t external_event; /* EXTERNAL: name, offset in strings */
+  uint32_t trigger;                  /* EVENT, STATUS: path of a BOOL, offset in strings */
+  uint32_t external_event;           /* EXTERNAL: name, offset in strings */
+  uint32_t resource;                 /* index into the module's resources: tasks of one never run at the same instant */
+  uint32_t first_write, write_count; /* slice of the module's writes */
+  int64_t duration_ns;               /* how long an activation takes in a simulation; 0: no time */
   void (*run)(rung_context*);
 } rung_task;
+
+/* What a task may write of outputs and memory areas. A host that gives each task a copy of the areas takes this from it
+ * at the end of an activation, all together. */
+typedef struct rung_write {
+  uint8_t area;
+  uint8_t mask; /* the bits of one byte; 255: whole bytes */
+  uint32_t offset, size;
+} rung_write;
+
+/* What a host tells the program about each task (rung_context::task_states). Times in nanoseconds. */
+typedef struct rung_task_state {
+  uint32_t activations;                               /* that are complete */
+  uint32_t overruns;                                  /* starts that were dropped because the task still ran */
+  int64_t last_ns, shortest_ns, longest_ns, total_ns; /* execution times, interruptions included */
+  int64_t last_start_ns;                              /* program time at which it last began */
+  int64_t earliest_ns, latest_ns; /* bounds of the jitter: how far its periods were shorter (< 0) or longer than set */
+} rung_task_state;
+
+/* A device of a product, which the host reads before and writes after each activation of the task it belongs to. Its
+ * inputs and outputs are parts of the input area (0) and the output area (1). */
+typedef struct rung_driver {
+  const char* name;
+  const char* task; /* the bus cycle task; null: the cyclic task with the shortest interval */
+  uint32_t input_offset, input_size, output_offset, output_size;
+  bool (*read)(void* data, uint8_t* inputs, int64_t now_ns); /* false: an error. May be null, as `write` */
+  bool (*write)(void* data, const uint8_t* outputs, int64_t now_ns);
+  void* data;
+} rung_driver;
 
 /* One test of `rung test`. A test with a `done` variable runs until that is TRUE. */
 typedef struct rung_test {
@@ -279,8 +310,9 @@ struct rung_context {
   /* The rung_task or rung_test whose function runs, set by a host that runs interpreted modules: one function serves
    * all of them. Compiled modules do not read it. */
   const void* entry;
-  uint32_t task;       /* the number of the task that runs, from 1; 0 outside of tasks */
-  uint32_t activation; /* of that task: 1 the first time */
+  uint32_t task;                      /* the number of the task that runs, from 1; 0 outside of tasks */
+  uint32_t activation;                /* of that task: 1 the first time */
+  const rung_task_state* task_states; /* one per task, or null */
   /* Bounds of an activation, in interpreted modules and in those that `rung run` and `rung test` compile; other
    * compiled modules do not read them. A step is an iteration of a loop, a label that is passed, or a call of a POU. */
   int64_t step_limit;            /* 0: none */
@@ -292,10 +324,14 @@ struct rung_context {
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;
 
+enum rung_module_flags {
+  RUNG_ALIGNED_GLOBALS = 1 /* each task works on a copy of the global variables, which it exchanges at its borders */
+};
 typedef struct rung_module {
   uint32_t abi;    /* RUNG_MODULE_ABI */
   uint32_t layout; /* RUNG_MODULE_LAYOUT */
   uint32_t pointer_size;
+  uint32_t flags; /* rung_module_flags */
   const char* name;
   const char* compiler; /* version of rung */
   const char* strings;  /* all names, NUL-terminated, by offset */
@@ -304,8 +340,12 @@ typedef struct rung_module {
   uint32_t block_count;
   const rung_area* areas;
   uint32_t area_count;
+  const uint32_t* resources; /* names: offsets in strings */
+  uint32_t resource_count;
   const rung_task* tasks;
   uint32_t task_count;
+  const rung_write* writes;
+  uint32_t write_count;
   const rung_symbol* symbols;
   uint32_t symbol_count;
   const rung_type* types;
@@ -328,6 +368,9 @@ typedef struct rung_module {
   void (*init)(rung_context*);
   /* Ends all objects (FB_Exit); called once, before the memory is released or init is called again. May be null. */
   void (*exit)(rung_context*);
+  /* Sets outputs that have safe values other than 0 (`[safe]` of rung.project); a host calls it through rung_guarded,
+   * with areas that are 0 otherwise, when the program stops. May be null. */
+  void (*safe)(rung_context*);
 } rung_module;
 
 /* Every module exports one function, <name>_module, that returns its description. */

@@ -1,0 +1,45 @@
+// What a user asks of a running program (--control): `stop`, `start`, `cycle`, `reset warm|cold|origin`, `event NAME`,
+// `status`, `quit`, a line each. In virtual time each line begins with the cycle before which it counts; in real time
+// it may. In: a file, or in real time a pipe that stays open. Out: commands in their order. Called by run.cpp.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "rung/module.h"
+
+namespace rung::host {
+
+struct Command {
+  enum Kind : uint8_t { Stop, Start, Cycle, Reset, Event, Status, Quit } kind = Stop;
+  int64_t cycle = -1;  // -1: at once
+  rung_start start = RUNG_WARM;
+  std::string event;
+};
+
+class Commands {
+ public:
+  ~Commands();
+  Commands() = default;
+  Commands(const Commands&) = delete;
+  Commands& operator=(const Commands&) = delete;
+
+  // Reads a file whole; in real time opens a pipe. False: `error` has file, line and what is wrong.
+  bool open(const std::string& path, bool realtime, std::string& error);
+  // The next command that counts before this cycle; false: none. `error` is set for a line that came by a pipe and is
+  // none.
+  bool next(int64_t cycle, Command& command, std::string& error);
+
+ private:
+  bool take(std::string line, bool realtime, std::string& error);
+  void receive(std::string& error);
+
+  std::string path_;
+  int pipe_ = -1;
+  uint32_t line_ = 0;
+  std::string received_;
+  std::deque<Command> pending_;
+};
+
+}  // namespace rung::host

@@ -1,0 +1,72 @@
+// Devices of a product: see drivers.h.
+#include "drivers.h"
+
+#include <dlfcn.h>
+#include <cstring>
+
+namespace rung::host {
+namespace {
+
+constexpr uint32_t kInputs = 0, kOutputs = 1;
+
+bool fits(const rung_module& module, uint32_t area, uint32_t offset, uint32_t size) {
+  return size == 0 || (area < module.area_count && uint64_t{offset} + size <= module.areas[area].size);
+}
+
+}  // namespace
+
+bool Drivers::load(const std::string& spec, std::string& error) {
+  const size_t equals = spec.find('=');
+  std::string path = spec.substr(0, equals);
+  if (path.find('/') == std::string::npos) path.insert(0, "./");  // not a library of the system
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return error = dlerror(), false;
+  using Drivers = const rung_driver* (*)(const char*, uint32_t*);
+  const auto drivers = reinterpret_cast<Drivers>(dlsym(library, "rung_drivers"));
+  if (drivers == nullptr) return error = path + ": it has no function `rung_drivers`", false;
+  uint32_t count = 0;
+  const rung_driver* const all = drivers(equals == std::string::npos ? "" : spec.c_str() + equals + 1, &count);
+  if (all == nullptr) return error = path + ": it refuses `" + spec + "`", false;
+  for (uint32_t i = 0; i < count; ++i) drivers_.push_back({all + i, RUNG_NONE});
+  return true;
+}
+
+bool Drivers::bind(uint32_t fastest, std::string& error) {
+  for (Bound& bound : drivers_) {
+    const rung_driver& driver = *bound.driver;
+    if (!fits(module_, kInputs, driver.input_offset, driver.input_size) ||
+        !fits(module_, kOutputs, driver.output_offset, driver.output_size))
+      return error = std::string("driver `") + driver.name + "`: the program has fewer inputs or outputs", false;
+    bound.task = fastest == RUNG_NONE ? 0 : fastest;
+    if (driver.task == nullptr) continue;
+    bound.task = RUNG_NONE;
+    for (uint32_t i = 0; i < module_.task_count; ++i)
+      if (strcasecmp(module_.strings + module_.tasks[i].name, driver.task) == 0) bound.task = i;
+    if (bound.task == RUNG_NONE)
+      return error = std::string("driver `") + driver.name + "`: there is no task `" + driver.task + "`", false;
+  }
+  return true;
+}
+
+std::string Drivers::read(uint32_t task, int64_t now_ns) const {
+  for (const auto& [driver, own] : drivers_)
+    if (own == task && driver->read != nullptr &&
+        !driver->read(driver->data, memory_.area(kInputs) + driver->input_offset, now_ns))
+      return driver->name;
+  return {};
+}
+
+std::string Drivers::write(uint32_t task, int64_t now_ns) const {
+  for (const auto& [driver, own] : drivers_)
+    if (own == task && driver->write != nullptr &&
+        !driver->write(driver->data, memory_.area(kOutputs) + driver->output_offset, now_ns))
+      return driver->name;
+  return {};
+}
+
+void Drivers::writeAll(int64_t now_ns) const {
+  for (const auto& [driver, own] : drivers_)
+    if (driver->write != nullptr) driver->write(driver->data, memory_.area(kOutputs) + driver->output_offset, now_ns);
+}
+
+}  // namespace rung::host

@@ -1,0 +1,38 @@
+// The devices of a product (rung_driver): their inputs enter the image before an activation of the task that they
+// belong to, their outputs leave after it. In: drivers. Out: true, or which one failed. Called by tasks.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "memory.h"
+
+namespace rung::host {
+
+class Drivers {
+ public:
+  Drivers(const rung_module& module, Memory& memory) : module_(module), memory_(memory) {}
+
+  // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`.
+  // `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
+  bool load(const std::string& spec, std::string& error);
+  // Checks areas and the names of tasks. `fastest`: the task of drivers that name none; RUNG_NONE: the first one.
+  bool bind(uint32_t fastest, std::string& error);
+
+  // The devices of a task; the caller holds the lock of the image. Empty, or the name of the driver that failed.
+  std::string read(uint32_t task, int64_t now_ns) const;
+  std::string write(uint32_t task, int64_t now_ns) const;
+  // All outputs, after a stop. A driver that fails is not asked again; the others are.
+  void writeAll(int64_t now_ns) const;
+
+ private:
+  struct Bound {
+    const rung_driver* driver;
+    uint32_t task;
+  };
+  const rung_module& module_;
+  Memory& memory_;
+  std::vector<Bound> drivers_;
+};
+
+}  // namespace rung::host

@@ -1,0 +1,41 @@
+// The processor of a resource: the right to run its tasks. Where the system lets a thread choose SCHED_FIFO and a CPU,
+// all tasks of a resource are on one CPU, and the system interrupts a task for one of higher priority; else they run
+// one at a time, and of those that wait the one of highest priority is next. In: threads of tasks. Called by
+// realtime.cpp.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace rung::host {
+
+// What the system permits. The reason is a sentence for the user, empty where nothing is missing.
+struct Rights {
+  bool preemptive = false;  // SCHED_FIFO and the choice of a CPU
+  std::string missing;
+};
+Rights findRights();
+
+class Processor {
+ public:
+  // `number`: of the resource; each has a CPU of its own while there are enough.
+  void prepare(uint32_t number, const Rights& rights);
+  // For the thread of a task, once: its priority (0 highest) and its CPU. `above`: for threads that must never wait for
+  // tasks.
+  void join(uint32_t priority, bool above = false) const;
+  void acquire(uint32_t priority);
+  void release();
+
+ private:
+  static constexpr uint32_t kPriorities = 32;
+  bool preemptive_ = false;
+  int cpu_ = 0;
+  std::mutex mutex_;
+  bool is_busy_ = false;
+  uint32_t waiting_[kPriorities] = {};
+  std::condition_variable free_[kPriorities];
+};
+
+}  // namespace rung::host

@@ -1,0 +1,187 @@
+// Tasks and their activations: see tasks.h.
+#include "tasks.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "crashes.h"
+
+namespace rung::host {
+namespace {
+
+std::string microseconds(int64_t ns) {
+  char text[32];
+  snprintf(text, sizeof text, ns % 1000 == 0 ? "%.0f" : "%.1f", static_cast<double>(ns) / 1000);
+  return text;
+}
+
+// The time that all but one of a thousand are below: the end of a bucket.
+int64_t almostAll(const Histogram& histogram) {
+  uint64_t total = 0, seen = 0;
+  for (const uint64_t count : histogram.counts) total += count;
+  for (uint32_t i = 0; i < Histogram::kBuckets; ++i) {
+    seen += histogram.counts[i];
+    if (seen * 1000 >= total * 999) return (int64_t{2} << i) * 1000;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void Histogram::add(int64_t ns) {
+  uint32_t bucket = 0;
+  for (int64_t us = ns / 1000; us > 1 && bucket + 1 < kBuckets; us >>= 1) ++bucket;
+  ++counts[bucket];
+}
+
+bool readBool(const Variable& variable) {
+  const uint8_t* const at = variable.address();
+  if (at == nullptr) return false;
+  const uint8_t value = __atomic_load_n(at, __ATOMIC_RELAXED);
+  return variable.bit == 255 ? value != 0 : (value >> variable.bit & 1) != 0;
+}
+
+Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns)
+    : symbols_(symbols),
+      memory_(memory),
+      drivers_(drivers),
+      exchange_(symbols, memory),
+      tasks_(symbols.module().task_count),
+      states_(symbols.module().task_count) {
+  const rung_module& module = symbols.module();
+  for (uint32_t i = 0; i < module.task_count; ++i) {
+    const rung_task& row = module.tasks[i];
+    tasks_[i].row = &row;
+    tasks_[i].index = i;
+    tasks_[i].interval_ns = row.interval_ns;
+    if (row.kind != RUNG_CYCLIC) continue;
+    if (row.interval_ns <= 0) tasks_[i].interval_ns = interval_ns;
+    if (fastest_ == RUNG_NONE || tasks_[i].interval_ns < tasks_[fastest_].interval_ns) fastest_ = i;
+  }
+  row_ns_ = fastest_ == RUNG_NONE ? interval_ns : tasks_[fastest_].interval_ns;
+  memory.context().task_states = states_.data();
+}
+
+std::string Tasks::nameOf(const Task& task) const {
+  const char* const name = symbols_.text(task.row->name);
+  return *name != 0 ? name : "(default)";
+}
+
+bool Tasks::prepare(std::string& error) {
+  for (Task& task : tasks_) {
+    if (task.row->kind != RUNG_EVENT && task.row->kind != RUNG_STATUS) continue;
+    const std::string name = symbols_.text(task.row->name);
+    if (!symbols_.find(symbols_.text(task.row->trigger), task.trigger, error)) {
+      error = "task `" + name + "`: " + error;
+      return false;
+    }
+    if (task.trigger.type->kind != RUNG_BOOL) {
+      error = "task `" + name + "`: the trigger `" + task.trigger.path + "` is not a BOOL";
+      return false;
+    }
+  }
+  return drivers_.bind(fastest_, error);
+}
+
+uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns) {
+  rung_task_state& state = states_[task.index];
+  const int64_t start_ns = now_ns + late_ns;
+  if (task.activation > 0 && task.interval_ns > 0) {
+    const int64_t off = start_ns - state.last_start_ns - task.interval_ns;
+    state.earliest_ns = std::min(state.earliest_ns, off);
+    state.latest_ns = std::max(state.latest_ns, off);
+  }
+  state.last_start_ns = start_ns;
+  task.lateness.add(late_ns);
+  task.latest_start = std::max(task.latest_start, late_ns);
+  {
+    const Exchange::Lock lock(exchange_);
+    const std::string lost = drivers_.read(task.index, now_ns);
+    if (!lost.empty()) lost_driver_ = lost;
+  }
+  exchange_.take(task.index, context);
+  context.now_ns = now_ns;
+  context.entry = task.row;
+  context.task = task.index + 1;
+  context.activation = ++task.activation;
+  const uint8_t fault = guarded(&context, task.row->run);
+  if (fault != RUNG_FAULT_NONE) exchange_.drop(context);
+  return fault;
+}
+
+bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns) {
+  rung_task_state& state = states_[task.index];
+  ++state.activations;
+  state.last_ns = took_ns;
+  state.shortest_ns = state.activations == 1 ? took_ns : std::min(state.shortest_ns, took_ns);
+  state.longest_ns = std::max(state.longest_ns, took_ns);
+  state.total_ns += took_ns;
+  // Longer than the watchdog's time as often in a row as its sensitivity says, or once by the product of both.
+  const int64_t watchdog = task.row->watchdog_ns;
+  task.too_long = watchdog > 0 && took_ns > watchdog ? task.too_long + 1 : 0;
+  if (watchdog > 0 && (task.too_long >= std::max(1u, task.row->sensitivity) || took_ns > limitOf(task))) {
+    exchange_.drop(context);
+    return false;
+  }
+  exchange_.give(task.index, context);
+  const Exchange::Lock lock(exchange_);
+  const std::string lost = drivers_.write(task.index, now_ns);
+  if (!lost.empty()) lost_driver_ = lost;
+  return true;
+}
+
+void Tasks::stopOne(Task& task, const rung_fault& fault) {
+  task.stopped = true;
+  task.fault = fault;
+  exchange_.makeSafe(task.index);
+  const Exchange::Lock lock(exchange_);
+  drivers_.write(task.index, states_[task.index].last_start_ns);
+}
+
+void Tasks::restart() {
+  for (Task& task : tasks_) {
+    task.stopped = false;
+    task.activation = task.too_long = 0;
+  }
+}
+
+void Tasks::makeOutputsSafe(int64_t now_ns) {
+  const Exchange::Lock lock(exchange_);
+  memory_.makeOutputsSafe();
+  drivers_.writeAll(now_ns);
+}
+
+void Tasks::restoreOutputs() {
+  const Exchange::Lock lock(exchange_);
+  memory_.restoreOutputs();
+}
+
+int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }
+
+std::string Tasks::statistics(int64_t elapsed_ns) const {
+  std::string text;
+  for (const Task& task : tasks_) {
+    const rung_task_state& state = states_[task.index];
+    text += "task " + nameOf(task) + ": " + std::to_string(state.activations) + " activations, " +
+            std::to_string(state.overruns) + " overruns";
+    if (state.activations > 0) {
+      text += ", ran " + microseconds(state.shortest_ns) + '/' + microseconds(state.total_ns / state.activations) +
+              '/' + microseconds(state.longest_ns) + " us (min/average/max)";
+      if (task.row->kind == RUNG_CYCLIC)
+        text += ", jitter " + microseconds(state.earliest_ns) + ".." + microseconds(state.latest_ns) +
+                " us, started up to " + microseconds(task.latest_start) + " us late";
+      if (task.row->kind == RUNG_CYCLIC && state.activations >= 1000)
+        text += ", 99.9 % below " + microseconds(almostAll(task.lateness)) + " us";
+      if (elapsed_ns > 0) {
+        char load[32];
+        snprintf(load, sizeof load, ", load %.1f %%",
+                 100.0 * static_cast<double>(state.total_ns) / static_cast<double>(elapsed_ns));
+        text += load;
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace rung::host

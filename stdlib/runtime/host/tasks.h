@@ -1,0 +1,91 @@
+// The tasks of a program, and one activation of a task: what virtual and real time have in common. The two hosts decide
+// when an activation begins and ends; all else is here: the exchange of the image, devices, statistics, the watchdog.
+// In: the tables of a module. Out: activations run, and why one did not end well.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers.h"
+#include "exchange.h"
+#include "symbols.h"
+
+namespace rung::host {
+
+// Lateness and execution times by powers of two: bucket n counts values from 2^n to 2^(n+1)-1 microseconds.
+struct Histogram {
+  static constexpr uint32_t kBuckets = 24;
+  uint64_t counts[kBuckets] = {};
+  void add(int64_t ns);
+};
+
+struct Task {
+  const rung_task* row = nullptr;
+  uint32_t index = 0;
+  int64_t interval_ns = 0;
+  Variable trigger;
+  uint32_t activation = 0;   // that began
+  uint32_t too_long = 0;     // activations in a row that exceeded the watchdog time
+  bool stopped = false;      // by a fault of its own, where the others go on
+  rung_fault fault{};        // that stopped it
+  Histogram lateness;        // of its starts
+  int64_t latest_start = 0;  // the greatest lateness
+};
+
+class Tasks {
+ public:
+  // `interval_ns` is the period of cyclic tasks without one, and of a row when there is no cyclic task.
+  Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns);
+  // False: a trigger is not a BOOL; `error` has the message.
+  bool prepare(std::string& error);
+
+  // The period of a row: that of the fastest cyclic task.
+  int64_t rowNs() const { return row_ns_; }
+  std::vector<Task>& all() { return tasks_; }
+  const std::vector<Task>& all() const { return tasks_; }
+  const Task* fastest() const { return fastest_ == RUNG_NONE ? nullptr : &tasks_[fastest_]; }
+  std::string nameOf(const Task& task) const;
+
+  // The code of an activation, from reading the inputs on: RUNG_FAULT_NONE, or a fault, after which nothing that it
+  // wrote leaves. `now_ns` is the time that the program sees, `late_ns` how long after its due time it begins.
+  uint8_t begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns);
+  // Its end: the outputs leave. False: the watchdog says stop.
+  bool end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns);
+  // After a fault, where the other tasks go on: the task stops, with safe values in what it writes.
+  void stopOne(Task& task, const rung_fault& fault);
+  // All outputs get their safe values and leave.
+  void makeOutputsSafe(int64_t now_ns);
+  // The program goes on: they are again what it left.
+  void restoreOutputs();
+  void countOverruns(Task& task, uint32_t missed) { states_[task.index].overruns += missed; }
+  // The watchdog's limit of one activation, or 0.
+  static int64_t limitOf(const Task& task);
+
+  // After a reset: tasks that a fault stopped run again.
+  void restart();
+
+  Exchange& exchange() { return exchange_; }
+  const rung_task_state& stateOf(const Task& task) const { return states_[task.index]; }
+  // A line for each task, `elapsed_ns` after the start.
+  std::string statistics(int64_t elapsed_ns) const;
+  // The last driver that failed, or empty.
+  std::string lostDriver() {
+    const Exchange::Lock lock(exchange_);
+    return lost_driver_;
+  }
+
+ private:
+  const Symbols& symbols_;
+  Memory& memory_;
+  Drivers& drivers_;
+  Exchange exchange_;
+  int64_t row_ns_ = 0;
+  uint32_t fastest_ = RUNG_NONE;
+  std::vector<Task> tasks_;
+  std::vector<rung_task_state> states_;
+  std::string lost_driver_;
+};
+
+bool readBool(const Variable& variable);
+
+}  // namespace rung::host
