@@ -324,7 +324,8 @@ class Describer {
   }
 
   void addTests() {
-    for (BodyId id : module_.tests) {
+    for (const ir::Test& described : module_.tests) {
+      const BodyId id = described.body;
       const Body& body = module_.body(id);
       Description::Test test{{}, id, RUNG_NONE, {}, {}};
       const auto ofFile = [&](const std::vector<BodyId>& all) {
@@ -334,6 +335,7 @@ class Describer {
         return found;
       };
       test.setups = ofFile(module_.setups);
+      if (described.setup) test.setups.insert(test.setups.begin(), described.setup);
       test.teardowns = ofFile(module_.teardowns);
       test.row.done_block = RUNG_NONE;
       for (uint32_t p = 0; body.kind != BodyKind::Function && p < module_.programs.size(); ++p) {
@@ -349,8 +351,8 @@ class Describer {
         }
         break;
       }
-      const FilePosition position = filePosition(module_, body, body.loc);
-      test.row.name = string(body.spelling ? body.spelling : body.name);
+      const FilePosition position = filePosition(module_, body, described.loc);
+      test.row.name = string(described.name);
       test.row.file = string(position.path);
       test.row.line = position.line;
       out_.tests.push_back(test);

@@ -66,7 +66,7 @@ struct Description {
     rung_test row;  // `init` and `run` are not set
     BodyId body;
     uint32_t program;                       // index into Module::programs of its instance; RUNG_NONE: a function
-    std::vector<BodyId> setups, teardowns;  // of its file
+    std::vector<BodyId> setups, teardowns;  // of its case and file
   };
   std::vector<Test> tests;
   uint64_t layout_hash = 0;

@@ -421,6 +421,14 @@ struct CppBody {
   std::vector<BodyId> functions;  // those it may call
 };
 
+// A run of a test: once, or once for each of its cases.
+struct Test {
+  BodyId body;   // Block or Function without parameters; a Block's instance is in `programs`
+  NameId name;   // in reports
+  BodyId setup;  // a function without parameters that gives the inputs of the instance their values, or none
+  Loc loc;
+};
+
 struct Module {
   Module(types::TypeTable& types, Names& names, const Sources& sources)
       : types(types), names(names), sources(sources) {}
@@ -445,7 +453,7 @@ struct Module {
   std::vector<CppBody> cpp_bodies;
   // Functions without parameters that run before and after each test of their file.
   std::vector<BodyId> setups, teardowns;
-  std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
+  std::vector<Test> tests;                            // in source order
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
   bool aligned_globals = false;  // tasks work on copies of the globals, exchanged at the alignment point
 

@@ -293,6 +293,14 @@ void Reader::instance() {
   module_.programs.push_back(created);
 }
 
+// test @Adds setup @`Adds~case1` as "Adds(a := 1)"
+void Reader::test(BodyId body) {
+  Test created{body, module_.body(body).spelling, {}, module_.body(body).loc};
+  if (accept("setup")) created.setup = bodyNamed("function");
+  if (accept("as")) created.name = module_.names.intern(quotedText(TokenKind::String));
+  if (!failed_) module_.tests.push_back(created);
+}
+
 // area I input 4
 void Reader::area() {
   ++at_;
@@ -568,7 +576,7 @@ bool Reader::read() {
     else if (is_safe)
       module_.safe = named;
     else
-      module_.tests.push_back(named);
+      test(named);
   });
   forEachItem([&] {
     if (accept("dispatch")) dispatch();

@@ -408,8 +408,13 @@ void Printer::items() {
     clause("exit @", module_.exit);
     put("\n");
   }
-  for (BodyId test : module_.tests) {
-    clause("test @", test);
+  for (const Test& test : module_.tests) {
+    clause("test @", test.body);
+    clause(" setup @", test.setup);
+    if (test.name != module_.body(test.body).spelling) {
+      put(" as ");
+      quoted(module_.names.string(test.name), '"');
+    }
     put("\n");
   }
 }

@@ -91,6 +91,7 @@ class Reader : TokenReader {
   void dispatch();
   void task();
   void instance();
+  void test(BodyId body);
   void area();
   struct AddressInArea {
     types::AreaId area;

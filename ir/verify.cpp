@@ -196,9 +196,14 @@ void Verifier::checkModule() {
   for (const Task& task : module_.tasks) unique(task.name, "task", task.resource);
   for (const Located& located : module_.located)
     require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
-  for (BodyId test : module_.tests)
-    require(test && test.index < module_.bodies.size() && module_.body(test).kind != BodyKind::Init, 2,
+  for (const Test& test : module_.tests) {
+    require(test.body && test.body.index < module_.bodies.size() && module_.body(test.body).kind != BodyKind::Init, 2,
             "a test is not a function or block");
+    require(!test.setup ||
+                (test.setup.index < module_.bodies.size() && module_.body(test.setup).kind == BodyKind::Function &&
+                 parameters(module_.body(test.setup)).empty()),
+            2, "the setup of a test is not a function without parameters");
+  }
   seen.clear();
   for (size_t i = 1; i < module_.bodies.size(); ++i)
     if (module_.bodies[i].kind != BodyKind::Init) unique(module_.bodies[i].name, "body");

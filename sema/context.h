@@ -69,6 +69,8 @@ bool isInside(const Context& context, RegionId declared);
 bool isAmbiguousItem(Context& context, Entity item);
 // The visible name most similar to a misspelled one, or empty.
 std::string_view nearestName(Context& context, NameId written);
+// The same among what a call can name: functions, programs, methods and variables.
+std::string_view nearestCallable(Context& context, NameId written);
 
 // Syntax errors took declarations from this POU: a missing name is not a second mistake.
 bool isBroken(const Context& context, PouId pou);

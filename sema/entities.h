@@ -114,6 +114,17 @@ enum class ImplicitCheck : uint8_t {
   Count_
 };
 
+// {case a := 1, b := 2} before a test: runs it once with these inputs.
+struct TestCase {
+  struct Input {
+    VarId var;
+    ExprId value;  // checked, in the type of `var`
+  };
+  NameId name;  // `Math.adds(a := 1, b := 2)`
+  Loc loc;
+  std::vector<Input> inputs;
+};
+
 struct Pou {
   NameId name;
   Loc loc;
@@ -157,6 +168,7 @@ struct Pou {
     bool safe_values = false;                         // {safe_values}: sets outputs when the program stops
     NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
+    std::vector<TestCase> cases;                      // of a test; none: it runs once
   } pragmas;
   // How far it has been checked.
   struct Progress {

@@ -14,6 +14,7 @@
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/instance_paths.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/test_cases.h"
 
 namespace rung::sema {
 
@@ -108,6 +109,7 @@ void check(Project& project) {
   markOverloads(context);
   resolveConfigurations(context);
   checkTestPragmas(context);
+  resolveTestCases(context);
   checkMocks(context);
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});

@@ -41,6 +41,8 @@ Loc Cursor::endOfRead() const {
 
 std::string Cursor::describe(const Token* t) const {
   while ((t->flags & kSynthetic) != 0 && t > tokens_.data()) --t;
+  if (t->kind == Tok::End && t->offset < source_.size())  // of a pragma
+    return std::string("`").append(source_.substr(t->offset, 1)).append("`");
   if (t->kind == Tok::End) return spelling(Tok::End);
   std::string_view text = textOf(t);
   std::string shown = "`";

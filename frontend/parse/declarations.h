@@ -17,6 +17,7 @@ class DeclarationParser : public ExpressionParser {
   DeclId parseSection();
   bool atSection() const { return kind() >= Tok::Var && kind() <= Tok::VarConfig; }
   TypeExprId parseType() override;
+  std::vector<FieldInit> parseFieldInits(Tok close);  // initial_values.cpp
   // ---- modifiers.cpp
   bool acceptAccess(AccessLevel& access);
   void parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name);

@@ -81,8 +81,16 @@ ExprId DeclarationParser::parseStructInit() {
   const Loc start = here();
   if (!enterExpr("initial values")) return build_.error(start);
   advance();
+  const std::vector<FieldInit> fields = parseFieldInits(Tok::RightParen);
+  closeParen(Tok::RightParen, true);
+  --expr_depth_;
+  return ended(build_.structInit(fields, start));
+}
+
+// field ":=" init {"," …}
+std::vector<FieldInit> DeclarationParser::parseFieldInits(Tok close) {
   std::vector<FieldInit> fields;
-  while (!panic_ && !at(Tok::RightParen)) {
+  while (!panic_ && !at(close)) {
     FieldInit field{};
     if (!parseName(field.field)) break;
     if (!acceptAssign()) {
@@ -98,9 +106,7 @@ ExprId DeclarationParser::parseStructInit() {
     }
     break;
   }
-  closeParen(Tok::RightParen, true);
-  --expr_depth_;
-  return ended(build_.structInit(fields, start));
+  return fields;
 }
 
 }  // namespace rung::text

@@ -13,6 +13,9 @@ class Trivia;
 
 namespace rung::text {
 
+// Whether a word is a keyword in every dialect, so that nothing can have it as its name.
+bool isReservedWord(std::string_view word);
+
 // Parses a whole file and appends it to tree.files. With `comments` it keeps the comments of the file there.
 FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics, Trivia* comments = nullptr);
@@ -27,6 +30,10 @@ Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, Fi
                             Diagnostics& diagnostics);
 Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics);
+
+// Parses `a := 1, b := [2, 3]` in [begin, end) of its file, the content of a {case …}.
+Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
+                                 Diagnostics& diagnostics);
 
 // Parses `text` of `file` as a single expression (for --set, --stop-on and --inputs cells); none when it is not one.
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,

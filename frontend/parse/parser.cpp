@@ -25,6 +25,12 @@ ExprId Parser::parseLoneExpression() {
   return panic_ ? ExprId{} : e;
 }
 
+Slice<FieldInit> Parser::parseLoneFieldInits() {
+  const std::vector<FieldInit> fields = parseFieldInits(Tok::End);
+  if (!panic_ && !at(Tok::End)) fail(diag::MissingToken, t_, {",", describe(t_)});
+  return tree_.addList<FieldInit>(fields);
+}
+
 Slice<DeclId> Parser::parseLoneSections() {
   std::vector<DeclId> sections;
   while (atSection()) sections.push_back(parseSection());
@@ -311,6 +317,15 @@ Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, 
   Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.readAll();
   return parser.parseLoneStatements();
+}
+
+Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
+                                 Diagnostics& diagnostics) {
+  const FileId file = sources.fileOf(begin);
+  const uint32_t base = sources.begin(file).offset;
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
+  parser.read(begin.offset - base, end.offset - base);
+  return parser.parseLoneFieldInits();
 }
 
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,

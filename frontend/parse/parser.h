@@ -14,6 +14,7 @@ class Parser final : public ChartParser {
   void readAll() { read(0, static_cast<uint32_t>(source_.size())); }
   Slice<DeclId> parseDecls();
   ExprId parseLoneExpression();
+  Slice<FieldInit> parseLoneFieldInits();
   Slice<DeclId> parseLoneSections();
   Slice<StmtId> parseLoneStatements();
 

@@ -42,7 +42,7 @@ void Cursor::splitList(const PragmaRange& pragma, std::vector<Pragma>& list) {
     while (!one.empty() && isBlank(one.back())) one.remove_suffix(1);
     if (one.size() >= 2 && (one.front() == '\'' || one.front() == '"') && one.back() == one.front())
       one = one.substr(1, one.size() - 2);
-    list.push_back({whole.name, tree_.addString(one), whole.loc});
+    list.push_back({whole.name, tree_.addString(one), whole.loc, whole.end});
   }
 }
 
@@ -88,7 +88,7 @@ Pragma Cursor::readPragma(const PragmaRange& pragma) {
     skip();
   }
   if (!quoted(value)) value = rest;
-  return {names_.intern(name), tree_.addString(value), Loc{base_ + pragma.begin}};
+  return {names_.intern(name), tree_.addString(value), Loc{base_ + pragma.begin}, Loc{base_ + pragma.end}};
 }
 
 bool Cursor::pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const {

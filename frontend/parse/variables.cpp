@@ -74,7 +74,8 @@ bool DeclarationParser::nameFollows(bool dotted) {
     if (accept(Tok::Dot)) return true;
   }
   // `a b : INT`
-  if (isName(kind()) && !(at(Tok::At) && peek() == Tok::Address) && !atLineStart() && beginsDeclaration(t_)) {
+  if (isName(kind()) && !(at(Tok::At) && (peek() == Tok::Address || peek() == Tok::Colon)) && !atLineStart() &&
+      beginsDeclaration(t_)) {
     slip(diag::MissingToken, t_, {",", describe(t_)});
     return true;
   }
@@ -86,7 +87,7 @@ void DeclarationParser::parseLocation(VarDecl& d) {
   const Token* word = t_;
   advance();
   if (!at(Tok::Address)) {
-    fail(diag::MissingValueAfter, word, {"`AT`"});
+    fail(diag::MissingAddress, word);
     return;
   }
   const bool open = textOf(t_).ends_with('*');

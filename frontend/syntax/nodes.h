@@ -54,7 +54,7 @@ struct StringId {
 struct Pragma {
   NameId name;
   StringId value;
-  Loc loc;
+  Loc loc, end;
 };
 
 enum class UnaryOp : uint8_t { Not, Negate, Plus };

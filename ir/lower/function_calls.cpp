@@ -138,16 +138,16 @@ bool CallLowering::mayChain(const sema::Call& call, const Target& target) const 
 
 // ---- arguments
 
-ExprId CallLowering::defaultArgument(sema::VarId pin_id, Loc loc) {
+ExprId CallLowering::defaultArgument(sema::VarId pin_id, rung::ExprId init, Loc loc) {
   const sema::Var& pin = project_.var(pin_id);
   TypeId type = strip(pin.type);
   if (!isAggregate(type)) {
-    if (pin.init)
-      if (auto value = constantOf(project_, pin.init)) return convertValue(ofValue(*value, loc), type, loc);
-    if (in_.isZero(type)) return zero(type, loc);
+    if (init)
+      if (auto value = constantOf(project_, init)) return convertValue(ofValue(*value, loc), type, loc);
+    if ((!init || init == pin.init) && in_.isZero(type)) return zero(type, loc);
   }
   ExprId place = temp(type, loc);
-  objects().storeInitial(copy(place), type, pin.init, false);
+  objects().storeInitial(copy(place), type, init, false);
   return place;
 }
 
@@ -213,7 +213,7 @@ ExprId CallLowering::passArgument(FunctionCall& plan, uint32_t number) {
   const TypeId type = strip(pin.type);
   const sema::Binding* binding = planned.binding;
   switch (planned.passing) {
-    case Passing::Default: return defaultArgument(planned.id, plan.loc);
+    case Passing::Default: return defaultArgument(planned.id, pin.init, plan.loc);
     case Passing::Value: {
       const ExprId value = values().lowerValue(binding->value);
       return state_.guard && mayFault(value) ? toTemp(value, plan.loc) : value;
@@ -271,6 +271,37 @@ ExprId CallLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
     plan.target().stored = true;
   }
   return emitFunctionCall(plan, object, result);
+}
+
+// A VAR_IN_OUT of a test gets a variable of its own.
+void CallLowering::lowerTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, Loc loc) {
+  sema::Call call;
+  call.pou = test;
+  FunctionCall plan{.call = call, .pou = project_.pou(test), .callee = in_.bodyOf(test), .loc = loc};
+  if (plan.pou.result) plan.result_type = strip(plan.pou.result);
+  std::vector<ExprId> bounds;
+  for (const sema::VarId id : plan.pou.vars) {
+    const sema::Var& pin = project_.var(id);
+    const bool is_output = pin.section == SectionKind::Output, is_in_out = pin.section == SectionKind::InOut;
+    if (!is_output && !is_in_out && pin.section != SectionKind::Input) continue;
+    const TypeId type = strip(pin.type);
+    rung::ExprId init = pin.init;
+    for (const sema::TestCase::Input& input : inputs)
+      if (input.var == id) init = input.value;
+    FunctionCall::Argument& argument = plan.arguments.emplace_back();
+    if (types_.isOpenArray(type)) {
+      const OpenArray array = places().noOpenArray(type, loc);
+      argument.value = array.pointer;
+      bounds.insert(bounds.end(), array.bounds.begin(), array.bounds.end());
+    } else if (is_in_out) {
+      argument.value = temp(type, loc);
+      objects().storeInitial(copy(argument.value), type, {}, false);
+    } else if (!is_output) {
+      argument.value = defaultArgument(id, init, loc);
+    }
+  }
+  for (const ExprId bound : bounds) plan.arguments.push_back({.value = bound});
+  emitFunctionCall(plan, {}, {});
 }
 
 ExprId CallLowering::emitFunctionCall(FunctionCall& plan, ExprId object, ExprId result) {

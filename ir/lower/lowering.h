@@ -89,6 +89,9 @@ struct ModuleLowering {
   void addRecord(TypeId record);
   Record* recordOf(TypeId type);
   void addPrograms();
+  void addTests();
+  BodyId addTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
+  BodyId addTestSetup(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
   void addLists();
   void simplifyLimits();
   void markFaulting();
@@ -251,6 +254,8 @@ class CallLowering : public BodyPart {
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
   // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  // A test that is a function, with these inputs.
+  void lowerTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, Loc loc);
   ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
   void setMarkedVariables(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
@@ -272,7 +277,7 @@ class CallLowering : public BodyPart {
   ExprId passAggregate(FunctionCall& plan, TypeId type, rung::ExprId given);
   ExprId passVariable(FunctionCall& plan, TypeId type, rung::ExprId given);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
-  ExprId defaultArgument(sema::VarId pin, Loc loc);
+  ExprId defaultArgument(sema::VarId pin, rung::ExprId init, Loc loc);
   void spillArguments(FunctionCall& plan, InsertionPoint point);
   ExprId emitFunctionCall(FunctionCall& plan, ExprId object, ExprId result);
   void faultUnlessZero(ExprId result, Loc loc);

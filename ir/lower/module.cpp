@@ -43,9 +43,7 @@ void ModuleLowering::run() {
       continue;  // follows when called
     bodyOf({i});
   }
-  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // in source order
-    return module.body(a).loc.offset < module.body(b).loc.offset;
-  });
+  addTests();
   addActivations();
   addBlockTasks();
   do {  // an initial value may need a function that nothing else calls
@@ -159,7 +157,6 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   }
   to_lower_.push_back(id);
   if (Record* record = recordOf(pou.record)) record->body = known;
-  if (pou.pragmas.test && !pou.excluded) module.tests.push_back(known);
   return known;
 }
 
@@ -506,7 +503,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   uint32_t index = static_cast<uint32_t>(module.programs.size());
   instance_of_[program.index] = index;
   ProgramInstance created;
-  created.name = pou.name;
+  created.name = pou.pragmas.test ? pou.unique_name : pou.name;
   created.record = pou.record;
   created.slot = pou.pragmas.init_slot;
   module.programs.push_back(created);

@@ -400,7 +400,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (isFirstReport(context, name))
-    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestName(context, name));
+    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestCallable(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }

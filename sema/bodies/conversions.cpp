@@ -299,6 +299,18 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
                     wide ? "'" : "\""});
     return false;
   }
+  if (wanted == TypeKind::Bool && own != TypeKind::Bool && TypeTable::isNumber(own) &&
+      context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix) {
+    const Range range = context.tree().range(expr);
+    const Sources& sources = context.symbols.sources;
+    const FileId file = sources.fileOf(range.begin);
+    const std::string_view written = sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
+                                                                     range.end.offset - range.begin.offset);
+    context.report(diag::WrongType, range.begin, {written, purpose.toString(context), context.types().toString(to)})
+        .length(static_cast<uint32_t>(written.size()))
+        .note({}, Note{"a BOOL is TRUE or FALSE"});
+    return false;
+  }
   // Does not suggest BOOL_TO_TIME(FALSE): another constant is meant.
   const bool truth = own == TypeKind::Bool && context.tree().kind(expr) == ExprKind::Literal;
   const std::string function = truth ? std::string() : conversionName(context, from, to);

@@ -50,11 +50,8 @@ namespace {
 
 // An error at a pragma underlines all of it.
 Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
-  const Sources& sources = context.symbols.sources;
-  const FileId file = sources.fileOf(pragma.loc);
-  const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.sourceText(file).find('}', at);
   Report report = context.report(diag, pragma.loc, args);
-  if (end != std::string_view::npos) report.length(static_cast<uint32_t>(end + 1 - at));
+  report.length(pragma.end.offset - pragma.loc.offset);
   return report;
 }
 

@@ -32,6 +32,7 @@ void internKnownNames(Context& context) {
       {&Known::skip, "skip"},
       {&Known::setup, "setup"},
       {&Known::teardown, "teardown"},
+      {&Known::test_case, "case"},
       {&Known::safe_values, "safe_values"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},

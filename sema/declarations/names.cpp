@@ -283,7 +283,19 @@ bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
   return firstTime(context, 0x80000000u | record.index, name);
 }
 
-std::string_view nearestName(Context& context, NameId written) {
+namespace {
+
+bool isCallable(const Context& context, Entity found) {
+  if (found.entityKind() == EntityKind::Var) {
+    const types::TypeInfo& type = context.types().info(context.types().resolve(context.symbols.vars[found.index].type));
+    return !types::TypeTable::isElementary(type.kind);
+  }
+  if (found.entityKind() != EntityKind::Pou) return false;
+  const PouKind kind = context.symbols.pous[found.index].kind;
+  return kind != PouKind::FunctionBlock && kind != PouKind::Class && kind != PouKind::Interface;
+}
+
+std::string_view nearestOf(Context& context, NameId written, bool callable) {
   if (context.symbols.diagnostics.full()) return {};  // the message is not printed, and the search is slow
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
     return elsewhere;
@@ -291,6 +303,7 @@ std::string_view nearestName(Context& context, NameId written) {
   const Names& names = context.names();
   const auto add = [&](NameId key, Entity) { candidates.push_back(names.string(key)); };
   const auto addDeclared = [&](NameId key, Entity found) {
+    if (callable && !isCallable(context, found)) return;
     NameId spelling = key;
     if (found.entityKind() == EntityKind::Var) spelling = context.symbols.vars[found.index].name;
     if (found.entityKind() == EntityKind::Pou) spelling = context.symbols.pous[found.index].name;
@@ -312,10 +325,23 @@ std::string_view nearestName(Context& context, NameId written) {
   context.scopes.globals.forEach(addDeclared);
   context.scopes.items.forEach(addDeclared);
   context.scopes.qualifiers.forEach(add);
+  const size_t declared = candidates.size();
   const Libraries& libraries = context.scopes.libraries;
   libraries.index.forEach(
       [&](NameId, Entity entry) { candidates.push_back(names.string(libraries.names[entry.index].name)); });
-  return nearest(names.string(written), candidates);
+  while (true) {
+    const std::string_view found = nearest(names.string(written), candidates);
+    const auto of_library =
+        std::find(candidates.begin() + static_cast<std::ptrdiff_t>(declared), candidates.end(), found);
+    if (!callable || of_library == candidates.end()) return found;
+    if (isCallable(context, lookUpLibrary(context, context.names().intern(found)))) return found;
+    candidates.erase(of_library);
+  }
 }
+
+}  // namespace
+
+std::string_view nearestName(Context& context, NameId written) { return nearestOf(context, written, false); }
+std::string_view nearestCallable(Context& context, NameId written) { return nearestOf(context, written, true); }
 
 }  // namespace rung::sema

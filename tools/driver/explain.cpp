@@ -1,5 +1,8 @@
-// `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool, without Markdown.
+// `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool, without Markdown; of
+// a warning also by its name, or by the code of CODESYS, which may mean several.
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "errors_pages.h"
 #include "frontend/source/diagnostics.h"
@@ -27,16 +30,26 @@ std::string_view errorPage(std::string_view code) {
 }
 
 int runExplain(const Options& options, Sink& sink) {
-  const std::string code = upper(options.inputs[0]);
-  const DiagInfo* info = findDiag(code);
-  if (info == nullptr) {
+  const std::string& wanted = options.inputs[0];
+  std::vector<const DiagInfo*> found;
+  for (const char* const letter : {"", "E", "W", "I"})  // 501 is E0501
+    if (const DiagInfo* info =
+            findDiag(letter + std::string(*letter != 0 ? 4 - std::min<size_t>(4, wanted.size()) : 0, '0') + wanted))
+      found.push_back(info);
+  if (found.empty())
+    for (const Diag warning : warningsNamed(wanted)) found.push_back(&diagInfo(warning));
+  if (found.empty()) {
     std::vector<std::string_view> codes;
     for (const DiagInfo& row : allDiags()) codes.push_back(row.code);
+    const std::string code = upper(wanted), name = nearestWarning(wanted);
     std::string_view near = nearest(code, codes);
-    return usageError(sink, "unknown diagnostic `" + options.inputs[0] + "`" +
+    if (near.empty()) near = name;
+    return usageError(sink, "unknown diagnostic `" + wanted + "`" +
                                 (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
   }
-  return printResult(sink, renderPage(pageOf(*info), options.color));
+  std::string pages;
+  for (const DiagInfo* const info : found) pages += (pages.empty() ? "" : "\n") + pageOf(*info);
+  return printResult(sink, renderPage(pages, options.color));
 }
 
 }  // namespace rung::driver

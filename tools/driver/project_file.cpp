@@ -5,6 +5,7 @@
 
 #include "frontend/import/source_mapped_text.h"
 #include "frontend/parse/literals.h"
+#include "frontend/parse/parse.h"
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
@@ -281,8 +282,9 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   std::vector<std::pair<Loc, std::string>> programs;
   for (const ProjectSection& section : project.sections) {
     if (section.kind != "task" || section.name.empty() || isAboutDeclaredTask(section)) continue;
-    if (!isModuleName(section.name)) {
-      diagnostics.report(diag::TaskName, section.loc, {section.name});
+    if (const bool reserved = text::isReservedWord(section.name); reserved || !isModuleName(section.name)) {
+      diagnostics.report(diag::TaskName, section.loc,
+                         {section.name, reserved ? "it is a keyword" : "use letters, digits and `_`"});
       continue;
     }
     if (text.empty()) text.put(section.loc, "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n");
@@ -312,11 +314,11 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
         size_t colon = item.find(':');
         std::string type(trim(std::string_view(item).substr(colon == std::string::npos ? 0 : colon + 1)));
         std::string name(trim(std::string_view(item).substr(0, colon)));
-        if (!isModuleName(name) || !isModuleName(type)) {
-          diagnostics
-              .report(diag::ProjectValue, loc,
-                      {entry->key, "it takes `Program` or `instance : Program`, separated by commas"})
-              .length(static_cast<uint32_t>(item.size()));
+        const std::string keyword = text::isReservedWord(name) ? name : text::isReservedWord(type) ? type : "";
+        if (!keyword.empty() || !isModuleName(name) || !isModuleName(type)) {
+          const std::string why = keyword.empty() ? "it takes `Program` or `instance : Program`, separated by commas"
+                                                  : "`" + keyword + "` is a keyword";
+          diagnostics.report(diag::ProjectValue, loc, {entry->key, why}).length(static_cast<uint32_t>(item.size()));
           continue;
         }
         programs.emplace_back(loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");

@@ -42,12 +42,21 @@ uint32_t batchCount(size_t modules) {
 
 using MockSets = std::vector<std::vector<std::string>>;
 
+// What a POU marked {test} is called in reports: itself, or each of its cases.
+std::vector<std::string> testNames(const sema::Project& project, const sema::Pou& pou) {
+  std::vector<std::string> names;
+  for (const sema::TestCase& one : pou.pragmas.cases) names.emplace_back(project.names.string(one.name));
+  if (names.empty()) names.emplace_back(project.names.string(pou.unique_name));
+  return names;
+}
+
 // The sets of mocks that the chosen tests name; the empty set comes first, with or without such tests.
 MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
-    if (!pou.pragmas.test || pou.pragmas.mocks.empty() ||
-        !isChosen(options, std::string(project.names.string(pou.name))))
+    if (!pou.pragmas.test || pou.pragmas.mocks.empty()) continue;
+    const std::vector<std::string> names = testNames(project, pou);
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return isChosen(options, name); }))
       continue;
     std::vector<std::string> set;
     for (NameId mock : pou.pragmas.mocks) set.emplace_back(project.names.string(mock));
@@ -110,8 +119,9 @@ class Tester {
   }
 
   int run() {
-    if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
-      return usageError(sink_, error);
+    if (options_.junit != "-")  // there, nothing would replace it
+      if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
+        return usageError(sink_, error);
     int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
     if (exit == kSuccess) exit = buildAndRun();
     if (!reported_) {
@@ -186,7 +196,8 @@ class Tester {
   static void noteSkipped(const sema::Project& project, Module& module) {
     for (const sema::Pou& pou : project.pous)
       if (pou.pragmas.test && pou.pragmas.skip)
-        module.skipped[std::string(project.names.string(pou.name))] = project.names.string(pou.pragmas.skip);
+        for (const std::string& name : testNames(project, pou))
+          module.skipped[name] = project.names.string(pou.pragmas.skip);
   }
 
   // Interpreted when possible, else as C++ files.

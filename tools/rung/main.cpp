@@ -4,6 +4,7 @@
 #include "frontend/source/invariant.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/overwritten.h"
 #include "tools/rung/console.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
   std::string error = rung::tool::expandResponseFiles(arguments);
   if (error.empty()) error = rung::tool::parseOptions(arguments, options);
   if (error.empty() && !options.help) error = rung::driver::checkDumpName(options.dump_after);
+  if (error.empty() && !options.help) error = rung::driver::checkOutputs(options);
   if (!error.empty()) return rung::driver::usageError(console, error);
   if (options.help) return rung::driver::printResult(console, rung::tool::helpText(options.command));
   options.color = rung::tool::useColor(options.color_choice, options.command == Command::Explain ? 1 : 2);

@@ -200,9 +200,12 @@ void report(TestResult result, const TestOptions& options, TestResults& results)
 }  // namespace
 
 bool isChosen(const TestOptions& options, const std::string& name) {
+  const std::string of_case = lowerCase(name), of_all = of_case.substr(0, of_case.find('('));
   return options.filters.empty() ||
          std::any_of(options.filters.begin(), options.filters.end(), [&](const std::string& filter) {
-           return fnmatch(lowerCase(filter).c_str(), lowerCase(name).c_str(), 0) == 0;
+           const std::string glob = lowerCase(filter);
+           return glob == of_case || fnmatch(glob.c_str(), of_case.c_str(), 0) == 0 ||
+                  fnmatch(glob.c_str(), of_all.c_str(), 0) == 0;
          });
 }
 

@@ -135,6 +135,7 @@ TEST(IrText, ModuleItems) {
       "located start: bool%I0.5 of $Main\n"
       "located _: int%Q0\n"
       "test @Main\n"
+      "test @Main setup @`Main~case1` as \"Main(a := 'x$\"')\"\n"
       "\n"
       "body @Main \"m.st\":9 as \"MAIN\" test {\n"
       "  call @Ramp on ramp\n"
@@ -146,6 +147,10 @@ TEST(IrText, ModuleItems) {
       "\n"
       "init @Main {\n"
       "  m[0, 1].x = 1.5\n"
+      "}\n"
+      "\n"
+      "function @`Main~case1` {}\n"
+      "body @`Main~case1` {\n"
       "}\n"
       "\n"
       "function @ABS__INT \"x.st\":1 as \"ABS\" native Standard pure library { in IN: int; result int }\n");

@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"s := counter;", "1:6 E0501"}, Row{"counter := big;", "1:12 W0503"}, Row{"big := counter;", ""},
                     Row{"r := counter;", ""}, Row{"r := big;", "1:6 W0503"}, Row{"l := big;", ""},
                     Row{"r := l;", "1:6 W0503"}, Row{"t := 5;", "1:6 E0501"}, Row{"counter := t;", "1:12 E0501"},
-                    Row{"arr := counter;", "1:8 E0502"}, Row{"flag := 2;", "1:9 E0501"}, Row{"flag := 1;", ""},
+                    Row{"arr := counter;", "1:8 E0502"}, Row{"flag := 2;", "1:9 E0502"}, Row{"flag := 1;", ""},
                     Row{"w := counter;", "1:6 W0503"}, Row{"e := 1;", ""}, Row{"e := 99;", "1:6 W0549"},
                     Row{"e := counter;", "1:6 W0561"}, Row{"e := Fast;", "1:6 E0401"}, Row{"counter := e;", ""}));
 

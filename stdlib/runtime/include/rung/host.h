@@ -93,7 +93,7 @@ struct TestResults {
   std::string crash;         // the signal of the last crash
   uint32_t count() const { return passed + failed + skipped; }
 };
-// True when --filter accepts a test of this name.
+// True when --filter accepts a test of this name; that of a test accepts all its cases, `adds(a := 1)`.
 bool isChosen(const TestOptions& options, const std::string& name);
 // Returns why the module cannot run here, or an empty string. Does not write `options.junit_path`.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
