@@ -33,11 +33,18 @@ class Finder {
     const auto* make = body_.stmt(id).tryAs<ir::CallStmt>();
     const StmtId next = body_.stmt(id).next;
     const auto* append = make != nullptr && next ? body_.stmt(next).tryAs<ir::CallStmt>() : nullptr;
-    if (append == nullptr || !makesText(*make) || !appendsTo(*append, *make) || lengths_.countsBefore(next)) return;
+    if (append == nullptr || !makesText(*make) || !appendsTo(*append, *make) || !countsOnly(next, *append)) return;
     appends_.appended_by.resize(body_.stmts.size());
     appends_.appended_by[id.index] = appends_.appended_by[next.index] = next;
     appends_.needs_no_memory.resize(body_.locals.size());
     appends_.needs_no_memory[*ir::localOf(body_.expr(make->result))] = 1;
+  }
+
+  // What is counted in front of the second statement is counted in front of the first: no more than the string itself.
+  bool countsOnly(StmtId id, const ir::CallStmt& append) const {
+    if (!lengths_.countsBefore(id)) return true;
+    const std::vector<ExprId>& counted = lengths_.counted[id.index];
+    return counted.size() == 1 && strings_.variables.stringAt(counted[0]) == strings_.variables.stringAt(append.result);
   }
 
   bool isNarrow(ExprId id) const { return module_.types.kind(body_.expr(id).type) == TypeKind::String; }

@@ -84,6 +84,7 @@ void FunctionWriter::writeExits() {
   }
   if (state_.uses_leave) out_ += "\nleave:";
   writeAllBack(out_);
+  strings().returnLengths();
   if (!result.empty()) {
     out_ += "\n  return ";
     out_ += result;

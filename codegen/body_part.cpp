@@ -1,6 +1,8 @@
 // What all writers of a body share: see body_part.h.
 #include "codegen/body_part.h"
 
+#include "codegen/signature.h"
+
 namespace rung::codegen {
 
 using ir::LocalKind;
@@ -54,10 +56,10 @@ void BodyPart::writeBack(std::string& out, uint32_t number) const {
   out += name + ';';
 }
 
-bool BodyPart::writesFieldsBack() const {
-  const Variables& variables = analysis_->uses.variables;
-  for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
-    if (isWrittenBack(i)) return true;
+bool BodyPart::hasExit() const {
+  for (uint32_t i = 0; i < analysis_->uses.variables.count(); ++i) {
+    if (isWrittenBack(i) || returnsLength(i)) return true;
+    if (analysis_->uses.variables.isField(i) && analysis_->slices.has(i)) return true;
   }
   return false;
 }
@@ -70,6 +72,24 @@ uint8_t BodyPart::wideOf(ExprId place) const {
 bool BodyPart::isCached(ExprId place) const {
   const uint32_t number = analysis_->uses.variables.at(place);
   return number != kNoVariable && analysis_->fields.is_cached[number] != 0;
+}
+
+bool BodyPart::returnsLength(uint32_t number) const {
+  return number < body_->locals.size() && analysis_->measured.has(number) &&
+         passesLength(module_, *body_, body_->locals[number]);
+}
+
+bool BodyPart::isPassedOnce(const ir::CallStmt* call, uint32_t number) const {
+  if (call == nullptr || !analysis_->measured.has(number)) return false;
+  const Body& callee = module_.body(call->callee);
+  uint32_t times = 0;
+  size_t i = 0;
+  for (const ir::Local& parameter : ir::parameters(callee)) {
+    const ExprId operand = i < call->operands.count ? body_->list(call->operands)[i++] : ExprId{};
+    if (operand && passesLength(module_, callee, parameter))
+      times += analysis_->uses.variables.stringAt(operand) == number;
+  }
+  return times == 1;
 }
 
 bool BodyPart::isSlice(ExprId place) const {

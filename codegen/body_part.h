@@ -94,10 +94,12 @@ class BodyPart {
   bool isCached(ExprId place) const;   // a field that lives in a C++ local
   bool isWrittenBack(uint32_t number) const;
   void writeBack(std::string& out, uint32_t number) const;  // of a cached field: a statement
-  bool writesFieldsBack() const;
+  bool hasExit() const;                                     // something to be done before it returns
   bool isSlice(ExprId place) const;
   bool isMeasured(ExprId place) const { return lengths().isMeasured(place); }
   bool isKnown(ExprId place) const { return analysis_->lengths.at(place); }
+  bool returnsLength(uint32_t variable) const;                         // an in-out: at the exits
+  bool isPassedOnce(const ir::CallStmt* call, uint32_t string) const;  // so that its new length is known after the call
   StringsOfBody lengths() const { return {module_, *body_, analysis_->uses.variables, analysis_->measured}; }
 
   // ---- nodes and types

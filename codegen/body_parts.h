@@ -97,6 +97,8 @@ class StringWriter : public BodyPart {
 
   void declareLengths();
   void countLengths(StmtId id);
+  void forgetLengths(StmtId id);
+  void returnLengths();
   void lengthName(ExprId place);
   void stringLength(ExprId string);
   // `form`: `sized` or `slice`.
@@ -113,6 +115,7 @@ class StringWriter : public BodyPart {
   void beginCopy(const StringTarget& target, std::string_view function, uint32_t limit);
   void copyLiteral(const StringTarget& target, std::string_view literal, bool utf8);
   void copyVariable(const StringTarget& target, ExprId from);
+  void lengthName(uint32_t variable);
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a string in memory whose capacity is that of its type
   uint32_t literalLength(const Expr& string) const;
 };
@@ -143,15 +146,17 @@ class CallWriter : public BodyPart {
   struct CallText {
     std::string before, after;  // the copies of arguments
     std::string arguments, result;
-    std::string copy;    // the variable that takes the result, or empty
-    std::string length;  // the local that takes the result's length
+    std::string lengths;  // after the call: those of the in-outs
+    std::string copy;     // the variable that takes the result, or empty
+    std::string length;   // the local that takes the result's length
   };
   CallPlan planCall(const ir::CallStmt& stmt) const;
   bool writesInPlace(const ir::CallStmt& stmt) const;
   void sliceCall(const ir::CallStmt& stmt);
   void appendText(const ir::CallStmt& make, ExprId to);
-  void passArguments(const CallPlan& plan, CallText& text);
+  void passArguments(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text);
   void passCopy(const CallPlan::Argument& argument, CallText& text);
+  void passLength(const ir::CallStmt& stmt, ExprId operand, CallText& text);
   void passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text);
   void callFunction(const ir::CallStmt& stmt, const CallPlan& plan, const CallText& text);
   void copyResult(ExprId to, TypeId from, const CallText& text);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "codegen/signature.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -87,7 +88,7 @@ void CallWriter::callStatement(StmtId id) {
   }
   CallText text;
   if (plan.is_measured) text.length = captured([&] { strings().lengthName(stmt.result); });
-  passArguments(plan, text);
+  passArguments(stmt, plan, text);
   out_ += text.before;
   if (const WriteBacks::Call* before = analysis_->write_backs.find(id)) {
     for (const uint32_t field : before->fields) {
@@ -103,7 +104,7 @@ void CallWriter::callStatement(StmtId id) {
     if (callee.native && text.copy.empty() && plan.is_measured) out_ += text.length + " = ";
     out_ += function;
   }
-  out_ += ';';
+  out_ += ';' + text.lengths;
   if (!text.copy.empty() && stmt.result) copyResult(stmt.result, callee.result, text);
   if (plan.is_measured && !callee.native && text.copy.empty()) {
     out_ += ' ' + text.length + " = rung_string_length(";
@@ -113,15 +114,27 @@ void CallWriter::callStatement(StmtId id) {
   out_ += text.after;
 }
 
-// line_n += rung_standard_TO_STRING__DINT(ctx, n, line + line_n, 80 - line_n);
+// line_n += rung_standard_TO_STRING__DINT_sized(n, line + line_n, 80 - line_n); an in-out may be longer than its type.
 void CallWriter::appendText(const ir::CallStmt& make, ExprId to) {
   const std::string length = captured([&] { strings().lengthName(to); });
-  call(make.callee);
-  out_ += length + " += " + ir::nativeName(module_, module_.body(make.callee)) + "(ctx, ";
-  for (const ExprId operand : body_->list(make.operands)) {
-    values().value(operand, Prec::Ternary);
-    out_ += ", ";
+  const Body& callee = module_.body(make.callee);
+  if (!lengths().isOwn(to)) {
+    out_ += length + " = rung_min_u32(" + length + ", ";
+    appendUnsigned(out_, capacityOf(expr(to).type));
+    out_ += "); ";
   }
+  out_ += length + " += ";
+  if (isSized(module_, callee)) {
+    strings().sizedCall(callee, make.operands);
+  } else {
+    call(make.callee);
+    out_ += ir::nativeName(module_, callee) + "(ctx";
+    for (const ExprId operand : body_->list(make.operands)) {
+      out_ += ", ";
+      values().value(operand, Prec::Ternary);
+    }
+  }
+  out_ += ", ";
   places().place(to);
   out_ += " + " + length + ", ";
   appendUnsigned(out_, capacityOf(expr(to).type));
@@ -139,7 +152,7 @@ void CallWriter::sliceCall(const ir::CallStmt& stmt) {
   out_ += ");";
 }
 
-void CallWriter::passArguments(const CallPlan& plan, CallText& text) {
+void CallWriter::passArguments(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {
   text.arguments = captured([&] {
     for (const CallPlan::Argument& argument : plan.arguments) {
       out_ += ", ";
@@ -148,6 +161,8 @@ void CallWriter::passArguments(const CallPlan& plan, CallText& text) {
         case CallPlan::Way::Reference: places().reference(*argument.parameter, argument.operand); break;
         case CallPlan::Way::Copy: passCopy(argument, text); break;
       }
+      if (passesLength(module_, module_.body(stmt.callee), *argument.parameter))
+        passLength(stmt, argument.operand, text);
     }
   });
 }
@@ -163,6 +178,22 @@ void CallWriter::passCopy(const CallPlan::Argument& argument, CallText& text) {
   }
   if (!isString(parameter.type)) out_ += '&';
   out_ += copy;
+}
+
+// Through a variable: the length itself stays in a register. What is passed twice has no known length in either.
+void CallWriter::passLength(const ir::CallStmt& stmt, ExprId operand, CallText& text) {
+  const std::string name = newName("n");
+  declarations_ += " uint32_t " + name + ';';
+  out_ += ", &" + name;
+  text.before += name + " = ";
+  const uint32_t number = operand ? analysis_->uses.variables.stringAt(operand) : kNoVariable;
+  if (number == kNoVariable || !isPassedOnce(&stmt, number)) {
+    text.before += "RUNG_UNCOUNTED; ";
+    return;
+  }
+  const std::string length = captured([&] { strings().lengthName(operand); });
+  text.before += length + "; ";
+  text.lengths += ' ' + length + " = " + name + ';';
 }
 
 void CallWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {

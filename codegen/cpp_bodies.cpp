@@ -396,7 +396,7 @@ class Writer {
   Call callOf(ir::BodyId id, const std::string& self) {
     const ir::Body& function = module_.body(id);
     Call created;
-    std::string arguments;
+    std::string arguments, lengths;
     bool ok = true;
     uint32_t count = 0;
     for (const Local& local : ir::parameters(function)) {
@@ -415,6 +415,10 @@ class Writer {
       } else {
         created.parameters += seen + "* " + name;
         arguments += ", " + pointer(local.type, name, false);
+        if (passesLength(module_, function, local)) {
+          lengths += "uint32_t " + name + "n = RUNG_UNCOUNTED; ";
+          arguments += ", &" + name + "n";
+        }
       }
     }
     created.result = function.result ? view(function.result) : "void";
@@ -446,6 +450,7 @@ class Writer {
       }
       created.code += "); return rung_result;";
     }
+    created.code.insert(0, lengths);
     return created;
   }
 

@@ -47,12 +47,13 @@ void add(const ir::Body& body, StmtId first, uint64_t times, Work& work) {
 
 }  // namespace
 
-Effort effortFor(const ir::Body& body) {
+Effort effortFor(const ir::Body& body, bool measures_strings) {
   if (body.kind == ir::BodyKind::Init && !body.library) return Effort::Straight;
   Work work;
   add(body, body.first, 1, work);
-  const bool is_straight =
-      !body.library && !body.has_labels && work.statements > kSmall && work.runs <= (1 + kLoopShare) * work.statements;
+  const bool is_straight = !body.library && !body.has_labels &&
+                           !(measures_strings && body.kind == ir::BodyKind::Function) && work.statements > kSmall &&
+                           work.runs <= (1 + kLoopShare) * work.statements;
   if (is_straight) return Effort::Straight;
   return work.loops || body.has_labels ? Effort::Loops : Effort::Plain;
 }

@@ -3,10 +3,11 @@
 //
 // Most of the time of g++ -O2 goes into statements that run once per call, which gain little: a body is straight when
 // its loops carry no more than kLoopShare times the work of its statements, and so is every initialiser. Small bodies
-// (called or inlined in the loops of others), library bodies and bodies with labels (any of which may be a loop) are
-// never straight. Measured on 100 000 generated lines: g++ needs 0.4 of the time, the bodies run 1.0 to 1.2 times as
-// long. Each definition carries the attribute: g++ applies a `#pragma GCC optimize` again to every declaration after
-// it, which costs a tenth of its time. With `rung -O2` (EmitOptions::optimize_all) no body is straight.
+// (called or inlined in the loops of others), library bodies, bodies with labels (any of which may be a loop) and
+// functions that work on strings (whose sized forms the quick passes do not inline) are never straight. Measured on 100
+// 000 generated lines: g++ needs 0.4 of the time, the bodies run 1.0 to 1.2 times as long. Each definition carries the
+// attribute: g++ applies a `#pragma GCC optimize` again to every declaration after it, which costs a tenth of its time.
+// With `rung -O2` (EmitOptions::optimize_all) no body is straight.
 #pragma once
 
 #include "ir/ir.h"
@@ -18,6 +19,6 @@ enum class Effort : uint8_t {
   Straight,  // RUNG_STRAIGHT
   Loops,     // RUNG_LOOPS
 };
-Effort effortFor(const ir::Body& body);
+Effort effortFor(const ir::Body& body, bool measures_strings);
 
 }  // namespace rung::codegen

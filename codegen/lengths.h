@@ -1,9 +1,14 @@
-// Lengths of strings in C++ locals. A string that nothing else can reach while the body runs and that sized functions
-// use keeps its length beside it, so nothing counts its characters again: `s := CONCAT(s, c)` appends at the end, MID
-// knows whether its position is inside. Every write of such a string sets its length. The length is counted before the
-// first use in a block; a loop counts in front what it will need. Memory stays NUL-terminated after each statement.
+// Lengths of strings in C++ locals. A string that sized functions use keeps its length beside it, so nothing counts its
+// characters again: `s := CONCAT(s, c)` appends at the end, MID knows whether its position is inside. Every write of
+// such a string sets its length. The length is counted before the first use in a block; a loop counts in front what it
+// will need. Memory stays NUL-terminated after each statement.
+// A shared string, which more than this body may reach while it runs (an in-out, a variable whose address left the
+// body), loses its length with each statement that may change it by another name (foreign_writes.h): the local is
+// RUNG_UNCOUNTED until it is needed again. A function gets the lengths of its in-outs from the caller and leaves there
+// what it knows at its end (passesLength in signature.h). A shared string may be longer than its type says: a variable
+// of a longer type was passed.
 // Sized functions are natives marked {sized}: their second form in rung/<library>.h takes the length after each string
-// and returns the length of the result.
+// and returns the length of the result. Of a generic function the instances for STRING and integers have one.
 // In: the uses of a body. Out: the measured strings; then, with the slices, where each length is known and where it is
 // counted. Called by analysis.cpp; written by measured.cpp, strings.cpp and calls.cpp.
 //
@@ -16,14 +21,17 @@
 namespace rung::codegen {
 
 struct MeasuredStrings {
-  std::vector<uint8_t> is_measured;  // by variable
+  enum class As : uint8_t { No, Own, Shared };
+  std::vector<As> as;  // by variable
   bool any = false;
 
-  bool has(uint32_t variable) const { return variable != kNoVariable && is_measured[variable] != 0; }
+  bool has(uint32_t variable) const { return variable != kNoVariable && as[variable] != As::No; }
+  bool isShared(uint32_t variable) const { return variable != kNoVariable && as[variable] == As::Shared; }
+  bool isOwn(uint32_t variable) const { return variable != kNoVariable && as[variable] == As::Own; }
   std::string toString(const Variables& variables) const;
 };
 
-MeasuredStrings analyzeLengths(const ir::Body& body, const Facts& facts, const Uses& uses);
+MeasuredStrings analyzeLengths(const ir::Module& module, const ir::Body& body, const Facts& facts, const Uses& uses);
 
 // What is asked of the strings of a body while its lengths are analysed and while it is written.
 struct StringsOfBody {
@@ -33,7 +41,9 @@ struct StringsOfBody {
   const MeasuredStrings& measured;
 
   bool isMeasured(ir::ExprId place) const { return measured.any && measured.has(variables.stringAt(place)); }
-  // `out` of a sized function must be one of its strings or overlap none: true when either side is measured.
+  bool isOwn(ir::ExprId place) const { return measured.any && measured.isOwn(variables.stringAt(place)); }
+  // `out` of a sized function must be one of its strings or overlap none: true when either side is measured and not
+  // shared.
   bool isSizedCall(const ir::Body& callee, Slice<ir::ExprId> operands, ir::ExprId result) const;
   // True when the lengths of both sides are passed. `known`: whether that of a measured string is known there.
   template <class Known>
@@ -46,7 +56,7 @@ struct StringsOfBody {
   }
 };
 
-// The second form of a native: marked {sized}, and all its strings are STRING.
+// The second form of a native: marked {sized}, and all its types are STRING or integers.
 bool isSized(const ir::Module& module, const ir::Body& callee);
 
 // The strings whose lengths are known at a point of a body; a block forgets at its end what became known in it.
@@ -59,6 +69,7 @@ class KnownStrings {
     is_known_[variable] = 1;
     order_.push_back(variable);
   }
+  void unset(uint32_t variable) { is_known_[variable] = 0; }
   size_t mark() const { return order_.size(); }
   void forget(size_t mark) {
     for (; order_.size() > mark; order_.pop_back()) is_known_[order_.back()] = 0;
@@ -72,13 +83,15 @@ class KnownStrings {
 struct KnownLengths {
   std::vector<uint8_t> is_known;  // by expression: a measured string whose length is known there; empty without any
   std::vector<std::vector<ir::ExprId>> counted;  // by statement: the strings to count in front of it
+  std::vector<uint8_t> forgets;  // by statement: shared strings that it does not write have an unknown length after it
 
   bool at(ir::ExprId place) const { return !is_known.empty() && is_known[place.index] != 0; }
+  bool forgetsAfter(ir::StmtId stmt) const { return !forgets.empty() && forgets[stmt.index] != 0; }
   bool countsBefore(ir::StmtId stmt) const { return !counted.empty() && !counted[stmt.index].empty(); }
   std::string toString(const ir::Module& module, const ir::Body& body, const Variables& variables) const;
 };
 
 struct Slices;
-KnownLengths analyzeKnownLengths(const StringsOfBody& strings, const Slices& slices);
+KnownLengths analyzeKnownLengths(const StringsOfBody& strings, const Slices& slices, const Facts& facts);
 
 }  // namespace rung::codegen

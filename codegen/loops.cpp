@@ -26,7 +26,8 @@ void StatementWriter::stepsOf(Loc loc, const std::string& count) {
 // The condition of a loop's exit test, with nothing to be done before it; none of other statements.
 ir::ExprId StatementWriter::exitTest(StmtId id) const {
   const ExprId test = ir::exitTest(*body_, id);
-  return test && !checks().needsPreparation(test) ? test : ExprId{};
+  const bool is_ready = test && !checks().needsPreparation(test) && !analysis_->lengths.countsBefore(id);
+  return is_ready ? test : ExprId{};
 }
 
 void StatementWriter::loopStatement(const ir::LoopStmt& stmt, Loc loc) {

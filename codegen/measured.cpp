@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "codegen/signature.h"
 
 namespace rung::codegen {
 
@@ -11,21 +12,60 @@ void StringWriter::declareLengths() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = 0; i < variables.count(); ++i) {
     if (!analysis_->measured.has(i) || analysis_->appends.has(i)) continue;
-    std::string name;
-    if (variables.isField(i)) {
-      appendMangled(name, string(variables.field(i).name));
-    } else {
-      variable(name, variables.local(i));
-    }
-    declarations_ += " uint32_t " + name + "n = 0;";
+    std::string name = captured([&] { lengthName(i); });
+    name.pop_back();
+    declarations_ += " uint32_t " + name + "n = ";
+    declarations_ += returnsLength(i) ? '*' + name + "np" : analysis_->measured.isShared(i) ? "RUNG_UNCOUNTED" : "0";
+    declarations_ += ';';
     if (analysis_->slices.has(i)) declarations_ += " const char* " + name + "v = nullptr;";
+  }
+  for (const ir::Local& local : body_->locals) {
+    const uint32_t i = static_cast<uint32_t>(&local - body_->locals.data());
+    if (!passesLength(module_, *body_, local) || analysis_->measured.has(i)) continue;
+    declarations_ += " *";
+    variable(declarations_, local);
+    declarations_ += "np = RUNG_UNCOUNTED;";
+  }
+}
+
+// At the exits: the caller gets the lengths of its strings.
+void StringWriter::returnLengths() {
+  for (uint32_t i = 0; i < body_->locals.size(); ++i) {
+    if (!returnsLength(i)) continue;
+    const std::string name = captured([&] { variable(out_, body_->locals[i]); });
+    out_ += " *" + name + "np = " + name + "n;";
+  }
+}
+
+// After a statement that may have changed shared strings: all but the one that it writes.
+void StringWriter::forgetLengths(StmtId id) {
+  if (!analysis_->lengths.forgetsAfter(id)) return;
+  const Variables& variables = analysis_->uses.variables;
+  const Stmt& stmt = body_->stmt(id);
+  const auto* assign = stmt.tryAs<ir::AssignStmt>();
+  const auto* call = stmt.tryAs<ir::CallStmt>();
+  const ExprId place = assign != nullptr ? assign->place : call != nullptr ? call->result : ExprId{};
+  const uint32_t written = place ? variables.stringAt(place) : kNoVariable;
+  for (uint32_t i = 0; i < variables.count(); ++i) {
+    if (!analysis_->measured.isShared(i) || i == written || isPassedOnce(call, i)) continue;
+    out_ += ' ';
+    lengthName(i);
+    out_ += " = RUNG_UNCOUNTED;";
   }
 }
 
 // In front of a statement: counts the lengths that it needs; for a loop, all that its iterations need.
 void StringWriter::countLengths(StmtId id) {
+  const StmtId appended_by = analysis_->appends.find(id);
+  if (appended_by == id) return;
+  if (appended_by) id = appended_by;
   if (!analysis_->lengths.countsBefore(id)) return;
   for (const ExprId place_id : analysis_->lengths.counted[id.index]) {
+    if (!lengths().isOwn(place_id)) {
+      out_ += "if (";
+      lengthName(place_id);
+      out_ += " == RUNG_UNCOUNTED) ";
+    }
     lengthName(place_id);
     out_ += " = rung_string_length(";
     places().place(place_id);
@@ -33,12 +73,14 @@ void StringWriter::countLengths(StmtId id) {
   }
 }
 
-void StringWriter::lengthName(ExprId id) {
-  const Expr& e = expr(id);
-  if (const uint32_t* index = ir::localOf(e)) {
-    variable(out_, body_->locals[*index]);
+void StringWriter::lengthName(ExprId id) { lengthName(analysis_->uses.variables.stringAt(id)); }
+
+void StringWriter::lengthName(uint32_t number) {
+  const Variables& variables = analysis_->uses.variables;
+  if (variables.isField(number)) {
+    appendMangled(out_, string(variables.field(number).name));
   } else {
-    appendMangled(out_, string(fieldOf(e.as<ir::FieldExpr>()).name));
+    variable(out_, variables.local(number));
   }
   out_ += 'n';
 }

@@ -188,7 +188,7 @@ class Describer {
 
   std::string moduleSource() {
     std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, area_rows, symbol_rows, retain_rows,
-        persistent_rows, resource_rows, write_rows, safe_rows;
+        persistent_rows, resource_rows, write_rows;
     for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
     for (const rung_type& is : is_.types) {
       row(type_rows,
@@ -213,8 +213,6 @@ class Describer {
     for (const uint32_t is : is_.resources) row(resource_rows, {number(is)});
     for (const rung_write& is : is_.writes)
       row(write_rows, {number(is.area), number(is.mask), number(is.offset), number(is.size)});
-    for (const rung_safe& is : is_.safe)
-      row(safe_rows, {number(is.area), number(is.mask), number(is.offset), number(is.size), number(is.value) + "ULL"});
     std::string init = "void init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
       init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
@@ -231,9 +229,11 @@ class Describer {
     if (module_.after_init) init += callOf(module_.after_init);
     init += "}\n";
     if (module_.exit) init += "void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
+    if (module_.safe) init += "void safe(rung_context* ctx) {\n" + callOf(module_.safe) + "}\n";
 
     declarations_ = "extern const char text[];\nvoid init(rung_context* ctx);\n";
     if (module_.exit) declarations_ += "void exit(rung_context* ctx);\n";
+    if (module_.safe) declarations_ += "void safe(rung_context* ctx);\n";
     std::string out =
         "// The tables of the module, its tasks and its initial values: see rung/module.h.\n#include <string.h>\n\n";
     out += "#include \"rung/module.h\"\n\n" + openNamespace(name_space_) + '\n' + prototypes_ + "\n";
@@ -260,7 +260,6 @@ class Describer {
     table(out, "uint32_t", "resources", resource_rows);
     table(out, "rung_task", "tasks", task_rows_);
     table(out, "rung_write", "writes", write_rows);
-    table(out, "rung_safe", "safe", safe_rows);
     table(out, "rung_test", "tests", test_rows_);
     out += init + "\n}  // namespace " + name_space_ + '\n';
 
@@ -273,8 +272,7 @@ class Describer {
     description_ += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
     description_ += cells("resources", resource_rows, is_.resources.size()) + ", ";
     description_ += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
-    description_ += cells("writes", write_rows, is_.writes.size()) + ", ";
-    description_ += cells("safe", safe_rows, is_.safe.size()) + ",\n  ";
+    description_ += cells("writes", write_rows, is_.writes.size()) + ",\n  ";
     description_ += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
     description_ += cells("types", type_rows, is_.types.size()) + ", ";
     description_ += cells("fields", field_rows, is_.fields.size()) + ", ";
@@ -283,8 +281,8 @@ class Describer {
     description_ += cells("retain", retain_rows, is_.retain.size()) + ", ";
     description_ += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
     description_ += "sites, " + number(site_count_) + ", ";
-    description_ +=
-        cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") + "\n};\n";
+    description_ += cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") +
+                    ", " + (module_.safe ? "safe" : "nullptr") + "\n};\n";
     return out;
   }
 

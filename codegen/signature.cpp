@@ -29,6 +29,13 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 
 }  // namespace
 
+bool passesLength(const ir::Module& module, const ir::Body& function, const ir::Local& parameter) {
+  const bool has_lengths = function.kind == ir::BodyKind::Function && !function.self && !function.native &&
+                           !function.pure && function.cpp == 0;
+  return has_lengths && parameter.kind == LocalKind::InOut && parameter.by_reference &&
+         module.types.kind(parameter.type) == types::TypeKind::String;
+}
+
 void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view function,
                      std::string_view self) {
   const TypeTable& types = module.types;
@@ -75,6 +82,7 @@ void appendSignature(std::string& out, const ir::Module& module, const ir::Body&
     name.clear();
     appendMangled(name, module.names.string(local.name));
     appendParameter(out, types, local, name, body.native);
+    if (passesLength(module, body, local)) out += ", uint32_t* " + name + "np";
   }
   if (body.result && !by_value) {
     name.clear();

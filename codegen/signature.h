@@ -13,4 +13,9 @@ namespace rung::codegen {
 void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view function = {},
                      std::string_view self = {});
 
+// The length of a string goes with it: a STRING that a function of the project takes as in-out is followed by the
+// address of its length, or of RUNG_UNCOUNTED. The function leaves there the length that the string has at its end.
+// Methods are called through tables, and C++ bodies take strings only: those count for themselves.
+bool passesLength(const ir::Module& module, const ir::Body& function, const ir::Local& parameter);
+
 }  // namespace rung::codegen

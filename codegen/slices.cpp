@@ -59,7 +59,7 @@ class Judge {
 
  private:
   bool isCandidate(uint32_t variable) const {
-    if (!strings_.measured.has(variable) || !uses_.of[variable].sliced) return false;
+    if (!strings_.measured.isOwn(variable) || !uses_.of[variable].sliced) return false;
     if (variables_.isField(variable)) return true;
     const LocalKind kind = variables_.local(variable).kind;
     return kind == LocalKind::Temp || kind == LocalKind::Variable;
@@ -97,7 +97,7 @@ class Judge {
       return;
     }
     if (!makes_slice && isSlice(variable)) refuse(variable);
-    if (strings_.measured.has(variable)) known_.set(variable);
+    if (strings_.measured.isOwn(variable)) known_.set(variable);
   }
 
   bool isKnown(ExprId place) const { return known_.has(variables_.stringAt(place)); }
@@ -186,7 +186,7 @@ class PassingSlices {
     const uint32_t* temp = ir::localOf(body_.expr(call.result));
     if (temp == nullptr || body_.locals[*temp].kind != LocalKind::Temp || names_[*temp] != 2) return;
     const uint32_t variable = strings_.variables.stringAt(call.result);
-    if (!strings_.measured.has(variable) || slices_.has(variable)) return;
+    if (!strings_.measured.isOwn(variable) || slices_.has(variable)) return;
     const Stmt& reader = body_.stmt(next);
     const auto* assign = reader.tryAs<ir::AssignStmt>();
     if (assign == nullptr || TypeTable::isString(module_.types.kind(body_.expr(assign->place).type))) return;

@@ -108,15 +108,15 @@ void StatementWriter::statement(StmtId id, const Stmt& stmt) {
     checks().prepare(call->self);
     const std::string name = captured([&] { places().place(call->self); });
     out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
-    return;
+    return strings().forgetLengths(id);
   }
   begin(stmt.loc);
   strings().countLengths(id);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
-    case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return;
-    case StmtKind::Bind: bindStatement(stmt.as<ir::BindStmt>()); return;
-    case StmtKind::Call: calls().callStatement(id); return;
+    case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return strings().forgetLengths(id);
+    case StmtKind::Bind: bindStatement(stmt.as<ir::BindStmt>()); return strings().forgetLengths(id);
+    case StmtKind::Call: calls().callStatement(id); return strings().forgetLengths(id);
     case StmtKind::If: ifStatement(stmt.as<ir::IfStmt>()); return;
     case StmtKind::Switch: switchStatement(stmt.as<ir::SwitchStmt>()); return;
     case StmtKind::Loop: loopStatement(stmt.as<ir::LoopStmt>(), stmt.loc); return;
@@ -220,6 +220,11 @@ void StatementWriter::leave() {
     out_ += " = 1; return;";
     return;
   }
+  if (hasExit()) {
+    state_.uses_leave = true;
+    out_ += "goto leave;";
+    return;
+  }
   for (const ir::Local& local : body_->locals) {
     if (local.kind != ir::LocalKind::Result || local.by_reference) continue;
     out_ += "return ";
@@ -227,9 +232,7 @@ void StatementWriter::leave() {
     out_ += ';';
     return;
   }
-  const bool has_written = writesFieldsBack();
-  if (has_written) state_.uses_leave = true;
-  out_ += has_written ? "goto leave;" : "return;";
+  out_ += "return;";
 }
 
 bool StatementWriter::endsInJump(StmtId first) const {

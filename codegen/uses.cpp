@@ -3,6 +3,7 @@
 
 #include "codegen/lengths.h"
 #include "codegen/names.h"
+#include "codegen/signature.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -96,6 +97,15 @@ class Scan {
     }
   }
 
+  void lengthsPassed(const ir::Body& callee, Slice<ExprId> operands, uint32_t weight) {
+    size_t i = 0;
+    for (const ir::Local& parameter : ir::parameters(callee)) {
+      const ExprId operand = i < operands.count ? body_.list(operands)[i++] : ExprId{};
+      VariableUse* of = operand && passesLength(module_, callee, parameter) ? stringAt(operand) : nullptr;
+      if (of != nullptr) of->sized_weight += weight;
+    }
+  }
+
   // An assignment passes the length on.
   void assign(const ir::AssignStmt& stmt, uint32_t weight) {
     VariableUse *to = stringAt(stmt.place), *from = stringAt(stmt.value);
@@ -110,6 +120,7 @@ class Scan {
     if (!callee.pure && !callee.library) has_foreign_calls_ = true;
     if (callee.may_fault || stmt.is_virtual || (callee.native && !callee.pure)) uses_.has_leaving_calls = true;
     sizedCall(callee, stmt.operands, weight);
+    lengthsPassed(callee, stmt.operands, weight);
     VariableUse* result = stmt.result ? stringAt(stmt.result) : nullptr;
     if (result == nullptr) return;
     // A string of the instance is written back at the exits: that pays in loops only.

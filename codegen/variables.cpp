@@ -5,7 +5,6 @@ namespace rung::codegen {
 
 using ir::ExprId;
 using ir::ExprKind;
-using ir::LocalKind;
 
 Variables::Variables(const ir::Module& module, const ir::Body& body)
     : module_(&module), body_(&body), local_count_(static_cast<uint32_t>(body.locals.size())) {
@@ -29,11 +28,7 @@ uint32_t Variables::stringAt(ExprId place) const {
   const ir::Expr& e = body_->expr(place);
   if (module_->types.kind(e.type) != types::TypeKind::String) return kNoVariable;
   const uint32_t* index = ir::localOf(e);
-  if (index == nullptr) return at(place);
-  const ir::Local& local = body_->locals[*index];
-  // A by-reference result is a variable of the caller that only this call knows.
-  const bool is_own = !local.by_reference || local.kind == LocalKind::Input || local.kind == LocalKind::Result;
-  return is_own ? *index : kNoVariable;
+  return index != nullptr ? *index : at(place);
 }
 
 std::string Variables::lines(const std::vector<std::string>& rows) const {

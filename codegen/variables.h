@@ -20,7 +20,7 @@ class Variables {
 
   // A local (but for parameters by reference), a field of the own instance, or bits of one; else none.
   uint32_t at(ir::ExprId place) const;
-  // A STRING that only this body can reach unless its address is taken; also an input, or the result, by reference.
+  // A STRING in a local or in a field of the own instance; also a parameter or the result by reference.
   uint32_t stringAt(ir::ExprId place) const;
 
   uint32_t count() const { return local_count_ + field_count_; }

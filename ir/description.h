@@ -62,7 +62,6 @@ struct Description {
   std::vector<uint32_t> resources;
   std::vector<rung_task> tasks;  // `run` is not set
   std::vector<rung_write> writes;
-  std::vector<rung_safe> safe;
   struct Test {
     rung_test row;  // `init` and `run` are not set
     BodyId body;

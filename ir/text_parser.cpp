@@ -86,9 +86,9 @@ int64_t TokenReader::integer() {
 
 static bool isItemWord(std::string_view word) {
   for (const char* item :
-       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",        "area",
-        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",       "located",
-        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals"})
+       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",         "area",
+        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",        "located",
+        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals", "safe"})
     if (word == item) return true;
   return false;
 }
@@ -517,7 +517,8 @@ void Reader::declareItem() {
   }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.
-  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
+  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") &&
+      !isWord("dispatch"))
     record();
 }
 
@@ -538,7 +539,7 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("dispatch"))
+        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") && !isWord("dispatch"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -556,13 +557,16 @@ bool Reader::read() {
   }
   forEachItem([&] {
     const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
-    if (!is_exit && !is_after_init && !accept("test")) return;
+    const bool is_safe = !is_exit && !is_after_init && accept("safe");
+    if (!is_exit && !is_after_init && !is_safe && !accept("test")) return;
     const BodyId named = bodyNamed("body");
     if (failed_) return;
     if (is_exit)
       module_.exit = named;
     else if (is_after_init)
       module_.after_init = named;
+    else if (is_safe)
+      module_.safe = named;
     else
       module_.tests.push_back(named);
   });

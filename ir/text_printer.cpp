@@ -400,6 +400,10 @@ void Printer::items() {
     clause("after_init @", module_.after_init);
     put("\n");
   }
+  if (module_.safe) {
+    clause("safe @", module_.safe);
+    put("\n");
+  }
   if (module_.exit) {
     clause("exit @", module_.exit);
     put("\n");

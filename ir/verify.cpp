@@ -184,8 +184,8 @@ void Verifier::checkModule() {
     require(isBodyOf(program.body, BodyKind::Block, program.record), 2,
             "the body of a program does not belong to its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
-    for (BodyId function :
-         {program.run, program.setup, program.after_init, program.exit, module_.after_init, module_.exit}) {
+    for (BodyId function : {program.run, program.setup, program.after_init, program.exit, module_.after_init,
+                            module_.exit, module_.safe}) {
       require(
           !function || (function.index < module_.bodies.size() && module_.body(function).kind == BodyKind::Function &&
                         !module_.body(function).result && parameters(module_.body(function)).empty()),

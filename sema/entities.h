@@ -154,6 +154,7 @@ struct Pou {
     OperatorKind operator_kind = OperatorKind::None;  // {operator '…'}
     NameId replaces;                                  // {replaces 'X'}: a mock of X
     bool setup = false, teardown = false;             // {setup}, {teardown}: around each test of the file
+    bool safe_values = false;                         // {safe_values}: sets outputs when the program stops
     NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
   } pragmas;

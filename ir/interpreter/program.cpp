@@ -32,7 +32,7 @@ struct Program::Parts {
   std::unique_ptr<Description> description;
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
-  Code::Entry init, exit;
+  Code::Entry init, exit, safe;
   std::vector<Code::Entry> of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kTaskStack;
   rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
@@ -78,6 +78,7 @@ struct Program::Parts {
 
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
   static void runExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).exit); }
+  static void runSafe(rung_context* ctx) { of(ctx).run(ctx, of(ctx).safe); }
   static void runTask(rung_context* ctx) {
     const Parts& parts = of(ctx);
     parts.run(ctx, parts.of_task[static_cast<size_t>(static_cast<const rung_task*>(ctx->entry) - parts.tasks.data())]);
@@ -136,6 +137,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     steps.assign(1, {Step::CallOf, module.exit, 0});
     exit = translator.translateSteps(steps);
     is.exit = runExit;
+  }
+  if (module.safe) {
+    steps.assign(1, {Step::CallOf, module.safe, 0});
+    safe = translator.translateSteps(steps);
+    is.safe = runSafe;
   }
 
   for (uint32_t i = 0; i < module.tasks.size(); ++i) {
@@ -207,7 +213,6 @@ void Program::Parts::describe() {
   table(from.resources, is.resources, is.resource_count);
   table(tasks, is.tasks, is.task_count);
   table(from.writes, is.writes, is.write_count);
-  table(from.safe, is.safe, is.safe_count);
   table(from.symbols, is.symbols, is.symbol_count);
   table(from.types, is.types, is.type_count);
   table(from.fields, is.fields, is.field_count);

@@ -493,6 +493,7 @@ void ModuleLowering::addPrograms() {
     const sema::Pou& pou = project.pous[i];
     const bool is_called = pou.kind == PouKind::Program && pou.pragmas.after_globals;
     if ((pou.pragmas.test || is_called) && !pou.excluded && pou.record) instanceOf({i});
+    if (pou.pragmas.safe_values && !pou.excluded) module.safe = bodyOf({i});
     if (pou.pragmas.setup && !pou.excluded) module.setups.push_back(bodyOf({i}));
     if (pou.pragmas.teardown && !pou.excluded) module.teardowns.push_back(bodyOf({i}));
   }

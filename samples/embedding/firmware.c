@@ -1,22 +1,29 @@
-/* The smallest product that runs a compiled project: it owns all memory, runs the cyclic tasks in virtual time and
- * prints a trace like that of `rung run`. C99, for any processor. Built and run by tests/programs/embedding. See
- * docs/embedding.md. */
+/* The smallest product that runs a compiled project: it owns all memory, runs the tasks of a resource one at a time in
+ * virtual time, keeps retained data in two regions of memory and prints a trace like that of `rung run`. C99, for any
+ * processor. Built and run by tests/programs/embedding. See docs/embedding.md. */
 #include <stdio.h>
 #include <string.h>
 
 #include "rung/module.h"
+#include "rung/retain.h"
 #include "rung/values.h"
 
 const rung_module *plant_module(void); /* from the compiled project: <--name>_module */
 
 #define MAX_BLOCKS 16
+#define MAX_TASKS 8
 static uint64_t memory[1024]; /* a product places blocks where it likes: RAM, battery-backed RAM */
 static void *blocks[MAX_BLOCKS];
 static uint64_t inputs[16], outputs[16], flags[16]; /* %I, %Q, %M */
 static uint8_t *areas[] = {(uint8_t *)inputs, (uint8_t *)outputs, (uint8_t *)flags};
+static uint64_t fram[2][64]; /* two slots of retained data: memory that keeps its content */
+static uint64_t sequence;
+static rung_task_state states[MAX_TASKS]; /* statistics, which the program may read */
+static int64_t started_at;                /* the common begin of all periods */
+static uint8_t was_true[MAX_TASKS];       /* triggers of event tasks at the last sample */
 
 /* Puts each block at its alignment; 0 when the memory or an area is too small. */
-static int allocate_blocks(const rung_module *module) {
+static int allocate(const rung_module *module) {
   size_t next = 0;
   for (uint32_t i = 0; i < module->block_count; ++i) {
     const rung_block *block = &module->blocks[i];
@@ -27,63 +34,137 @@ static int allocate_blocks(const rung_module *module) {
   }
   for (uint32_t i = 0; i < module->area_count; ++i)
     if (i >= 3 || module->areas[i].size > sizeof inputs) return 0;
-  return 1;
+  return module->task_count <= MAX_TASKS && rung_retain_bytes(module) <= sizeof fram[0];
 }
 
-/* Prints a variable of an elementary type: a located variable, or one of a program (`Main.level`). */
-static void print(const rung_module *module, const char *path) {
+/* Finds a global variable (`isFull`) or a variable of a program (`Main.level`): its type, or null. */
+static const rung_type *find(const rung_module *module, const char *path, const uint8_t **value, uint8_t *bit) {
   const char *dot = strchr(path, '.');
   for (uint32_t i = 0; i < module->symbol_count; ++i) {
     const rung_symbol *symbol = &module->symbols[i];
     const rung_type *type = &module->types[symbol->type];
     const char *name = module->strings + symbol->name;
-    const uint8_t *value = (symbol->storage == RUNG_IN_AREA ? areas[symbol->index] : (uint8_t *)blocks[symbol->index]) +
-                           symbol->offset;
-    uint8_t bit;
-    char text[RUNG_FORMATTED_SCALAR + 5 * 80];
-    if (strcmp(name, path) != 0) {
-      uint32_t f = 0;
-      if (strlen(name) != (size_t)(dot - path) || memcmp(name, path, strlen(name)) != 0) continue;
-      while (f < type->count && strcmp(module->strings + module->fields[type->first + f].name, dot + 1) != 0) ++f;
-      if (f == type->count) continue;
-      value += module->fields[type->first + f].offset;
-      type = &module->types[module->fields[type->first + f].type];
-    } else if (symbol->bit < 8) {
-      bit = *value >> symbol->bit & 1;
-      value = &bit;
-    }
-    rung_format(type->kind, type->is_signed != 0, value, text, sizeof text - 1);
-    printf(",%s", text);
+    uint32_t f = 0;
+    *value = (symbol->storage == RUNG_IN_AREA ? areas[symbol->index] : (uint8_t *)blocks[symbol->index]) +
+             symbol->offset;
+    *bit = symbol->bit;
+    if (strcmp(name, path) == 0) return type;
+    if (dot == NULL || strlen(name) != (size_t)(dot - path) || memcmp(name, path, strlen(name)) != 0) continue;
+    while (f < type->count && strcmp(module->strings + module->fields[type->first + f].name, dot + 1) != 0) ++f;
+    if (f == type->count) continue;
+    *value += module->fields[type->first + f].offset;
+    return &module->types[module->fields[type->first + f].type];
   }
+  return NULL;
+}
+
+static void print(const rung_module *module, const char *path) {
+  const uint8_t *value;
+  uint8_t bit;
+  const rung_type *type = find(module, path, &value, &bit);
+  char text[RUNG_FORMATTED_SCALAR + 5 * 80];
+  if (type == NULL) return;
+  if (bit < 8) {
+    bit = *value >> bit & 1;
+    value = &bit;
+  }
+  rung_format(type->kind, type->is_signed != 0, value, text, sizeof text - 1);
+  printf(",%s", text);
+}
+
+static int is_true(const rung_module *module, const char *path) {
+  const uint8_t *value;
+  uint8_t bit;
+  if (find(module, path, &value, &bit) == NULL) return 0;
+  return bit < 8 ? *value >> bit & 1 : *value != 0;
+}
+
+/* Whether a task runs in the cycle that begins at `now`. */
+static int is_due(const rung_module *module, uint32_t t, int64_t now) {
+  const rung_task *task = &module->tasks[t];
+  uint8_t before = was_true[t];
+  if (task->kind == RUNG_CYCLIC) return (now - started_at) % task->interval_ns == 0;
+  if (task->kind == RUNG_FREEWHEELING) return 1;
+  if (task->kind == RUNG_EXTERNAL) return 0; /* a product starts them from its interrupts */
+  was_true[t] = (uint8_t)is_true(module, module->strings + task->trigger);
+  return was_true[t] && (task->kind == RUNG_STATUS || !before);
+}
+
+/* The program stops: outputs get their safe values. */
+static void make_outputs_safe(rung_context *context) {
+  memset(outputs, 0, sizeof outputs);
+  if (context->module->safe != NULL) rung_guarded(context, context->module->safe);
+}
+
+/* All tasks of a cycle, by priority; 0 after a fault. A product with interrupts gives each priority a context of its own. */
+static int run_cycle(rung_context *context, int64_t now) {
+  const rung_module *module = context->module;
+  uint8_t due[MAX_TASKS];
+  for (uint32_t t = 0; t < module->task_count; ++t) due[t] = (uint8_t)is_due(module, t, now);
+  for (uint32_t priority = 0; priority < 32; ++priority) {
+    for (uint32_t t = 0; t < module->task_count; ++t) {
+      if (!due[t] || module->tasks[t].priority != priority) continue;
+      context->now_ns = now;
+      context->task = t + 1;
+      context->activation = states[t].activations + 1;
+      if (rung_guarded(context, module->tasks[t].run) != RUNG_FAULT_NONE) {
+        const rung_site *site = &module->sites[context->fault.site];
+        printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
+        return 0;
+      }
+      ++states[t].activations; /* a product with a timer also measures last_ns, longest_ns, ... */
+    }
+  }
+  /* No task runs: the values are those of a complete cycle. The older slot is written. */
+  rung_retain_pack(context, fram[sequence % 2]);
+  rung_retain_seal(fram[sequence % 2], sequence + 1);
+  ++sequence;
+  return 1;
+}
+
+/* Initial values, and what the last run left. */
+static void start(rung_context *context, rung_start kind, int64_t now) {
+  const void *newest = rung_retain_newest(fram[0], fram[1], sizeof fram[0]);
+  started_at = context->now_ns = now;
+  memset(was_true, 0, sizeof was_true);
+  rung_guarded(context, context->module->init);
+  if (newest != NULL && !rung_retain_unpack(context, newest, kind)) printf("retained data of another program\n");
 }
 
 int main(void) {
-  static const char *const watched[] = {"Main.lamp", "Main.pump", "Main.level", "Main.starts", "Main.message"};
+  static const char *const watched[] = {"Main.lamp", "Main.pump", "horn", "level", "Main.starts", "Recorder.highest",
+                                        "Alarm.alarms", "Main.message"};
   const size_t watched_count = sizeof watched / sizeof *watched;
   const rung_module *module = plant_module();
-  rung_context context = {.blocks = blocks, .areas = areas};
-  if (module->abi != RUNG_MODULE_ABI || !allocate_blocks(module)) return 2;
+  rung_context context = {.blocks = blocks, .areas = areas, .task_states = states};
+  if (module->abi != RUNG_MODULE_ABI || !allocate(module)) return 2;
   context.module = module;
-  module->init(&context);
+  start(&context, RUNG_COLD, 0);
 
   printf("cycle,time_ms");
   for (size_t i = 0; i < watched_count; ++i) printf(",%s", watched[i]);
   printf("\n");
-  for (int cycle = 0; cycle < 6; ++cycle) {
+  for (int cycle = 0; cycle < 12; ++cycle) {
+    const int64_t now = (int64_t)cycle * 10000000;
     areas[0][0] = cycle > 0; /* the product reads its inputs: %IX0.0 */
-    for (uint32_t t = 0; t < module->task_count; ++t) {
-      context.now_ns = cycle * module->tasks[t].interval_ns;
-      if (rung_guarded(&context, module->tasks[t].run) != RUNG_FAULT_NONE) {
-        const rung_site *site = &module->sites[context.fault.site];
-        printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
-        memset(outputs, 0, sizeof outputs); /* safe outputs */
-        return 3;
-      }
+    if (cycle == 7) {        /* the power fails: all memory but the two slots is lost */
+      memset(memory, 0xa5, sizeof memory);
+      memset(outputs, 0, sizeof outputs);
+      start(&context, RUNG_WARM, now);
+    }
+    if (!run_cycle(&context, now)) {
+      make_outputs_safe(&context);
+      return 3;
     }
     /* ... and writes its outputs here: areas[1] is %QB0 */
-    printf("%d,%ld", cycle, (long)(context.now_ns / 1000000));
+    printf("%d,%ld", cycle, (long)(now / 1000000));
     for (size_t i = 0; i < watched_count; ++i) print(module, watched[i]);
     printf("\n");
   }
+  make_outputs_safe(&context);
+  printf("safe outputs: %u; activations:", (unsigned)areas[1][0]);
+  for (uint32_t t = 0; t < module->task_count; ++t)
+    printf(" %s %u", module->strings + module->tasks[t].name, (unsigned)states[t].activations);
+  printf("\n");
   return 0;
 }

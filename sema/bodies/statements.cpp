@@ -20,6 +20,7 @@
 #include "sema/checks/recursion.h"
 #include "sema/checks/repeated_timer_call.h"
 #include "sema/checks/result_assigned.h"
+#include "sema/checks/safe_values.h"
 #include "sema/checks/shared_globals.h"
 #include "sema/checks/uncalled_instances.h"
 #include "sema/checks/unset_temporaries.h"
@@ -490,6 +491,7 @@ void checkAfterBodies(Context& context) {
   checkOverlappingAddresses(context);
   checkSharedGlobals(context);
   checkOutputWriters(context);
+  checkSafeValues(context);
   checkHiddenGlobals(context);
   checkRepeatedTimerCalls(context);
   checkUncalledInstances(context);

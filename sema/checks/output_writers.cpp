@@ -32,7 +32,7 @@ void checkOutputWriters(Context& context) {
     if (project.options.areas[var.image.area.index].owner != types::AreaOwner::Output) continue;
     const PouId pou = outermost(project, write.pou);
     const Pou& by = project.pou(pou);
-    if (by.library || by.pragmas.test || by.pragmas.test_only) continue;
+    if (by.library || by.pragmas.test || by.pragmas.test_only || by.pragmas.safe_values) continue;
     PouId& first = writer[write.var.index];
     if (!first) first = pou;
     if (first == pou) continue;

@@ -32,6 +32,7 @@ void internKnownNames(Context& context) {
       {&Known::skip, "skip"},
       {&Known::setup, "setup"},
       {&Known::teardown, "teardown"},
+      {&Known::safe_values, "safe_values"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},
@@ -159,6 +160,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
   pou.pragmas.setup = findPragma(context, decl.h, known.setup) != nullptr;
   pou.pragmas.teardown = findPragma(context, decl.h, known.teardown) != nullptr;
+  pou.pragmas.safe_values = findPragma(context, decl.h, known.safe_values) != nullptr;
   pou.pragmas.test_only = pou.pragmas.test_only || pou.pragmas.setup || pou.pragmas.teardown;
   if (const Pragma* pragma = findPragma(context, decl.h, known.skip); pragma != nullptr) {
     const std::string_view why = context.tree().string(pragma->value);

@@ -153,6 +153,8 @@ bool Compilation::parse() {
   }
   if (inputs.project.configuration)
     text::parseFile(tree, names, sources, inputs.project.configuration, options.dialect, diagnostics);
+  if (inputs.project.safe_values)
+    text::parseFile(tree, names, sources, inputs.project.safe_values, options.dialect, diagnostics);
   setPhaseSubject("", 0);
   times_.end();
   if (options.dump_after == "parse")

@@ -329,6 +329,31 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
   return text.finish(sources, project.file);
 }
 
+// The section [safe]: a function that gives outputs their values, each path and value at its place in the file.
+FileId writeSafeValues(Sources& sources, Diagnostics& diagnostics, const ProjectFile& project) {
+  xml::SourceMappedText text(sources);
+  for (const ProjectSection& section : project.sections) {
+    if (section.kind != "safe") continue;
+    for (const ProjectEntry& entry : section.entries) {
+      std::string path;
+      for (const char c : entry.key)
+        if (c != '[' && c != ']' && c != ',' && c != ' ') path += c;  // `lamps[2, 3]`
+      const std::string_view digits = std::string_view(entry.value).substr(entry.value.starts_with('-') ? 1 : 0);
+      if (!isPlain(path) || !isPlain(digits)) {
+        badValue(diagnostics, entry, "[safe] takes lines `OUTPUT = VALUE`, with one literal or constant");
+        continue;
+      }
+      if (text.empty()) text.put(section.loc, "{safe_values}\nFUNCTION rung_project_safe_values\n");
+      text.put(entry.key_loc, entry.key + " := ");
+      text.put(entry.value_loc, entry.value);
+      text.put(entry.value_loc, ";\n");
+    }
+  }
+  if (text.empty()) return {};
+  text.word("END_FUNCTION\n");
+  return text.finish(sources, project.file);
+}
+
 }  // namespace
 
 const ProjectEntry* ProjectSection::find(std::string_view key) const {
@@ -350,6 +375,7 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
     else if (section.kind == "task")
       readDuration(section, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);
+  project.safe_values = writeSafeValues(sources, diagnostics, project);
 }
 
 void applyProjectFile(const ProjectFile& project, Options& options) {

@@ -46,6 +46,7 @@ struct ProjectFile {
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
+  FileId safe_values;    // the section [safe] as a function in ST, mapped to this file; none: no such section
   FileId configuration;  // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };
 

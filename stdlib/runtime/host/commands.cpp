@@ -15,7 +15,7 @@
 namespace rung::host {
 namespace {
 
-// Empty, or why the words are no command.
+// Empty, or why the words are not a command.
 std::string parse(const std::vector<std::string>& words, Command& command) {
   static const struct {
     const char* name;

@@ -126,14 +126,13 @@ void Exchange::drop(rung_context& context) const {
 
 void Exchange::makeSafe(uint32_t task) {
   const rung_task& row = module_.tasks[task];
-  std::vector<uint8_t> values;
+  std::vector<std::vector<uint8_t>> values;
+  memory_.safeOutputs(values);
   const Lock lock(*this);
   for (uint32_t i = 0; i < row.write_count; ++i) {
     const rung_write& part = module_.writes[row.first_write + i];
-    if (module_.areas[part.area].owner != RUNG_AREA_OUTPUT) continue;
-    values.resize(module_.areas[part.area].size);
-    memory_.safeOutputs(part.area, values.data());
-    copyBits(memory_.area(part.area), values.data(), part);
+    if (module_.areas[part.area].owner == RUNG_AREA_OUTPUT)
+      copyBits(memory_.area(part.area), values[part.area].data(), part);
   }
 }
 

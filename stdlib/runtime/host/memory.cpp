@@ -37,32 +37,44 @@ Memory::Memory(const rung_module& module) : module_(module) {
 
 uint8_t Memory::end() { return module_.exit == nullptr ? uint8_t{RUNG_FAULT_NONE} : guarded(&context_, module_.exit); }
 
-uint8_t Memory::reset() {
+uint8_t Memory::reset(bool keeps_inputs) {
   for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
-  for (uint32_t i = 0; i < module_.area_count; ++i) memset(areas_[i], 0, module_.areas[i].size);
+  for (uint32_t i = 0; i < module_.area_count; ++i)
+    if (!keeps_inputs || module_.areas[i].owner != RUNG_AREA_INPUT) memset(areas_[i], 0, module_.areas[i].size);
+  kept_outputs_.clear();
   context_.now_ns = 0;
   context_.task = context_.activation = 0;
   context_.fault = {};
   return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : guarded(&context_, module_.init);
 }
 
-void Memory::makeOutputsSafe() {
-  for (uint32_t i = 0; i < module_.area_count; ++i)
-    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) safeOutputs(i, areas_[i]);
+// The program's function writes into areas of its own.
+void Memory::safeOutputs(std::vector<std::vector<uint8_t>>& areas) const {
+  rung_context context = context_;
+  std::vector<uint8_t*> pointers;
+  areas.clear();
+  for (uint32_t i = 0; i < module_.area_count; ++i) areas.emplace_back(module_.areas[i].size + 8);
+  for (std::vector<uint8_t>& area : areas) pointers.push_back(area.data());
+  context.areas = pointers.data();
+  context.stop = RUNG_STOP_NONE;
+  context.steps = context.step_limit;
+  if (module_.safe != nullptr) guarded(&context, module_.safe);
 }
 
-void Memory::safeOutputs(uint32_t area, uint8_t* values) const {
-  memset(values, 0, module_.areas[area].size);
-  for (uint32_t i = 0; i < module_.safe_count; ++i) {
-    const rung_safe& safe = module_.safe[i];
-    if (safe.area != area) continue;
-    if (safe.mask != 255) {
-      values[safe.offset] = static_cast<uint8_t>(values[safe.offset] | (safe.value & safe.mask));
-      continue;
-    }
-    for (uint32_t byte = 0; byte < safe.size; ++byte)
-      values[safe.offset + byte] = static_cast<uint8_t>(safe.value >> 8 * byte);
+void Memory::makeOutputsSafe() {
+  if (!kept_outputs_.empty()) return;
+  std::vector<std::vector<uint8_t>> areas;
+  safeOutputs(areas);
+  for (uint32_t i = 0; i < module_.area_count; ++i) {
+    kept_outputs_.emplace_back(areas_[i], areas_[i] + module_.areas[i].size);
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memcpy(areas_[i], areas[i].data(), module_.areas[i].size);
   }
+}
+
+void Memory::restoreOutputs() {
+  for (uint32_t i = 0; i < kept_outputs_.size(); ++i)
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memcpy(areas_[i], kept_outputs_[i].data(), kept_outputs_[i].size());
+  kept_outputs_.clear();
 }
 
 }  // namespace rung::host

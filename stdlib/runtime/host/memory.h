@@ -18,14 +18,16 @@ class Memory {
   rung_context& context() { return context_; }
   uint8_t* block(uint32_t index) const { return blocks_[index]; }
   uint8_t* area(uint32_t index) const { return areas_[index]; }
-  // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised.
-  uint8_t reset();
+  // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised. `keeps_inputs`: the
+  // input areas hold what devices gave.
+  uint8_t reset(bool keeps_inputs = false);
   // Ends all objects (FB_Exit); returns the same.
   uint8_t end();
-  // Sets outputs to their safe values, after a fault.
+  // Sets outputs to their safe values when the program stops; restoreOutputs gives them back, where it goes on.
   void makeOutputsSafe();
-  // The safe values of an output area: as many bytes as it has.
-  void safeOutputs(uint32_t area, uint8_t* values) const;
+  void restoreOutputs();
+  // Areas with the safe values of all outputs.
+  void safeOutputs(std::vector<std::vector<uint8_t>>& areas) const;
 
  private:
   const rung_module& module_;
@@ -34,6 +36,7 @@ class Memory {
   std::vector<uint8_t*> blocks_;
   std::vector<void*> block_pointers_;
   std::vector<uint8_t*> areas_;
+  std::vector<std::vector<uint8_t>> kept_outputs_;  // by area, while outputs have their safe values; else empty
 };
 
 // The reason why a module cannot run here (another ABI or pointer size), or nullptr.

@@ -311,7 +311,7 @@ bool Run::reset(rung_start kind) {
   memory.end();
   rung_retain_pack(&memory.context(), kept.data());
   const int64_t now = nowNs();
-  if (memory.reset() != RUNG_FAULT_NONE) {
+  if (memory.reset(true) != RUNG_FAULT_NONE) {
     cycle_fault = describe(memory.context(), memory.context().fault);
     return false;
   }
@@ -323,17 +323,27 @@ bool Run::reset(rung_start kind) {
   return true;
 }
 
+// In virtual time the row that follows is the cycle.
 bool Run::cycleOnce() {
-  if (realtime != nullptr) return realtime->cycle();
-  single_cycle = is_stopped;
-  is_stopped = false;
-  return true;
+  if (!is_stopped) return true;
+  tasks.restoreOutputs();
+  if (realtime == nullptr) {
+    single_cycle = true;
+    is_stopped = false;
+    return true;
+  }
+  const bool goes_on = realtime->cycle();
+  tasks.makeOutputsSafe(nowNs());
+  return goes_on;
 }
 
 bool Run::obey(const Command& command) {
   switch (command.kind) {
     case Command::Stop: stop(); break;
-    case Command::Start: is_stopped = false; break;
+    case Command::Start:
+      is_stopped = false;
+      tasks.restoreOutputs();
+      break;
     case Command::Cycle: return cycleOnce();
     case Command::Reset: return reset(command.start);
     case Command::Event:
@@ -358,10 +368,9 @@ bool Run::obey(int64_t row) {
       cannot_pause = true;
       return false;
     }
-    const bool single = command.kind == Command::Cycle && is_stopped;
     goes_on = obey(command);
     if (realtime != nullptr && goes_on && !is_stopped) realtime->resume();
-    if (single && realtime == nullptr) return goes_on;
+    if (single_cycle) return goes_on;
   }
   if (!error.empty()) fprintf(options.err, "warning: %s\n", error.c_str());
   return goes_on;
@@ -425,7 +434,6 @@ int Run::runVirtual() {
     return finish(true, describe(context, fault), "");
   };
   for (int64_t row = 0; row < cycles; ++row) {
-    const bool was_stopped = is_stopped;
     if (!obey(row)) break;
     inputs.apply(row);
     const Schedule::Ending ending = is_stopped ? Schedule::Ending::Complete : schedule.run(base_ns + row * row_ns);
@@ -442,8 +450,7 @@ int Run::runVirtual() {
     if (retain && schedule.isIdle()) retain->copy(base_ns + rows_done * row_ns);
     if (single_cycle) {
       single_cycle = false;
-      is_stopped = was_stopped;
-      tasks.makeOutputsSafe(nowNs());
+      stop();
     }
     if (!options.stop_on.empty() && stop_on.holds())
       return finish(false, "", "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");

@@ -151,6 +151,11 @@ void Tasks::makeOutputsSafe(int64_t now_ns) {
   drivers_.writeAll(now_ns);
 }
 
+void Tasks::restoreOutputs() {
+  const Exchange::Lock lock(exchange_);
+  memory_.restoreOutputs();
+}
+
 int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }
 
 std::string Tasks::statistics(int64_t elapsed_ns) const {
@@ -164,8 +169,9 @@ std::string Tasks::statistics(int64_t elapsed_ns) const {
               '/' + microseconds(state.longest_ns) + " us (min/average/max)";
       if (task.row->kind == RUNG_CYCLIC)
         text += ", jitter " + microseconds(state.earliest_ns) + ".." + microseconds(state.latest_ns) +
-                " us, started up to " + microseconds(task.latest_start) + " us late, 99.9 % below " +
-                microseconds(almostAll(task.lateness)) + " us";
+                " us, started up to " + microseconds(task.latest_start) + " us late";
+      if (task.row->kind == RUNG_CYCLIC && state.activations >= 1000)
+        text += ", 99.9 % below " + microseconds(almostAll(task.lateness)) + " us";
       if (elapsed_ns > 0) {
         char load[32];
         snprintf(load, sizeof load, ", load %.1f %%",

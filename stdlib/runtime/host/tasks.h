@@ -55,6 +55,8 @@ class Tasks {
   void stopOne(Task& task, const rung_fault& fault);
   // All outputs get their safe values and leave.
   void makeOutputsSafe(int64_t now_ns);
+  // The program goes on: they are again what it left.
+  void restoreOutputs();
   void countOverruns(Task& task, uint32_t missed) { states_[task.index].overruns += missed; }
   // The watchdog's limit of one activation, or 0.
   static int64_t limitOf(const Task& task);

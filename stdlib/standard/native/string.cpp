@@ -230,7 +230,7 @@ RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
                           uint32_t capacity) {
   const uint32_t limit = limitOf(capacity);
-  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit;  // the content of `out` fits it
+  if (length1 > limit) length1 = limit;
   if (length2 > limit - length1) length2 = limit - length1;
   memmove(out + length1, in2, length2);  // first: `out` may be in2
   if (out != in1) memcpy(out, in1, length1);
@@ -241,8 +241,7 @@ uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length
                                                 int32_t p, char* out, uint32_t capacity) {
   return insert<char>({in1, length1}, {in2, length2}, p, out, capacity);
 }
-uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
-                                                uint32_t capacity) {
+uint32_t rung_string_delete(const char* in, uint32_t length, int32_t l, int32_t p, char* out, uint32_t capacity) {
   return remove<char>({in, length}, l, p, out, capacity);
 }
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,

@@ -104,6 +104,39 @@ TEST(Lengths, AWriteMakesThemKnown) {
   EXPECT_EQ(b.of->lengths.toString(b.read.module, *b.body, b.variables()), "");
 }
 
+// A function @B with these locals; @Touch takes an in-out and its length, @Change changes what it likes.
+Analysed analysedFunction(const std::string& locals, const std::string& statements) {
+  return Analysed(
+      "globals @G { g: string[80]; n: int }\nlist @G: @G\n"
+      "function @Touch { inout s: string[80] }\nbody @Touch { s = '' }\n"
+      "function @Change { result int }\nbody @Change { result = 1 }\n"
+      "block @Other { var own: int }\nbody @Other { call @Touch(@G.g) }\n"
+      "function @B { " +
+      locals + " }\nbody @B {\n" + statements + "\n}\n");
+}
+
+TEST(Lengths, AnInOutIsSharedAndForgottenByWhatMayBeIt) {
+  const Analysed b = analysedFunction("inout s: string[80]; inout n: int; out o: int; result int",
+                                      "s = call @Concat(s, 'x')\no = 1\nresult = @Len(s)\n@G.n = 1\n"
+                                      "result = @Len(s)\n@G.g = 'y'\nresult = @Len(s)\n"
+                                      "n = 2\nresult = @Len(s)\nresult = call @Change()\nresult = @Len(s)");
+  EXPECT_EQ(b.of->measured.toString(b.variables()), "s measured shared\n");
+  EXPECT_EQ(b.of->lengths.toString(b.read.module, *b.body, b.variables()),
+            "count s before a statement\nforget shared strings\n"
+            "forget shared strings\ncount s before a statement\n"
+            "forget shared strings\ncount s before a statement\n"
+            "forget shared strings\ncount s before a statement\n");
+}
+
+TEST(Lengths, WhatACallMayChangeIsCountedInEachIteration) {
+  const Analysed b = analysedFunction(
+      "result int",
+      "var s: string[80]\nvar i: int\nfor i = 0 to 9 by 1 { result = @Len(s)\ncall @Touch(s)\nresult = @Len(s) }");
+  EXPECT_EQ(b.of->measured.toString(b.variables()), "s measured shared\n");
+  EXPECT_EQ(b.of->lengths.toString(b.read.module, *b.body, b.variables()),
+            "count s before a statement\nforget shared strings\ncount s before a statement\n");
+}
+
 TEST(Slices, AStringTakenApartIsASlice) {
   const Analysed b = analysed("in whole: string[80]; var rest: string[80]; var i: int; var n: int",
                               "rest = whole\nfor i = 0 to 9 by 1 { rest = call @Mid(rest, 9, 2)\nn = @Len(rest) }");

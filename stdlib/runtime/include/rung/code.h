@@ -247,6 +247,7 @@ uint32_t rung_ustring_of_string(char* to, uint32_t capacity,
 int rung_string_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wstring_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wstring_length(const char16_t* string) RUNG_PURE;
+#define RUNG_UNCOUNTED UINT32_MAX /* in place of a length that nothing knows */
 static inline uint32_t rung_string_length(const char* string) { return (uint32_t)strlen(string); }
 /* As rung_string_assign, with a known length; `to` and `from` are one variable or do not overlap. */
 static inline uint32_t rung_string_put(char* to, uint32_t capacity, const char* from, uint32_t length) {

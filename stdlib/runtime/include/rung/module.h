@@ -160,14 +160,6 @@ typedef struct rung_write {
   uint32_t offset, size;
 } rung_write;
 
-/* A value that outputs get when the program stops by a fault, a watchdog or a command; all others get 0. */
-typedef struct rung_safe {
-  uint8_t area;
-  uint8_t mask; /* the bits of one byte; 255: whole bytes */
-  uint32_t offset, size;
-  uint64_t value; /* little-endian in `size` bytes; of a bit: all ones or 0 */
-} rung_safe;
-
 /* What a host tells the program about each task (rung_context::task_states). Times in nanoseconds. */
 typedef struct rung_task_state {
   uint32_t activations;                               /* that are complete */
@@ -354,8 +346,6 @@ typedef struct rung_module {
   uint32_t task_count;
   const rung_write* writes;
   uint32_t write_count;
-  const rung_safe* safe;
-  uint32_t safe_count;
   const rung_symbol* symbols;
   uint32_t symbol_count;
   const rung_type* types;
@@ -378,6 +368,9 @@ typedef struct rung_module {
   void (*init)(rung_context*);
   /* Ends all objects (FB_Exit); called once, before the memory is released or init is called again. May be null. */
   void (*exit)(rung_context*);
+  /* Sets outputs that have safe values other than 0 (`[safe]` of rung.project); a host calls it through rung_guarded,
+   * with areas that are 0 otherwise, when the program stops. May be null. */
+  void (*safe)(rung_context*);
 } rung_module;
 
 /* Every module exports one function, <name>_module, that returns its description. */

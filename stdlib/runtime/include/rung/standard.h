@@ -1,8 +1,8 @@
 /* String functions of the library Standard for strings whose lengths the generated code keeps in C++ locals: the sized
  * forms of the functions marked {sized} in standard/string.st, and the slice forms of those marked {slice}. In: each
  * string followed by its length. Out: the result in `out`, and its length. Semantics are those of
- * standard/native/string.cpp: a result has at most 255 characters and at most `capacity`. `out` is one of the inputs or
- * overlaps none. Included by generated code that calls one of them. */
+ * standard/native/string.cpp: a result has at most 255 characters and at most `capacity`. `out` is one of the inputs,
+ * which then may be longer than `capacity`, or overlaps none. Included by generated code that calls one of them. */
 #ifndef RUNG_STANDARD_H
 #define RUNG_STANDARD_H
 
@@ -86,8 +86,7 @@ uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, ui
                           uint32_t capacity);
 uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                 int32_t p, char* out, uint32_t capacity);
-uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
-                                                uint32_t capacity);
+uint32_t rung_string_delete(const char* in, uint32_t length, int32_t l, int32_t p, char* out, uint32_t capacity);
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                  int32_t l, int32_t p, char* out, uint32_t capacity);
 uint32_t rung_string_search(const char* in, uint32_t length, char unit) RUNG_PURE; /* as rung_string_find_unit */
@@ -99,10 +98,21 @@ static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, u
                                                               uint32_t length2, char* out, uint32_t capacity) {
   const uint32_t limit = rung_string_limit(capacity);
   if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
-  if (capacity > limit && length1 > limit) length1 = limit;
+  if (length1 > limit) length1 = limit;
   const uint32_t room = limit - length1;
   if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* keeps a constant length */
   return limit - room + rung_string_part(out + length1, in2, room);
+}
+
+/* From inside a string, in place: the rest moves. */
+static inline uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p,
+                                                              char* out, uint32_t capacity) {
+  if (out != in || l <= 0 || p <= 0 || (uint32_t)p > length || length > rung_string_limit(capacity))
+    return rung_string_delete(in, length, l, p, out, capacity);
+  const uint32_t begin = (uint32_t)p - 1, count = rung_min_u32((uint32_t)l, length - begin);
+  memmove(out + begin, out + begin + count, length - begin - count);
+  out[length - count] = 0;
+  return length - count;
 }
 
 /* Sets the top bit of each byte that equals `unit`; the lowest bit set is that of the first one. */
@@ -155,27 +165,76 @@ static inline bool rung_string_digits(const char* in, uint32_t length, uint64_t*
   *number = is_negative ? 0 - value : value;
   return true;
 }
-#define RUNG_SIZED_NUMBER(TYPE, T)                                                          \
-  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);           \
-  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) { \
-    uint64_t number;                                                                        \
-    char text[256];                                                                         \
-    if (rung_string_digits(in, length, &number)) return (T)number;                          \
-    rung_string_part(text, in, length < 255 ? length : 255);                                \
-    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                   \
+#define RUNG_SIZED_NUMBER(TYPE, T)                                                                  \
+  extern "C" T rung_standard_STRING_TO_##TYPE(rung_context* ctx, const char* in);                   \
+  static inline RUNG_COLD T rung_string_to_##TYPE(const char* in, uint32_t length) {                \
+    char text[256];                                                                                 \
+    rung_string_part(text, in, length < 255 ? length : 255);                                        \
+    return rung_standard_STRING_TO_##TYPE(nullptr, text);                                           \
+  }                                                                                                 \
+  static inline T rung_standard_STRING_TO_##TYPE##_sized(const char* in, uint32_t length) {         \
+    uint64_t number;                                                                                \
+    return rung_string_digits(in, length, &number) ? (T)number : rung_string_to_##TYPE(in, length); \
   }
-RUNG_SIZED_NUMBER(BYTE, uint8_t)
-RUNG_SIZED_NUMBER(WORD, uint16_t)
-RUNG_SIZED_NUMBER(DWORD, uint32_t)
-RUNG_SIZED_NUMBER(LWORD, uint64_t)
-RUNG_SIZED_NUMBER(SINT, int8_t)
-RUNG_SIZED_NUMBER(INT, int16_t)
-RUNG_SIZED_NUMBER(DINT, int32_t)
-RUNG_SIZED_NUMBER(LINT, int64_t)
-RUNG_SIZED_NUMBER(USINT, uint8_t)
-RUNG_SIZED_NUMBER(UINT, uint16_t)
-RUNG_SIZED_NUMBER(UDINT, uint32_t)
-RUNG_SIZED_NUMBER(ULINT, uint64_t)
+/* Numbers of up to five digits are written without a call, two digits at a time. */
+static inline uint32_t rung_string_number(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
+  static const char pairs[] =
+      "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"
+      "5051525354555657585960616263646566676869707172737475767778798081828384858687888990919293949596979899";
+  if (magnitude >= 100000 || capacity < 6) return rung_string_of_integer(to, capacity, negative, magnitude);
+  uint32_t rest = (uint32_t)magnitude, length = 1;
+  *to = '-';
+  char* at = to + negative;
+  if (rest >= 1000) {
+    length = 4;
+    if (rest >= 10000) {
+      length = 5;
+      *at++ = (char)('0' + rest / 10000);
+      rest %= 10000;
+    }
+    memcpy(at, pairs + rest / 100 * 2, 2);
+    memcpy(at + 2, pairs + rest % 100 * 2, 2);
+    at[4] = 0;
+  } else if (rest >= 10) {
+    length = 2;
+    if (rest >= 100) {
+      length = 3;
+      *at++ = (char)('0' + rest / 100);
+      rest %= 100;
+    }
+    memcpy(at, pairs + rest * 2, 2);
+    at[2] = 0;
+  } else {
+    at[0] = (char)('0' + rest);
+    at[1] = 0;
+  }
+  return length + negative;
+}
+#define RUNG_SIZED_TEXT(TYPE, T)                                                                       \
+  static inline uint32_t rung_standard_TO_STRING__##TYPE##_sized(T in, char* out, uint32_t capacity) { \
+    const bool negative = (T)-1 < (T)0 && (int64_t)in < 0;                                             \
+    return rung_string_number(out, capacity, negative, negative ? 0 - (uint64_t)in : (uint64_t)in);    \
+  }
+static inline uint32_t rung_standard_TO_STRING__STRING_255_sized(const char* in, uint32_t length, char* out,
+                                                                 uint32_t capacity) {
+  return rung_string_put(out, rung_string_limit(capacity), in, length);
+}
+
+#define RUNG_SIZED_BOTH(TYPE, T) RUNG_SIZED_NUMBER(TYPE, T) RUNG_SIZED_TEXT(TYPE, T)
+RUNG_SIZED_BOTH(BYTE, uint8_t)
+RUNG_SIZED_BOTH(WORD, uint16_t)
+RUNG_SIZED_BOTH(DWORD, uint32_t)
+RUNG_SIZED_BOTH(LWORD, uint64_t)
+RUNG_SIZED_BOTH(SINT, int8_t)
+RUNG_SIZED_BOTH(INT, int16_t)
+RUNG_SIZED_BOTH(DINT, int32_t)
+RUNG_SIZED_BOTH(LINT, int64_t)
+RUNG_SIZED_BOTH(USINT, uint8_t)
+RUNG_SIZED_BOTH(UINT, uint16_t)
+RUNG_SIZED_BOTH(UDINT, uint32_t)
+RUNG_SIZED_BOTH(ULINT, uint64_t)
+#undef RUNG_SIZED_BOTH
+#undef RUNG_SIZED_TEXT
 #undef RUNG_SIZED_NUMBER
 
 #endif
