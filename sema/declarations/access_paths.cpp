@@ -2,6 +2,9 @@
 // all instances are known. Out: Project::access_paths, each with the location that it names. Without a direction an
 // access path is READ_ONLY. IEC 61131-3 ed. 3 table 62, 10 and table 47, 9.
 #include "sema/declarations/configuration.h"
+
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
@@ -137,6 +140,16 @@ struct AccessPathResolver {
         if (next == 0 && matches(instance.configuration)) ++next;
       for (const ProgramInstance& instance : project.instances)
         if (next < 2 && next + 1 < steps.size() && matches(instance.resource)) ++next;
+      for (const GlobalList& globals : project.global_lists) {  // a resource may have globals and no program
+        size_t matched =
+            steps.size() > 1 && globals.configuration && context.names().same(globals.configuration, steps[0].name.name)
+                ? 1
+                : 0;
+        if (matched + 1 < steps.size() && globals.resource &&
+            context.names().same(globals.resource, steps[matched].name.name))
+          ++matched;
+        next = std::max(next, matched);
+      }
       if (next == 0 && list.entityKind() == EntityKind::GlobalList && steps.size() > 1) next = 1;
       if (next >= steps.size()) return lost(steps.back().name);
       const NameId key = keyOf(context, steps[next].name.name);

@@ -520,7 +520,8 @@ void setTaskDurations(Context& context) {
     for (Task& task : tasks) {
       const std::string_view name = context.names().string(task.name);
       names.push_back(name);
-      if (!sameIdentifier(name, duration.task)) continue;
+      const std::string path = toString(context, task.resource) + "." + std::string(name);
+      if (!sameIdentifier(name, duration.task) && !sameIdentifier(path, duration.task)) continue;
       task.duration_ns = duration.duration_ns;
       found = true;
     }

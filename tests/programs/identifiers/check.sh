@@ -37,7 +37,8 @@ mkdir variables pins fields items functions blocks types programs lists
 { echo "TYPE"; each "  @ : STRUCT n_n : INT := 1; s_s : STRING; END_STRUCT"; echo "END_TYPE"; echo "PROGRAM Tester"; echo "VAR"; each "  v_@ : @;"; echo "END_VAR"; each "v_@.n_n := 2;"; echo "END_PROGRAM"; } >types/main.st
 { each "PROGRAM @ VAR n_n : INT := 1; END_VAR n_n := n_n + 1; END_PROGRAM"; } >programs/main.st
 { echo "VAR_GLOBAL"; each "  @ : INT := 1;"; echo "END_VAR"; echo "PROGRAM Tester"; each "@ := @ + 1;"; echo "END_PROGRAM"
-  echo "CONFIGURATION class_ VAR_GLOBAL g_g : INT; END_VAR RESOURCE namespace_ ON PLC"; each "TASK t_@(INTERVAL := T#10ms);"; echo "PROGRAM int_ WITH t_class : Tester;"; echo "END_RESOURCE END_CONFIGURATION"; } >lists/main.st
+  echo "CONFIGURATION class_ VAR_GLOBAL g_g : INT; END_VAR RESOURCE namespace_ ON PLC"; each "TASK t_@(INTERVAL := T#10ms);" | awk 'NR % 90 == 0 { print "END_RESOURCE RESOURCE r_" NR " ON PLC" } { print } /^TASK t_class\(/ { print "PROGRAM int_ WITH t_class : Tester;" }'  # a resource has at most 100
+  echo "END_RESOURCE END_CONFIGURATION"; } >lists/main.st
 
 for project in *; do
   [ -d "$project" ] || continue

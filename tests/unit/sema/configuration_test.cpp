@@ -48,6 +48,48 @@ TEST(Configuration, tasks_and_their_settings) {
   EXPECT_EQ(checked.names.string(checked.project.instances[0].resource), "r");
 }
 
+TEST(Configuration, programs_of_one_resource_see_its_globals) {
+  const Checked checked(
+      "PROGRAM a VAR x : INT; END_VAR x := g; END_PROGRAM\n"
+      "PROGRAM b VAR x : REAL; END_VAR x := g; END_PROGRAM\n"
+      "CONFIGURATION c\n"
+      "RESOURCE r ON cpu VAR_GLOBAL g : INT; go : BOOL; END_VAR\n"
+      "TASK t(SINGLE := go); TASK u(SINGLE := p.done); PROGRAM p WITH t : a; END_RESOURCE\n"
+      "RESOURCE s ON cpu VAR_GLOBAL g : REAL; go : BOOL; END_VAR\n"
+      "TASK t(SINGLE := go); TASK u(SINGLE := %IX1.2); PROGRAM p WITH t : b; END_RESOURCE\n"
+      "END_CONFIGURATION");
+  EXPECT_EQ(checked.codes(), "E0329@5");
+  ASSERT_EQ(checked.project.tasks.size(), 4u);
+  EXPECT_EQ(checked.project.tasks[0].trigger, "r.go");
+  EXPECT_EQ(checked.project.tasks[2].trigger, "s.go");
+  EXPECT_EQ(checked.project.tasks[3].trigger, "%IX1.2");
+  EXPECT_EQ(checked.names.string(checked.project.tasks[2].resource), "s");
+}
+
+TEST(Configuration, plc_prg_runs_beside_tasks_unless_it_is_called) {
+  const std::string tasks = "CONFIGURATION c TASK t(INTERVAL := T#10ms); PROGRAM p WITH t : a; END_CONFIGURATION\n";
+  const Checked free(tasks +
+                     "PROGRAM PLC_PRG END_PROGRAM PROGRAM a END_PROGRAM\n"
+                     "{test} PROGRAM tests PLC_PRG(); END_PROGRAM");
+  EXPECT_EQ(free.codes(), "");
+  ASSERT_EQ(free.project.tasks.size(), 2u);
+  EXPECT_EQ(free.project.tasks[1].kind, TaskKind::Freewheeling);
+  EXPECT_EQ(free.project.tasks[1].priority, 31u);
+  const Checked called(tasks + "PROGRAM PLC_PRG END_PROGRAM PROGRAM a PLC_PRG(); END_PROGRAM");
+  EXPECT_EQ(called.project.tasks.size(), 1u);
+}
+
+TEST(Configuration, times_of_the_project_file) {
+  Options options;
+  options.task_durations = {{"FAST", 5'000'000, {}}};
+  const Checked checked(
+      "PROGRAM a END_PROGRAM CONFIGURATION c TASK fast(INTERVAL := T#10ms);\n"
+      "PROGRAM p WITH fast : a; END_CONFIGURATION",
+      options);
+  ASSERT_EQ(checked.project.tasks.size(), 1u);
+  EXPECT_EQ(checked.project.tasks[0].duration_ns, 5'000'000);
+}
+
 TEST(Configuration, mistakes) {
   const Checked checked(
       "PROGRAM Main END_PROGRAM FUNCTION_BLOCK b END_FUNCTION_BLOCK PROGRAM idle END_PROGRAM\n"
