@@ -22,6 +22,23 @@ int64_t rung_system_HOST_INTERVAL(rung_context* ctx) {
   return ctx->task == 0 || ctx->task > ctx->module->task_count ? 0 : ctx->module->tasks[ctx->task - 1].interval_ns;
 }
 
+uint8_t rung_system_HOST_TASK_STATISTICS(rung_context* ctx, uint32_t task, uint32_t* activations, uint32_t* overruns,
+                                         int64_t* last, int64_t* shortest, int64_t* average, int64_t* longest,
+                                         int64_t* earliest, int64_t* latest) {
+  rung_task_state state = {};
+  const bool known = ctx->task_states != nullptr && task > 0 && task <= ctx->module->task_count;
+  if (known) state = ctx->task_states[task - 1];
+  *activations = state.activations;
+  *overruns = state.overruns;
+  *last = state.last_ns;
+  *shortest = state.shortest_ns;
+  *average = state.activations == 0 ? 0 : state.total_ns / state.activations;
+  *longest = state.longest_ns;
+  *earliest = state.earliest_ns;
+  *latest = state.latest_ns;
+  return known ? 1 : 0;
+}
+
 uint32_t rung_system_HOST_PROJECT(rung_context* ctx, char* out, uint32_t capacity) {
   return copyText(ctx->module->name, out, capacity);
 }
