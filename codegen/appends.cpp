@@ -21,7 +21,7 @@ class Finder {
         module_(strings.module),
         body_(strings.body),
         lengths_(lengths),
-        names_(countNames(module_, body_)) {}
+        read_once_(module_, body_) {}
 
   Appends run() {
     for (uint32_t i = 1; i < body_.stmts.size(); ++i) tryCall(StmtId{i});
@@ -52,9 +52,8 @@ class Finder {
   // A text made of numbers or other scalars, in a temporary that is read once.
   bool makesText(const ir::CallStmt& call) const {
     const ir::Body& callee = module_.body(call.callee);
-    if (!callee.native || !callee.pure || call.self || !call.result || !isNarrow(call.result)) return false;
-    const uint32_t* temp = ir::localOf(body_.expr(call.result));
-    if (temp == nullptr || body_.locals[*temp].kind != ir::LocalKind::Temp || names_[*temp] != 2) return false;
+    if (!callee.native || !callee.pure || call.self || read_once_.madeBy(call) == nullptr) return false;
+    if (!isNarrow(call.result)) return false;
     if (module_.types.kind(callee.result) != TypeKind::String) return false;
     for (const ExprId operand : body_.list(call.operands))
       if (!operand || !types::TypeTable::isScalar(module_.types.plainKind(body_.expr(operand).type))) return false;
@@ -77,7 +76,7 @@ class Finder {
   const ir::Module& module_;
   const ir::Body& body_;
   const KnownLengths& lengths_;
-  std::vector<uint32_t> names_;  // by local
+  ReadOnce read_once_;
   Appends appends_;
 };
 

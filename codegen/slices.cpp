@@ -168,11 +168,7 @@ class Judge {
 class PassingSlices {
  public:
   PassingSlices(const StringsOfBody& strings, Slices& slices)
-      : strings_(strings),
-        module_(strings.module),
-        body_(strings.body),
-        slices_(slices),
-        names_(countNames(module_, body_)) {}
+      : strings_(strings), module_(strings.module), body_(strings.body), slices_(slices), read_once_(module_, body_) {}
 
   void run() {
     for (const Stmt& stmt : body_.stmts)
@@ -182,9 +178,8 @@ class PassingSlices {
  private:
   void tryCall(const ir::CallStmt& call, StmtId next) {
     const ir::Body& callee = module_.body(call.callee);
-    if (!callee.slice || !call.result || !strings_.isSizedCall(callee, call.operands, call.result)) return;
-    const uint32_t* temp = ir::localOf(body_.expr(call.result));
-    if (temp == nullptr || body_.locals[*temp].kind != LocalKind::Temp || names_[*temp] != 2) return;
+    if (!callee.slice || read_once_.madeBy(call) == nullptr) return;
+    if (!strings_.isSizedCall(callee, call.operands, call.result)) return;
     const uint32_t variable = strings_.variables.stringAt(call.result);
     if (!strings_.measured.isOwn(variable) || slices_.has(variable)) return;
     const Stmt& reader = body_.stmt(next);
@@ -213,7 +208,7 @@ class PassingSlices {
   const ir::Module& module_;
   const ir::Body& body_;
   Slices& slices_;
-  std::vector<uint32_t> names_;  // by local
+  ReadOnce read_once_;
 };
 
 }  // namespace

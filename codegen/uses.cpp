@@ -198,16 +198,20 @@ std::string Uses::toString() const {
   return variables.lines(rows);
 }
 
-std::vector<uint32_t> countNames(const ir::Module& module, const ir::Body& body) {
-  std::vector<uint32_t> names(body.locals.size());
-  const auto count = [&](const auto& self, ExprId id) -> void {
-    if (const uint32_t* local = ir::localOf(body.expr(id))) ++names[*local];
-    ir::forEachOperand(body, body.expr(id), [&](ExprId operand) { self(self, operand); });
-  };
+ReadOnce::ReadOnce(const ir::Module& module, const ir::Body& body) : body_(body), names_(body.locals.size()) {
   ir::forEachStmt(body, body.first, [&](ir::StmtId id) {
-    ir::forEachRoot(module, body, body.stmt(id), [&](ExprId root, ir::Use) { count(count, root); });
+    ir::forEachRoot(module, body, body.stmt(id), [&](ExprId root, ir::Use) {
+      ir::forEachExpr(body, root, [&](ExprId at) {
+        if (const uint32_t* local = ir::localOf(body.expr(at))) ++names_[*local];
+      });
+    });
   });
-  return names;
+}
+
+const uint32_t* ReadOnce::madeBy(const ir::CallStmt& call) const {
+  const uint32_t* temp = call.result ? ir::localOf(body_.expr(call.result)) : nullptr;
+  const bool is_one = temp != nullptr && body_.locals[*temp].kind == ir::LocalKind::Temp && names_[*temp] == 2;
+  return is_one ? temp : nullptr;
 }
 
 }  // namespace rung::codegen

@@ -30,8 +30,17 @@ struct Uses {
   std::string toString() const;
 };
 
-// By local: how many expressions of the body name it.
-std::vector<uint32_t> countNames(const ir::Module& module, const ir::Body& body);
+// Temporaries that one call makes and one other expression reads: they may live where the reader wants them.
+class ReadOnce {
+ public:
+  ReadOnce(const ir::Module& module, const ir::Body& body);
+  // The one that the call makes, or null.
+  const uint32_t* madeBy(const ir::CallStmt& call) const;
+
+ private:
+  const ir::Body& body_;
+  std::vector<uint32_t> names_;  // by local: how many expressions name it
+};
 
 Uses analyzeUses(const ir::Module& module, const ir::Body& body, const Facts& facts);
 

@@ -149,12 +149,20 @@ TEST(Slices, NotWhenItIsPassedWithoutItsLength) {
   EXPECT_EQ(b.of->slices.toString(b.variables()), "");
 }
 
+TEST(Effort, FunctionsThatWorkOnStringsAreOptimizedWhole) {
+  std::string statements;
+  for (int i = 0; i < 9; ++i) statements += "result = add int result, @Len(s)\n";
+  EXPECT_EQ(analysedFunction("inout s: string[80]; result int", statements).of->effort, Effort::Plain);
+}
+
 TEST(Effort, LongBodiesWithoutLoopsAreStraight) {
   std::string statements;
   for (int i = 0; i < 9; ++i) statements += "x = add int x, 1\n";
   EXPECT_EQ(analysed("var x: int; var i: int", statements).of->effort, Effort::Straight);
   EXPECT_EQ(analysed("var x: int; var i: int", "for i = 0 to 99 by 1 { " + statements + "}").of->effort, Effort::Loops);
   EXPECT_EQ(analysed("var x: int; var i: int", "x = 1").of->effort, Effort::Plain);
+  const std::string checked = "for i = 0 to 99 by 1 { x = a[i]!\n" + statements + "}";
+  EXPECT_EQ(analysed("var x: int; var i: int; var a: array[0..9] of int", checked).of->effort, Effort::CheckedLoops);
 }
 
 }  // namespace
