@@ -80,11 +80,12 @@ bool Tasks::prepare(std::string& error) {
 uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns) {
   rung_task_state& state = states_[task.index];
   const int64_t start_ns = now_ns + late_ns;
-  if (task.activation > 0 && task.interval_ns > 0) {
+  if (!task.is_first && task.interval_ns > 0) {
     const int64_t off = start_ns - state.last_start_ns - task.interval_ns;
     state.earliest_ns = std::min(state.earliest_ns, off);
     state.latest_ns = std::max(state.latest_ns, off);
   }
+  task.is_first = false;
   state.last_start_ns = start_ns;
   task.lateness.add(late_ns);
   task.latest_start = std::max(task.latest_start, late_ns);
@@ -146,6 +147,7 @@ void Tasks::makeOutputsSafe(int64_t now_ns) {
 }
 
 void Tasks::restoreOutputs() {
+  for (Task& task : tasks_) task.is_first = true;
   const Exchange::Lock lock(exchange_);
   memory_.restoreOutputs();
 }

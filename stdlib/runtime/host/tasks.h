@@ -26,6 +26,7 @@ struct Task {
   Variable trigger;
   uint32_t activation = 0;   // that began
   uint32_t too_long = 0;     // activations in a row that exceeded the watchdog time
+  bool is_first = true;      // the next activation has no period before it: after a start or a pause
   bool stopped = false;      // by a fault of its own, where the others go on
   rung_fault fault{};        // that stopped it
   Histogram lateness;        // of its starts

@@ -135,7 +135,7 @@ struct Tables {
     symbols.push_back({t("speed"), Word, RUNG_IN_AREA, 255, 0, 0, 2, 0, 0});
 
     tasks.push_back({t("Slow"), RUNG_CYCLIC, 1, 30'000'000, 0, 0, 0, 0, 0, 0, 0, 0, slow});
-    tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, 0, 0, 0, 0, fast});
+    tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, 0, 0, 1, 0, fast});
     tasks.push_back({t("Edge"), RUNG_EVENT, 0, 0, 0, 0, t("Main.start_event"), 0, 0, 0, 0, 0, onEvent});
 
     tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testOk, nullptr});
@@ -158,6 +158,9 @@ struct Tables {
     module.block_count = 1;
     static const rung_area areas[] = {{t("I"), t("%I"), 4, RUNG_AREA_INPUT}, {t("Q"), t("%Q"), 1, RUNG_AREA_OUTPUT}};
     module.areas = areas;
+    static const rung_write writes[] = {{1, 255, 0, 1}};  // of Fast
+    module.writes = writes;
+    module.write_count = 1;
     module.area_count = 2;
     module.tasks = tasks.data();
     module.task_count = static_cast<uint32_t>(tasks.size());
