@@ -25,7 +25,7 @@ for program in "$here"/tools/house/tsan/*.st; do
   name=$(basename "$program" .st)
   "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
   ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
-  g++ $flags "$folder/main.cpp" "$folder/$name"/*.o "$folder"/host/*.o "$lib"/librung_natives.a -lpthread -ldl -o "$folder/$name/app"
+  g++ $flags "$folder/main.cpp" "$folder/$name"/*.o "$folder"/host/*.o "$lib"/librung_runtime.a -lpthread -ldl -o "$folder/$name/app"
   for rights in with without; do
     runner=""
     [ $rights = with ] || runner="setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-all"

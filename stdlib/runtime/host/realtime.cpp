@@ -130,13 +130,13 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
     hooks_.before(row);
   }
   const uint8_t fault = tasks_.begin(*worker.task, worker.context, program_ns, std::max<int64_t>(0, began_ns - due_ns));
-  const bool goes_on = complete(worker, fault, began_ns, program_ns);
-  if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
+  const bool goes_on = complete(worker, fault, began_ns, program_ns, row);
   processor.release();
   return goes_on;
 }
 
 void Realtime::makeRow(int64_t row) {
+  const std::lock_guard<std::mutex> rest(rest_);
   {
     const Exchange::Lock lock(tasks_.exchange());
     hooks_.before(row);
@@ -144,7 +144,7 @@ void Realtime::makeRow(int64_t row) {
   hooks_.after(row);
 }
 
-bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns) {
+bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns, int64_t row) {
   bool goes_on = true;
   const bool waited = fault == RUNG_FAULT_LOCK && stop_.load();  // it was waiting when the run ended
   const int64_t now_ns = monotonicNs();
@@ -160,6 +160,7 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
   const std::string lost = tasks_.lostDriver();
   if (!lost.empty()) stopBecause(RealtimeResult::Driver, lost);
   worker.running_since.store(0);
+  if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
   const Held held(activity_);
   const bool ends_well = result_.kind == RealtimeResult::Complete || result_.kind == RealtimeResult::Signal;
   if (--active_ == 0 && ends_well) hooks_.complete(program_ns);
@@ -240,6 +241,7 @@ void Realtime::sample(uint32_t resource) {
   waitForStart();
   for (int64_t next = start_ns_; !stop_.load(); next = std::max(next + tick_ns_, monotonicNs())) {
     sleepUntil(next);
+    const std::lock_guard<std::mutex> rest(rest_);
     if (paused_.load()) continue;
     for (const std::unique_ptr<Worker>& worker : workers_) {
       const uint8_t kind = worker->task->row->kind;
@@ -403,7 +405,7 @@ bool Realtime::cycle() {
     }
     const int64_t began = monotonicNs(), now = programNs();
     const uint8_t fault = tasks_.begin(*worker->task, worker->context, now, 0);
-    if (!complete(*worker, fault, began, now)) return false;
+    if (!complete(*worker, fault, began, now, -1)) return false;
   }
   return true;
 }

@@ -61,6 +61,8 @@ class Realtime {
   // The named host event that starts external tasks; false: no task waits for it.
   bool raise(const std::string& event);
   void end() { stop_.store(true); }
+  // While paused, rows go on; none is made, and no trigger is looked at, while one holds this.
+  std::unique_lock<std::mutex> rest() { return std::unique_lock<std::mutex>(rest_); }
   int64_t programNs() const;
 
  private:
@@ -97,7 +99,7 @@ class Realtime {
   void post(Worker& worker, int64_t due_ns);
   void makeRow(int64_t row);
   bool activate(Worker& worker, int64_t row, int64_t due_ns, int64_t program_ns);
-  bool complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns);
+  bool complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns, int64_t row);
   void stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker = nullptr);
   void watch(int64_t now_ns);
   bool endActivations(uint8_t reason);
@@ -122,6 +124,7 @@ class Realtime {
   std::mutex start_mutex_;
   std::condition_variable start_condition_;
   bool started_ = false;
+  std::mutex rest_;
   pthread_mutex_t activity_;  // guards the next two; passes priority on
   uint32_t active_ = 0;       // activations between begin and end
   RealtimeResult result_;

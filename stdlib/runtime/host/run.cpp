@@ -369,6 +369,8 @@ bool Run::obey(int64_t row) {
       cannot_pause = true;
       return false;
     }
+    std::unique_lock<std::mutex> rest;
+    if (pauses) rest = realtime->rest();
     goes_on = obey(command);
     if (realtime != nullptr && goes_on && !is_stopped) realtime->resume();
     if (single_cycle) return goes_on;

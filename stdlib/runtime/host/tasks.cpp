@@ -77,9 +77,9 @@ bool Tasks::prepare(std::string& error) {
   return drivers_.bind(fastest_, error);
 }
 
-uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns) {
+// The caller holds the lock: the program and the user may read the statistics meanwhile.
+void Tasks::noteStart(Task& task, int64_t start_ns, int64_t late_ns) {
   rung_task_state& state = states_[task.index];
-  const int64_t start_ns = now_ns + late_ns;
   if (!task.is_first && task.interval_ns > 0) {
     const int64_t off = start_ns - state.last_start_ns - task.interval_ns;
     state.earliest_ns = std::min(state.earliest_ns, off);
@@ -89,8 +89,21 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
   state.last_start_ns = start_ns;
   task.lateness.add(late_ns);
   task.latest_start = std::max(task.latest_start, late_ns);
+}
+
+void Tasks::noteEnd(Task& task, int64_t took_ns) {
+  rung_task_state& state = states_[task.index];
+  ++state.activations;
+  state.last_ns = took_ns;
+  state.shortest_ns = state.activations == 1 ? took_ns : std::min(state.shortest_ns, took_ns);
+  state.longest_ns = std::max(state.longest_ns, took_ns);
+  state.total_ns += took_ns;
+}
+
+uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns) {
   {
     const Exchange::Lock lock(exchange_);
+    noteStart(task, now_ns + late_ns, late_ns);
     const std::string lost = drivers_.read(task.index, now_ns);
     if (!lost.empty()) lost_driver_ = lost;
   }
@@ -105,21 +118,18 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
 }
 
 bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns) {
-  rung_task_state& state = states_[task.index];
-  ++state.activations;
-  state.last_ns = took_ns;
-  state.shortest_ns = state.activations == 1 ? took_ns : std::min(state.shortest_ns, took_ns);
-  state.longest_ns = std::max(state.longest_ns, took_ns);
-  state.total_ns += took_ns;
   // Longer than the watchdog's time as often in a row as its sensitivity says, or once by the product of both.
   const int64_t watchdog = task.row->watchdog_ns;
   task.too_long = watchdog > 0 && took_ns > watchdog ? task.too_long + 1 : 0;
-  if (watchdog > 0 && (task.too_long >= std::max(1u, task.row->sensitivity) || took_ns > limitOf(task))) {
+  const bool goes_on =
+      watchdog <= 0 || (task.too_long < std::max(1u, task.row->sensitivity) && took_ns <= limitOf(task));
+  if (goes_on)
+    exchange_.give(task.index, context);
+  else
     exchange_.drop(context);
-    return false;
-  }
-  exchange_.give(task.index, context);
   const Exchange::Lock lock(exchange_);
+  noteEnd(task, took_ns);
+  if (!goes_on) return false;
   const std::string lost = drivers_.write(task.index, now_ns);
   if (!lost.empty()) lost_driver_ = lost;
   return true;
@@ -154,7 +164,8 @@ void Tasks::restoreOutputs() {
 
 int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }
 
-std::string Tasks::statistics(int64_t elapsed_ns) const {
+std::string Tasks::statistics(int64_t elapsed_ns) {
+  const Exchange::Lock lock(exchange_);
   std::string text;
   for (const Task& task : tasks_) {
     const rung_task_state& state = states_[task.index];

@@ -58,7 +58,10 @@ class Tasks {
   void makeOutputsSafe(int64_t now_ns);
   // The program goes on: they are again what it left.
   void restoreOutputs();
-  void countOverruns(Task& task, uint32_t missed) { states_[task.index].overruns += missed; }
+  void countOverruns(Task& task, uint32_t missed) {
+    const Exchange::Lock lock(exchange_);
+    states_[task.index].overruns += missed;
+  }
   // The watchdog's limit of one activation, or 0.
   static int64_t limitOf(const Task& task);
 
@@ -68,7 +71,7 @@ class Tasks {
   Exchange& exchange() { return exchange_; }
   const rung_task_state& stateOf(const Task& task) const { return states_[task.index]; }
   // A line for each task, `elapsed_ns` after the start.
-  std::string statistics(int64_t elapsed_ns) const;
+  std::string statistics(int64_t elapsed_ns);
   // The last driver that failed, or empty.
   std::string lostDriver() {
     const Exchange::Lock lock(exchange_);
@@ -76,6 +79,9 @@ class Tasks {
   }
 
  private:
+  void noteStart(Task& task, int64_t start_ns, int64_t late_ns);
+  void noteEnd(Task& task, int64_t took_ns);
+
   const Symbols& symbols_;
   Memory& memory_;
   Drivers& drivers_;
