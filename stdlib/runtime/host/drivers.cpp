@@ -48,6 +48,12 @@ bool Drivers::bind(uint32_t fastest, std::string& error) {
   return true;
 }
 
+std::string Drivers::readAll(int64_t now_ns) const {
+  for (uint32_t task = 0; task < module_.task_count; ++task)
+    if (std::string lost = read(task, now_ns); !lost.empty()) return lost;
+  return {};
+}
+
 std::string Drivers::read(uint32_t task, int64_t now_ns) const {
   for (const auto& [driver, own] : drivers_)
     if (own == task && driver->read != nullptr &&

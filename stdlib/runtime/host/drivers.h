@@ -22,6 +22,8 @@ class Drivers {
   // The devices of a task; the caller holds the lock of the image. Empty, or the name of the driver that failed.
   std::string read(uint32_t task, int64_t now_ns) const;
   std::string write(uint32_t task, int64_t now_ns) const;
+  // All inputs, before the first activation: tasks other than those of the devices see them too.
+  std::string readAll(int64_t now_ns) const;
   // All outputs, after a stop. A driver that fails is not asked again; the others are.
   void writeAll(int64_t now_ns) const;
 

@@ -257,6 +257,7 @@ int Run::start() {
     base_ns = context.now_ns;
     schedule.restart(base_ns);
   }
+  tasks.readInputs(base_ns);
   for (const auto& [path, value] : options.sets) {
     const std::string what = applySet(symbols, path, value);
     if (!what.empty()) return refuse(options, "--set " + path + "=" + value + ": " + what);

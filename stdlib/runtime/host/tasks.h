@@ -47,6 +47,11 @@ class Tasks {
   const Task* fastest() const { return fastest_ == RUNG_NONE ? nullptr : &tasks_[fastest_]; }
   std::string nameOf(const Task& task) const;
 
+  // Before the first activation: the inputs of all devices.
+  void readInputs(int64_t now_ns) {
+    const Exchange::Lock lock(exchange_);
+    lost_driver_ = drivers_.readAll(now_ns);
+  }
   // The code of an activation, from reading the inputs on: RUNG_FAULT_NONE, or a fault, after which nothing that it
   // wrote leaves. `now_ns` is the time that the program sees, `late_ns` how long after its due time it begins.
   uint8_t begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns);
