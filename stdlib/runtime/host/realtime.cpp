@@ -163,7 +163,10 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
   if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
   const Held held(activity_);
   const bool ends_well = result_.kind == RealtimeResult::Complete || result_.kind == RealtimeResult::Signal;
-  if (--active_ == 0 && ends_well) hooks_.complete(program_ns);
+  if (--active_ == 0 && ends_well && hooks_.complete) {
+    hooks_.complete(program_ns);
+    complete_ns_ = now_ns;
+  }
   return goes_on && !stop_.load();
 }
 
@@ -350,6 +353,21 @@ void Realtime::watch(int64_t now_ns) {
   }
 }
 
+// Where some task is always within an activation, all rest for a moment once a second.
+void Realtime::makeComplete(int64_t now_ns) {
+  if (!hooks_.complete || paused_.load()) return;
+  {
+    const Held held(activity_);
+    if (now_ns - std::max(complete_ns_, start_ns_) < kSecond) return;
+  }
+  if (pause()) {
+    const Held held(activity_);
+    hooks_.complete(programNs());
+    complete_ns_ = now_ns;
+  }
+  resume();
+}
+
 // Makes the rows when no cyclic task does, and waits for signals.
 void Realtime::supervise() {
   constexpr int64_t kPoll = 10 * kMillisecond;
@@ -373,6 +391,7 @@ void Realtime::supervise() {
       if (options_.rows >= 0 && row >= options_.rows) return;
     }
     watch(monotonicNs());
+    makeComplete(monotonicNs());
     hooks_.idle();
   }
 }

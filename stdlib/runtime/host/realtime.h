@@ -26,7 +26,7 @@ struct RealtimeOptions {
 struct RealtimeHooks {
   // In the thread of the fastest cyclic task, around its activation. Rows whose start was missed have none.
   std::function<void(int64_t row)> before, after;
-  // When no task is within an activation: what is kept is that of complete cycles.
+  // When no task is within an activation: what is kept is that of complete cycles. May be empty.
   std::function<void(int64_t program_ns)> complete;
   // In the caller's thread, about a hundred times a second.
   std::function<void()> idle;
@@ -102,6 +102,7 @@ class Realtime {
   bool complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns, int64_t row);
   void stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker = nullptr);
   void watch(int64_t now_ns);
+  void makeComplete(int64_t now_ns);
   bool endActivations(uint8_t reason);
   bool isTooLong();
   void supervise();
@@ -127,6 +128,7 @@ class Realtime {
   std::mutex rest_;
   pthread_mutex_t activity_;  // guards the next two; passes priority on
   uint32_t active_ = 0;       // activations between begin and end
+  int64_t complete_ns_ = 0;   // when the hook was called last; also guarded
   RealtimeResult result_;
 };
 

@@ -495,9 +495,7 @@ int Run::runInRealTime() {
     trace.row(row, row * row_ns);
     plot.row();
   };
-  hooks.complete = [&](int64_t now_ns) {
-    if (retain) retain->copy(now_ns);
-  };
+  if (retain) hooks.complete = [&](int64_t now_ns) { retain->copy(now_ns); };
   RealtimeResult result;
   Realtime threads(tasks, memory.context(), wanted, hooks);
   hooks.idle = [&] {
