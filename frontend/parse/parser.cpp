@@ -298,10 +298,8 @@ FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file
 
 Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                 Diagnostics& diagnostics) {
-  const FileId file = sources.fileOf(begin);
-  const uint32_t base = sources.begin(file).offset;
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(begin.offset - base, end.offset - base);
+  Parser parser(tree, names, sources, sources.fileOf(begin), dialect, diagnostics);
+  parser.readBetween(begin, end);
   return parser.parseDecls();
 }
 
@@ -321,10 +319,8 @@ Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, 
 
 Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                  Diagnostics& diagnostics) {
-  const FileId file = sources.fileOf(begin);
-  const uint32_t base = sources.begin(file).offset;
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(begin.offset - base, end.offset - base);
+  Parser parser(tree, names, sources, sources.fileOf(begin), dialect, diagnostics);
+  parser.readBetween(begin, end);
   return parser.parseLoneFieldInits();
 }
 

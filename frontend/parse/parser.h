@@ -12,6 +12,7 @@ class Parser final : public ChartParser {
   using ChartParser::ChartParser;
 
   void readAll() { read(0, static_cast<uint32_t>(source_.size())); }
+  void readBetween(Loc begin, Loc end) { read(begin.offset - base_, end.offset - base_); }
   Slice<DeclId> parseDecls();
   ExprId parseLoneExpression();
   Slice<FieldInit> parseLoneFieldInits();
