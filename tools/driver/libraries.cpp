@@ -14,10 +14,20 @@
 
 namespace rung::driver {
 
+namespace {
+
+// The folder that holds the file: `comm/ICP_UDP_Comm_Send/send.st` is of the library ICP_UDP_Comm_Send.
+std::string_view folderOf(std::string_view file) {
+  const std::string_view path = file.substr(0, file.rfind('/'));
+  return path.substr(path.rfind('/') + 1);  // all of it where there is no family
+}
+
+}  // namespace
+
 std::string LibrarySet::load(const Options& options) {
   for (size_t i = 0; i < embedded::library_sources_count; i++) {
     const embedded::File& file = embedded::library_sources[i];
-    contents_.push_back(namespaceOf(file.name.substr(0, file.name.find('/'))));
+    contents_.push_back(namespaceOf(folderOf(file.name)));
     const char* library = contents_.back().c_str();
     contents_.emplace_back(file.name);
     files_.push_back({library, contents_.back().c_str(), file.text});

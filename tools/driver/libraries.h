@@ -1,5 +1,6 @@
-// The libraries that a program may use: those built into the tool (stdlib/*/*.st) and those of -I folders.
-// In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and list.cpp.
+// The libraries that a program may use: those built into the tool (stdlib/*/*.st and, by family, stdlib/*/*/*.st) and
+// those of -I folders. In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and
+// list.cpp.
 #pragma once
 
 #include <deque>

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Writes docs/library/NAME.md for each library in stdlib/: every function, block and type with its doc comment and its
-# pins, from stdlib/NAME/*.st. Declarations of one file with equal comments share an entry.
+# pins, from stdlib/NAME/*.st or, by family, stdlib/FAMILY/NAME/*.st. Declarations of one file with equal comments
+# share an entry.
 #   tools/library_pages/library_pages.sh [--check]    --check: writes nothing, fails when a page is stale
 # Called with --check by tools/house/checks/library_pages.sh.
 set -eu
@@ -109,12 +110,12 @@ entries() {
 }
 
 stale=0
-for folder in stdlib/*/; do
+for folder in stdlib/*/ stdlib/*/*/; do
   name=$(basename "$folder")
   compgen -G "$folder*.st" >/dev/null || continue
   page=docs/library/$name.md
   { printf '# Library `%s`\n\n' "$name"
-    echo "Generated from the doc comments in \`stdlib/$name\` by \`tools/library_pages/library_pages.sh\`; do not edit. \`rung list --signature NAME\` shows"
+    echo "Generated from the doc comments in \`${folder%/}\` by \`tools/library_pages/library_pages.sh\`; do not edit. \`rung list --signature NAME\` shows"
     echo "the declaration. Functions and blocks that do the same for several types share an entry, which lists the pins of the first."
     if grep -q "{std '" "$folder"*.st; then
       echo 'Dialects in parentheses are the only ones that have an entry; with `else qualified`, the others reach it as `Library.NAME`.'
@@ -129,7 +130,7 @@ for folder in stdlib/*/; do
 done
 for page in docs/library/*.md; do
   name=$(basename "$page" .md)
-  [ -d "stdlib/$name" ] && continue
+  { compgen -G "stdlib/$name/" || compgen -G "stdlib/*/$name/"; } >/dev/null && continue
   [ "${1:-}" = --check ] || { rm "$page"; continue; }
   echo "$page: there is no library stdlib/$name"
   stale=1
