@@ -245,14 +245,14 @@ void Reader::dataItem() {
   if (!failed_) module_.data.push_back(std::move(data));
 }
 
-// io_module "ad" "AX_EM_4AD" station "rcm" task 1 inputs 4 outputs 8
+// io_module "ad" "AX_EM_4AD" station "rcm" bus_task 1 inputs 4 outputs 8
 void Reader::ioModule() {
   ++at_;
   types::IoModule created;
   created.name = quotedText(TokenKind::String);
   created.type = quotedText(TokenKind::String);
   if (accept("station")) created.station = quotedText(TokenKind::String);
-  if (accept("task")) created.task = static_cast<uint32_t>(integer());
+  if (accept("bus_task")) created.task = static_cast<uint32_t>(integer());
   if (accept("inputs")) created.input_offset = static_cast<uint32_t>(integer());
   if (accept("outputs")) created.output_offset = static_cast<uint32_t>(integer());
   if (!failed_) module_.io_modules.push_back(std::move(created));
@@ -292,7 +292,7 @@ void Reader::instance() {
   const NameId key = numberedName(created.name);
   expect(":");
   created.record = type();
-  if (accept("task")) created.task = numberOf(task_by_name_, "task", true) + 1;
+  if (accept("bus_task")) created.task = numberOf(task_by_name_, "task", true) + 1;
   created.retain = accept("retain");
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();
@@ -374,7 +374,7 @@ void Reader::located() {
     expect("$");
     created.owner_program = numberOf(program_by_name_, "program", true) + 1;
   }
-  if (accept("list")) {
+  if (accept("of_list")) {
     expect("@");
     created.list = name();
   }

@@ -267,7 +267,7 @@ void Printer::ioModule(const types::IoModule& module) {
     put(" station ");
     quoted(module.station, '"');
   }
-  clause(" task ", module.task);
+  clause(" bus_task ", module.task);
   clause(" inputs ", module.input_offset);
   clause(" outputs ", module.output_offset);
   put("\n");
@@ -356,7 +356,7 @@ void Printer::located(const Located& located) {
     put(" of ");
     programName(located.owner_program - 1);
   }
-  clause(" list @", located.list);
+  clause(" of_list @", located.list);
   clause(" configuration ", located.configuration);
   put("\n");
 }

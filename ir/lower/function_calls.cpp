@@ -144,7 +144,7 @@ ExprId CallLowering::defaultArgument(sema::VarId pin_id, rung::ExprId init, Loc 
   if (!isAggregate(type)) {
     if (init)
       if (auto value = constantOf(project_, init)) return convertValue(ofValue(*value, loc), type, loc);
-    if ((!init || init == pin.init) && in_.isZero(type)) return zero(type, loc);
+    if (!init && in_.isZero(type)) return zero(type, loc);
   }
   ExprId place = temp(type, loc);
   objects().storeInitial(copy(place), type, init, false);

@@ -174,7 +174,7 @@ PouId itemNamesOf(Context& context, TypeId type);
 
 // ---- initial_values.cpp
 // What an initial value may read in codesys: only constants, variables with the same lifetime, also those of the call.
-enum class InitialReads : uint8_t { Constants, Variables, Call };
+enum class InitialReads : uint8_t { Constants, Globals, Variables, Call };
 // True when it reads variables.
 bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what,
                         InitialReads may = InitialReads::Constants);

@@ -59,7 +59,7 @@ struct Initializer {
       if (entity.entityKind() != EntityKind::Var) return false;
       const Storage storage = context.symbols.vars[entity.index].storage;
       if (storage == Storage::Global || storage == Storage::Image) return true;
-      if (storage != Storage::Field) return false;
+      if (storage != Storage::Field || may == InitialReads::Globals) return false;
       return kind == ExprKind::Name || isReadable(tree().as<MemberExpr>(id).base, depth + 1);
     }
     if (kind == ExprKind::Index) {

@@ -399,9 +399,11 @@ void ensureInitialValue(Context& context, VarId id) {
     const uint32_t errors = symbols.diagnostics.errorCount();
     std::string what = "the initial value of `" + toString(context, var.name) + "`";
     InitialReads may = InitialReads::Constants;
-    if (there.pou && isFunction(symbols.pou(there.pou).kind)) may = InitialReads::Call;
+    const bool of_call = there.pou && isFunction(symbols.pou(there.pou).kind);
     if (there.iec() || var.record)
       may = InitialReads::Constants;
+    else if (of_call && var.section == SectionKind::Input)
+      may = InitialReads::Globals;  // the caller evaluates the default of an input that it leaves open
     else if (var.storage == Storage::Local)
       may = InitialReads::Call;
     else if (var.list || var.pou)

@@ -368,12 +368,20 @@ void Realtime::makeComplete(int64_t now_ns) {
   resume();
 }
 
+// How often the supervisor looks: as often as the shortest watchdog needs, and not more, for each look costs a switch of
+// threads.
+int64_t Realtime::pollNs() const {
+  int64_t poll = 10 * kMillisecond;
+  for (const std::unique_ptr<Worker>& worker : workers_)
+    if (const int64_t watchdog = worker->task->row->watchdog_ns; watchdog > 0) poll = std::min(poll, watchdog / 2);
+  return std::max(poll, kMillisecond);
+}
+
 // Makes the rows when no cyclic task does, and waits for signals.
 void Realtime::supervise() {
-  constexpr int64_t kPoll = 10 * kMillisecond;
   const sigset_t signals = endingSignals();
   const bool makes_rows = tasks_.fastest() == nullptr;
-  const int64_t poll = makes_rows ? tasks_.rowNs() : std::min(tasks_.rowNs(), kPoll);
+  const int64_t poll = makes_rows ? tasks_.rowNs() : pollNs();
   int64_t row = 0;
   for (int64_t next = start_ns_ + poll; !stop_.load(); next = std::max(next + poll, monotonicNs())) {
     if (makes_rows) {

@@ -105,6 +105,7 @@ class Realtime {
   void makeComplete(int64_t now_ns);
   bool endActivations(uint8_t reason);
   bool isTooLong();
+  int64_t pollNs() const;
   void supervise();
   void joinThreads();
 

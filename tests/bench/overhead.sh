@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# What the host's schedule costs a cycle: processor time of a program with a task of 1 ms and nearly no code, less that of a
+# bare loop of clock_nanosleep (lateness.c), per cycle; five runs of each in turn, the median. Wanted: below 2 us.
+#   tests/bench/overhead.sh [SECONDS]      of each run; default 10
+set -eu
+seconds=${1:-10}
+here=$(cd "$(dirname "$0")" && pwd)
+rung=${RUNG:-$here/../../build/bin/rung}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+gcc -O2 "$here/lateness.c" -o "$folder/bare"
+cat > "$folder/main.st" <<'END'
+PROGRAM Main
+VAR n AT %QW0 : UINT; in AT %IW0 : UINT; END_VAR
+n := n + in + 1;
+END_PROGRAM
+CONFIGURATION c
+RESOURCE r ON PLC
+TASK t(INTERVAL := T#1ms, PRIORITY := 1);
+PROGRAM p WITH t : Main;
+END_RESOURCE
+END_CONFIGURATION
+END
+"$rung" build "$folder/main.st" -o "$folder/app"
+# User and system time of a run in ns.
+TIMEFORMAT='%3U %3S'
+spent() {
+  { time "$@" >/dev/null 2>/dev/null; } 2>&1 | awk '{ printf "%.0f\n", ($1 + $2) * 1e9 }'
+}
+# Per cycle: a run less one of a second, which has the same beginning and end.
+cycles=$((seconds * 1000))
+bare() { echo $((($(spent "$folder/bare" $((seconds + 1))) - $(spent "$folder/bare" 1)) / cycles)); }
+task() {
+  local app=("$folder/app" --realtime --for)
+  echo $((($(spent "${app[@]}" $((seconds + 1))s) - $(spent "${app[@]}" 1s)) / cycles))
+}
+for run in 1 2 3 4 5; do
+  bare=$(bare)
+  task=$(task)
+  echo "run $run: bare $bare ns, task $task ns a cycle"
+  echo $((task - bare)) >> "$folder/differences"
+done
+echo "overhead, median: $(sort -n "$folder/differences" | sed -n 3p) ns a cycle"
