@@ -368,8 +368,8 @@ void Realtime::makeComplete(int64_t now_ns) {
   resume();
 }
 
-// How often the supervisor looks: as often as the shortest watchdog needs, and not more, for each look costs a switch of
-// threads.
+// How often the supervisor looks: as often as the shortest watchdog needs, and not more, for each look costs a switch
+// of threads.
 int64_t Realtime::pollNs() const {
   int64_t poll = 10 * kMillisecond;
   for (const std::unique_ptr<Worker>& worker : workers_)

@@ -87,7 +87,7 @@ TEST(Modules, HaveEveryChannelOfTheManual) {
 TEST(Modules, AreFoundByNameAndForm) {
   EXPECT_NE(findModuleType("ax_em_4ad", false), nullptr);
   EXPECT_EQ(findModuleType("AX_EM_5AD", false), nullptr);
-  EXPECT_EQ(findModuleType("AE1420_AE2420", true), nullptr);  // not behind a coupler
+  EXPECT_EQ(findModuleType("AE1420_AE2420", true), nullptr);  // not in the rack of a coupler
   EXPECT_EQ(simulate(*findModuleType("AX_EM_RCM_ET", false), 0, 0), nullptr);
 }
 
@@ -320,7 +320,7 @@ TEST(Modules, FilterAnalogInputs) {
   }
 }
 
-// sinc3 settles in three conversions: the step response is 1/6, 5/6, 1.
+// sinc3 ends in three conversions: the step response is 1/6, 5/6, 1.
 TEST(Modules, SettleInThreeConversionsWithSinc3) {
   Bench ad("AX_EM_4AD", false);
   ad.set("FP", 2);

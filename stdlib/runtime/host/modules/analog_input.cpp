@@ -7,24 +7,24 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kChannels = 4;
-constexpr double kCodesPerUnit = 1000;  // table 4-5: of a volt or a milliampere
-constexpr double kLimit = 25;           // table 4-6: beyond it a signal exceeds the limits
+constexpr uint32_t kInputCount = 4;
+constexpr double kInputCodes = 1000;  // table 4-5: of a volt or a milliampere
+constexpr double kLimit = 25;         // table 4-6: beyond it a signal exceeds the limits
 
 // Table 4-4, channel word.
-constexpr uint32_t kEnable = 1 << 0, kDetectsOpen = 1 << 1, kModeShift = 2, kModeMask = 7, kFlagsLimit = 1 << 5,
-                   kDetectsRange = 1 << 6;
-struct Mode {
+constexpr uint32_t kInputOn = 1 << 0, kDetectsOpen = 1 << 1, kInputModeShift = 2, kInputModeMask = 7,
+                   kFlagsLimit = 1 << 5, kDetectsRange = 1 << 6;
+struct InputMode {
   double low, high;  // volts or milliamperes
   bool is_current;
 };
-constexpr Mode kModes[] = {{0, 5, false},   {0, 10, false}, {-5, 5, false}, {-10, 10, false},
-                           {-20, 20, true}, {0, 20, true},  {4, 20, true},  {0, 0, false}};
+constexpr InputMode kInputModes[] = {{0, 5, false},   {0, 10, false}, {-5, 5, false}, {-10, 10, false},
+                                     {-20, 20, true}, {0, 20, true},  {4, 20, true},  {0, 0, false}};
 
 // Table 4-4, filter of the chip.
 enum FilterCode : uint32_t { kSinc5Sinc1, kMains, kSinc3 };
-constexpr int64_t kMillisecond = 1'000'000;
-constexpr int64_t kMainsNs = 100 * kMillisecond;  // whole periods of 50 Hz and of 60 Hz
+constexpr int64_t kConversionUnitNs = 1'000'000;
+constexpr int64_t kMainsNs = 100 * kConversionUnitNs;  // whole periods of 50 Hz and of 60 Hz
 
 // Results are means of the signal over a conversion; sinc3 weighs the last three.
 struct Converter {
@@ -69,9 +69,9 @@ class AnalogInput final : public SimulatedModule {
 
  private:
   uint32_t word(uint32_t channel) const { return output(words_, channel); }
-  static const Mode& modeOf(uint32_t word) { return kModes[word >> kModeShift & kModeMask]; }
+  static const InputMode& modeOf(uint32_t word) { return kInputModes[word >> kInputModeShift & kInputModeMask]; }
 
-  double signal(uint32_t channel, const Mode& mode) {
+  double signal(uint32_t channel, const InputMode& mode) {
     if (open_[channel].state) return 0;
     const double value = (mode.is_current ? amperes_ : volts_)[channel].value;
     return std::isfinite(value) ? value : 0;
@@ -84,16 +84,16 @@ class AnalogInput final : public SimulatedModule {
 
   // FP0 to FP3 tell how long a conversion takes, in ms; 0 is 1.
   int64_t conversionNs(uint32_t channel) const {
-    const int64_t own = times_.size == 0 ? 0 : output(times_, channel) * kMillisecond;
-    const int64_t time = std::max(own, kMillisecond);
+    const int64_t own = times_.size == 0 ? 0 : output(times_, channel) * kConversionUnitNs;
+    const int64_t time = std::max(own, kConversionUnitNs);
     return filter() == kMains ? (time + kMainsNs - 1) / kMainsNs * kMainsNs : time;
   }
 
   // Table 4-6, in the order in which one hides the others.
   uint32_t fault(uint32_t channel, uint32_t word, double signal) {
-    const Mode& mode = modeOf(word);
+    const InputMode& mode = modeOf(word);
     const uint32_t first = 0xA0 + 4 * channel;
-    if ((word & kEnable) == 0) return 0;
+    if ((word & kInputOn) == 0) return 0;
     if ((word & kDetectsOpen) != 0 && open_[channel].state) return first;
     if ((word & kFlagsLimit) != 0 && std::fabs(signal) > kLimit) return first + 1;
     if ((word & kDetectsRange) != 0 && signal > mode.high) return first + 2;
@@ -102,21 +102,21 @@ class AnalogInput final : public SimulatedModule {
   }
 
   void readSignals(int64_t now_ns) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kInputCount; ++i) {
       const uint32_t setting = word(i);
-      const Mode& mode = modeOf(setting);
+      const InputMode& mode = modeOf(setting);
       const double at_wire = signal(i, mode);
       const double mean = converters_[i].convert(at_wire, filter(), conversionNs(i), now_ns);
-      const bool is_valid = (setting & kEnable) != 0 && converters_[i].has_result;
+      const bool is_valid = (setting & kInputOn) != 0 && converters_[i].has_result;
       const double shown = is_valid ? std::clamp(mean, mode.low, mode.high) : 0;
-      input(codes_, i, static_cast<uint32_t>(std::lround(shown * kCodesPerUnit)));
+      input(codes_, i, static_cast<uint32_t>(std::lround(shown * kInputCodes)));
       if (faults_.size > 0) input(faults_, i, fault(i, setting, at_wire));
     }
   }
 
-  // A channel that gets another setting begins its conversions anew.
+  // A channel that gets another setting starts its conversions again.
   void driveSignals(int64_t now_ns) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kInputCount; ++i) {
       const uint32_t setting = word(i) | output(filter_, 0) << 16;
       if (setting == settings_[i]) continue;
       settings_[i] = setting;
@@ -128,8 +128,8 @@ class AnalogInput final : public SimulatedModule {
   const Channels words_ = channels("CH#"), filter_ = channels("FP"), times_ = channels("FP#");
   const Channels codes_ = channels("IN#"), faults_ = channels("IN#_Fault_Code");
   Terminal *const volts_ = terminal("V#"), *const amperes_ = terminal("A#"), *const open_ = terminal("Open#");
-  Converter converters_[kChannels];
-  uint32_t settings_[kChannels] = {};
+  Converter converters_[kInputCount];
+  uint32_t settings_[kInputCount] = {};
 };
 
 }  // namespace

@@ -6,25 +6,26 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kChannels = 4;
-constexpr double kCodesPerUnit = 1000;  // table 4-8
+constexpr uint32_t kOutputCount = 4;
+constexpr double kOutputCodes = 1000;  // table 4-8
 
 // Table 4-7, channel word.
-constexpr uint32_t kEnable = 1 << 0, kModeShift = 2, kModeMask = 7, kAfterStopShift = 5, kAfterStopMask = 3;
+constexpr uint32_t kOutputOn = 1 << 0, kOutputModeShift = 2, kOutputModeMask = 7, kAfterStopShift = 5,
+                   kAfterStopMask = 3;
 enum AfterStop : uint32_t { kClear, kKeep, kPreset };
-struct Mode {
+struct OutputMode {
   int low, high;  // codes
   bool is_current;
 };
-constexpr Mode kNone = {0, 0, false};
-constexpr Mode kModes[] = {{0, 5000, false},
-                           {0, 10000, false},
-                           {-5000, 5000, false},
-                           {-10000, 10000, false},
-                           {4000, 20000, true},
-                           {0, 20000, true},
-                           kNone,
-                           kNone};
+constexpr OutputMode kNoOutput = {0, 0, false};
+constexpr OutputMode kOutputModes[] = {{0, 5000, false},
+                                       {0, 10000, false},
+                                       {-5000, 5000, false},
+                                       {-10000, 10000, false},
+                                       {4000, 20000, true},
+                                       {0, 20000, true},
+                                       kNoOutput,
+                                       kNoOutput};
 
 class AnalogOutput final : public SimulatedModule {
  public:
@@ -32,8 +33,10 @@ class AnalogOutput final : public SimulatedModule {
 
  private:
   uint32_t word(uint32_t channel) const { return output(words_, channel); }
-  const Mode& mode(uint32_t channel) const { return kModes[word(channel) >> kModeShift & kModeMask]; }
-  bool isOn(uint32_t channel) const { return (word(channel) & kEnable) != 0; }
+  const OutputMode& mode(uint32_t channel) const {
+    return kOutputModes[word(channel) >> kOutputModeShift & kOutputModeMask];
+  }
+  bool isOn(uint32_t channel) const { return (word(channel) & kOutputOn) != 0; }
 
   void clear(uint32_t channel) { volts_[channel].value = amperes_[channel].value = 0; }
 
@@ -41,14 +44,14 @@ class AnalogOutput final : public SimulatedModule {
   void drive(uint32_t channel, int code) {
     clear(channel);
     if (!isOn(channel)) return;
-    const Mode& is = mode(channel);
-    const double value = std::clamp(code, is.low, is.high) / kCodesPerUnit;
+    const OutputMode& is = mode(channel);
+    const double value = std::clamp(code, is.low, is.high) / kOutputCodes;
     if (is.is_current ? !open_[channel].state : !short_[channel].state)
       (is.is_current ? amperes_ : volts_)[channel].value = value;
   }
 
   void driveSignals(int64_t) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kOutputCount; ++i) {
       if (no_power_->state)
         clear(i);
       else
@@ -58,7 +61,7 @@ class AnalogOutput final : public SimulatedModule {
 
   // What bits 5 and 6 of each channel say; cleared, it has the safe value, which is 0 where the project has none.
   void driveSafeSignals(const uint8_t* safe_outputs) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kOutputCount; ++i) {
       switch (word(i) >> kAfterStopShift & kAfterStopMask) {
         case kKeep: break;
         case kPreset: drive(i, signedOutput(presets_, i)); break;
@@ -77,7 +80,7 @@ class AnalogOutput final : public SimulatedModule {
   }
 
   void readSignals(int64_t) override {
-    for (uint32_t i = 0; faults_.size > 0 && i < kChannels; ++i) input(faults_, i, fault(i));
+    for (uint32_t i = 0; faults_.size > 0 && i < kOutputCount; ++i) input(faults_, i, fault(i));
   }
 
   const Channels words_ = channels("Configuration_CH#"), codes_ = channels("Data_CH#");

@@ -8,8 +8,8 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kChannels = 4;
-constexpr int64_t kMillisecond = 1'000'000, kSecond = 1'000'000'000;
+constexpr uint32_t kSensorCount = 4;
+constexpr int64_t kPeriodUnitNs = 1'000'000, kSecond = 1'000'000'000;
 constexpr double kRemoteCodes = 10;  // of a degree: 16 bits hold -454.0 to 3272.0
 
 // Table 4-11, by the codes of table 4-10, in degrees Celsius.
@@ -20,7 +20,7 @@ constexpr Range kSensors[] = {{200, 1800}, {-270, 1000}, {-210, 1200}, {-270, 13
                               {-50, 1765}, {-270, 400},  {-200, 850},  {-200, 850},  {-200, 850},  {-50, 150}};
 constexpr int64_t kPeriodsMs[] = {250, 250, 500, 1000};  // 0 is not a code: the shortest
 
-constexpr uint32_t kEnable = 1 << 0, kFahrenheit = 1 << 1, kLimits = 1 << 4;
+constexpr uint32_t kSensorOn = 1 << 0, kFahrenheit = 1 << 1, kLimits = 1 << 4;
 constexpr uint32_t kAbove = 1, kBelow = 2;  // Overrun
 
 struct Setting {
@@ -87,19 +87,20 @@ class Temperature final : public SimulatedModule {
   }
 
   uint32_t overrun(uint32_t channel, const Setting& is, double value) const {
-    if ((is.flags & kEnable) == 0 || (is.flags & kLimits) == 0) return 0;
+    if ((is.flags & kSensorOn) == 0 || (is.flags & kLimits) == 0) return 0;
     if (value > signedOutput(upper_, channel)) return kAbove;
     return value < signedOutput(lower_, channel) ? kBelow : 0;
   }
 
   void readSignals(int64_t now_ns) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kSensorCount; ++i) {
       const Setting is = setting(i);
-      const bool is_on = (is.flags & kEnable) != 0;
+      const bool is_on = (is.flags & kSensorOn) != 0;
       double value = 0;
       if (is_on) {
         const int64_t lag_ns = std::min(is.lag, 100u) * kSecond;
-        value = samplers_[i].sample(shown(sensors_[i].value, is), kPeriodsMs[is.period] * kMillisecond, lag_ns, now_ns);
+        value =
+            samplers_[i].sample(shown(sensors_[i].value, is), kPeriodsMs[is.period] * kPeriodUnitNs, lag_ns, now_ns);
       }
       if (isRemote()) {
         input(values_, i, static_cast<uint32_t>(std::lround(value * kRemoteCodes)));
@@ -115,7 +116,7 @@ class Temperature final : public SimulatedModule {
 
   // A channel that gets another setting begins with the next sample.
   void driveSignals(int64_t) override {
-    for (uint32_t i = 0; i < kChannels; ++i) {
+    for (uint32_t i = 0; i < kSensorCount; ++i) {
       const Setting is = setting(i);
       if (is == settings_[i]) continue;
       settings_[i] = is;
@@ -132,8 +133,8 @@ class Temperature final : public SimulatedModule {
   const Channels values_ = channels("Temperature#");
   const Terminal *const sensors_ = terminal("T#"), *const inner_wire_ = terminal("CJC_In"),
                         *const outer_wire_ = terminal("CJC_Out");
-  Sampler samplers_[kChannels];
-  Setting settings_[kChannels] = {};
+  Sampler samplers_[kSensorCount];
+  Setting settings_[kSensorCount] = {};
 };
 
 }  // namespace
