@@ -459,7 +459,10 @@ void noteCall(Context& context, PouId callee, Loc loc) {
   Pou& pou = context.symbols.pou(callee);
   pou.progress.used = true;
   if (pou.decl) checkObsolete(context, context.tree().decl(pou.decl), pou.name, loc);
-  if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
+  // Of library blocks only those that may ask for a task (checks/task_needs.cpp).
+  const bool matters = !pou.library || (pou.kind == PouKind::FunctionBlock && pou.decl &&
+                                        !context.tree().decl(pou.decl).pragmas.empty());
+  if (matters && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
 
 void checkConnections(Context& context, ExprId call, PouId program) {

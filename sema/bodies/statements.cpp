@@ -22,6 +22,7 @@
 #include "sema/checks/result_assigned.h"
 #include "sema/checks/safe_values.h"
 #include "sema/checks/shared_globals.h"
+#include "sema/checks/task_needs.h"
 #include "sema/checks/uncalled_instances.h"
 #include "sema/checks/unset_temporaries.h"
 #include "sema/checks/unused_variables.h"
@@ -490,6 +491,7 @@ void checkAfterBodies(Context& context) {
   checkUnusedVariables(context);
   checkOverlappingAddresses(context);
   checkSharedGlobals(context);
+  checkTaskNeeds(context);
   checkOutputWriters(context);
   checkSafeValues(context);
   checkHiddenGlobals(context);

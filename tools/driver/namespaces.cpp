@@ -25,10 +25,16 @@ constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"tc3_eventlogger", "Tc3_EventLogger"},
                                      {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
-constexpr NamespaceAlias kAliases[] = {
-    {"Tc2_Standard", "Standard"},    {"Tc2_Standard", "Standard64"},
-    {"Tc2_Utilities", "Standard64"}, {"Tc3_Standard", "Standard"},
-    {"IBaseLibrary", "__system"},    {"Global_Variables", "Tc2_System"}};  // Tc2_System.Global_Variables.PI
+constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"},
+                                       {"Tc2_Standard", "Standard64"},
+                                       {"Tc2_Utilities", "Standard64"},
+                                       {"Tc3_Standard", "Standard"},
+                                       {"IBaseLibrary", "__system"},
+                                       {"Global_Variables", "Tc2_System"},  // Tc2_System.Global_Variables.PI
+                                       {"CAA_DTUtil_Extern", "DTU"},
+                                       {"CAA_Types_Extern", "CAA"},
+                                       {"CAA_Real_Time_Clock_Extern", "RTCLK"},
+                                       {"INVT_Files_Function", "Files_Function"}};
 
 }  // namespace
 

@@ -7,39 +7,36 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <string_view>
+
+#include "file_place.h"
 
 namespace rung::host {
 namespace {
 
 constexpr size_t kMaxFiles = 256;  // a program that never closes its files gets an error
 
-int64_t errorOf(int number) {
-  if (number == ENOENT || number == ENOTDIR) return RUNG_FILE_MISSING;
-  if (number == EACCES || number == EPERM || number == EROFS) return RUNG_FILE_DENIED;
-  if (number == EEXIST || number == ENOTEMPTY) return RUNG_FILE_EXISTS;
-  if (number == EBADF) return RUNG_FILE_HANDLE;
-  return RUNG_FILE_FAILED;
-}
-int64_t resultOf(int64_t result) { return result < 0 ? errorOf(errno) : result; }
-
 Files& of(void* data) { return *static_cast<Files*>(data); }
 
-// Calls `action` with the paths of the names, when all are inside the folder.
+// Calls `action` with a place that is not the root.
 template <typename Action>
-int64_t onPath(void* data, const char* name, Action action) {
-  const std::string path = of(data).pathOf(name);
-  return path.empty() ? int64_t{RUNG_FILE_NAME} : resultOf(action(path.c_str()));
+int64_t onPlace(void* data, const char* name, Action action) {
+  const FilePlace place(of(data).root(), name);
+  if (place.error() != 0) return place.error();
+  if (place.isRoot()) return RUNG_FILE_NAME;
+  const int64_t result = action(place);
+  return fileResultOf(result, errno);
 }
 template <typename Action>
 int64_t onFile(void* data, int64_t file, Action action) {
   const int descriptor = of(data).descriptor(file);
-  return descriptor < 0 ? int64_t{RUNG_FILE_HANDLE} : resultOf(action(descriptor));
+  if (descriptor < 0) return RUNG_FILE_HANDLE;
+  const int64_t result = action(descriptor);
+  return fileResultOf(result, errno);
 }
 
-int64_t sizeOf(const char* path) {
+int64_t sizeOf(const FilePlace& place) {
   struct stat info;
-  if (stat(path, &info) != 0) return -1;
+  if (fstatat(place.folder(), place.leaf(), &info, AT_SYMLINK_NOFOLLOW) != 0) return -1;
   if (S_ISREG(info.st_mode)) return info.st_size;
   errno = ENOENT;
   return -1;
@@ -58,22 +55,36 @@ const rung_files kFiles = {
       const int whence = from == 0 ? SEEK_SET : from == 1 ? SEEK_CUR : SEEK_END;
       return onFile(data, file, [&](int fd) { return lseek(fd, offset, whence); });
     },
-    [](void* data, const char* name) { return onPath(data, name, sizeOf); },
-    [](void* data, const char* name) { return onPath(data, name, [](const char* path) { return unlink(path); }); },
-    [](void* data, const char* from, const char* to) {
-      const std::string old_path = of(data).pathOf(from);
-      if (old_path.empty()) return int64_t{RUNG_FILE_NAME};
-      return onPath(data, to, [&](const char* path) { return rename(old_path.c_str(), path); });
+    [](void* data, const char* name) { return onPlace(data, name, sizeOf); },
+    [](void* data, const char* name) {
+      return onPlace(data, name, [](const FilePlace& place) { return unlinkat(place.folder(), place.leaf(), 0); });
     },
-    [](void* data, const char* name) { return onPath(data, name, [](const char* path) { return mkdir(path, 0777); }); },
-    [](void* data, const char* name) { return onPath(data, name, [](const char* path) { return rmdir(path); }); },
+    [](void* data, const char* from, const char* to) {
+      return onPlace(data, from, [&](const FilePlace& old_place) -> int64_t {
+        const FilePlace place(of(data).root(), to);
+        if (place.error() != 0 || place.isRoot()) return errno = ELOOP, -1;
+        return renameat(old_place.folder(), old_place.leaf(), place.folder(), place.leaf());
+      });
+    },
+    [](void* data, const char* name) {
+      return onPlace(data, name, [](const FilePlace& place) { return mkdirat(place.folder(), place.leaf(), 0777); });
+    },
+    [](void* data, const char* name) {
+      return onPlace(data, name,
+                     [](const FilePlace& place) { return unlinkat(place.folder(), place.leaf(), AT_REMOVEDIR); });
+    },
+    [](void* data, const rung_file_work* work) { return of(data).work().begin(*work); },
+    [](void* data, int64_t work, void* bytes, uint64_t capacity) {
+      return of(data).work().result(work, bytes, capacity);
+    },
 };
 
 }  // namespace
 
-Files::Files(std::string root) : root_(std::move(root)) {}
+Files::Files(std::string root, bool in_background) : root_(std::move(root)), work_(*this, in_background) {}
 
 Files::~Files() {
+  work_.end();
   for (const int descriptor : descriptors_)
     if (descriptor >= 0) ::close(descriptor);
 }
@@ -83,38 +94,21 @@ void Files::serve(rung_host& host) {
   host.files_data = this;
 }
 
-std::string Files::pathOf(const char* name) const {
-  std::string_view rest(name);
-  if (rest.size() > 1 && rest[1] == ':') rest.remove_prefix(2);
-  std::string path = root_;
-  int depth = 0;
-  bool has_part = false;
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find_first_of("/\\"), rest.size());
-    const std::string_view part = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (part.empty() || part == ".") continue;
-    depth += part == ".." ? -1 : 1;
-    if (depth < 0) return "";
-    has_part = true;
-    path.append("/").append(part);
-  }
-  return has_part ? path : "";
-}
-
 int64_t Files::open(const char* name, uint32_t mode) {
-  const std::string path = pathOf(name);
-  if (path.empty()) return RUNG_FILE_NAME;
+  const FilePlace place(root_, name);
+  if (place.error() != 0) return place.error();
+  if (place.isRoot()) return RUNG_FILE_NAME;
   const bool reads = (mode & RUNG_FILE_READ) != 0, writes = (mode & RUNG_FILE_WRITE) != 0;
-  int flags = O_CLOEXEC | (writes ? reads ? O_RDWR : O_WRONLY : O_RDONLY);
+  int flags = O_CLOEXEC | O_NOFOLLOW | (writes ? reads ? O_RDWR : O_WRONLY : O_RDONLY);
   if ((mode & RUNG_FILE_APPEND) != 0) flags |= O_APPEND;
   if ((mode & RUNG_FILE_CREATE) != 0) flags |= O_CREAT;
   if ((mode & RUNG_FILE_TRUNCATE) != 0) flags |= O_TRUNC;
+  if ((mode & RUNG_FILE_NEW) != 0) flags |= O_EXCL;
   const std::lock_guard<std::mutex> lock(mutex_);
   auto free = std::find(descriptors_.begin(), descriptors_.end(), -1);
   if (free == descriptors_.end() && descriptors_.size() == kMaxFiles) return RUNG_FILE_FAILED;
-  const int descriptor = ::open(path.c_str(), flags, 0666);
-  if (descriptor < 0) return errorOf(errno);
+  const int descriptor = openat(place.folder(), place.leaf(), flags, 0666);
+  if (descriptor < 0) return fileErrorOf(errno);
   if (free == descriptors_.end()) free = descriptors_.insert(free, -1);
   *free = descriptor;
   return free - descriptors_.begin() + 1;
@@ -127,7 +121,7 @@ int64_t Files::close(int64_t file) {
   if (descriptor < 0) return RUNG_FILE_HANDLE;
   const int result = ::close(descriptor);
   descriptor = -1;
-  return resultOf(result);
+  return fileResultOf(result, errno);
 }
 
 int Files::descriptor(int64_t file) {

@@ -14,6 +14,7 @@
 #include "call_trace.h"
 #include "commands.h"
 #include "condition.h"
+#include "controller.h"
 #include "faults.h"
 #include "files.h"
 #include "inputs.h"
@@ -41,7 +42,7 @@ int refuse(const RunOptions& options, const std::string& what) {
   return kUsage;
 }
 
-int64_t systemClock(void*) {
+int64_t systemNs() {
   timespec now;
   clock_gettime(CLOCK_REALTIME, &now);
   return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
@@ -73,13 +74,13 @@ struct Run {
         symbols(chosen, memory),
         drivers(chosen, memory),
         tasks(symbols, memory, drivers, chosen_options.interval_ns),
-        schedule(tasks, memory.context(), chosen_options.others_go_on),
+        schedule(tasks, memory.context(), hsio, chosen_options.others_go_on),
         inputs(symbols),
         trace(symbols),
         stop_on(symbols),
         plot(chosen),
         calls(chosen, memory),
-        files(chosen_options.files_root) {}
+        files(chosen_options.files_root, chosen_options.realtime) {}
 
   ~Run() { running = nullptr; }
 
@@ -106,6 +107,7 @@ struct Run {
     return describeFault(context, fault, options.paths);
   }
   void reportStopped();
+  void raiseInterrupts(Realtime& threads);
   void reportChanges() const;
   std::string saveRetained() {
     std::string error;
@@ -119,6 +121,7 @@ struct Run {
   Symbols symbols;
   Drivers drivers;
   Tasks tasks;
+  Hsio hsio;
   Schedule schedule;
   Inputs inputs;
   Trace trace;
@@ -126,6 +129,7 @@ struct Run {
   Plot plot;
   CallTrace calls;
   Files files;
+  Controller controller;
   Commands commands;
   std::optional<Retain> retain;
   std::optional<Stopper> stopper;  // in virtual time
@@ -195,7 +199,21 @@ void endHungRun(const rung_context* context, uint8_t reason) {
 }
 
 // In virtual time the wall clock starts at 0 with the program.
-int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.context().now_ns; }
+int64_t unsetClock(Run& run) { return run.options.realtime ? systemNs() : run.memory.context().now_ns; }
+int64_t onClock(void* data) {
+  Run& run = *static_cast<Run*>(data);
+  return run.controller.clock(unsetClock(run));
+}
+bool onSetClock(void* data, int64_t ns) {
+  Run& run = *static_cast<Run*>(data);
+  return run.controller.setClock(unsetClock(run), ns);
+}
+bool onNetwork(void* data, uint32_t port, rung_network* addresses) {
+  return static_cast<Run*>(data)->controller.network(port, *addresses);
+}
+bool onSetNetwork(void* data, uint32_t port, const rung_network* addresses) {
+  return static_cast<Run*>(data)->controller.setNetwork(port, *addresses);
+}
 void onMessage(void* data, uint8_t severity, const char* text) {
   static const char* const words[] = {"note", "warning", "error"};
   const int64_t ms = static_cast<Run*>(data)->nowNs() / 1'000'000;
@@ -270,10 +288,15 @@ int Run::prepare() {
   std::string error;
   if (!loadAll(error)) return refuse(options, error);
   rung_context& context = memory.context();
-  host.wall_clock = options.realtime ? systemClock : virtualClock;
+  host.wall_clock = onClock;
+  host.set_wall_clock = onSetClock;
+  host.network = onNetwork;
+  host.set_network = onSetNetwork;
+  host.diagnosis = &controller.diagnosis();
   host.message = onMessage;
   if (gethostname(machine_name, sizeof machine_name - 1) == 0) host.name = machine_name;
   files.serve(host);
+  hsio.serve(host);
   host.assertion = onAssertion;
   context.host = &host;
   context.host_data = this;
@@ -305,6 +328,7 @@ int Run::prepare() {
 
 void Run::stop() {
   is_stopped = true;
+  controller.diagnosis().stopped = 1;
   tasks.makeOutputsSafe(nowNs());
 }
 
@@ -345,6 +369,7 @@ bool Run::obey(const Command& command) {
     case Command::Stop: stop(); break;
     case Command::Start:
       is_stopped = false;
+      controller.diagnosis().stopped = 0;
       tasks.restoreOutputs();
       break;
     case Command::Cycle: return cycleOnce();
@@ -353,7 +378,10 @@ bool Run::obey(const Command& command) {
       if (!(realtime != nullptr ? realtime->raise(command.event) : schedule.raise(command.event)))
         fprintf(options.err, "warning: no task waits for the event `%s`\n", command.event.c_str());
       break;
-    case Command::Status: fputs(tasks.statistics(0).c_str(), options.err); break;
+    case Command::Status:
+      fputs(tasks.statistics(0).c_str(), options.err);
+      fputs(controller.faults().c_str(), options.err);
+      break;
     case Command::Quit: has_quit = true; return false;
   }
   return true;
@@ -381,6 +409,16 @@ bool Run::obey(int64_t row) {
   return goes_on;
 }
 
+// In real time interrupts are noticed at the starts of rows and when the caller's thread has time.
+void Run::raiseInterrupts(Realtime& threads) {
+  uint32_t interrupts = 0;
+  do {
+    hsio.advance(threads.programNs(), interrupts);
+    for (uint32_t i = 0; interrupts >> i != 0; ++i)
+      if ((interrupts >> i & 1) != 0) threads.raise(rung_hsio_event(i));
+  } while (interrupts != 0);
+}
+
 void Run::reportStopped() {
   if (!options.others_go_on) return;
   for (const Task& task : tasks.all()) {
@@ -396,6 +434,7 @@ void Run::reportStopped() {
 // `what`: why it faulted, a line; `extra`: lines for the user.
 int Run::finish(bool faulted, const std::string& what, const std::string& extra) {
   std::string error, reason = what;
+  controller.diagnosis().stopped = 1;
   const std::string last_row = options.trace_path.empty() && !faulted ? trace.lastRow() : std::string();
   if (memory.end() != RUNG_FAULT_NONE && !faulted) {
     faulted = true;
@@ -501,6 +540,7 @@ int Run::runInRealTime() {
   Realtime threads(tasks, memory.context(), wanted, hooks);
   hooks.idle = [&] {
     reportStopped();
+    raiseInterrupts(threads);
     if (!obey(row_now.load())) threads.end();
   };
   {

@@ -6,11 +6,12 @@
 
 namespace rung::host {
 
-Schedule::Schedule(Tasks& tasks, rung_context& context, bool others_go_on)
-    : tasks_(tasks), context_(context), others_go_on_(others_go_on), states_(tasks.all().size()) {}
+Schedule::Schedule(Tasks& tasks, rung_context& context, Hsio& hsio, bool others_go_on)
+    : tasks_(tasks), context_(context), hsio_(hsio), others_go_on_(others_go_on), states_(tasks.all().size()) {}
 
 void Schedule::restart(int64_t now_ns) {
   jobs_.clear();
+  interrupts_.clear();
   for (State& state : states_) state = {now_ns, false, false};
 }
 
@@ -119,13 +120,31 @@ bool Schedule::advance(int64_t now_ns, Ending& ending) {
   return false;
 }
 
-// Lets the first job of each resource run until the next one is complete, or `until_ns`. Returns that time.
-int64_t Schedule::spend(int64_t now_ns, int64_t until_ns) {
+// When the next job is complete, or `until_ns`.
+int64_t Schedule::firstEnd(int64_t now_ns, int64_t until_ns) const {
   for (size_t i = 0; i < jobs_.size(); ++i)
     if (isFirstOfResource(i)) until_ns = std::min(until_ns, now_ns + jobs_[i].left_ns);
+  return until_ns;
+}
+
+// When the next interrupt occurs, or `until_ns`. Its tasks become due then.
+int64_t Schedule::firstInterrupt(int64_t until_ns) {
+  uint32_t interrupts = 0;
+  const int64_t now_ns = hsio_.advance(until_ns, interrupts);
+  for (uint32_t i = 0; interrupts >> i != 0; ++i) {
+    if ((interrupts >> i & 1) == 0) continue;
+    for (const Task& task : tasks_.all())
+      if (task.row->kind == RUNG_EXTERNAL && !task.stopped &&
+          strcasecmp(rung_hsio_event(i), context_.module->strings + task.row->external_event) == 0)
+        interrupts_.push_back({now_ns, task.index});
+  }
+  return interrupts == 0 ? until_ns : std::min(until_ns, now_ns);
+}
+
+// Lets the first job of each resource run.
+void Schedule::spend(int64_t now_ns, int64_t until_ns) {
   for (size_t i = 0; i < jobs_.size(); ++i)
     if (isFirstOfResource(i)) jobs_[i].left_ns -= until_ns - now_ns;
-  return until_ns;
 }
 
 Schedule::Ending Schedule::run(int64_t begin_ns) {
@@ -138,11 +157,14 @@ Schedule::Ending Schedule::run(int64_t begin_ns) {
     while (
         std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.start_ns >= 0 && job.left_ns == 0; }))
       if (!advance(now, ending)) return ending;
+    for (const Release& interrupt : interrupts_) enter(interrupt);
+    interrupts_.clear();
     for (; next < due_.size() && due_[next].time_ns <= now; ++next) enter(due_[next]);
     while (advance(now, ending)) {
     }
     if (ending != Ending::Complete) return ending;
-    const int64_t then = spend(now, next < due_.size() ? due_[next].time_ns : end_ns);
+    const int64_t then = std::max(now, firstInterrupt(firstEnd(now, next < due_.size() ? due_[next].time_ns : end_ns)));
+    spend(now, then);
     if (then >= end_ns) return ending;
     now = then;
   }

@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "hsio.h"
 #include "tasks.h"
 
 namespace rung::host {
 
 class Schedule {
  public:
-  // `others_go_on`: a fault stops its task alone.
-  Schedule(Tasks& tasks, rung_context& context, bool others_go_on);
+  // `others_go_on`: a fault stops its task alone. The interrupts of `hsio` start tasks at the times at which they
+  // occur.
+  Schedule(Tasks& tasks, rung_context& context, Hsio& hsio, bool others_go_on);
 
   enum class Ending : uint8_t { Complete, Faulted, Watchdog };
   // Runs all activations of row k, whose time begins at `begin_ns`. Faulted: the context has the fault.
@@ -51,15 +53,19 @@ class Schedule {
   bool advance(int64_t now_ns, Ending& ending);
   bool begin(size_t job, int64_t now_ns, Ending& ending);
   bool finish(size_t job, int64_t now_ns, Ending& ending);
-  int64_t spend(int64_t now_ns, int64_t until_ns);
+  int64_t firstEnd(int64_t now_ns, int64_t until_ns) const;
+  int64_t firstInterrupt(int64_t until_ns);
+  void spend(int64_t now_ns, int64_t until_ns);
 
   Tasks& tasks_;
   rung_context& context_;
+  Hsio& hsio_;
   bool others_go_on_;
   const Task* stopped_ = nullptr;
   std::vector<State> states_;
   std::vector<Release> due_;
-  std::vector<Job> jobs_;  // by priority; of equal priority in the order in which they came
+  std::vector<Release> interrupts_;  // that occurred and have no job yet
+  std::vector<Job> jobs_;            // by priority; of equal priority in the order in which they came
 };
 
 }  // namespace rung::host

@@ -7,8 +7,10 @@
 #include <csignal>
 #include <cstdio>
 
+#include "controller.h"
 #include "crashes.h"
 #include "faults.h"
+#include "hsio.h"
 #include "junit.h"
 #include "memory.h"
 #include "output_file.h"
@@ -30,6 +32,8 @@ struct Case {
   const ShownPaths* paths;
   TestResult result;
   uint64_t failures = 0;
+  Controller controller{};
+  Hsio hsio{};
 
   void fail(TestResult::Kind kind, const std::string& message) {
     if (result.kind < kind) result.kind = kind;
@@ -37,7 +41,20 @@ struct Case {
   }
 };
 
-int64_t testClock(void* data) { return static_cast<Case*>(data)->context->now_ns; }
+int64_t testClock(void* data) {
+  const Case& test = *static_cast<Case*>(data);
+  return test.controller.clock(test.context->now_ns);
+}
+bool setTestClock(void* data, int64_t ns) {
+  Case& test = *static_cast<Case*>(data);
+  return test.controller.setClock(test.context->now_ns, ns);
+}
+bool testNetwork(void* data, uint32_t port, rung_network* addresses) {
+  return static_cast<Case*>(data)->controller.network(port, *addresses);
+}
+bool setTestNetwork(void* data, uint32_t port, const rung_network* addresses) {
+  return static_cast<Case*>(data)->controller.setNetwork(port, *addresses);
+}
 
 bool isOfName(char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >= 'a' && (c | 32) <= 'z'); }
 
@@ -96,6 +113,9 @@ class TestRunner {
   TestRunner(const rung_module& module, const TestOptions& options)
       : module_(module), options_(options), memory_(module) {
     host_.wall_clock = testClock;
+    host_.set_wall_clock = setTestClock;
+    host_.network = testNetwork;
+    host_.set_network = setTestNetwork;
     host_.assertion = onTestAssertion;
     memory_.context().host = &host_;
     memory_.context().step_limit = options.max_steps;
@@ -116,6 +136,8 @@ class TestRunner {
   TestResult run(uint32_t number, char* where) {
     Case one{&memory_.context(), &options_.paths, describe(number)};
     memory_.context().host_data = &one;
+    host_.diagnosis = &one.controller.diagnosis();
+    one.hsio.serve(host_);
     paths_of_test = &options_.paths;
     result_of_test = &one.result;
     where_of_test = where;

@@ -45,4 +45,19 @@ RUNG_OF_ONE_NAME(FOLDER_MAKE, make_folder)
 RUNG_OF_ONE_NAME(FOLDER_REMOVE, remove_folder)
 #undef RUNG_OF_ONE_NAME
 
+int64_t rung_system_HOST_FILE_BEGIN(rung_context* ctx, uint8_t kind, uint32_t flags, int64_t file, const char* name,
+                                    const char* target, void* buffer, uint64_t count) {
+  if (kind > RUNG_WORK_REMOVE) return RUNG_FILE_FAILED;
+  if (kind == RUNG_WORK_WRITE && (buffer == nullptr || count > RUNG_WORK_BYTES)) return RUNG_FILE_FAILED;
+  const rung_files* const files = ctx->host == nullptr ? nullptr : ctx->host->files;
+  if (files == nullptr || files->begin == nullptr) return RUNG_FILE_DENIED;
+  const rung_file_work work = {kind, flags, file, name, target, buffer, count};
+  return files->begin(ctx->host->files_data, &work);
+}
+int64_t rung_system_HOST_FILE_RESULT(rung_context* ctx, int64_t work, void* buffer, uint64_t capacity) {
+  const rung_files* const files = ctx->host == nullptr ? nullptr : ctx->host->files;
+  if (files == nullptr || files->result == nullptr) return RUNG_FILE_HANDLE;
+  return files->result(ctx->host->files_data, work, buffer, buffer == nullptr ? 0 : capacity);
+}
+
 }  // extern "C"

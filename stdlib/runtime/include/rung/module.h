@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 10u
+#define RUNG_MODULE_ABI 11u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -267,15 +267,49 @@ typedef enum rung_file_error {
   RUNG_FILE_EXISTS = -3,
   RUNG_FILE_NAME = -4,   /* leaves the folder that the program may use, or is empty */
   RUNG_FILE_HANDLE = -5, /* not open, or not open for this */
-  RUNG_FILE_FAILED = -6
+  RUNG_FILE_FAILED = -6,
+  RUNG_FILE_BUSY = -7,     /* of work that is not complete */
+  RUNG_FILE_TOO_LARGE = -8 /* more bytes than the work may copy */
 } rung_file_error;
 enum rung_file_mode {
   RUNG_FILE_READ = 1,
   RUNG_FILE_WRITE = 2,
   RUNG_FILE_APPEND = 4, /* every write goes to the end */
   RUNG_FILE_CREATE = 8, /* if it does not exist */
-  RUNG_FILE_TRUNCATE = 16
+  RUNG_FILE_TRUNCATE = 16,
+  RUNG_FILE_NEW = 32 /* with CREATE: it must not exist */
 };
+
+/* Work on files that the host does off the cycle: a program begins it, and asks for the result in later cycles. */
+typedef enum rung_file_work_kind {
+  RUNG_WORK_OPEN,  /* `name`, rung_file_mode: the file */
+  RUNG_WORK_WRITE, /* `bytes` to `file`: the count */
+  RUNG_WORK_CLOSE, /* `file`: 0 */
+  RUNG_WORK_LIST,  /* a folder; bytes: rung_file_entry rows. The count of rows */
+  RUNG_WORK_COPY,  /* a file or a folder with its content to the folder `target`: 0 */
+  RUNG_WORK_REMOVE /* a file or a folder with its content: 0 */
+} rung_file_work_kind;
+enum rung_file_work_flags {
+  RUNG_WORK_ONLY_FILES = 1, /* LIST */
+  RUNG_WORK_OVERWRITE = 2   /* COPY: existing files are replaced */
+};
+#define RUNG_WORK_BYTES 4096 /* that one WRITE may have */
+typedef struct rung_file_work {
+  uint8_t kind;       /* rung_file_work_kind */
+  uint32_t flags;     /* rung_file_work_flags, or the rung_file_mode */
+  int64_t file;       /* WRITE, CLOSE */
+  const char* name;   /* all others */
+  const char* target; /* COPY */
+  const void* bytes;  /* WRITE */
+  uint64_t count;     /* WRITE: bytes; LIST: rows at most; COPY: bytes of a file at most, 0: any */
+} rung_file_work;
+typedef struct rung_file_entry {
+  char name[256];
+  uint64_t size;
+  int64_t modified_s; /* since 1970-01-01 UTC */
+  uint8_t is_folder;
+} rung_file_entry;
+
 typedef struct rung_files {
   int64_t (*open)(void* data, const char* name, uint32_t mode);
   int64_t (*close)(void* data, int64_t file);
@@ -287,7 +321,27 @@ typedef struct rung_files {
   int64_t (*rename)(void* data, const char* from, const char* to);
   int64_t (*make_folder)(void* data, const char* name);
   int64_t (*remove_folder)(void* data, const char* name);
+  /* Begins work, whose strings and bytes it copies: a number > 0, or an error. Does not wait. */
+  int64_t (*begin)(void* data, const rung_file_work* work);
+  /* RUNG_FILE_BUSY, or its result: then up to `capacity` bytes that it found are copied to `bytes`, and its number is
+   * free again. Does not wait. */
+  int64_t (*result)(void* data, int64_t work, void* bytes, uint64_t capacity);
 } rung_files;
+
+/* Addresses of an Ethernet port: 192.168.1.10 is 0xc0a8010a. */
+typedef struct rung_network {
+  uint32_t address, mask, gateway;
+} rung_network;
+
+/* High-speed inputs and outputs: registers of a counter unit, listed in rung/hsio.h. `now_ns` is the time of the
+ * activation. */
+typedef struct rung_hsio {
+  int64_t (*read)(void* data, uint32_t item, uint32_t index, int64_t now_ns); /* 0 where there is no such register */
+  bool (*write)(void* data, uint32_t item, uint32_t index, int64_t value, int64_t now_ns); /* false: refused */
+} rung_hsio;
+
+/* Current faults of the controller, its modules and its links: rung/diagnosis.h. */
+typedef struct rung_diagnosis rung_diagnosis;
 
 enum rung_severity { RUNG_MESSAGE_NOTE, RUNG_MESSAGE_WARNING, RUNG_MESSAGE_ERROR };
 
@@ -308,6 +362,17 @@ typedef struct rung_host {
   int (*wait)(void* data);
   /* The name of the machine. Default (null): unknown. */
   const char* name;
+  /* Sets the clock that wall_clock returns; false: it cannot. Default (null): false. */
+  bool (*set_wall_clock)(void* data, int64_t ns);
+  /* Reads and sets the addresses of an Ethernet port, from 1; false: there is no such port, or it cannot be set.
+   * Default (null): false. */
+  bool (*network)(void* data, uint32_t port, rung_network* addresses);
+  bool (*set_network)(void* data, uint32_t port, const rung_network* addresses);
+  /* The table of current faults, in which the program and the host report and which both read. Default (null): none. */
+  rung_diagnosis* diagnosis;
+  /* Default (null): there are no high-speed inputs and outputs. */
+  const rung_hsio* hsio;
+  void* hsio_data;
 } rung_host;
 
 struct rung_context {
