@@ -21,7 +21,10 @@ void StatementLowering::lowerPou() {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = state_.local_of[var.field];
       if (!var.use.written || !body_.locals[index - 1].by_reference) continue;
-      const ExprId own = temp(strip(var.type), var.loc);
+      const TypeId type = strip(var.type);
+      const ExprId own = temp(type, var.loc);
+      // The unit after the last character, as in ObjectLowering::storeInitial.
+      if (types::TypeTable::isString(types_.kind(type))) assign(copy(own), zero(type, var.loc), var.loc);
       assign(own, local(index - 1, var.loc), var.loc);
       index = *localOf(body_.expr(own)) + 1;
       continue;
