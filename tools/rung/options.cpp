@@ -126,6 +126,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--retain-interval", "T", bit(Command::Run), "how often the retain file is written (default: 1s)"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "default: warm if the retain file exists, else cold"},
     {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder for the program's files (default: current)"},
+    {Key::Host, "--serial", "N=DEVICE", bit(Command::Run), "device of the program's serial port N; may be repeated"},
     {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes CONDITION TRUE"},
     {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "run in real time"},
