@@ -44,6 +44,9 @@ class ByteRing {
   uint32_t capacity_ = 0, begin_ = 0, size_ = 0;
 };
 
+inline constexpr uint32_t kStreamBytes = 16 * 1024;  // of a channel, in each direction
+inline constexpr uint32_t kMaxDatagram = 65507;
+
 // In front of each datagram.
 struct DatagramHeader {
   uint32_t address;

@@ -12,32 +12,32 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <mutex>
 
 #include "sockets.h"
 
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kStreamBytes = 16 * 1024, kDatagramBytes = 128 * 1024;
-constexpr uint32_t kMaxDatagram = 65507, kChunk = 64 * 1024;
+constexpr uint32_t kDatagramBytes = 128 * 1024, kChunk = 64 * 1024;
 constexpr int kEventsAtOnce = 64, kReadsPerEvent = 4;
 constexpr int64_t kMillisecond = 1'000'000, kTickNs = kMillisecond;  // of serial lines that send
 constexpr int64_t kLongestWaitMs = 1000;
 constexpr uint32_t kGenerations = 1u << 20;  // handles fit into 32 bits
 constexpr uint64_t kWakeEvent = 0, kChannelEvent = uint64_t{1} << 32;
 
-Channels& of(void* data) { return *static_cast<Channels*>(data); }
+Channels& channelsOf(void* data) { return *static_cast<Channels*>(data); }
 
-const rung_channels kTable = {
-    [](void* data, const rung_channel_settings* settings) { return of(data).open(*settings); },
-    [](void* data, int64_t channel, rung_channel_status* status) { return of(data).status(channel, *status); },
+const rung_channels kChannelTable = {
+    [](void* data, const rung_channel_settings* settings) { return channelsOf(data).open(*settings); },
+    [](void* data, int64_t channel, rung_channel_status* status) { return channelsOf(data).status(channel, *status); },
     [](void* data, int64_t channel, void* bytes, uint64_t count, rung_endpoint* from) {
-      return of(data).read(channel, bytes, count, from);
+      return channelsOf(data).read(channel, bytes, count, from);
     },
     [](void* data, int64_t channel, const void* bytes, uint64_t count, const rung_endpoint* to) {
-      return of(data).write(channel, bytes, count, to);
+      return channelsOf(data).write(channel, bytes, count, to);
     },
-    [](void* data, int64_t channel) { return of(data).close(channel); },
+    [](void* data, int64_t channel) { return channelsOf(data).close(channel); },
 };
 
 bool isSerial(uint8_t kind) { return kind == RUNG_CHANNEL_SERIAL || kind == RUNG_CHANNEL_MODBUS_RTU; }
@@ -50,23 +50,7 @@ int64_t monotonicNow() {
   return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
 }
 
-class Channels::Held {
- public:
-  explicit Held(Channels& channels) : mutex_(channels.mutex_) { pthread_mutex_lock(&mutex_); }
-  ~Held() { pthread_mutex_unlock(&mutex_); }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-
- private:
-  pthread_mutex_t& mutex_;
-};
-
 Channels::Channels(const SerialDevices& devices, ServedImage& image) : devices_(devices), image_(image) {
-  pthread_mutexattr_t attributes;
-  pthread_mutexattr_init(&attributes);
-  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-  pthread_mutex_init(&mutex_, &attributes);
-  pthread_mutexattr_destroy(&attributes);
   channels_ = std::make_unique<Channel[]>(kMost);
   servers_ = std::make_unique<ServedImage::Server[]>(kMostServers);
   queue_.reserve(kMost);
@@ -87,11 +71,10 @@ Channels::~Channels() {
     if (channels_[i].fd >= 0) ::close(channels_[i].fd);
   ::close(wake_);
   ::close(epoll_);
-  pthread_mutex_destroy(&mutex_);
 }
 
 void Channels::serve(rung_host& host) {
-  host.channels = &kTable;
+  host.channels = &kChannelTable;
   host.channels_data = this;
 }
 
@@ -150,7 +133,7 @@ int64_t Channels::refuse(const rung_channel_settings& settings) const {
 }
 
 int64_t Channels::open(const rung_channel_settings& settings) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const int64_t refused = refuse(settings);
   if (refused != 0) return refused;
   if (settings.kind == RUNG_CHANNEL_TCP_ACCEPT) {
@@ -174,7 +157,7 @@ int64_t Channels::open(const rung_channel_settings& settings) {
   channel->state = State::Asked;
   channel->error = 0;
   channel->generation = channel->generation % kGenerations + 1;
-  channel->is_full = false;
+  channel->is_full = channel->is_finished = false;
   channel->in_driver = 0;
   channel->settings = settings;
   strncpy(channel->address, settings.address == nullptr ? "" : settings.address, sizeof channel->address - 1);
@@ -187,7 +170,7 @@ int64_t Channels::open(const rung_channel_settings& settings) {
 }
 
 int64_t Channels::status(int64_t handle, rung_channel_status& status) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   status = {};
   const Channel* const channel = find(handle);
   if (channel == nullptr) return RUNG_CHANNEL_HANDLE;
@@ -198,7 +181,10 @@ int64_t Channels::status(int64_t handle, rung_channel_status& status) {
     status.readable = header.size;
   }
   status.unsent = channel->unsent.size() + channel->in_driver;
-  if (channel->state == State::Open || (channel->state == State::Ended && channel->received.size() > 0))
+  const bool has_ended = channel->state == State::Ended || channel->is_finished;
+  if (channel->received.size() == 0 && channel->state == State::Open && has_ended)
+    status.state = RUNG_CHANNEL_CLOSED;
+  else if (channel->state == State::Open || (has_ended && channel->received.size() > 0))
     status.state = 1;
   else if (channel->state == State::Ended)
     status.state = channel->error;
@@ -206,11 +192,14 @@ int64_t Channels::status(int64_t handle, rung_channel_status& status) {
 }
 
 int64_t Channels::read(int64_t handle, void* bytes, uint64_t count, rung_endpoint* from) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   Channel* const channel = find(handle);
   if (channel == nullptr || isServer(*channel) || channel->settings.kind == RUNG_CHANNEL_UDP_SENDER)
     return RUNG_CHANNEL_HANDLE;
-  if (channel->received.size() == 0) return channel->state == State::Ended ? channel->error : 0;
+  if (channel->received.size() == 0) {
+    if (channel->state == State::Ended) return channel->error;
+    return channel->is_finished ? int64_t{RUNG_CHANNEL_CLOSED} : 0;
+  }
   uint32_t taken = static_cast<uint32_t>(std::min<uint64_t>(count, channel->received.size()));
   if (isDatagram(*channel)) {
     DatagramHeader header{};
@@ -228,7 +217,7 @@ int64_t Channels::read(int64_t handle, void* bytes, uint64_t count, rung_endpoin
 }
 
 int64_t Channels::write(int64_t handle, const void* bytes, uint64_t count, const rung_endpoint* to) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   Channel* const channel = find(handle);
   if (channel == nullptr || channel->settings.kind == RUNG_CHANNEL_TCP_SERVER) return RUNG_CHANNEL_HANDLE;
   if (channel->state == State::Ended) return channel->error;
@@ -253,7 +242,7 @@ int64_t Channels::write(int64_t handle, const void* bytes, uint64_t count, const
 }
 
 int64_t Channels::close(int64_t handle) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   Channel* const channel = find(handle);
   if (channel == nullptr) return RUNG_CHANNEL_HANDLE;
   channel->state = State::Closing;
@@ -270,7 +259,7 @@ void Channels::closeAll() {
 
 void Channels::takeWishes() {
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     is_woken_.store(false);
     taken_.swap(queue_);
     for (const uint32_t index : taken_) channels_[index].is_queued = false;
@@ -283,7 +272,7 @@ void Channels::serveWish(Channel& channel) {
   State state;
   bool was_full = false;
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     state = channel.state;
     was_full = channel.is_full;
     channel.is_full = false;
@@ -292,7 +281,7 @@ void Channels::serveWish(Channel& channel) {
     case State::Asked: openChannel(channel); break;
     case State::Closing: release(channel); break;
     case State::Open:
-      if (was_full) watch(channel, channel.events | EPOLLIN);
+      if (was_full && !channel.is_finished) watch(channel, channel.events | EPOLLIN);
       send(channel);
       break;
     case State::Free:
@@ -330,7 +319,7 @@ int Channels::openSender(uint32_t address, uint16_t port, int32_t& error) {
 void Channels::openChannel(Channel& channel) {
   const rung_channel_settings settings = channel.settings;
   if (channel.served != 0 && !image_.isReady()) {  // until the first border of an activation
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     waits_for_image_ = true;
     if (!channel.is_queued) queue_.push_back(static_cast<uint32_t>(&channel - channels_.get()));
     channel.is_queued = true;
@@ -364,7 +353,7 @@ void Channels::finishOpening(Channel& channel, int fd, bool is_open, int32_t err
     unsent.allocate(capacity);
   }
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     if (channel.state == State::Asked) {
       channel.state = error != 0 ? State::Ended : is_open ? State::Open : State::Opening;
       channel.error = error;
@@ -405,7 +394,7 @@ void Channels::release(Channel& channel) {
     if (channel.settings.kind == RUNG_CHANNEL_MODBUS_TCP) masters_->closeOf(servers_[channel.served - 1]);
   }
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     if (channel.served != 0) is_served_[channel.served - 1] = false;
     channel.state = State::Free;
   }
@@ -414,7 +403,7 @@ void Channels::release(Channel& channel) {
 }
 
 bool Channels::waitsFor(const Channel& channel, int64_t server) {
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return channel.state == State::Opening && channel.settings.kind == RUNG_CHANNEL_TCP_ACCEPT &&
          channel.settings.server == server;
 }
@@ -422,11 +411,10 @@ bool Channels::waitsFor(const Channel& channel, int64_t server) {
 void Channels::end(Channel& channel, int32_t error) {
   if (channel.fd >= 0) ::close(channel.fd);
   channel.fd = -1;
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   if (channel.state == State::Closing) return;
   channel.state = State::Ended;
   channel.error = error;
-  channel.unsent.clear();
   channel.in_driver = 0;
 }
 
@@ -436,7 +424,7 @@ void Channels::end(Channel& channel, int32_t error) {
 void Channels::watchServer(int64_t server) {
   Channel& channel = channels_[static_cast<size_t>((server - 1) % kMost)];
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     if (find(server) == nullptr) return;
   }
   bool is_wanted = false;
@@ -456,7 +444,7 @@ void Channels::acceptClients(Channel& server) {
     channel.fd = fd;
     channel.events = 0;
     watch(channel, EPOLLIN);
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     if (channel.state == State::Opening) channel.state = State::Open;
   }
   watchServer(handle);
@@ -466,14 +454,14 @@ void Channels::onEvent(Channel& channel, uint32_t events) {
   if (channel.fd < 0) return;
   State state;
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     state = channel.state;
   }
   if (state == State::Opening) {
     const int32_t error = connectError(channel.fd);
     if (error != 0) return end(channel, error == RUNG_CHANNEL_CLOSED ? int32_t{RUNG_CHANNEL_REFUSED} : error);
     {
-      const Held held(*this);
+      const std::lock_guard<PriorityMutex> lock(mutex_);
       if (channel.state == State::Opening) channel.state = State::Open;
     }
     watch(channel, EPOLLIN);
@@ -495,7 +483,7 @@ void Channels::receive(Channel& channel) {
   for (int i = 0; i < kReadsPerEvent && channel.fd >= 0; ++i) {
     uint32_t room = kChunk;
     if (!is_datagram) {
-      const Held held(*this);
+      const std::lock_guard<PriorityMutex> lock(mutex_);
       room = std::min(room, channel.received.room());
       channel.is_full = room == 0;
     }
@@ -511,8 +499,13 @@ void Channels::receive(Channel& channel) {
     // What a peer of datagrams refuses says nothing about the next one.
     if (is_datagram && count < 0) return;
     if (count < 0) return end(channel, errno == ECONNRESET ? RUNG_CHANNEL_CLOSED : RUNG_CHANNEL_FAILED);
-    if (count == 0 && !is_datagram) return end(channel, is_line ? RUNG_CHANNEL_FAILED : RUNG_CHANNEL_CLOSED);
-    const Held held(*this);
+    if (count == 0 && is_line) return end(channel, RUNG_CHANNEL_FAILED);
+    if (count == 0 && !is_datagram) {
+      const std::lock_guard<PriorityMutex> lock(mutex_);
+      channel.is_finished = true;
+      return watch(channel, channel.events & ~uint32_t{EPOLLIN});
+    }
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     if (channel.state != State::Open) return;
     if (is_datagram) {
       // Datagrams that find no room are lost, as on the way.
@@ -538,7 +531,7 @@ bool Channels::sendOne(Channel& channel) {
   uint32_t count = 0, header_size = 0;
   DatagramHeader header{};
   {
-    const Held held(*this);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     count = std::min(channel.unsent.size(), kChunk);
     if (count == 0) return false;
     if (isDatagram(channel)) {
@@ -564,7 +557,7 @@ bool Channels::sendOne(Channel& channel) {
     return false;
   }
   if (header_size != 0) sent = count;  // a datagram that cannot go is lost
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   channel.unsent.remove(std::min(channel.unsent.size(), static_cast<uint32_t>(sent) + header_size));
   return true;
 }
@@ -576,7 +569,7 @@ void Channels::send(Channel& channel) {
   if (channel.fd < 0) return;
   const bool is_line = isSerial(channel.settings.kind);
   const uint32_t in_driver = is_line ? unsentOfDriver(channel.fd) : 0;
-  const Held held(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   channel.in_driver = in_driver;
   if (channel.unsent.size() == 0 && (channel.events & EPOLLOUT) != 0) watch(channel, channel.events & ~EPOLLOUT);
 }
@@ -592,7 +585,7 @@ int64_t Channels::runTimers() {
     if (channel.settings.kind == RUNG_CHANNEL_MODBUS_RTU) {
       uint8_t reply[RUNG_MODBUS_MAX_RTU];
       const uint32_t size = channel.line.answer(image_, servers_[channel.served - 1], now, reply);
-      // A line that takes no bytes, since nobody reads them, loses the reply.
+      // A line that takes no bytes, since they are not read, loses the reply.
       if (size > 0) (void)!::write(channel.fd, reply, size);
       next = std::min(next, channel.line.dueNs());
     } else if (channel.in_driver > 0) {

@@ -4,7 +4,6 @@
 // (--serial). Out: the table for the host. Buffers are allocated by the engine when a channel opens, never in a cycle.
 #pragma once
 
-#include <pthread.h>
 #include <atomic>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 
 #include "byte_ring.h"
 #include "modbus_server.h"
+#include "priority_mutex.h"
 #include "served_image.h"
 
 namespace rung::host {
@@ -42,7 +42,7 @@ class Channels {
   int64_t read(int64_t channel, void* bytes, uint64_t count, rung_endpoint* from);
   int64_t write(int64_t channel, const void* bytes, uint64_t count, const rung_endpoint* to);
   int64_t close(int64_t channel);
-  // The program begins anew.
+  // The program begins again.
   void closeAll();
 
  private:
@@ -63,7 +63,8 @@ class Channels {
     int32_t error = 0;
     uint32_t generation = 0;
     bool is_queued = false;
-    bool is_full = false;  // what arrives waits in the system until there is room
+    bool is_full = false;      // what arrives waits in the system until there is room
+    bool is_finished = false;  // the peer sends no more, but may still receive
     uint32_t in_driver = 0;
     rung_channel_settings settings{};
     char address[48] = {};
@@ -74,7 +75,6 @@ class Channels {
     uint32_t events = 0;
     RtuLine line;
   };
-  class Held;
 
   Channel* find(int64_t handle);
   int64_t handleOf(const Channel& channel) const;
@@ -107,7 +107,7 @@ class Channels {
   const SerialDevices devices_;
   ServedImage& image_;
   int epoll_ = -1, wake_ = -1;
-  pthread_mutex_t mutex_;  // guards the channels; held for copies of bytes only; passes priority on
+  PriorityMutex mutex_;  // guards the channels; held for copies of bytes only
   std::unique_ptr<Channel[]> channels_;
   std::vector<uint32_t> queue_, taken_;  // channels with wishes; capacity kMost
   std::atomic<uint32_t> used_{0};

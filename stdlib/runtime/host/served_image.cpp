@@ -3,22 +3,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 namespace rung::host {
 namespace {
 
 constexpr uint32_t kFunction = 7;  // in a frame over TCP
-
-class Held {
- public:
-  explicit Held(pthread_mutex_t& mutex) : mutex_(mutex) { pthread_mutex_lock(&mutex_); }
-  ~Held() { pthread_mutex_unlock(&mutex_); }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-
- private:
-  pthread_mutex_t& mutex_;
-};
 
 // Whether a request with this function code may write.
 bool mayWrite(uint8_t function) { return function >= 5; }
@@ -29,15 +19,7 @@ ServedImage::ServedImage(const rung_module& module)
     : module_(module),
       inputs_{0, std::vector<uint8_t>(RUNG_MODBUS_INPUT_BYTES), {}},
       outputs_{1, std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES), std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES)},
-      memory_{2, std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES), std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES)} {
-  pthread_mutexattr_t attributes;
-  pthread_mutexattr_init(&attributes);
-  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-  pthread_mutex_init(&mutex_, &attributes);
-  pthread_mutexattr_destroy(&attributes);
-}
-
-ServedImage::~ServedImage() { pthread_mutex_destroy(&mutex_); }
+      memory_{2, std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES), std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES)} {}
 
 void ServedImage::reset() {
   is_used_.store(false);
@@ -59,7 +41,7 @@ void ServedImage::applyWritten(Part& part, uint8_t* common, uint32_t size) const
 
 void ServedImage::exchange(uint8_t* const* areas) {
   if (!is_used_.load(std::memory_order_relaxed)) return;
-  const Held held(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   for (Part* const part : {&inputs_, &outputs_, &memory_}) {
     const uint32_t size = std::min(static_cast<uint32_t>(part->bytes.size()), module_.areas[part->area].size);
     if (has_written_ && !part->written.empty()) applyWritten(*part, areas[part->area], size);
@@ -70,7 +52,7 @@ void ServedImage::exchange(uint8_t* const* areas) {
 }
 
 void ServedImage::setRegisters(Server& server, const void* values, uint32_t bytes) {
-  const Held held(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   memcpy(server.registers, values, bytes);
   server.register_count = bytes / 2;
 }
@@ -84,14 +66,14 @@ rung_modbus_image ServedImage::imageOf(const Server& server) {
 }
 
 uint32_t ServedImage::answerTcp(const Server& server, const uint8_t* frame, uint8_t* reply) {
-  const Held held(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const rung_modbus_image image = imageOf(server);
   has_written_ = has_written_ || mayWrite(frame[kFunction]);
   return rung_modbus_answer_tcp(&image, server.unit, frame, reply);
 }
 
 uint32_t ServedImage::answerRtu(const Server& server, const uint8_t* frame, uint32_t size, uint8_t* reply) {
-  const Held held(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const rung_modbus_image image = imageOf(server);
   has_written_ = has_written_ || mayWrite(frame[1]);
   return rung_modbus_answer_rtu(&image, server.unit, frame, size, reply);

@@ -4,10 +4,10 @@
 // program does not have keep what masters wrote (AX manual, tables 3-1 and 3-3: the areas have a fixed size).
 #pragma once
 
-#include <pthread.h>
 #include <atomic>
 #include <vector>
 
+#include "priority_mutex.h"
 #include "rung/modbus.h"
 #include "rung/module.h"
 
@@ -16,7 +16,6 @@ namespace rung::host {
 class ServedImage {
  public:
   explicit ServedImage(const rung_module& module);
-  ~ServedImage();
   ServedImage(const ServedImage&) = delete;
   ServedImage& operator=(const ServedImage&) = delete;
 
@@ -50,7 +49,7 @@ class ServedImage {
 
   const rung_module& module_;
   std::atomic<bool> is_used_{false}, is_ready_{false};
-  pthread_mutex_t mutex_;  // guards all below; passes priority on
+  PriorityMutex mutex_;  // guards all below
   bool has_written_ = false;
   Part inputs_, outputs_, memory_;
 };

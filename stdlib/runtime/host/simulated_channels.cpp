@@ -4,32 +4,34 @@
 #include <algorithm>
 #include <cstring>
 
+#include "byte_ring.h"
 #include "sockets.h"
 
 namespace rung::host {
 namespace {
 
-constexpr int64_t kLatencyNs = 1'000'000;     // of the network
-constexpr uint32_t kStreamBytes = 16 * 1024;  // on the way in one direction, as in Channels
+constexpr int64_t kLatencyNs = 1'000'000;  // of the network
 constexpr size_t kMostDatagrams = 256;
 constexpr uint32_t kLoopback = 0x7f000001;
-constexpr uint32_t kMaxDatagram = 65507, kFirstFreePort = 49152;
+constexpr uint32_t kFirstFreePort = 49152;
 
-SimulatedChannels& of(void* data) { return *static_cast<SimulatedChannels*>(data); }
+SimulatedChannels& simulationOf(void* data) { return *static_cast<SimulatedChannels*>(data); }
 
-const rung_channels kTable = {
-    [](void* data, const rung_channel_settings* settings) { return of(data).open(*settings); },
-    [](void* data, int64_t channel, rung_channel_status* status) { return of(data).status(channel, *status); },
+const rung_channels kSimulatedTable = {
+    [](void* data, const rung_channel_settings* settings) { return simulationOf(data).open(*settings); },
+    [](void* data, int64_t channel, rung_channel_status* status) {
+      return simulationOf(data).status(channel, *status);
+    },
     [](void* data, int64_t channel, void* bytes, uint64_t count, rung_endpoint* from) {
-      return of(data).read(channel, bytes, count, from);
+      return simulationOf(data).read(channel, bytes, count, from);
     },
     [](void* data, int64_t channel, const void* bytes, uint64_t count, const rung_endpoint* to) {
-      return of(data).write(channel, bytes, count, to);
+      return simulationOf(data).write(channel, bytes, count, to);
     },
-    [](void* data, int64_t channel) { return of(data).close(channel); },
+    [](void* data, int64_t channel) { return simulationOf(data).close(channel); },
 };
 
-bool isSerial(uint8_t kind) {
+bool isLine(uint8_t kind) {
   return kind == RUNG_CHANNEL_SERIAL || kind == RUNG_CHANNEL_MODBUS_RTU || kind == RUNG_CHANNEL_SERIAL_PEER;
 }
 bool isServer(uint8_t kind) { return kind == RUNG_CHANNEL_TCP_SERVER || kind == RUNG_CHANNEL_MODBUS_TCP; }
@@ -39,7 +41,7 @@ bool isAt(uint32_t own, uint32_t address) { return own == 0 || own == address; }
 }  // namespace
 
 void SimulatedChannels::serve(rung_host& host) {
-  host.channels = &kTable;
+  host.channels = &kSimulatedTable;
   host.channels_data = this;
 }
 
@@ -59,7 +61,7 @@ int64_t SimulatedChannels::add(const rung_channel_settings& settings) {
 SimulatedChannels::Channel* SimulatedChannels::lineEnd(uint16_t port, bool is_peer) {
   for (Channel& channel : channels_) {
     const uint8_t kind = channel.settings.kind;
-    if (!channel.is_closed && isSerial(kind) && channel.settings.port == port &&
+    if (!channel.is_closed && isLine(kind) && channel.settings.port == port &&
         (kind == RUNG_CHANNEL_SERIAL_PEER) == is_peer)
       return &channel;
   }
@@ -76,7 +78,7 @@ int64_t SimulatedChannels::open(const rung_channel_settings& settings) {
   uint32_t address = 0;
   const uint8_t kind = settings.kind;
   if (kind < RUNG_CHANNEL_SERIAL || kind > RUNG_CHANNEL_SERIAL_PEER) return RUNG_CHANNEL_DENIED;
-  if (isSerial(kind)) {
+  if (isLine(kind)) {
     if (settings.port < 1) return RUNG_CHANNEL_ADDRESS;
     if (lineEnd(settings.port, kind == RUNG_CHANNEL_SERIAL_PEER) != nullptr) return RUNG_CHANNEL_IN_USE;
     if (kind != RUNG_CHANNEL_SERIAL_PEER && checkSerialSettings(settings) != 0) return RUNG_CHANNEL_SETTING;
@@ -172,7 +174,7 @@ void SimulatedChannels::settle() {
 }
 
 SimulatedChannels::Channel* SimulatedChannels::otherEnd(const Channel& channel) {
-  if (isSerial(channel.settings.kind))
+  if (isLine(channel.settings.kind))
     return lineEnd(channel.settings.port, channel.settings.kind != RUNG_CHANNEL_SERIAL_PEER);
   return find(channel.peer);
 }
@@ -202,11 +204,11 @@ int64_t SimulatedChannels::status(int64_t handle, rung_channel_status& status) {
     status.state = RUNG_CHANNEL_CLOSED;
   else
     status.state = channel->is_open ? 1 : 0;
-  if (!isSerial(channel->settings.kind)) return 0;
+  if (!isLine(channel->settings.kind)) return 0;
   if (const Channel* const end = otherEnd(*channel))
     for (const Chunk& chunk : end->arriving)
       if (chunk.arrives_ns > context_.now_ns) status.unsent += static_cast<uint32_t>(chunk.bytes.size());
-  if (status.unsent == 0 && channel->line_free_ns > context_.now_ns) status.unsent = 1;  // nobody is at the other end
+  if (status.unsent == 0 && channel->line_free_ns > context_.now_ns) status.unsent = 1;  // the other end is not open
   return 0;
 }
 
@@ -241,7 +243,7 @@ int64_t SimulatedChannels::read(int64_t handle, void* bytes, uint64_t count, run
   return static_cast<int64_t>(taken);
 }
 
-// A character takes its time; where nobody listens it is lost.
+// A character takes its time; where no one listens it is lost.
 int64_t SimulatedChannels::sendOnLine(Channel& channel, const std::string& bytes) {
   Channel* const end = otherEnd(channel);
   const rung_channel_settings& own =
@@ -253,7 +255,7 @@ int64_t SimulatedChannels::sendOnLine(Channel& channel, const std::string& bytes
 
 int64_t SimulatedChannels::send(Channel& channel, const void* bytes, uint64_t count, const rung_endpoint* to) {
   const std::string text(static_cast<const char*>(bytes), count);
-  if (isSerial(channel.settings.kind)) return sendOnLine(channel, text);
+  if (isLine(channel.settings.kind)) return sendOnLine(channel, text);
   if (!isDatagram(channel.settings.kind)) {
     Channel* const end = otherEnd(channel);
     if (end == nullptr) return static_cast<int64_t>(count);  // the peer is gone; this end does not know yet

@@ -51,7 +51,7 @@ class SimulatedChannels {
     int64_t peer_closed_ns = -1;  // when the end of the peer arrives
     int64_t line_free_ns = 0;     // serial line: when all that was written has left
     std::deque<Chunk> arriving;
-    std::deque<int64_t> waiting;        // TCP server: ends of connections that nobody has accepted
+    std::deque<int64_t> waiting;        // TCP server: ends of connections that wait to be accepted
     ServedImage::Server server;         // Modbus servers
     std::unique_ptr<TcpMaster> master;  // one end of a connection to one of them
     int64_t master_of = 0;

@@ -18,7 +18,7 @@ namespace {
 constexpr int kBacklog = 256;
 constexpr int kSilenceSeconds = 30, kProbeSeconds = 5, kProbes = 3;  // of a peer that may have vanished
 
-int32_t errorOf(int number) {
+int32_t channelError(int number) {
   switch (number) {
     case EADDRNOTAVAIL:
     case EINVAL:
@@ -42,7 +42,7 @@ int32_t errorOf(int number) {
 }
 
 int fail(int fd, int32_t& error) {
-  error = errorOf(errno);
+  error = channelError(errno);
   if (fd >= 0) close(fd);
   return -1;
 }
@@ -80,6 +80,13 @@ speed_t speedOf(uint32_t rate) {
     case 921600: return B921600;
     default: return B0;
   }
+}
+
+// It has all settings but the parity, which the C library reports as an error.
+bool isPseudoTerminal(int fd, const termios& wanted) {
+  termios now{};
+  return errno == EINVAL && tcgetattr(fd, &now) == 0 && cfgetospeed(&now) == cfgetospeed(&wanted) &&
+         (wanted.c_cflag & PARENB) != 0 && (now.c_cflag & PARENB) == 0;
 }
 
 }  // namespace
@@ -130,7 +137,7 @@ int acceptClient(int server, int32_t& error) {
   if (fd >= 0)
     prepareStream(fd);
   else if (errno != EAGAIN && errno != ECONNABORTED && errno != EINTR)
-    error = errorOf(errno);
+    error = channelError(errno);
   return fd;
 }
 
@@ -138,7 +145,7 @@ int32_t connectError(int fd) {
   int number = 0;
   socklen_t size = sizeof number;
   getsockopt(fd, SOL_SOCKET, SO_ERROR, &number, &size);
-  return number == 0 ? 0 : errorOf(number);
+  return number == 0 ? 0 : channelError(number);
 }
 
 int32_t checkSerialSettings(const rung_channel_settings& settings) {
@@ -174,7 +181,7 @@ int openSerial(const char* device, const rung_channel_settings& settings, int32_
   line.c_cc[VTIME] = 0;
   cfsetispeed(&line, speedOf(settings.rate));
   cfsetospeed(&line, speedOf(settings.rate));
-  if (tcsetattr(fd, TCSANOW, &line) != 0) return fail(fd, error);
+  if (tcsetattr(fd, TCSANOW, &line) != 0 && !isPseudoTerminal(fd, line)) return fail(fd, error);
   tcflush(fd, TCIOFLUSH);
   return fd;
 }

@@ -192,7 +192,7 @@ int32_t rung_modbus_rtu_request(const uint8_t* bytes, size_t count) {
     if (count < 7) return 0;
     size = 9u + bytes[6];
   } else if (bytes[1] > kWriteRegister || bytes[1] == 0) {
-    size = count;  // of unknown length: the silence behind it ends it
+    size = count;  // of unknown length: the silence after it ends it
   }
   if (size > RUNG_MODBUS_MAX_RTU) return -1;
   if (count < size || size < 4) return 0;

@@ -44,7 +44,7 @@ uint32_t rung_modbus_answer(const rung_modbus_image* image, const uint8_t* reque
 
 uint16_t rung_modbus_crc(const uint8_t* bytes, size_t count);
 
-/* The frame at the begin of `bytes`. Returns its size, 0 while it is incomplete, or -1 for bytes that are none. */
+/* The frame at the begin of `bytes`. Returns its size, 0 while it is incomplete, or -1 for other bytes. */
 int32_t rung_modbus_tcp_frame(const uint8_t* bytes, size_t count);
 /* A request on a serial line, the checksum included. */
 int32_t rung_modbus_rtu_request(const uint8_t* bytes, size_t count);
