@@ -4,7 +4,8 @@
 #   tools/install-packages.sh [--tests]
 set -eu
 packages=(g++ cmake ninja-build libgtest-dev python3)
-[ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user)
+[ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user
+    socat libmodbus-dev python3-pymodbus python3-serial-asyncio)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -32,14 +32,14 @@ bool Drivers::load(const std::string& spec, std::string& error) {
   return true;
 }
 
-void Drivers::simulateModules(Symbols& symbols) {
+void Drivers::simulateModules(Symbols& symbols, Hsio& hsio) {
   for (uint32_t i = 0; i < module_.io_module_count; ++i) {
     const rung_io_module& row = module_.io_modules[i];
     const char* const name = module_.strings + row.name;
     const auto serves = [&](const Bound& bound) { return strcasecmp(bound.driver->name, name) == 0; };
     const ModuleType* const type = findModuleType(module_.strings + row.type, module_.strings[row.station] != 0);
     if (type == nullptr || std::any_of(drivers_.begin(), drivers_.end(), serves)) continue;
-    std::unique_ptr<SimulatedModule> module = simulate(*type, row.input_offset, row.output_offset);
+    std::unique_ptr<SimulatedModule> module = simulate(*type, row.input_offset, row.output_offset, hsio);
     if (module == nullptr) continue;
     for (Terminal& wire : module->terminals()) symbols.addTerminal(name, wire);
     rung_driver driver{};

@@ -29,21 +29,27 @@ int64_t Hsio::advance(int64_t until_ns, uint32_t& interrupts) {
   return model_.now;
 }
 
+int64_t Hsio::read(uint32_t item, uint32_t index, int64_t now_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  catchUp(now_ns);
+  return rung_hsio_read(&model_, item, index);
+}
+
+bool Hsio::write(uint32_t item, uint32_t index, int64_t value, int64_t now_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  catchUp(now_ns);
+  is_used_ = true;
+  const bool done = rung_hsio_write(&model_, item, index, value);
+  pending_ |= rung_hsio_take_interrupts(&model_);
+  return done;
+}
+
 int64_t Hsio::onRead(void* data, uint32_t item, uint32_t index, int64_t now_ns) {
-  Hsio& hsio = *static_cast<Hsio*>(data);
-  const std::lock_guard<std::mutex> lock(hsio.mutex_);
-  hsio.catchUp(now_ns);
-  return rung_hsio_read(&hsio.model_, item, index);
+  return static_cast<Hsio*>(data)->read(item, index, now_ns);
 }
 
 bool Hsio::onWrite(void* data, uint32_t item, uint32_t index, int64_t value, int64_t now_ns) {
-  Hsio& hsio = *static_cast<Hsio*>(data);
-  const std::lock_guard<std::mutex> lock(hsio.mutex_);
-  hsio.catchUp(now_ns);
-  hsio.is_used_ = true;
-  const bool done = rung_hsio_write(&hsio.model_, item, index, value);
-  hsio.pending_ |= rung_hsio_take_interrupts(&hsio.model_);
-  return done;
+  return static_cast<Hsio*>(data)->write(item, index, value, now_ns);
 }
 
 void Hsio::readImage(uint8_t* inputs, int64_t now_ns) {

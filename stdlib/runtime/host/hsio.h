@@ -19,6 +19,10 @@ class Hsio {
   // occurred since the last call.
   int64_t advance(int64_t until_ns, uint32_t& interrupts);
 
+  // Registers of rung/hsio.h.
+  int64_t read(uint32_t item, uint32_t index, int64_t now_ns);
+  bool write(uint32_t item, uint32_t index, int64_t value, int64_t now_ns);
+
   // The device HIGH_PULSE_IO: its inputs and outputs in the image.
   void readImage(uint8_t* inputs, int64_t now_ns);
   void writeImage(const uint8_t* outputs, int64_t now_ns);

@@ -12,6 +12,8 @@
 namespace rung::host {
 namespace {
 
+constexpr int64_t kMaxSerialPort = 255;
+
 // Reads `T#10ms`, `10ms`, `1.5s` as nanoseconds, above 0.
 bool readDuration(const std::string& text, int64_t& ns) {
   const std::string literal = text.find('#') == std::string::npos ? "LT#" + text : text;
@@ -42,6 +44,7 @@ const char kHelp[] =
     "  --on-fault all|task   what a fault stops: all tasks (default), or the one that it is in\n"
     "  --control FILE        stop, start, reset and single cycles: commands, each after the number of its cycle;\n"
     "                        in real time also a pipe\n"
+    "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
 
@@ -68,10 +71,10 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles",  "--for",        "--interval",       "--inputs",    "--set",
-                                             "--watch",   "--trace",      "--plot",           "--retain",    "--start",
-                                             "--stop-on", "--files-root", "--timeout",        "--max-steps", "--driver",
-                                             "--control", "--on-fault",   "--retain-interval"};
+    static const char* const with_value[] = {
+        "--cycles", "--for",     "--interval", "--inputs",          "--set",        "--watch",   "--trace",
+        "--plot",   "--retain",  "--start",    "--stop-on",         "--files-root", "--timeout", "--max-steps",
+        "--driver", "--control", "--on-fault", "--retain-interval", "--serial"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
@@ -122,6 +125,14 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     } else if (name == "--retain-interval") {
       if (!readDuration(value, options.retain_interval_ns))
         return "--retain-interval needs a time such as 100ms, not `" + value + "`";
+    } else if (name == "--serial") {
+      int64_t port = 0;
+      const size_t separator = value.find('=');
+      if (separator == std::string::npos || separator + 1 == value.size() ||
+          !readCount(value.substr(0, separator), port) || port < 1 || port > kMaxSerialPort)
+        return "--serial needs a port and its device, 1=/dev/ttyUSB0, not `" + value + "`";
+      if (!options.serial.emplace(static_cast<uint32_t>(port), value.substr(separator + 1)).second)
+        return "--serial: port " + std::to_string(port) + " is given twice";
     } else if (name == "--driver") {
       options.drivers.push_back(value);
     } else if (name == "--control") {

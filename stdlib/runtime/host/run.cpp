@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "call_trace.h"
+#include "channels.h"
 #include "commands.h"
 #include "condition.h"
 #include "controller.h"
@@ -25,6 +26,7 @@
 #include "rung/host.h"
 #include "rung/retain.h"
 #include "schedule.h"
+#include "sockets.h"
 #include "stopper.h"
 #include "trace.h"
 
@@ -80,7 +82,11 @@ struct Run {
         stop_on(symbols),
         plot(chosen),
         calls(chosen, memory),
-        files(chosen_options.files_root, chosen_options.realtime) {}
+        files(chosen_options.files_root, chosen_options.realtime),
+        served(chosen),
+        channels(chosen_options.serial, served) {
+    tasks.serveImage(served);
+  }
 
   ~Run() { running = nullptr; }
 
@@ -88,6 +94,7 @@ struct Run {
   bool loadAll(std::string& error);
   int start();
   int runVirtual();
+  void keepPace(int64_t row);
   int runInRealTime();
   int finish(bool faulted, const std::string& what, const std::string& extra);
 
@@ -130,18 +137,21 @@ struct Run {
   CallTrace calls;
   Files files;
   Controller controller;
+  ServedImage served;
+  Channels channels;
   Commands commands;
   std::optional<Retain> retain;
   std::optional<Stopper> stopper;  // in virtual time
   Realtime* realtime = nullptr;    // while it runs
   rung_host host{};
-  char machine_name[256] = {};
+  char machine_name[256] = {}, machine_address[32] = {};
   std::vector<std::string> reported;  // locations of violated assertions
   std::mutex reported_mutex;          // tasks in real time are threads
   std::vector<bool> is_reported;      // by task: that a fault has stopped it
   int64_t cycles = 0;
   int64_t rows_done = 0;
   int64_t base_ns = 0;      // the program's time at row 0
+  int64_t pace_ns = 0;      // in virtual time: the clock at row 0, while a channel is open
   bool is_stopped = false;  // by a command
   bool single_cycle = false;
   bool has_quit = false;
@@ -248,7 +258,7 @@ void Run::reportChanges() const {
 bool Run::loadAll(std::string& error) {
   for (const std::string& driver : options.drivers)
     if (!drivers.load(driver, error)) return error.insert(0, "--driver: "), false;
-  drivers.simulateModules(symbols);
+  drivers.simulateModules(symbols, hsio);
   if (!tasks.prepare(error)) return false;
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return false;
   if (!options.control_path.empty() && !commands.open(options.control_path, options.realtime, error)) return false;
@@ -295,8 +305,10 @@ int Run::prepare() {
   host.diagnosis = &controller.diagnosis();
   host.message = onMessage;
   if (gethostname(machine_name, sizeof machine_name - 1) == 0) host.name = machine_name;
+  host.address = findOwnAddress(machine_address, sizeof machine_address);
   files.serve(host);
   hsio.serve(host);
+  channels.serve(host);
   host.assertion = onAssertion;
   context.host = &host;
   context.host_data = this;
@@ -337,6 +349,7 @@ bool Run::reset(rung_start kind) {
   std::vector<uint64_t> kept(rung_retain_bytes(&module) / 8 + 1);
   memory.end();
   rung_retain_pack(&memory.context(), kept.data());
+  channels.closeAll();
   const int64_t now = nowNs();
   if (memory.reset(true) != RUNG_FAULT_NONE) {
     cycle_fault = describe(memory.context(), memory.context().fault);
@@ -468,6 +481,17 @@ std::string driverText(const std::string& driver) { return "fault[driver]: `" + 
 
 // ---- virtual time
 
+// A program with open channels keeps pace with the clock: peers do.
+void Run::keepPace(int64_t row) {
+  if (!channels.isUsed()) {
+    pace_ns = 0;
+    return;
+  }
+  const int64_t row_ns = tasks.rowNs();
+  if (pace_ns == 0) pace_ns = monotonicNow() - (row - 1) * row_ns;
+  channels.runUntil(pace_ns + row * row_ns);
+}
+
 int Run::runVirtual() {
   rung_context& context = memory.context();
   const int64_t row_ns = tasks.rowNs();
@@ -479,6 +503,7 @@ int Run::runVirtual() {
   };
   for (int64_t row = 0; row < cycles; ++row) {
     if (!obey(row)) break;
+    keepPace(row);
     inputs.apply(row);
     const Schedule::Ending ending = is_stopped ? Schedule::Ending::Complete : schedule.run(base_ns + row * row_ns);
     if (options.trace_calls) fputs(calls.line(row).c_str(), options.out);
@@ -546,7 +571,9 @@ int Run::runInRealTime() {
   {
     const Saver saver(*this);
     realtime = &threads;
+    channels.start();
     result = threads.run();
+    channels.stop();
   }
   rows_done = result.rows;
   if (const std::string simulated = drivers.simulatedNames(); !simulated.empty())

@@ -106,6 +106,7 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
     noteStart(task, now_ns + late_ns, late_ns);
     const std::string lost = drivers_.read(task.index, now_ns);
     if (!lost.empty()) lost_driver_ = lost;
+    exchangeServed();
   }
   exchange_.take(task.index, context);
   context.now_ns = now_ns;
@@ -130,6 +131,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   const Exchange::Lock lock(exchange_);
   noteEnd(task, took_ns);
   if (!goes_on) return false;
+  exchangeServed();
   const std::string lost = drivers_.write(task.index, now_ns);
   if (!lost.empty()) lost_driver_ = lost;
   return true;

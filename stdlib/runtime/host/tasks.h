@@ -8,6 +8,7 @@
 
 #include "drivers.h"
 #include "exchange.h"
+#include "served_image.h"
 #include "symbols.h"
 
 namespace rung::host {
@@ -47,6 +48,8 @@ class Tasks {
   const Task* fastest() const { return fastest_ == RUNG_NONE ? nullptr : &tasks_[fastest_]; }
   std::string nameOf(const Task& task) const;
 
+  // What Modbus masters see is exchanged at the borders of all activations.
+  void serveImage(ServedImage& image) { served_ = &image; }
   // Before the first activation: the inputs of all devices.
   void readInputs(int64_t now_ns) {
     const Exchange::Lock lock(exchange_);
@@ -86,6 +89,9 @@ class Tasks {
  private:
   void noteStart(Task& task, int64_t start_ns, int64_t late_ns);
   void noteEnd(Task& task, int64_t took_ns);
+  void exchangeServed() {
+    if (served_ != nullptr) served_->exchange(memory_.context().areas);
+  }
 
   const Symbols& symbols_;
   Memory& memory_;
@@ -96,6 +102,7 @@ class Tasks {
   std::vector<Task> tasks_;
   std::vector<rung_task_state> states_;
   std::string lost_driver_;
+  ServedImage* served_ = nullptr;
 };
 
 bool readBool(const Variable& variable);

@@ -15,6 +15,8 @@
 #include "memory.h"
 #include "output_file.h"
 #include "rung/host.h"
+#include "served_image.h"
+#include "simulated_channels.h"
 #include "stopper.h"
 #include "symbols.h"
 #include "test_process.h"
@@ -111,7 +113,8 @@ void onCrash(const char* signal) { noteWhere(runningContext(), std::string("cras
 class TestRunner {
  public:
   TestRunner(const rung_module& module, const TestOptions& options)
-      : module_(module), options_(options), memory_(module) {
+      : module_(module), options_(options), memory_(module), served_(module), channels_(memory_.context(), served_) {
+    channels_.serve(host_);
     host_.wall_clock = testClock;
     host_.set_wall_clock = setTestClock;
     host_.network = testNetwork;
@@ -164,6 +167,8 @@ class TestRunner {
   // Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
   void runCase(const rung_test& test, Case& result, Stopper& stopper) {
     rung_context& context = memory_.context();
+    served_.reset();
+    channels_.reset();
     if (faulted(result, memory_.reset())) return;
     context.entry = &test;
     context.task = 1;
@@ -180,7 +185,10 @@ class TestRunner {
     for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
       if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
       context.activation = static_cast<uint32_t>(cycle) + 1;
+      served_.exchange(context.areas);
       if (faulted(result, guarded(&context, test.run))) return;
+      served_.exchange(context.areas);
+      channels_.answerMasters();
       if (stopper.reason() != RUNG_STOP_NONE) {  // seen by no poll
         result.fail(TestResult::Broken, describeFault(context, stopper.fault(), options_.paths));
         return;
@@ -194,6 +202,8 @@ class TestRunner {
   const rung_module& module_;
   const TestOptions& options_;
   Memory memory_;
+  ServedImage served_;
+  SimulatedChannels channels_;
   rung_host host_{};
   bool interrupted_ = false;
 };

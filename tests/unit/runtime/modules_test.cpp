@@ -10,6 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "stdlib/runtime/host/hsio.h"
+
 using namespace rung::host;
 
 namespace {
@@ -88,12 +90,13 @@ TEST(Modules, AreFoundByNameAndForm) {
   EXPECT_NE(findModuleType("ax_em_4ad", false), nullptr);
   EXPECT_EQ(findModuleType("AX_EM_5AD", false), nullptr);
   EXPECT_EQ(findModuleType("AE1420_AE2420", true), nullptr);  // not in the rack of a coupler
-  EXPECT_EQ(simulate(*findModuleType("AX_EM_RCM_ET", false), 0, 0), nullptr);
+  Hsio hsio;
+  EXPECT_EQ(simulate(*findModuleType("AX_EM_RCM_ET", false), 0, 0, hsio), nullptr);
 }
 
 // A module with its part of the image.
 struct Bench {
-  Bench(const char* name, bool is_remote) : type(*findModuleType(name, is_remote)), module(simulate(type, 0, 0)) {
+  Bench(const char* name, bool is_remote) : type(*findModuleType(name, is_remote)), module(simulate(type, 0, 0, hsio)) {
     inputs.resize(module->inputSize());
     outputs.resize(module->outputSize());
   }
@@ -128,6 +131,7 @@ struct Bench {
   void write(int64_t now) { module->write(outputs.data(), now); }
   void read(int64_t now) { module->read(inputs.data(), now); }
 
+  Hsio hsio;
   const ModuleType& type;
   std::unique_ptr<SimulatedModule> module;
   std::vector<uint8_t> inputs, outputs;

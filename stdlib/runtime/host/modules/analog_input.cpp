@@ -123,7 +123,7 @@ class AnalogInput final : public SimulatedModule {
       converters_[i].restart(signal(i, modeOf(word(i))), now_ns);
     }
   }
-  void driveSafeSignals(const uint8_t*) override {}
+  void driveSafeSignals(const uint8_t*, int64_t) override {}
 
   const Channels words_ = channels("CH#"), filter_ = channels("FP"), times_ = channels("FP#");
   const Channels codes_ = channels("IN#"), faults_ = channels("IN#_Fault_Code");

@@ -26,7 +26,7 @@ void SimulatedModule::read(uint8_t* inputs, int64_t now_ns) {
 void SimulatedModule::write(const uint8_t* outputs, int64_t now_ns) {
   if (has_stopped_) {
     has_stopped_ = false;
-    return driveSafeSignals(outputs);
+    return driveSafeSignals(outputs, now_ns);
   }
   memcpy(outputs_.data(), outputs, outputs_.size());
   driveSignals(now_ns);
@@ -72,13 +72,14 @@ void SimulatedModule::input(Channels channels, uint32_t index, uint32_t value) {
   memcpy(&inputs_[channels.byte + index * channels.size], &value, channels.size);
 }
 
-std::unique_ptr<SimulatedModule> simulate(const ModuleType& type, uint32_t input_offset, uint32_t output_offset) {
+std::unique_ptr<SimulatedModule> simulate(const ModuleType& type, uint32_t input_offset, uint32_t output_offset,
+                                          Hsio& hsio) {
   switch (type.simulation) {
     case Simulation::Coupler: break;
     case Simulation::DigitalInput:
     case Simulation::DigitalOutput:
-    case Simulation::DigitalBoth:
-    case Simulation::HighSpeed: return simulateDigital(type, input_offset, output_offset);
+    case Simulation::DigitalBoth: return simulateDigital(type, input_offset, output_offset);
+    case Simulation::HighSpeed: return simulateHighSpeed(type, input_offset, output_offset, hsio);
     case Simulation::AnalogInput: return simulateAnalogInput(type, input_offset, output_offset);
     case Simulation::AnalogOutput: return simulateAnalogOutput(type, input_offset, output_offset);
     case Simulation::Temperature: return simulateTemperature(type, input_offset, output_offset);

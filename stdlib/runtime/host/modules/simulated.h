@@ -12,6 +12,8 @@
 
 namespace rung::host {
 
+class Hsio;
+
 // A wire: volts, milliamperes or degrees Celsius, or a state.
 struct Terminal {
   std::string name;
@@ -51,6 +53,7 @@ class SimulatedModule {
   Terminal* terminal(const char* name);
   uint32_t output(Channels channels, uint32_t index) const;
   int16_t signedOutput(Channels channels, uint32_t index) const;
+  const uint8_t* outputBytes() const { return outputs_.data(); }
   static uint32_t valueOf(const uint8_t* outputs, Channels channels, uint32_t index);
   void input(Channels channels, uint32_t index, uint32_t value);
 
@@ -60,7 +63,7 @@ class SimulatedModule {
   // Drives terminals; the outputs are new.
   virtual void driveSignals(int64_t now_ns) = 0;
   // The same with safe outputs. The settings of the channels are among the outputs and stay as the program left them.
-  virtual void driveSafeSignals(const uint8_t* safe_outputs) = 0;
+  virtual void driveSafeSignals(const uint8_t* safe_outputs, int64_t now_ns) = 0;
 
   const ModuleType& type_;
   uint32_t input_offset_, output_offset_;
@@ -69,14 +72,21 @@ class SimulatedModule {
   bool has_stopped_ = false;
 };
 
-// nullptr: a coupler, which has no channels.
-std::unique_ptr<SimulatedModule> simulate(const ModuleType& type, uint32_t input_offset, uint32_t output_offset);
+// nullptr: a coupler, which has no channels. `hsio`: the counter unit of HIGH_PULSE_IO.
+std::unique_ptr<SimulatedModule> simulate(const ModuleType& type, uint32_t input_offset, uint32_t output_offset,
+                                          Hsio& hsio);
 
 // Of the families, each in its own file.
 std::unique_ptr<SimulatedModule> simulateDigital(const ModuleType& type, uint32_t inputs, uint32_t outputs);
 std::unique_ptr<SimulatedModule> simulateAnalogInput(const ModuleType& type, uint32_t inputs, uint32_t outputs);
 std::unique_ptr<SimulatedModule> simulateAnalogOutput(const ModuleType& type, uint32_t inputs, uint32_t outputs);
 std::unique_ptr<SimulatedModule> simulateTemperature(const ModuleType& type, uint32_t inputs, uint32_t outputs);
+std::unique_ptr<SimulatedModule> simulateHighSpeed(const ModuleType& type, uint32_t inputs, uint32_t outputs,
+                                                   Hsio& hsio);
+
+// Whether a digital input of that many volts is on: above 15 it is, below 5 it is not, in between it stays what it was
+// (table 6-1).
+constexpr bool levelOf(double volts, bool before) { return before ? volts >= 5 : volts > 15; }
 
 // Versions of the simulated modules, 1.1.0, to be read as an octal number: 8#110.
 constexpr uint32_t kModuleVersion = 0110;

@@ -123,7 +123,7 @@ class Temperature final : public SimulatedModule {
       samplers_[i] = {};
     }
   }
-  void driveSafeSignals(const uint8_t*) override {}
+  void driveSafeSignals(const uint8_t*, int64_t) override {}
 
   const Channels words_ = channels("Config_Word#");  // of the remote form; the next ones of the local form
   const Channels flags_ = channels("Basic_Set_#"), types_ = channels("Sensor_type_#");

@@ -35,6 +35,7 @@ struct RunOptions {
   std::string retain_path;                                // --retain
   int64_t retain_interval_ns = 1'000'000'000;             // --retain-interval: how often it is written
   std::string files_root = ".";                           // --files-root
+  std::map<uint32_t, std::string> serial;                 // --serial N=DEVICE
   std::vector<std::string> drivers;                       // --driver PATH[=ARGUMENT]
   std::string control_path;                               // --control: commands to the running program
   bool others_go_on = false;                              // --on-fault=task: a fault stops its task alone

@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 11u
+#define RUNG_MODULE_ABI 12u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -342,6 +342,60 @@ typedef struct rung_hsio {
 
 /* Current faults of the controller, its modules and its links: rung/diagnosis.h. */
 typedef struct rung_diagnosis rung_diagnosis;
+/* Serial lines, TCP and UDP. A channel is a number > 0. No function waits: what takes time goes on between the calls,
+ * and `status` tells how far it is. A failing call returns a negative rung_channel_error. Buffers have a fixed size. */
+typedef enum rung_channel_error {
+  RUNG_CHANNEL_DENIED = -1,  /* the host has no channels of this kind */
+  RUNG_CHANNEL_ADDRESS = -2, /* not an IPv4 address, not one of this machine, or no such serial port */
+  RUNG_CHANNEL_HANDLE = -3,  /* not open, or not open for this */
+  RUNG_CHANNEL_IN_USE = -4,  /* another channel or program has the port */
+  RUNG_CHANNEL_LIMIT = -5,   /* too many channels, or bytes */
+  RUNG_CHANNEL_REFUSED = -6, /* the peer does not accept the connection, or cannot be reached */
+  RUNG_CHANNEL_CLOSED = -7,  /* by the peer */
+  RUNG_CHANNEL_SETTING = -8, /* a rate, format or unit that does not exist */
+  RUNG_CHANNEL_FAILED = -9
+} rung_channel_error;
+enum rung_channel_kind {
+  RUNG_CHANNEL_SERIAL = 1,
+  RUNG_CHANNEL_TCP_CLIENT = 2,
+  RUNG_CHANNEL_TCP_SERVER = 3,
+  RUNG_CHANNEL_TCP_ACCEPT = 4, /* of a TCP server: opens when a client comes */
+  RUNG_CHANNEL_UDP = 5,
+  RUNG_CHANNEL_UDP_SENDER = 6, /* does not receive; shares its port with a RUNG_CHANNEL_UDP */
+  RUNG_CHANNEL_MODBUS_TCP = 7, /* Modbus servers: the host answers, from the image at cycle borders (rung/modbus.h) */
+  RUNG_CHANNEL_MODBUS_RTU = 8,
+  RUNG_CHANNEL_SERIAL_PEER = 9 /* the other end of a serial line, in tests */
+};
+enum rung_parity { RUNG_PARITY_NONE, RUNG_PARITY_ODD, RUNG_PARITY_EVEN };
+typedef struct rung_channel_settings {
+  uint8_t kind;        /* rung_channel_kind */
+  uint16_t port;       /* of TCP and UDP; the number of the serial port */
+  const char* address; /* of a TCP client: the peer's; else the own one, empty for all. Read during `open` only */
+  int64_t server;      /* of RUNG_CHANNEL_TCP_ACCEPT */
+  uint32_t rate;       /* of serial lines: bit/s */
+  uint8_t data_bits, parity, stop_bits;
+  uint8_t unit; /* the number under which a Modbus server answers */
+} rung_channel_settings;
+typedef struct rung_channel_status {
+  int32_t state;     /* 0 opening, 1 open, or a rung_channel_error: it opens no more, or is closed and all is read */
+  uint32_t readable; /* bytes that `read` gives at once; of UDP: of the next datagram */
+  uint32_t unsent;   /* bytes that were written and have not left yet */
+} rung_channel_status;
+/* A peer of a datagram: 127.0.0.1 is 16#7F000001. */
+typedef struct rung_endpoint {
+  uint32_t address;
+  uint16_t port;
+} rung_endpoint;
+typedef struct rung_channels {
+  int64_t (*open)(void* data, const rung_channel_settings* settings);
+  int64_t (*status)(void* data, int64_t channel, rung_channel_status* status);
+  /* Bytes read, 0 when there are none. One datagram at a time, cut to `count`; `from` gets its sender, or is null. */
+  int64_t (*read)(void* data, int64_t channel, void* bytes, uint64_t count, rung_endpoint* from);
+  /* Bytes taken, fewer than `count` when the buffer is full; a datagram whole or not at all. To a Modbus server: the
+   * values of its first holding registers, in the byte order of the machine, instead of those of the image. */
+  int64_t (*write)(void* data, int64_t channel, const void* bytes, uint64_t count, const rung_endpoint* to);
+  int64_t (*close)(void* data, int64_t channel);
+} rung_channels;
 
 enum rung_severity { RUNG_MESSAGE_NOTE, RUNG_MESSAGE_WARNING, RUNG_MESSAGE_ERROR };
 
@@ -357,10 +411,13 @@ typedef struct rung_host {
   /* Default (null): opening fails as RUNG_FILE_DENIED. */
   const rung_files* files;
   void* files_data;
+  /* Default (null): opening fails as RUNG_CHANNEL_DENIED. */
+  const rung_channels* channels;
+  void* channels_data;
   /* Lets other tasks run while this one waits for a MUTEX or SEMA; returns 0 when they cannot, or the program ends.
    * Default (null): 0. */
   int (*wait)(void* data);
-  /* The name of the machine. Default (null): unknown. */
+  /* The name of the machine, and its IPv4 address. Default (null): unknown. */
   const char* name;
   /* Sets the clock that wall_clock returns; false: it cannot. Default (null): false. */
   bool (*set_wall_clock)(void* data, int64_t ns);
@@ -373,6 +430,7 @@ typedef struct rung_host {
   /* Default (null): there are no high-speed inputs and outputs. */
   const rung_hsio* hsio;
   void* hsio_data;
+  const char* address;
 } rung_host;
 
 struct rung_context {
