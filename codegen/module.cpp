@@ -188,7 +188,7 @@ class Describer {
 
   std::string moduleSource() {
     std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, area_rows, symbol_rows, retain_rows,
-        persistent_rows, resource_rows, write_rows;
+        persistent_rows, resource_rows, write_rows, io_module_rows;
     for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
     for (const rung_type& is : is_.types) {
       row(type_rows,
@@ -213,6 +213,9 @@ class Describer {
     for (const uint32_t is : is_.resources) row(resource_rows, {number(is)});
     for (const rung_write& is : is_.writes)
       row(write_rows, {number(is.area), number(is.mask), number(is.offset), number(is.size)});
+    for (const rung_io_module& is : is_.io_modules)
+      row(io_module_rows, {number(is.name), number(is.type), number(is.station), unsignedOrNone(is.task),
+                           number(is.input_offset), number(is.output_offset)});
     std::string init = "void init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
       init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
@@ -260,6 +263,7 @@ class Describer {
     table(out, "uint32_t", "resources", resource_rows);
     table(out, "rung_task", "tasks", task_rows_);
     table(out, "rung_write", "writes", write_rows);
+    table(out, "rung_io_module", "io_modules", io_module_rows);
     table(out, "rung_test", "tests", test_rows_);
     out += init + "\n}  // namespace " + name_space_ + '\n';
 
@@ -272,7 +276,8 @@ class Describer {
     description_ += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
     description_ += cells("resources", resource_rows, is_.resources.size()) + ", ";
     description_ += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
-    description_ += cells("writes", write_rows, is_.writes.size()) + ",\n  ";
+    description_ += cells("writes", write_rows, is_.writes.size()) + ", ";
+    description_ += cells("io_modules", io_module_rows, is_.io_modules.size()) + ",\n  ";
     description_ += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
     description_ += cells("types", type_rows, is_.types.size()) + ", ";
     description_ += cells("fields", field_rows, is_.fields.size()) + ", ";

@@ -123,6 +123,12 @@ void StringWriter::copyString(const StringTarget& target, ExprId from) {
   const bool same_units = isWide(e.type) == target.wide;
   if (e.kind == ExprKind::Zero) {
     copyLiteral(target, {}, false);
+    // An initial value: the last unit too, since a program may write all characters in front of it one by one.
+    out_ += ' ';
+    out_ += target.name;
+    out_ += '[';
+    appendUnsigned(out_, target.capacity);
+    out_ += "] = 0;";
   } else if (e.kind == ExprKind::String && same_units) {
     copyLiteral(target, upToNul(string(e.as<ir::StringExpr>().characters)), isUtf8(e.type));
   } else if (const auto* convert = e.tryAs<ir::ConvertExpr>(); convert != nullptr && same_units) {

@@ -28,6 +28,7 @@ class Describer {
     for (const types::MemoryArea& area : module_.areas) addArea(area);
     addSymbols();
     addTasks();
+    addIoModules();
     if (with_tests) addTests();
     out_.layout_hash = layoutHash();
     out_.aligned_globals = module_.aligned_globals;
@@ -263,6 +264,8 @@ class Describer {
         name += '.';
         path = programPath(owner);
       }
+      for (const NameId prefix : {located.configuration, located.list})
+        if (prefix) path.append(module_.names.string(prefix)).append(".");
       name += module_.names.string(located.name);
       rung_symbol row = inBlock(located.type, 0, located.byte);
       row.storage = RUNG_IN_AREA;
@@ -313,6 +316,13 @@ class Describer {
       out_.writes.insert(out_.writes.end(), writes.begin(), writes.end());
       out_.tasks.push_back(row);
     }
+  }
+
+  void addIoModules() {
+    for (const types::IoModule& module : module_.io_modules)
+      out_.io_modules.push_back({string(module.name), string(module.type), string(module.station),
+                                 module.task == 0 ? RUNG_NONE : module.task - 1, module.input_offset,
+                                 module.output_offset});
   }
 
   uint32_t resource(NameId name) {

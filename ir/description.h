@@ -62,6 +62,7 @@ struct Description {
   std::vector<uint32_t> resources;
   std::vector<rung_task> tasks;  // `run` is not set
   std::vector<rung_write> writes;
+  std::vector<rung_io_module> io_modules;
   struct Test {
     rung_test row;  // `init` and `run` are not set
     BodyId body;

@@ -365,8 +365,9 @@ struct Located {
   TypeId type;
   uint8_t area;  // AreaId
   uint32_t byte;
-  uint32_t bit;               /* kNoBit: none */
-  uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
+  uint32_t bit;                /* kNoBit: none */
+  uint32_t owner_program = 0;  /* index into programs + 1; 0: a global or unnamed */
+  NameId list, configuration;  // of a global: its list; and the configuration where that is a resource's
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
 };
 
@@ -455,6 +456,7 @@ struct Module {
   std::vector<BodyId> setups, teardowns;
   std::vector<Test> tests;                            // in source order
   types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
+  std::vector<types::IoModule> io_modules;
   bool aligned_globals = false;  // tasks work on copies of the globals, exchanged at the alignment point
 
   Body& body(BodyId id) { return bodies[id.index]; }

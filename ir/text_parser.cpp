@@ -86,9 +86,10 @@ int64_t TokenReader::integer() {
 
 static bool isItemWord(std::string_view word) {
   for (const char* item :
-       {"enum", "subrange",  "struct",     "union",    "block", "program", "globals",         "area",
-        "data", "interface", "classes",    "dispatch", "list",  "task",    "instance",        "located",
-        "test", "exit",      "after_init", "function", "body",  "init",    "aligned_globals", "safe"})
+       {"enum",     "subrange",  "struct",     "union",    "block", "program", "globals",         "area",
+        "data",     "interface", "classes",    "dispatch", "list",  "task",    "instance",        "located",
+        "test",     "exit",      "after_init", "function", "body",  "init",    "aligned_globals", "safe",
+        "io_module"})
     if (word == item) return true;
   return false;
 }
@@ -244,6 +245,19 @@ void Reader::dataItem() {
   if (!failed_) module_.data.push_back(std::move(data));
 }
 
+// io_module "ad" "AX_EM_4AD" station "rcm" task 1 inputs 4 outputs 8
+void Reader::ioModule() {
+  ++at_;
+  types::IoModule created;
+  created.name = quotedText(TokenKind::String);
+  created.type = quotedText(TokenKind::String);
+  if (accept("station")) created.station = quotedText(TokenKind::String);
+  if (accept("task")) created.task = static_cast<uint32_t>(integer());
+  if (accept("inputs")) created.input_offset = static_cast<uint32_t>(integer());
+  if (accept("outputs")) created.output_offset = static_cast<uint32_t>(integer());
+  if (!failed_) module_.io_modules.push_back(std::move(created));
+}
+
 void Reader::task() {
   ++at_;
   Task created;
@@ -360,6 +374,11 @@ void Reader::located() {
     expect("$");
     created.owner_program = numberOf(program_by_name_, "program", true) + 1;
   }
+  if (accept("list")) {
+    expect("@");
+    created.list = name();
+  }
+  if (accept("configuration")) created.configuration = name();
   if (!failed_) module_.located.push_back(created);
 }
 
@@ -515,7 +534,8 @@ void Reader::declareItem() {
   static constexpr Meaning<void (Reader::*)()> kItems[] = {
       {"enum", &Reader::enumItems},    {"area", &Reader::area},       {"list", &Reader::list},
       {"data", &Reader::dataItem},     {"classes", &Reader::classes}, {"task", &Reader::task},
-      {"instance", &Reader::instance}, {"located", &Reader::located}, {"function", &Reader::function}};
+      {"instance", &Reader::instance}, {"located", &Reader::located}, {"function", &Reader::function},
+      {"io_module", &Reader::ioModule}};
   for (const auto& item : kItems) {
     if (isWord(item.text)) return (this->*item.value)();
   }

@@ -258,6 +258,21 @@ void Printer::dataItem(size_t index) {
   put("\"\n");
 }
 
+void Printer::ioModule(const types::IoModule& module) {
+  put("io_module ");
+  quoted(module.name, '"');
+  put(" ");
+  quoted(module.type, '"');
+  if (!module.station.empty()) {
+    put(" station ");
+    quoted(module.station, '"');
+  }
+  clause(" task ", module.task);
+  clause(" inputs ", module.input_offset);
+  clause(" outputs ", module.output_offset);
+  put("\n");
+}
+
 void Printer::task(uint32_t index) {
   static constexpr const char* kKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
   const Task& task = module_.tasks[index];
@@ -341,6 +356,8 @@ void Printer::located(const Located& located) {
     put(" of ");
     programName(located.owner_program - 1);
   }
+  clause(" list @", located.list);
+  clause(" configuration ", located.configuration);
   put("\n");
 }
 
@@ -392,6 +409,7 @@ void Printer::items() {
     put("\n");
   }
   if (module_.aligned_globals) put("aligned_globals\n");
+  for (const types::IoModule& module : module_.io_modules) ioModule(module);
   for (uint32_t i = 0; i < module_.tasks.size(); ++i) task(i);
   for (uint32_t i = 0; i < module_.programs.size(); ++i) instance(i);
   for (const Located& one : module_.located) located(one);

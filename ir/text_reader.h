@@ -90,6 +90,7 @@ class Reader : TokenReader {
   void classes();
   void dispatch();
   void task();
+  void ioModule();
   void instance();
   void test(BodyId body);
   void area();

@@ -52,6 +52,13 @@ struct TaskDuration {
   Loc loc;  // of the section
 };
 
+// `[module NAME]` in rung.project.
+struct ConfiguredModule {
+  types::IoModule module;
+  std::string task;  // its bus cycle task, or empty
+  Loc task_loc;
+};
+
 // The choices of the command line and rung.project.
 struct Options {
   Dialect dialect = Dialect::Codesys;
@@ -73,6 +80,7 @@ struct Options {
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is created when there is no CONFIGURATION
   std::vector<TaskDuration> task_durations;
+  std::vector<ConfiguredModule> io_modules;
   bool aligned_globals = false;  // a task works on a copy of the globals that it exchanges at the alignment point
 };
 

@@ -119,6 +119,7 @@ void check(Project& project) {
   checkBodies(context);
   addFreeProgram(context);
   setTaskDurations(context);
+  setIoModules(context);
   checkTaskSettings(context);
   declareLiteralStorage(context);
   orderInitialValues(context);

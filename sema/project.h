@@ -111,7 +111,8 @@ struct Project : Symbols {
     VarId var;
   };
   std::vector<GlobalWrite> global_writes;  // by bodies, of variables outside of the instance: for the rule on tasks
-  std::vector<uint32_t> area_bytes;        // by AreaId: the declared size, or the end of the last used byte
+  std::vector<types::IoModule> io_modules;
+  std::vector<uint32_t> area_bytes;  // by AreaId: the declared size, or the end of the last used byte
 };
 
 // Checks the whole project: collects the declarations of tree.files, resolves types and layout, checks every body,

@@ -6,6 +6,7 @@
 # networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
 # mutants       30 000 corrupted programs and drawings: one error at the right place, and no crash (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
+# bodies        each body of the libraries left out: some test notices
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
@@ -49,6 +50,11 @@ modifiers() {
   tests/modifiers/modifiers.py
 }
 
+bodies() {
+  needs rung_test_runner
+  tests/bodies/bodies.py
+}
+
 kills() {
   needs rung
   tools/house/kill_retain.sh "${COUNT:-10000}" "$first"
@@ -81,11 +87,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers bodies kills tsan lateness asan debug tidy compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|modifiers|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
-    *) sed -n '2,16s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|modifiers|bodies|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
+    *) sed -n '2,17s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

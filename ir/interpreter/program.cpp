@@ -213,6 +213,7 @@ void Program::Parts::describe() {
   table(from.resources, is.resources, is.resource_count);
   table(tasks, is.tasks, is.task_count);
   table(from.writes, is.writes, is.write_count);
+  table(from.io_modules, is.io_modules, is.io_module_count);
   table(from.symbols, is.symbols, is.symbol_count);
   table(from.types, is.types, is.type_count);
   table(from.fields, is.fields, is.field_count);

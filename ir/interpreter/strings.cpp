@@ -126,6 +126,9 @@ void BodyTranslator::assignString(const Address& to, uint32_t capacity, bool wid
     return copyString(to, capacity, wide, created, e.type);
   }
   copyString(to, capacity, wide, string(from), e.type);
+  // An initial value: the last unit too, since a program may write all characters in front of it one by one.
+  if (e.kind == ExprKind::Zero)
+    write(shifted(to, uint64_t{capacity} * (wide ? 2 : 1)), wide ? Scalar::U16 : Scalar::U8, {});
 }
 
 Operand BodyTranslator::stringOrder(ExprId left, ExprId right) {

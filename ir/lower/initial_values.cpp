@@ -391,6 +391,9 @@ void ObjectLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId in
   ExprId value = convertValue(values().lowerValue(init), type, loc);
   const Expr& expr = body_.expr(value);
   if (place_is_zero && isConst(expr) && bitsOf(expr) == 0) return;
+  // The stack is not zero: the unit after the last character, which a program may write alone.
+  if (types::TypeTable::isString(kind) && body_.expr(place).kind == ExprKind::Local)
+    assign(copy(place), zero(type, loc), loc);
   assign(place, value, loc);
 }
 

@@ -67,6 +67,7 @@ void ModuleLowering::run() {
   addLocated();
   addAccessPaths();
   module.aligned_globals = project.options.aligned_globals;
+  module.io_modules = project.io_modules;
   module.areas = project.options.areas;
   for (size_t area = 0; area < module.areas.size(); ++area) module.areas[area].bytes = project.area_bytes[area];
   setPhaseSubject("", 0);
@@ -566,6 +567,11 @@ void ModuleLowering::addLocated() {
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
     created.symbol_access = var.symbol_access;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
+    if (!var.pou && var.list) {
+      const sema::GlobalList& list = project.global_lists[var.list.index];
+      created.list = list.name;
+      if (list.resource) created.configuration = list.configuration;
+    }
     module.located.push_back(created);
   }
 }

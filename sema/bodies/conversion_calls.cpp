@@ -188,9 +188,11 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     replaceArgument();
     return callLibrary(context, expr, function, expected, name);
   }
-  // A number is converted to a date through the date and time that it counts, so that a DATE is always a whole day.
+  // A number or time of day is converted to a date through the date and time that it counts, so that a DATE is always a
+  // whole day.
   const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
-  if (to_day && !TypeTable::isDate(source)) {
+  const bool is_time_of_day = source == TypeKind::TimeOfDay || source == TypeKind::LTimeOfDay;
+  if (to_day && (is_time_of_day || !TypeTable::isDate(source))) {
     wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
   }
   wrapConvert(context, value, rule.to);

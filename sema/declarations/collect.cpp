@@ -215,10 +215,8 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.library = pou.progress.used = true;
   pou.library_name = scopes.libraries.list[library].name;
   declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
-  if (scopes.pous_and_types.find(keyOf(context, pou.name))) {  // a block of the project has the name: both may be used
-    pou.unique_name = context.names().intern(toString(context, pou.library_name) + "__" + toString(context, pou.name));
-    if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
-  }
+  pou.unique_name = uniqueNameInLibrary(context, library, pou.name);
+  if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
   collectMembers(context, pou_id);
 }
 
@@ -230,10 +228,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   NameId name = qualifiedName(context, decl.name);
   Namespace* const space = library == kNoLibrary ? namespaceFor(context, decl.name) : &scopes.libraries.list[library];
   NameMap& names = space != nullptr ? space->names : scopes.pous_and_types;
-  if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
-    name =
-        context.names().intern(toString(context, scopes.libraries.list[library].name) + "__" + toString(context, name));
-  }
+  if (library != kNoLibrary && name) name = uniqueNameInLibrary(context, library, name);
   TypeId type = types::kError;
   switch (tree.kind(decl.type)) {
     case TypeExprKind::Enum: type = table.addEnum(name, types::kInt); break;

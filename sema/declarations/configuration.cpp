@@ -510,23 +510,34 @@ void addFreeProgram(Context& context) {
   project.instances.push_back(instance);
 }
 
-// Forbids a duration in rung.project for a task that does not exist.
+// The tasks that a section of rung.project names, as `fast` or `Resource.fast`.
 //   fails   [task fsat] duration = 12ms                   E0815, did you mean `fast`?
+static std::vector<uint32_t> tasksCalled(Context& context, std::string_view wanted, Loc loc) {
+  std::vector<uint32_t> found;
+  std::vector<std::string_view> names;
+  const std::vector<Task>& tasks = context.project.tasks;
+  for (uint32_t i = 0; i < tasks.size(); ++i) {
+    const std::string_view name = context.names().string(tasks[i].name);
+    names.push_back(name);
+    const std::string path = toString(context, tasks[i].resource) + "." + std::string(name);
+    if (sameIdentifier(name, wanted) || sameIdentifier(path, wanted)) found.push_back(i);
+  }
+  if (found.empty()) context.report(diag::UnknownTask, loc, {wanted}).didYouMean(nearest(wanted, names));
+  return found;
+}
+
 void setTaskDurations(Context& context) {
-  std::vector<Task>& tasks = context.project.tasks;
-  for (const TaskDuration& duration : context.project.options.task_durations) {
-    bool found = false;
-    std::vector<std::string_view> names;
-    for (Task& task : tasks) {
-      const std::string_view name = context.names().string(task.name);
-      names.push_back(name);
-      const std::string path = toString(context, task.resource) + "." + std::string(name);
-      if (!sameIdentifier(name, duration.task) && !sameIdentifier(path, duration.task)) continue;
-      task.duration_ns = duration.duration_ns;
-      found = true;
-    }
-    if (!found)
-      context.report(diag::UnknownTask, duration.loc, {duration.task}).didYouMean(nearest(duration.task, names));
+  for (const TaskDuration& duration : context.project.options.task_durations)
+    for (const uint32_t task : tasksCalled(context, duration.task, duration.loc))
+      context.project.tasks[task].duration_ns = duration.duration_ns;
+}
+
+void setIoModules(Context& context) {
+  for (const ConfiguredModule& configured : context.project.options.io_modules) {
+    context.project.io_modules.push_back(configured.module);
+    if (configured.task.empty()) continue;
+    const std::vector<uint32_t> tasks = tasksCalled(context, configured.task, configured.task_loc);
+    if (!tasks.empty()) context.project.io_modules.back().task = tasks[0] + 1;
   }
 }
 

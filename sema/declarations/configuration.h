@@ -16,6 +16,8 @@ void resolveConfigurations(Context& context);
 // rung.project.
 void addFreeProgram(Context& context);
 void setTaskDurations(Context& context);
+// Gives the I/O modules of rung.project their bus cycle tasks.
+void setIoModules(Context& context);
 
 // VAR_ACCESS, when all instances are laid out. (access_paths.cpp)
 void resolveAccessPaths(Context& context);

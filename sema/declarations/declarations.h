@@ -189,5 +189,8 @@ TypeId anyType(Context& context);
 void indexLibraries(Context& context);
 // A name of the libraries, read on first use; of one library only when `library` is given.
 Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);
+// The name by which the module knows a POU or type of a library: with the library's name if the bare name means one of
+// the project or of another library.
+NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name);
 
 }  // namespace rung::sema

@@ -335,6 +335,25 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
   return {};
 }
 
+// The library whose declaration the bare name means, unless the project has one; independent of what is loaded.
+static uint32_t libraryOfBareName(const Libraries& libraries, NameId key) {
+  const Entity first = libraries.index.find(key);
+  if (!first) return kNoLibrary;
+  uint32_t chosen = first.index;
+  while (chosen != 0 && libraries.blocks[libraries.names[chosen].block].qualified)
+    chosen = libraries.names[chosen].next;
+  if (chosen == 0) chosen = first.index;
+  return libraries.library_of_file[libraries.blocks[libraries.names[chosen].block].file];
+}
+
+NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name) {
+  const NameId key = keyOf(context, name);
+  const Libraries& libraries = context.scopes.libraries;
+  const uint32_t meant = libraryOfBareName(libraries, key);
+  if (!context.scopes.pous_and_types.find(key) && (meant == library || meant == kNoLibrary)) return name;
+  return context.names().intern(toString(context, libraries.list[library].name) + "__" + toString(context, name));
+}
+
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   const Entity own = findInLibraries(context, key, library);
   if (own || library == kNoLibrary) return own;

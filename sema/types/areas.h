@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,14 @@ struct MemoryArea {
   uint32_t bytes = 0;  // declared size; 0: up to the last byte that the program uses
 };
 using MemoryAreas = std::vector<MemoryArea>;
+
+// A device of the machine, `[module NAME]` in rung.project: its channels lie in the input and the output area.
+struct IoModule {
+  std::string name, type;
+  std::string station;  // the coupler that it is connected to; empty: the controller's rack
+  uint32_t task = 0;    // the bus cycle task: index into the tasks + 1; 0: the cyclic task with the shortest interval
+  uint32_t input_offset = 0, output_offset = 0;  // bytes
+};
 
 // The most bytes of one area.
 inline constexpr uint64_t kMaxAreaBytes = uint64_t{1} << 24;

@@ -1,5 +1,5 @@
 // Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential tests and
-// the checks of tools/house/checks.
+// of the library bodies that some test must miss, and the checks of tools/house/checks.
 #include <cstdlib>
 
 #include "tests/runner/diff.h"
@@ -50,17 +50,19 @@ Result runDifferential(const Setting& setting, const std::string& name, std::vec
   return result;
 }
 
-Result runHouse(const Setting& setting, const std::string& script) {
+// A program that exits with 0, or fails with what it prints.
+Result runScript(const Setting& setting, const std::string& name, std::vector<std::string> arguments) {
   Command c;
-  c.arguments = {setting.root + "/" + script};
+  c.arguments = std::move(arguments);
   c.folder = setting.root;
+  c.seconds = 600;
   c.merged = true;
   const Output output = run(c);
   Result result;
   if (output.exit_code == 0) {
     result.pass();
   } else {
-    result.fail(script, output.out.substr(0, 4000), script);
+    result.fail(name, output.out.substr(0, 4000), commandLine(c));
   }
   return result;
 }
@@ -90,8 +92,15 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
     jobs.push_back({"unit/network_differential", 5, [&setting] {
                       return runDifferential(setting, "network_differential", {"--cycles=200", "-j2"}, 40);
                     }});
+  if (isWanted(setting, "unit/bodies"))
+    jobs.push_back({"unit/bodies", 15, [&setting] {
+                      return runScript(setting, "unit/bodies",
+                                       {"/usr/bin/env", "BUILD=" + setting.bin + "/..",
+                                        setting.root + "/tests/bodies/bodies.py", "--sample", "-j", "1"});
+                    }});
   for (const std::string& script : filesBelow(setting, "tools/house/checks", ".sh")) {
-    jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});
+    jobs.push_back(
+        {script, 2, [&setting, script] { return runScript(setting, script, {setting.root + "/" + script}); }});
   }
 }
 

@@ -153,8 +153,8 @@ bool Compilation::parse() {
   }
   if (inputs.project.configuration)
     text::parseFile(tree, names, sources, inputs.project.configuration, options.dialect, diagnostics);
-  if (inputs.project.safe_values)
-    text::parseFile(tree, names, sources, inputs.project.safe_values, options.dialect, diagnostics);
+  for (const FileId made : {inputs.project.safe_values, inputs.project.module_variables})
+    if (made) text::parseFile(tree, names, sources, made, options.dialect, diagnostics);
   setPhaseSubject("", 0);
   times_.end();
   if (options.dump_after == "parse")
@@ -182,6 +182,7 @@ bool Compilation::check() {
     sema_options.pool_bytes = inputs.project.pool_bytes;
     sema_options.areas = inputs.project.areas;
     sema_options.aligned_globals = inputs.project.aligned_globals;
+    sema_options.io_modules = inputs.project.io_modules;
     sema_options.task_durations = inputs.project.task_durations;
     sema_options.default_interval_ns = options.default_interval_ns;
     sema_options.with_tests = options.with_tests;

@@ -9,6 +9,7 @@
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
+#include "tools/driver/project_modules.h"
 
 namespace rung::driver {
 namespace {
@@ -22,7 +23,7 @@ struct Schema {
 constexpr Schema kSchemas[] = {
     {"project", false, "name sources std native-width libraries checks optimize warnings defines globals"},
     {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
-    {"module", true, "type slot inputs outputs address station parameters"},
+    {"module", true, "type station task inputs outputs"},
     {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
     {"area", true, "owner bytes"},
     {"safe", false, nullptr},  // PATH = VALUE
@@ -142,11 +143,6 @@ class Reader {
   ProjectFile& project_;
   const Schema* schema_ = nullptr;
 };
-
-void badValue(Diagnostics& diagnostics, const ProjectEntry& entry, std::string_view why) {
-  diagnostics.report(diag::ProjectValue, entry.value_loc, {entry.key, why})
-      .length(static_cast<uint32_t>(entry.value.size()));
-}
 
 void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
   for (const ProjectEntry& entry : section.entries) {
@@ -358,6 +354,11 @@ FileId writeSafeValues(Sources& sources, Diagnostics& diagnostics, const Project
 
 }  // namespace
 
+void badValue(Diagnostics& diagnostics, const ProjectEntry& entry, std::string_view why) {
+  diagnostics.report(diag::ProjectValue, entry.value_loc, {entry.key, why})
+      .length(static_cast<uint32_t>(entry.value.size()));
+}
+
 const ProjectEntry* ProjectSection::find(std::string_view key) const {
   for (const ProjectEntry& entry : entries)
     if (entry.key == key) return &entry;
@@ -376,6 +377,7 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
       readAreaSection(section, diagnostics, project);
     else if (section.kind == "task")
       readDuration(section, diagnostics, project);
+  readModules(sources, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);
   project.safe_values = writeSafeValues(sources, diagnostics, project);
 }

@@ -43,11 +43,13 @@ struct ProjectFile {
   types::MemoryAreas areas = types::standardAreas();
   bool aligned_globals = false;
   std::vector<sema::TaskDuration> task_durations;
+  std::vector<sema::ConfiguredModule> io_modules;
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
-  FileId safe_values;    // the section [safe] as a function in ST, mapped to this file; none: no such section
-  FileId configuration;  // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
+  FileId module_variables;  // the channels of the [module] sections in ST, mapped to this file; none: no such section
+  FileId safe_values;       // the section [safe] as a function in ST, mapped to this file; none: no such section
+  FileId configuration;     // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };
 
 void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);

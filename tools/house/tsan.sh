@@ -12,7 +12,7 @@ trap 'rm -rf "$folder"' EXIT
 runtime=$here/stdlib/runtime
 mkdir "$folder/host"
 flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime/host"
-ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
+ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
   'g++ '"$flags"' -c {} -o '"$folder"'/host/$(basename $(dirname {}))_$(basename {} .cpp).o'
 gcc -std=c99 -shared -fPIC -I "$runtime/include" "$here/tests/programs/tasks/log_driver.c" -o "$folder/log.so"
 cat > "$folder/main.cpp" <<'END'

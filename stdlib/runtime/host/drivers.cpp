@@ -2,6 +2,7 @@
 #include "drivers.h"
 
 #include <dlfcn.h>
+#include <algorithm>
 #include <cstring>
 
 namespace rung::host {
@@ -29,6 +30,45 @@ bool Drivers::load(const std::string& spec, std::string& error) {
   if (all == nullptr) return error = path + ": it refuses `" + spec + "`", false;
   for (uint32_t i = 0; i < count; ++i) drivers_.push_back({all + i, RUNG_NONE});
   return true;
+}
+
+void Drivers::simulateModules(Symbols& symbols) {
+  for (uint32_t i = 0; i < module_.io_module_count; ++i) {
+    const rung_io_module& row = module_.io_modules[i];
+    const char* const name = module_.strings + row.name;
+    const auto serves = [&](const Bound& bound) { return strcasecmp(bound.driver->name, name) == 0; };
+    const ModuleType* const type = findModuleType(module_.strings + row.type, module_.strings[row.station] != 0);
+    if (type == nullptr || std::any_of(drivers_.begin(), drivers_.end(), serves)) continue;
+    std::unique_ptr<SimulatedModule> module = simulate(*type, row.input_offset, row.output_offset);
+    if (module == nullptr) continue;
+    for (Terminal& wire : module->terminals()) symbols.addTerminal(name, wire);
+    rung_driver driver{};
+    driver.name = name;
+    if (row.task != RUNG_NONE) driver.task = module_.strings + module_.tasks[row.task].name;
+    driver.input_offset = module->inputOffset();
+    driver.input_size = module->inputSize();
+    driver.output_offset = module->outputOffset();
+    driver.output_size = module->outputSize();
+    driver.read = [](void* data, uint8_t* inputs, int64_t now_ns) {
+      static_cast<SimulatedModule*>(data)->read(inputs, now_ns);
+      return true;
+    };
+    driver.write = [](void* data, const uint8_t* outputs, int64_t now_ns) {
+      static_cast<SimulatedModule*>(data)->write(outputs, now_ns);
+      return true;
+    };
+    driver.stopped = [](void* data, int64_t) { static_cast<SimulatedModule*>(data)->stopped(); };
+    driver.data = module.get();
+    of_modules_.push_back(driver);
+    modules_.push_back(std::move(module));
+    drivers_.push_back({&of_modules_.back(), RUNG_NONE});
+  }
+}
+
+std::string Drivers::simulatedNames() const {
+  std::string names;
+  for (const rung_driver& driver : of_modules_) names += (names.empty() ? "" : ", ") + std::string(driver.name);
+  return names;
 }
 
 bool Drivers::bind(uint32_t fastest, std::string& error) {
@@ -71,8 +111,10 @@ std::string Drivers::write(uint32_t task, int64_t now_ns) const {
 }
 
 void Drivers::writeAll(int64_t now_ns) const {
-  for (const auto& [driver, own] : drivers_)
+  for (const auto& [driver, own] : drivers_) {
+    if (driver->stopped != nullptr) driver->stopped(driver->data, now_ns);
     if (driver->write != nullptr) driver->write(driver->data, memory_.area(kOutputs) + driver->output_offset, now_ns);
+  }
 }
 
 }  // namespace rung::host

@@ -1,11 +1,15 @@
-// The devices of a product (rung_driver): their inputs enter the image before an activation of the task that they
-// belong to, their outputs leave after it. In: drivers. Out: true, or which one failed. Called by tasks.cpp.
+// The devices of a product (rung_driver), and the simulated modules of rung.project that no driver serves: their inputs
+// enter the image before an activation of the task that they belong to, their outputs leave after it. In: drivers. Out:
+// true, or which one failed. Called by tasks.cpp.
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "memory.h"
+#include "modules/simulated.h"
+#include "symbols.h"
 
 namespace rung::host {
 
@@ -16,6 +20,9 @@ class Drivers {
   // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`.
   // `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
   bool load(const std::string& spec, std::string& error);
+  // Simulates the project's modules, but those for which there is a driver of their name. Their terminals become
+  // variables, `ad.V0`.
+  void simulateModules(Symbols& symbols);
   // Checks areas and the names of tasks. `fastest`: the task of drivers that name none; RUNG_NONE: the first one.
   bool bind(uint32_t fastest, std::string& error);
 
@@ -24,8 +31,10 @@ class Drivers {
   std::string write(uint32_t task, int64_t now_ns) const;
   // All inputs, before the first activation: tasks other than those of the devices see them too.
   std::string readAll(int64_t now_ns) const;
-  // All outputs, after a stop. A driver that fails is not asked again; the others are.
+  // All outputs, after a stop, and that it is one. A driver that fails is not asked again; the others are.
   void writeAll(int64_t now_ns) const;
+  // `di, ad`; empty: none.
+  std::string simulatedNames() const;
 
  private:
   struct Bound {
@@ -35,6 +44,8 @@ class Drivers {
   const rung_module& module_;
   Memory& memory_;
   std::vector<Bound> drivers_;
+  std::vector<std::unique_ptr<SimulatedModule>> modules_;
+  std::deque<rung_driver> of_modules_;
 };
 
 }  // namespace rung::host

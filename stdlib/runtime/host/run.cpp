@@ -240,6 +240,7 @@ void Run::reportChanges() const {
 bool Run::loadAll(std::string& error) {
   for (const std::string& driver : options.drivers)
     if (!drivers.load(driver, error)) return error.insert(0, "--driver: "), false;
+  drivers.simulateModules(symbols);
   if (!tasks.prepare(error)) return false;
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return false;
   if (!options.control_path.empty() && !commands.open(options.control_path, options.realtime, error)) return false;
@@ -535,6 +536,8 @@ int Run::runInRealTime() {
     channels.stop();
   }
   rows_done = result.rows;
+  if (const std::string simulated = drivers.simulatedNames(); !simulated.empty())
+    fprintf(options.err, "note: these modules were simulated: %s\n", simulated.c_str());
   if (!result.missing.empty()) fprintf(options.err, "note: %s\n", result.missing.c_str());
   std::string what = cycle_fault;
   bool faulted = !cycle_fault.empty();

@@ -16,6 +16,7 @@ const rung_type kByteType = elementary(RUNG_BYTE, 1);
 const rung_type kWordType = elementary(RUNG_WORD, 2);
 const rung_type kDWordType = elementary(RUNG_DWORD, 4);
 const rung_type kLWordType = elementary(RUNG_LWORD, 8);
+const rung_type kLRealType = elementary(RUNG_LREAL, 8);
 
 bool isNameCharacter(char c) {
   return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -104,6 +105,14 @@ Symbols::Symbols(const rung_module& module, const Memory& memory) : module_(modu
       begin = dot + 1;
     }
   }
+}
+
+void Symbols::addTerminal(std::string_view module, Terminal& wire) {
+  Variable variable;
+  variable.path = std::string(module) + '.' + wire.name;
+  variable.type = wire.is_bool ? &kBoolType : &kLRealType;
+  variable.base = wire.is_bool ? reinterpret_cast<uint8_t*>(&wire.state) : reinterpret_cast<uint8_t*>(&wire.value);
+  terminals_.emplace(lowerCase(variable.path), variable);
 }
 
 Variable Symbols::root(uint32_t index) const {
@@ -283,8 +292,10 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
   if (path.empty()) return error = "expected the path of a variable", false;
 
-  // The longest root that ends at the end of a name.
   const std::string lower = lowerCase(path);
+  if (const auto terminal = terminals_.find(lower); terminal != terminals_.end())
+    return variable = terminal->second, true;
+  // The longest root that ends at the end of a name.
   size_t root_length = 0;
   for (size_t i = 1; i <= lower.size(); ++i) {
     if (i < lower.size() && isNameCharacter(lower[i])) continue;

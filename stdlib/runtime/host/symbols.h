@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "memory.h"
+#include "modules/simulated.h"
 
 namespace rung::host {
 
@@ -51,6 +52,8 @@ class Symbols {
   // All elementary variables of all program instances, without in-outs, pointers, constants and the internal variables
   // of library blocks.
   std::vector<Variable> ofPrograms() const;
+  // `module.wire` of a simulated module, which outlives this.
+  void addTerminal(std::string_view module, Terminal& wire);
   // Every root, whole.
   std::vector<Variable> roots() const;
   Variable root(uint32_t symbol) const;
@@ -65,8 +68,9 @@ class Symbols {
 
   const rung_module& module_;
   const Memory& memory_;
-  std::unordered_map<std::string, uint32_t> roots_;  // lower case, with and without their prefixes
-  std::unordered_set<uint32_t> shared_names_;        // of symbols whose name alone is that of another one too
+  std::unordered_map<std::string, uint32_t> roots_;      // lower case, with and without their prefixes
+  std::unordered_map<std::string, Variable> terminals_;  // by path in lower case
+  std::unordered_set<uint32_t> shared_names_;            // of symbols whose name alone is that of another one too
 };
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.

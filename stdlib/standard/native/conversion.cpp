@@ -285,12 +285,6 @@ uint32_t rung_standard_TO_BCD_DWORD(rung_context*, uint64_t in) { return static_
 uint64_t rung_standard_TO_BCD_LWORD(rung_context*, uint64_t in) { return toBcd(in, 16); }
 
 uint8_t rung_standard_IS_VALID_BCD(rung_context*, uint64_t in) { return isBcd(in); }
-int16_t rung_standard_BCD_TO_INT(rung_context*, uint8_t in) {
-  return isBcd(in) != 0 ? static_cast<int16_t>(fromBcd(in)) : int16_t{-1};
-}
-uint8_t rung_standard_INT_TO_BCD(rung_context*, int16_t in) {
-  return in >= 0 && in <= 99 ? static_cast<uint8_t>(toBcd(static_cast<uint64_t>(in), 2)) : uint8_t{255};
-}
 
 // ---- byte order: memory of the running program is little-endian, so only the big forms swap.
 #define RUNG_BYTE_ORDER(TYPE, T)                                                       \

@@ -7,6 +7,9 @@
 
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRadianPerDegree = kPi / 180.0, kDegreePerRadian = 180.0 / kPi;
+
 // Towards zero; saturates outside the type's range, NaN gives 0.
 template <class Integer>
 Integer truncated(double value) {
@@ -32,6 +35,12 @@ RUNG_EACH_REAL_FUNCTION(RUNG_ONE_VARIABLE)
 
 float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return atan2f(y, x); }
 double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return atan2(y, x); }
+
+// A REAL is multiplied as LREAL, so that its only rounding is the last.
+float rung_standard_RAD__REAL(rung_context*, float in) { return static_cast<float>(in * kRadianPerDegree); }
+double rung_standard_RAD__LREAL(rung_context*, double in) { return in * kRadianPerDegree; }
+float rung_standard_DEG__REAL(rung_context*, float in) { return static_cast<float>(in * kDegreePerRadian); }
+double rung_standard_DEG__LREAL(rung_context*, double in) { return in * kDegreePerRadian; }
 
 #define RUNG_TRUNCATION(TYPE, Integer)                                                                 \
   Integer rung_standard_TRUNC__REAL_##TYPE(rung_context*, float in) { return truncated<Integer>(in); } \

@@ -29,7 +29,7 @@ static bool write_outputs(void *data, const uint8_t *outputs, int64_t now_ns) {
 
 const rung_driver *rung_drivers(const char *argument, uint32_t *count);
 const rung_driver *rung_drivers(const char *argument, uint32_t *count) {
-  static const rung_driver driver = {"log", NULL, 0, 2, 0, 4, read_inputs, write_outputs, NULL};
+  static const rung_driver driver = {"log", NULL, 0, 2, 0, 4, read_inputs, write_outputs, NULL, NULL};
   char path[200];
   const char *comma = strchr(argument, ',');
   if (comma != NULL) fails_at = atol(comma + 1);

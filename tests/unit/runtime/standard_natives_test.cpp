@@ -26,8 +26,6 @@ double rung_standard_ATAN2__LREAL(rung_context*, double, double);
 uint8_t rung_standard_IS_VALID__REAL(rung_context*, float);
 uint8_t rung_standard_USINT_TO_BCD_BYTE(rung_context*, uint8_t);
 uint16_t rung_standard_WORD_BCD_TO_UINT(rung_context*, uint16_t);
-int16_t rung_standard_BCD_TO_INT(rung_context*, uint8_t);
-uint8_t rung_standard_INT_TO_BCD(rung_context*, int16_t);
 uint8_t rung_standard_IS_VALID_BCD(rung_context*, uint64_t);
 uint32_t rung_standard_TO_BIG_ENDIAN__DWORD(rung_context*, uint32_t);
 void rung_standard_TO_STRING__REAL(rung_context*, float, char*, uint32_t);
@@ -130,12 +128,6 @@ TEST(NumericFunctions, TruncationAndDomains) {
 TEST(ConversionFunctions, BcdSamples) {
   EXPECT_EQ(rung_standard_USINT_TO_BCD_BYTE(&ctx, 25), 0x25);
   EXPECT_EQ(rung_standard_WORD_BCD_TO_UINT(&ctx, 0x369), 369);
-  EXPECT_EQ(rung_standard_BCD_TO_INT(&ctx, 73), 49);
-  EXPECT_EQ(rung_standard_BCD_TO_INT(&ctx, 151), 97);
-  EXPECT_EQ(rung_standard_BCD_TO_INT(&ctx, 15), -1);
-  EXPECT_EQ(rung_standard_INT_TO_BCD(&ctx, 49), 73);
-  EXPECT_EQ(rung_standard_INT_TO_BCD(&ctx, 97), 151);
-  EXPECT_EQ(rung_standard_INT_TO_BCD(&ctx, 100), 255);
   EXPECT_EQ(rung_standard_IS_VALID_BCD(&ctx, 0x1234567890123456), 1);
   EXPECT_EQ(rung_standard_IS_VALID_BCD(&ctx, 0x1A), 0);
   EXPECT_EQ(rung_standard_TO_BIG_ENDIAN__DWORD(&ctx, 0x01020304), 0x04030201u);

@@ -32,7 +32,7 @@ TEST_F(ProjectFileTest, AllSections) {
   read(
       "# a press\n[project]\nname = press\nstd = iec2\nchecks = div, index\noptimize = 2\nwarnings = no-W0101\n"
       "[axis feed]\nfPositionPeriod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
-      "[module slot1]\ntype = DI16\n");
+      "[module slot1]\ntype = AX_EM_1600D\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
   EXPECT_EQ(project.name, "press");
   EXPECT_EQ(project.level, 2);
@@ -65,6 +65,32 @@ TEST_F(ProjectFileTest, MistakesHaveTheirLocation) {
                 "9:2: section `safe` takes no name; write `[safe]`",
                 "10:1: expected `[section]`, `key = value` or `# comment`",
             }));
+}
+
+TEST_F(ProjectFileTest, ModulesAreChecked) {
+  read(
+      "[module a]\ntype = AX_EM_1600\n[module b]\ntype = AE1420_AE2420\nstation = c\n[module c]\ntype = "
+      "AX_EM_RCM_ET\n[module d]\ntype = AE1420_AE2420\nstation = C\n[module e]\ntype = ax_em_1600d\nstation = "
+      "c\ninputs = %IX3.0\n[module f]\ntype = AX_EM_0016DP\noutputs = %IB3\n[module if]\ntype = AX_EM_0016DP\n"
+      "[module g]\ntype = AX_EM_0016DP\noutputs = %QW8\n[module h]\ntype = AX_EM_0016DN\n[module i]\ntype = "
+      "AX_EM_0016DN\noutputs = %QB99999999\n");
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{
+                "2:8: wrong value for `type`: it takes one of HIGH_PULSE_IO, AX_EM_1600D, AX_EM_0016DP, AX_EM_0016DN, "
+                "AX_EM_4AD, AX_EM_4DA, AX_EM_4PTC, AE1420_AE2420, AX_EM_RCM_ET",
+                "5:11: wrong value for `station`: it takes the name of a module of type AX_EM_RCM_ET, declared above "
+                "this one",
+                "9:8: wrong value for `type`: this module is not connected to a station; remove `station`",
+                "14:10: wrong value for `inputs`: it takes the address of a byte, such as `%IB48`",
+                "17:11: wrong value for `outputs`: it takes the address of a byte, such as `%QB48`",
+                "18:1: `if` cannot name a module; it is a keyword",
+                "27:11: wrong value for `outputs`: it takes the address of a byte, such as `%QB48`",
+            }));
+  // The outputs of `h` follow those of `g`.
+  ASSERT_EQ(project.io_modules.size(), 6u);
+  EXPECT_EQ(project.io_modules[3].module.output_offset, 16u);
+  EXPECT_EQ(project.io_modules[4].module.output_offset, 18u);
+  EXPECT_EQ(project.io_modules[1].module.station, "c");
 }
 
 TEST_F(ProjectFileTest, KeySetTwice) {

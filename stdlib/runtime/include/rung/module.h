@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 10u
+#define RUNG_MODULE_ABI 11u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -178,7 +178,19 @@ typedef struct rung_driver {
   bool (*read)(void* data, uint8_t* inputs, int64_t now_ns); /* false: an error. May be null, as `write` */
   bool (*write)(void* data, const uint8_t* outputs, int64_t now_ns);
   void* data;
+  /* The program has stopped: the `write` that follows brings the safe values, the one after that says that it runs
+   * again. May be null. */
+  void (*stopped)(void* data, int64_t now_ns);
 } rung_driver;
+
+/* A device that the project describes (`[module NAME]` of rung.project), for the driver that serves it. Its channels
+ * lie in the input and output areas in the order of the manual, each at a multiple of its size. */
+typedef struct rung_io_module {
+  uint32_t name, type; /* offsets in strings */
+  uint32_t station;    /* the coupler that it is connected to: offset in strings; '': the controller's rack */
+  uint32_t task;       /* index of the bus cycle task; RUNG_NONE: the cyclic task with the shortest interval */
+  uint32_t input_offset, output_offset;
+} rung_io_module;
 
 /* One test of `rung test`. A test with a `done` variable runs until that is TRUE. */
 typedef struct rung_test {
@@ -405,6 +417,8 @@ typedef struct rung_module {
   uint32_t task_count;
   const rung_write* writes;
   uint32_t write_count;
+  const rung_io_module* io_modules;
+  uint32_t io_module_count;
   const rung_symbol* symbols;
   uint32_t symbol_count;
   const rung_type* types;
