@@ -2,6 +2,7 @@
 #include "stdlib/runtime/host/retain.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -26,7 +27,7 @@ struct State {
 };
 
 std::string freshPath() {
-  const std::string path = testing::TempDir() + "rung_retain";
+  const std::string path = testing::TempDir() + "rung_retain" + std::to_string(getpid());
   remove(path.c_str());
   return path;
 }
