@@ -292,7 +292,7 @@ void Reader::instance() {
   const NameId key = numberedName(created.name);
   expect(":");
   created.record = type();
-  if (accept("bus_task")) created.task = numberOf(task_by_name_, "task", true) + 1;
+  if (accept("task")) created.task = numberOf(task_by_name_, "task", true) + 1;
   created.retain = accept("retain");
   created.is_test = accept("test");
   if (accept("resource")) created.resource = name();

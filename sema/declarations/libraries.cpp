@@ -155,6 +155,18 @@ void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
   }
 }
 
+// The last name of `Library.Base`. Returns the kind of the token after it.
+Kind scanBase(Scanner& scan, std::string_view& base) {
+  Kind kind = scan.next();
+  while (kind == Kind::Word) {
+    base = scan.token();
+    kind = scan.next();
+    if (kind != Kind::Punctuation || !scan.isPunctuation('.')) break;
+    kind = scan.next();
+  }
+  return kind;
+}
+
 uint8_t standardsOf(std::string_view pragma) {
   uint8_t standards = 0;
   if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec2);
@@ -199,7 +211,9 @@ std::vector<IndexedBlock> indexLibrary(std::string_view source) {
       if (scan.next() != Kind::Word) continue;
       if (scan.is("FINAL") || scan.is("ABSTRACT")) scan.next();
       block.names.push_back(scan.token());
-      skipTo(scan, end);
+      Kind after = scan.next();
+      if (after == Kind::Word && scan.is("EXTENDS")) after = scanBase(scan, block.base);
+      if (after != Kind::Word || !scan.is(end)) skipTo(scan, end);
     } else if (scan.is("TYPE")) {
       scanTypes(scan, block.names, bare);
     } else if (scan.is("VAR_GLOBAL")) {
@@ -257,6 +271,7 @@ void indexLibraries(Context& context) {
       if ((block.standards >> dialect & 1u) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
       libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> dialect & 1u) != 0});
+      if (!block.base.empty()) libraries.extended.insert(keyOf(context, context.names().intern(block.base)), space);
       for (const std::string_view spelling_of_name : block.names) {
         const NameId spelling = context.names().intern(spelling_of_name);
         const NameId declared = keyOf(context, spelling);

@@ -17,6 +17,7 @@ constexpr uint8_t kAllStandards = 7;
 struct IndexedBlock {
   uint32_t begin = 0, end = 0;
   std::vector<std::string_view> names;  // the POU; the types and enumeration items; the variables
+  std::string_view base;                // that the POU extends, without its library
   // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard. {std 'iec2, else qualified'}: the others
   // have it by its full name only.
   uint8_t standards = kAllStandards, qualified = 0;

@@ -208,6 +208,10 @@ void resolveHeader(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
   if (symbols.pou(id).progress.header != Pou::Progress::Header::New || !symbols.pou(id).decl) return;
   symbols.pou(id).progress.header = Pou::Progress::Header::Busy;
+  // Its layout must not depend on whether that block is read later.
+  if (symbols.pou(id).library && !symbols.pou(id).pragmas.native && symbols.pou(id).kind != PouKind::Function)
+    symbols.pou(id).object.extended =
+        static_cast<bool>(context.scopes.libraries.extended.find(keyOf(context, symbols.pou(id).name)));
   Context there = atPou(context, id);
   there.pou = {};
   const PouDecl& decl = context.tree().as<PouDecl>(symbols.pou(id).decl);
