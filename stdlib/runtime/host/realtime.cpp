@@ -368,10 +368,10 @@ void Realtime::makeComplete(int64_t now_ns) {
   resume();
 }
 
-// How often the supervisor looks: as often as the shortest watchdog needs, and not more, for each look costs a switch
-// of threads.
+// How often the supervisor looks: as often as the host and the shortest watchdog need, and not more, for each look
+// costs a switch of threads.
 int64_t Realtime::pollNs() const {
-  int64_t poll = 10 * kMillisecond;
+  int64_t poll = options_.poll_ns;
   for (const std::unique_ptr<Worker>& worker : workers_)
     if (const int64_t watchdog = worker->task->row->watchdog_ns; watchdog > 0) poll = std::min(poll, watchdog / 2);
   return std::max(poll, kMillisecond);

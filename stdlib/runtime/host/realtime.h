@@ -17,10 +17,11 @@
 namespace rung::host {
 
 struct RealtimeOptions {
-  int64_t rows = -1;          // < 0: until a signal arrives or the time is over
-  int64_t timeout_ns = 0;     // 0: none
-  int64_t base_ns = 0;        // the program's time at the start
-  bool others_go_on = false;  // a fault stops its task alone
+  int64_t rows = -1;             // < 0: until a signal arrives or the time is over
+  int64_t timeout_ns = 0;        // 0: none
+  int64_t base_ns = 0;           // the program's time at the start
+  bool others_go_on = false;     // a fault stops its task alone
+  int64_t poll_ns = 50'000'000;  // at most, between calls of RealtimeHooks::idle
 };
 
 struct RealtimeHooks {
@@ -28,7 +29,7 @@ struct RealtimeHooks {
   std::function<void(int64_t row)> before, after;
   // When no task is within an activation: what is kept is that of complete cycles. May be empty.
   std::function<void(int64_t program_ns)> complete;
-  // In the caller's thread, about a hundred times a second.
+  // In the caller's thread, at least every RealtimeOptions::poll_ns.
   std::function<void()> idle;
 };
 

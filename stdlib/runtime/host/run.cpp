@@ -549,6 +549,9 @@ int Run::runInRealTime() {
   wanted.rows = cycles;
   wanted.timeout_ns = options.timeout_ns;
   wanted.base_ns = base_ns;
+  const bool has_events = std::any_of(module.tasks, module.tasks + module.task_count,
+                                      [](const rung_task& task) { return task.kind == RUNG_EXTERNAL; });
+  if (has_events || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
   wanted.others_go_on = options.others_go_on;
   std::atomic<int64_t> row_now{0};
   RealtimeHooks hooks;
