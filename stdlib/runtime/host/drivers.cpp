@@ -32,7 +32,7 @@ bool Drivers::load(const std::string& spec, std::string& error) {
   return true;
 }
 
-void Drivers::simulateModules(Symbols& symbols, Hsio& hsio) {
+void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis) {
   for (uint32_t i = 0; i < module_.io_module_count; ++i) {
     const rung_io_module& row = module_.io_modules[i];
     const char* const name = module_.strings + row.name;
@@ -41,6 +41,7 @@ void Drivers::simulateModules(Symbols& symbols, Hsio& hsio) {
     if (type == nullptr || std::any_of(drivers_.begin(), drivers_.end(), serves)) continue;
     std::unique_ptr<SimulatedModule> module = simulate(*type, row.input_offset, row.output_offset, hsio);
     if (module == nullptr) continue;
+    module->reportTo(diagnosis, i + 1);
     for (Terminal& wire : module->terminals()) symbols.addTerminal(name, wire);
     rung_driver driver{};
     driver.name = name;

@@ -22,7 +22,7 @@ class Drivers {
   bool load(const std::string& spec, std::string& error);
   // Simulates the project's modules, but those for which there is a driver of their name. Their terminals become
   // variables, `ad.V0`.
-  void simulateModules(Symbols& symbols, Hsio& hsio);
+  void simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis);
   // Checks areas and the names of tasks. `fastest`: the task of drivers that name none; RUNG_NONE: the first one.
   bool bind(uint32_t fastest, std::string& error);
 

@@ -258,7 +258,7 @@ void Run::reportChanges() const {
 bool Run::loadAll(std::string& error) {
   for (const std::string& driver : options.drivers)
     if (!drivers.load(driver, error)) return error.insert(0, "--driver: "), false;
-  drivers.simulateModules(symbols, hsio);
+  drivers.simulateModules(symbols, hsio, controller.diagnosis());
   if (!tasks.prepare(error)) return false;
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return false;
   if (!options.control_path.empty() && !commands.open(options.control_path, options.realtime, error)) return false;

@@ -110,7 +110,8 @@ class AnalogInput final : public SimulatedModule {
       const bool is_valid = (setting & kInputOn) != 0 && converters_[i].has_result;
       const double shown = is_valid ? std::clamp(mean, mode.low, mode.high) : 0;
       input(codes_, i, static_cast<uint32_t>(std::lround(shown * kInputCodes)));
-      if (faults_.size > 0) input(faults_, i, fault(i, setting, at_wire));
+      reportFault(current_[i], fault(i, setting, at_wire), now_ns);
+      if (faults_.size > 0) input(faults_, i, current_[i]);
     }
   }
 
@@ -129,7 +130,7 @@ class AnalogInput final : public SimulatedModule {
   const Channels codes_ = channels("IN#"), faults_ = channels("IN#_Fault_Code");
   Terminal *const volts_ = terminal("V#"), *const amperes_ = terminal("A#"), *const open_ = terminal("Open#");
   Converter converters_[kInputCount];
-  uint32_t settings_[kInputCount] = {};
+  uint32_t settings_[kInputCount] = {}, current_[kInputCount] = {};  // faults
 };
 
 }  // namespace

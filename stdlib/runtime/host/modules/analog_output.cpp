@@ -79,14 +79,21 @@ class AnalogOutput final : public SimulatedModule {
     return short_[channel].state ? 0xB1 + 2 * channel : 0;
   }
 
-  void readSignals(int64_t) override {
-    for (uint32_t i = 0; faults_.size > 0 && i < kOutputCount; ++i) input(faults_, i, fault(i));
+  void readSignals(int64_t now_ns) override {
+    // The power of all channels has one code.
+    reportFault(no_power_fault_, no_power_->state ? 0xB8 : 0, now_ns);
+    for (uint32_t i = 0; i < kOutputCount; ++i) {
+      const uint32_t code = fault(i);
+      reportFault(current_[i], no_power_->state ? 0 : code, now_ns);
+      if (faults_.size > 0) input(faults_, i, code);
+    }
   }
 
   const Channels words_ = channels("Configuration_CH#"), codes_ = channels("Data_CH#");
   const Channels presets_ = channels("Data_Default#"), faults_ = channels("INT#_Fault_Code");
   Terminal *const volts_ = terminal("V#"), *const amperes_ = terminal("A#");
   Terminal *const open_ = terminal("Open#"), *const short_ = terminal("Short#"), *const no_power_ = terminal("NoPower");
+  uint32_t current_[kOutputCount] = {}, no_power_fault_ = 0;  // faults
 };
 
 }  // namespace

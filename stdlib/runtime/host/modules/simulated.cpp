@@ -72,6 +72,13 @@ void SimulatedModule::input(Channels channels, uint32_t index, uint32_t value) {
   memcpy(&inputs_[channels.byte + index * channels.size], &value, channels.size);
 }
 
+void SimulatedModule::reportFault(uint32_t& last, uint32_t code, int64_t now_ns) {
+  if (code == last) return;
+  if (last != 0) rung_clear_fault(diagnosis_, last, number_);
+  if (code != 0) rung_report_fault(diagnosis_, code, number_, now_ns);
+  last = code;
+}
+
 std::unique_ptr<SimulatedModule> simulate(const ModuleType& type, uint32_t input_offset, uint32_t output_offset,
                                           Hsio& hsio) {
   switch (type.simulation) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rung/diagnosis.h"
 #include "types.h"
 
 namespace rung::host {
@@ -39,6 +40,11 @@ class SimulatedModule {
 
   void read(uint8_t* inputs, int64_t now_ns);
   void write(const uint8_t* outputs, int64_t now_ns);
+  // Its faults (AX 5.2) become current faults of the controller; `number` says which module has them.
+  void reportTo(rung_diagnosis& diagnosis, uint32_t number) {
+    diagnosis_ = &diagnosis;
+    number_ = number;
+  }
   // The program has stopped: the next outputs are the safe ones.
   void stopped() { has_stopped_ = true; }
 
@@ -56,6 +62,8 @@ class SimulatedModule {
   const uint8_t* outputBytes() const { return outputs_.data(); }
   static uint32_t valueOf(const uint8_t* outputs, Channels channels, uint32_t index);
   void input(Channels channels, uint32_t index, uint32_t value);
+  // A channel has this fault now instead of `last`; 0: none.
+  void reportFault(uint32_t& last, uint32_t code, int64_t now_ns);
 
  private:
   // Sets inputs from the terminals and the outputs as last written.
@@ -70,6 +78,8 @@ class SimulatedModule {
   std::vector<uint8_t> inputs_, outputs_;
   std::vector<Terminal> terminals_;
   bool has_stopped_ = false;
+  rung_diagnosis* diagnosis_ = nullptr;
+  uint32_t number_ = 0;
 };
 
 // nullptr: a coupler, which has no channels. `hsio`: the counter unit of HIGH_PULSE_IO.
