@@ -5,23 +5,8 @@
 set -eu
 seconds=${1:-10}
 here=$(cd "$(dirname "$0")" && pwd)
-rung=${RUNG:-$here/../../build/bin/rung}
-folder=$(mktemp -d)
+. "$here/one_task.sh"
 trap 'rm -rf "$folder"' EXIT
-gcc -O2 "$here/lateness.c" -o "$folder/bare"
-cat > "$folder/main.st" <<'END'
-PROGRAM Main
-VAR n AT %QW0 : UINT; in AT %IW0 : UINT; END_VAR
-n := n + in + 1;
-END_PROGRAM
-CONFIGURATION c
-RESOURCE r ON PLC
-TASK t(INTERVAL := T#1ms, PRIORITY := 1);
-PROGRAM p WITH t : Main;
-END_RESOURCE
-END_CONFIGURATION
-END
-"$rung" build "$folder/main.st" -o "$folder/app"
 # User and system time of a run in ns.
 TIMEFORMAT='%3U %3S'
 spent() {

@@ -1,6 +1,7 @@
 // Module types and their channels: see types.h.
 #include "types.h"
 
+#include <strings.h>
 #include <cstring>
 
 namespace rung::host {
@@ -122,13 +123,8 @@ std::string digits(uint32_t number, uint32_t base) {
   return text;
 }
 
-bool equalNames(std::string_view a, const char* b) {
-  if (a.size() != strlen(b)) return false;
-  for (size_t i = 0; i < a.size(); ++i) {
-    const char c = a[i] >= 'a' && a[i] <= 'z' ? static_cast<char>(a[i] - 32) : a[i];
-    if (c != b[i]) return false;
-  }
-  return true;
+bool isCalled(const ModuleType& type, std::string_view name) {
+  return name.size() == strlen(type.name) && strncasecmp(name.data(), type.name, name.size()) == 0;
 }
 
 // Where the next channel of an area goes: bits of one byte follow each other.
@@ -182,7 +178,7 @@ uint32_t bytesOf(ChannelType type) {
 
 const ModuleType* findModuleType(std::string_view name, bool has_station) {
   for (const ModuleType& type : kTypes)
-    if (type.has_station == has_station && equalNames(name, type.name)) return &type;
+    if (type.has_station == has_station && isCalled(type, name)) return &type;
   return nullptr;
 }
 
