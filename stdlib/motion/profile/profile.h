@@ -6,7 +6,6 @@
 #pragma once
 
 #include <stdint.h>
-#include <type_traits>
 
 namespace rung::motion {
 
@@ -80,7 +79,7 @@ inline double duration(const Profile& profile) { return profile.duration; }
 // The jerk there, 0 where the acceleration jumps.
 [[nodiscard]] double jerkAt(const Profile& profile, double t);
 
-static_assert(std::is_trivially_copyable_v<State> && std::is_trivially_copyable_v<Limits>);
-static_assert(std::is_trivially_copyable_v<Profile>);
+static_assert(__is_trivially_copyable(State) && __is_trivially_copyable(Limits));
+static_assert(__is_trivially_copyable(Profile));
 
 }  // namespace rung::motion
