@@ -10,7 +10,7 @@ namespace rung::ir {
 // What task `task` (its index) calls: its programs and blocks, and what is called around them.
 std::vector<BodyId> rootsOfTask(const Module& module, uint32_t task);
 
-// These bodies and those that they reach, each once; ids that are none are skipped. Needs Module::dispatches.
+// These bodies and those that they reach, each once; missing ids are skipped. Needs Module::dispatches.
 std::vector<BodyId> reachableBodies(const Module& module, const std::vector<BodyId>& roots);
 
 }  // namespace rung::ir

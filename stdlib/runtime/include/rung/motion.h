@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Process data of one drive; each member is the object whose number stands beside it. Positions and velocities are in
+/* Process data of one drive; each member is one object, with its number. Positions and velocities are in
  * increments and increments per second, torques in 0.1 % of the rated torque. */
 typedef struct rung_drive {
   /* To the drive. */
