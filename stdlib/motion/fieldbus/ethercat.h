@@ -94,7 +94,8 @@ void pass(Datagram& datagram, EcatSlave* slaves, size_t count);
 uint16_t expectedCounter(EcatCommand command, size_t reading, size_t writing);
 
 // How a frame addresses a segment. Direct: the segment is alone on the port, and the frame goes to all. Open: it is
-// behind a switch, and the first slave has the address of the segment; it swaps source and destination in the answer.
+// connected to a switch, and the first slave has the address of the segment; it swaps source and destination in the
+// answer.
 struct SegmentFrame {
   uint8_t destination[6], source[6];
   uint32_t destination_ip, source_ip;
