@@ -38,31 +38,40 @@ int ofOperationEnabled(Command command) {
   return -1;
 }
 
-int ofQuickStopActive(Command command, const DriveEvents& events) {
-  if (command == Command::DisableVoltage) return 12;
-  if (!events.ramp_done) return -1;
-  if (!events.stays_stopped) return 12;
-  return command == Command::EnableOperation ? 16 : -1;
-}
-
 }  // namespace
 
-int transitionOf(DriveState state, uint16_t controlword, uint16_t last, const DriveEvents& events) {
+int pendingTransition(DriveState state, uint16_t controlword) {
   const Command command = commandOf(controlword);
-  const bool has_stopped = !events.slows_down || events.ramp_done;
-  if (events.fault && state != DriveState::FaultReactionActive && state != DriveState::Fault) return 13;
   switch (state) {
-    case DriveState::NotReadyToSwitchOn: return 1;
     case DriveState::SwitchOnDisabled: return command == Command::Shutdown ? 2 : -1;
     case DriveState::ReadyToSwitchOn:
       if (command == Command::DisableVoltage || command == Command::QuickStop) return 7;
-      return events.power && (command == Command::SwitchOn || command == Command::EnableOperation) ? 3 : -1;
+      return command == Command::SwitchOn || command == Command::EnableOperation ? 3 : -1;
     case DriveState::SwitchedOn: return ofSwitchedOn(command);
-    case DriveState::OperationEnabled: {
-      const int transition = ofOperationEnabled(command);
-      return (transition == 5 || transition == 8) && !has_stopped ? -1 : transition;
-    }
-    case DriveState::QuickStopActive: return ofQuickStopActive(command, events);
+    case DriveState::OperationEnabled: return ofOperationEnabled(command);
+    case DriveState::QuickStopActive:
+      return command == Command::DisableVoltage ? 12 : command == Command::EnableOperation ? 16 : -1;
+    case DriveState::NotReadyToSwitchOn:
+    case DriveState::FaultReactionActive:
+    case DriveState::Fault: return -1;
+  }
+  return -1;
+}
+
+int transitionOf(DriveState state, uint16_t controlword, uint16_t last, const DriveEvents& events) {
+  const bool has_stopped = !events.slows_down || events.ramp_done;
+  if (events.fault && state != DriveState::FaultReactionActive && state != DriveState::Fault) return 13;
+  const int pending = pendingTransition(state, controlword);
+  switch (state) {
+    case DriveState::NotReadyToSwitchOn: return 1;
+    case DriveState::SwitchOnDisabled:
+    case DriveState::SwitchedOn: return pending;
+    case DriveState::ReadyToSwitchOn: return pending == 3 && !events.power ? -1 : pending;
+    case DriveState::OperationEnabled: return (pending == 5 || pending == 8) && !has_stopped ? -1 : pending;
+    case DriveState::QuickStopActive:
+      if (pending == 12) return 12;
+      if (!events.ramp_done) return -1;
+      return !events.stays_stopped ? 12 : pending;
     case DriveState::FaultReactionActive: return has_stopped ? 14 : -1;
     case DriveState::Fault: {
       const bool reset = (controlword & kFaultReset) != 0 && (last & kFaultReset) == 0;

@@ -37,6 +37,9 @@ struct DriveEvents {
   bool slows_down;     // the option of the transition asked for stops the motor first: the transition waits for it
 };
 
+// The transition that the controlword asks for in a state, before any event: 2 to 12; -1: none.
+int pendingTransition(DriveState state, uint16_t controlword);
+
 // The number of the transition to be taken now, 0 to 16; -1: none. `last` is the controlword of the step before: a
 // fault is reset by a rising edge.
 int transitionOf(DriveState state, uint16_t controlword, uint16_t last, const DriveEvents& events);
