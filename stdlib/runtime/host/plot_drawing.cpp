@@ -10,7 +10,8 @@
 namespace rung::host {
 namespace {
 
-constexpr int kCharacter = 7, kSmallCharacter = 6;  // of a sans serif font of 12 and 10 pixels, rather too wide
+constexpr double kCharacter = 7.5;  // of a sans serif font of 12 pixels, rather too wide
+constexpr int kSmallCharacter = 6;  // of 10 pixels
 constexpr int kWidth = 720, kRight = 24, kTop = 14, kBottom = 34, kGap = 16;
 constexpr int kLevel = 20, kNumber = 72;
 constexpr size_t kMostEdges = 24;  // more would hide the curves
@@ -88,20 +89,21 @@ class Drawing {
  public:
   Drawing(const std::vector<PlotLane>& lanes, double columns, int64_t end_ns)
       : lanes_(lanes), columns_(std::max(columns, 1e-9)), end_ns_(static_cast<double>(end_ns)) {
-    int names = 0, ticks = 0;
+    int ticks = 0;
+    double names = 3 * kCharacter;
     for (const PlotLane& lane : lanes) {
-      names = std::max(names, kCharacter * static_cast<int>(lane.name.size()));
+      names = std::max(names, kCharacter * static_cast<double>(lane.name.size()));
       axes_.push_back(axisOf(lane));
       for (const std::string& text : tickTexts(axes_.size() - 1))
         ticks = std::max(ticks, kSmallCharacter * static_cast<int>(text.size()));
     }
-    names_ = 12 + std::max(names, 3 * kCharacter);
+    names_ = 12 + static_cast<int>(names);
     left_ = names_ + 8 + ticks + 6;
   }
 
   std::string draw() {
     int height = kTop + kBottom - kGap;
-    for (const PlotLane& lane : lanes_) height += heightOf(lane) + kGap;
+    for (size_t i = 0; i < lanes_.size(); ++i) height += heightOf(i) + kGap;
     bottom_ = height - kBottom + 6;
     const std::string width_text = std::to_string(left_ + kWidth + kRight), height_text = std::to_string(height);
     svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width_text + "\" height=\"" + height_text +
@@ -112,15 +114,13 @@ class Drawing {
     int top = kTop;
     for (size_t i = 0; i < lanes_.size(); ++i) {
       drawLane(i, top);
-      top += heightOf(lanes_[i]) + kGap;
+      top += heightOf(i) + kGap;
     }
     return svg_ + "</svg>\n";
   }
 
  private:
-  static int heightOf(const PlotLane& lane) {
-    return lane.kind == PlotKind::Level || lane.kind == PlotKind::Item ? kLevel : kNumber;
-  }
+  int heightOf(size_t lane) const { return hasAxis(lanes_[lane]) && axes_[lane].count() > 1 ? kNumber : kLevel; }
   static bool hasAxis(const PlotLane& lane) { return lane.kind == PlotKind::Number || lane.kind == PlotKind::Duration; }
   double x(double column) const { return left_ + kWidth * std::min(column / columns_, 1.0); }
 
@@ -194,7 +194,7 @@ class Drawing {
 
   void drawLane(size_t number, int top) {
     const PlotLane& lane = lanes_[number];
-    const int height = heightOf(lane);
+    const int height = heightOf(number);
     svg_ += textAt(names_, top + height / 2.0 + 4, "end", lane.name);
     switch (lane.kind) {
       case PlotKind::Level:
@@ -217,7 +217,7 @@ class Drawing {
     const std::vector<std::string> texts = tickTexts(number);
     svg_ += "<g class=\"s\">\n";
     for (size_t i = 0; i < texts.size(); ++i) {
-      const double at = y(axis, top, kNumber, tick(axis, static_cast<int>(i)));
+      const double at = y(axis, top, heightOf(number), tick(axis, static_cast<int>(i)));
       svg_ += lineFrom("grid", left_, at, "h" + std::to_string(kWidth));
       svg_ += textAt(left_ - 4, at + 3.5, "end", texts[i]);
     }
