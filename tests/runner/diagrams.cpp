@@ -1,6 +1,6 @@
 // The timing diagrams of the library pages: docs/library/diagrams/LIBRARY/NAME.svg is what
 // samples/library/LIBRARY/NAME.st draws, with the options in its `// run: ` or `// test: ` line. tests/update draws it
-// anew. Programs with `// output: ` lines show no behaviour in time; they are run with the page that has them.
+// again. Programs with `// output: ` lines show no behaviour in time; they are run with the page that has them.
 #include <algorithm>
 #include <filesystem>
 

@@ -33,6 +33,24 @@ function declarations(line,  comment, parts, count, i, kind) {
   }
 }
 
+# A line of a type: fields end with `;`, items are separated by `,`.
+function typed(line,  comment, parts, count, i) {
+  comment = ""
+  if (match(line, /\/\/\/.*/)) { comment = trimmed(substr(line, RSTART + 3)); line = substr(line, 1, RSTART - 1) }
+  sub(/\/\/.*/, "", line)
+  gsub(/STRUCT( EXTENDS [A-Za-z_0-9.]+)?|UNION|END_STRUCT|END_UNION|END_TYPE|:$|^\(/, "", line)
+  if (holds == "item") {
+    if (match(line, /\) *[A-Z]*.*;/)) { base = trimmed(substr(line, RSTART + 1, RLENGTH - 2)); line = substr(line, 1, RSTART - 1) }
+    if (base ~ /^:=/) base = ""
+  }
+  count = split(line, parts, holds == "item" ? "," : ";")
+  for (i = 1; i <= count; ++i) {
+    line = trimmed(parts[i])
+    if (line == "" || line ~ /^END_|^\(|^\{/) continue
+    list = list "- " holds " " pin(line, comment) "\n"
+  }
+}
+
 # As GitHub makes them from headings.
 function anchorOf(heading) {
   heading = tolower(heading)
@@ -87,6 +105,7 @@ function flush(  i) {
   for (i = 1; i <= count; ++i) {
     if (i == 1) print "\n## " toupper(substr(file, 1, 1)) substr(file, 2)
     print "\n### " first[order[i]]
+    has_entry = 1
     if (order[i] != "") print "\n" substr(order[i], 1, length(order[i]) - 1)
     if (pins[order[i]] != "") print "\n" pins[order[i]]
     if (others[order[i]] != "") print "\nAlso " substr(others[order[i]], 3) "."
@@ -176,15 +195,34 @@ inside && /^END_FUNCTION/ {
   doc = ""; std = ""
   next
 }
-!inside && /^TYPE [A-Za-z_]/ && doc != "" {
+# `TYPE name : STRUCT … END_STRUCT END_TYPE`, `TYPE name : (…); END_TYPE`, `TYPE name : other; END_TYPE`
+!inside && !type && /^TYPE [A-Za-z_]/ && doc != "" {
   name = $2; sub(/:.*/, "", name)
-  names[doc] = name
+  type = doc; list = ""; base = ""
+  doc = ""
+  names[type] = name
   if (std != "") name = name " (" std ")"
-  first[doc] = name; pins[doc] = "- type"; order[++count] = doc
+  std = ""
+  first[type] = name; order[++count] = type
+  sub(/^TYPE [A-Za-z_0-9]+ *:? */, "")
+  holds = /STRUCT|UNION/ ? "field" : /^\(/ || $0 == "" ? "item" : "type"
+}
+type {
+  if (holds == "item" && /^ *(STRUCT|UNION)/) holds = "field"
+  typed($0)
+  if (/END_TYPE/) {
+    if (base != "") list = list "- base type `" base "`\n"
+    pins[type] = substr(list, 1, length(list) - 1)
+    type = ""
+  }
+  next
 }
 !inside { doc = ""; std = "" }
 END {
   flush()
+  has_example = 0
+  for (program in anchors) has_example = 1
+  if (has_entry && !has_example) complain("library " library ": no program in samples/library/" library)
   for (name in shown)
     if (!(name in is_used)) complain("samples/library/" library ": `" name "` of a `// shows: ` line has no entry on the page")
 }
