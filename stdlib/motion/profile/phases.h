@@ -9,6 +9,7 @@
 namespace rung::motion {
 
 inline double square(double x) { return x * x; }
+inline double larger(double a, double b) { return a > b ? a : b; }
 
 constexpr double rounding = 2.220446049250313e-16;  // distance of 1 to the next LREAL
 

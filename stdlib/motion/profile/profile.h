@@ -43,7 +43,7 @@ struct Phase {
 };
 
 // A plan. All bytes 0: at rest at 0 for ever.
-struct Profile {
+struct alignas(8) Profile {
   static constexpr int max_phases = 14;
   State start;
   double duration;      // sum of the phases

@@ -190,10 +190,57 @@ class Over {
       Value at = distanceOverPeak(base + change, base - rest_ + change, base - to_ + change);
       return Value{at.value - distance_, at.slope * 2 * w / j};
     };
-    const auto unknownOf = [&](double x) { return sqrt(square(least) + j * (x - base)); };
-    const double low = base < rest_ ? unknownOf(rest_) : base < to_ ? unknownOf(to_) : least;
-    const double high = unknownOf(curve_.velocity);
-    distanceOf(rootOf(distanceOf, low, high, high));
+    const auto unknownAbove = [&](double change) {
+      const double e = square(least) + j * change;
+      return e > 0 ? sqrt(e) : 0;
+    };
+    double low = base < rest_ ? unknownAbove(rest_ - base) : base < to_ ? unknownAbove(to_ - base) : least;
+    double high = unknownAbove(curve_.velocity - base);
+    // From where on each of the ramps has its greatest acceleration.
+    const double rise_limited = unknownAbove((square(curve_.rise.above) - square(s)) / j + rest_ - base);
+    const double fall_limited = unknownAbove(square(curve_.fall.above) / j + to_ - base);
+    const double both_limited = larger(low, larger(rise_limited, fall_limited));
+    Value top{0, 0};
+    if (both_limited < high) {
+      top = distanceOf(both_limited);
+      const double change = (both_limited - least) * (both_limited + least) / j;
+      if (top.value <= 0 && areLimited(base + change)) {
+        const double more = growBy(-top.value, base + change);
+        distanceOverPeak(base + change + more, base - rest_ + change + more, base - to_ + change + more);
+        return;
+      }
+      (top.value > 0 ? high : low) = both_limited;
+    }
+    if (!(top.value > 0)) top = distanceOf(high);
+    distanceOf(rootOf(distanceOf, low, high, guess(low, high, -distanceOf(low).value, top)));
+  }
+
+  // Whether both ramps have the greatest acceleration of velocities above 0 at their peak `velocity`.
+  bool areLimited(double velocity) const {
+    const bool same = curve_.rise.below == curve_.rise.above;
+    const auto isLimit = [](double peak, double limit) { return fabs(peak - limit) <= 1e-15 * limit; };
+    return (velocity >= 0 || same) && isLimit(way_.rise.peak, curve_.rise.above) &&
+           isLimit(fall_.peak, curve_.fall.above);
+  }
+
+  // How much higher the peak velocity gives `more` distance, where both ramps have their greatest acceleration: the
+  // slope of the distance is linear in the velocity there.
+  double growBy(double more, double velocity) const {
+    const double a = curve_.rise.above;
+    const double b = curve_.fall.above;
+    const double bend = 1 / a + 1 / b;
+    const double slope = velocity * bend + (a + b) / (2 * curve_.jerk);
+    const double root = sqrt(square(slope) + 2 * more * bend);
+    return slope > 0 ? 2 * more / (slope + root) : (root - slope) / bend;
+  }
+
+  // Where a power of w between the bounds, with the slope of the upper one, covers what is missing at the lower one.
+  static double guess(double low, double high, double missing, const Value& top) {
+    const double whole = missing + top.value;
+    const double part = missing / whole;
+    const double power = top.slope * (high - low) / whole;
+    const double root = power > 2.5 ? roughCubeRoot(part) : power > 1.5 ? sqrt(part) : part;
+    return low + (high - low) * root;
   }
 
   // The start brakes, and the end velocity is still lower: where the braking is relaxed to -m, taken up again at
@@ -372,7 +419,7 @@ void sCurveToPosition(Profile& profile, const Request& request, const Limits& li
   double tolerance = request.tolerance;
   if (side * to < 0 && (side * rest <= 0 || side * start.acceleration < 0)) {
     // The other way would be a loop. Without acceleration a small change of velocity has next to no peak.
-    const double speed = fmax(fmax(fabs(start.velocity), fabs(rest)), fabs(to));
+    const double speed = larger(larger(fabs(start.velocity), fabs(rest)), fabs(to));
     const double least_peak = sqrt(curve.jerk * speed * 1e-11);
     tolerance += rampRounding(speed, direct.way.rise.peak > least_peak ? direct.way.rise.peak : least_peak);
   }

@@ -81,7 +81,7 @@ void trapezoidToPosition(Profile& profile, const Request& request, const Limits&
   double tolerance = request.tolerance;
   if (sign * request.end_velocity < 0 && sign * request.velocity <= 0) {  // the other way would be a loop
     const double smaller = limits.acceleration < limits.deceleration ? limits.acceleration : limits.deceleration;
-    tolerance += rampRounding(fmax(fabs(request.velocity), fabs(request.end_velocity)), smaller);
+    tolerance += rampRounding(larger(fabs(request.velocity), fabs(request.end_velocity)), smaller);
   }
   if (fabs(more) <= tolerance) {
     Writer writer(profile, 1);
