@@ -47,4 +47,8 @@ void trapezoidToVelocity(Profile& profile, const Request& request, const Limits&
 // Distance of the ramp from one velocity to the other.
 double trapezoidRampDistance(double from, double to, const Limits& limits);
 
+// Limited jerk (s_curve.cpp).
+void sCurveToPosition(Profile& profile, const Request& request, const Limits& limits);
+void sCurveToVelocity(Profile& profile, const Request& request, const Limits& limits);
+
 }  // namespace rung::motion

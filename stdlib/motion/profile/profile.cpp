@@ -95,7 +95,11 @@ Result planPosition(Profile& profile, const State& start, double position, doubl
     request.tolerance = 16 * rounding * (fabs(position) + fabs(start.position));
   }
   Profile plan = startOf(start, ramp);
-  trapezoidToPosition(plan, request, meanLimits(limits, ramp));
+  if (isJerkLimited(limits, ramp)) {
+    sCurveToPosition(plan, request, limits);
+  } else {
+    trapezoidToPosition(plan, request, meanLimits(limits, ramp));
+  }
   if (Result result = finish(plan, end_velocity, profile); result != Result::Ok) return result;
   profile.end_position = position;
   return Result::Ok;
@@ -107,7 +111,11 @@ Result planVelocity(Profile& profile, const State& start, double velocity, const
   if (Result result = checkLimits(limits); result != Result::Ok) return result;
   Request request{start.velocity, isJerkLimited(limits, ramp) ? start.acceleration : 0, 0, velocity, 0};
   Profile plan = startOf(start, ramp);
-  trapezoidToVelocity(plan, request, meanLimits(limits, ramp));
+  if (isJerkLimited(limits, ramp)) {
+    sCurveToVelocity(plan, request, limits);
+  } else {
+    trapezoidToVelocity(plan, request, meanLimits(limits, ramp));
+  }
   return finish(plan, velocity, profile);
 }
 
