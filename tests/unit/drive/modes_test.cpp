@@ -184,7 +184,7 @@ TEST(Modes, ProfileVelocity) {
   TestDrive test;
   test.drive.profile_deceleration_ = 2000000;
   test.enable(3);
-  EXPECT_NE(0, test.data.statusword & kBit12) << "stands still";
+  EXPECT_NE(0, test.data.statusword & kBit12) << "velocity 0";
   test.data.target_velocity = 50000;
   test.run(25);
   EXPECT_EQ(25000, test.data.velocity);

@@ -52,7 +52,7 @@ TEST(WorkingCounter, FailuresDoNotCount) {
   segment.slaves[1].write_fails = true;
   EXPECT_EQ(0, segment.send(EcatCommand::FPWR, deviceAddress(1002, 16)).working_counter);
   EXPECT_EQ(1, segment.send(EcatCommand::FPRW, deviceAddress(1002, 16)).working_counter);
-  EXPECT_EQ(0, segment.send(EcatCommand::FPRD, deviceAddress(4711, 16)).working_counter) << "nobody has this address";
+  EXPECT_EQ(0, segment.send(EcatCommand::FPRD, deviceAddress(4711, 16)).working_counter) << "no slave has this address";
   EXPECT_EQ(0, segment.send(EcatCommand::FPRD, deviceAddress(1001, 60000)).working_counter) << "beyond the memory";
 }
 
