@@ -95,7 +95,7 @@ bool findIndex(const SimulatedDrive& drive, Way way, double* position) {
 void followDemand(SimulatedDrive& drive, double demand_from, double seconds) {
   if (seconds <= 0) return;
   const double slope = (drive.demand_ - demand_from) / seconds;
-  double position = drive.demand_, velocity = slope;
+  double position = drive.demand_, velocity = drive.demand_velocity_;
   if (drive.time_constant_ > 0) {
     const double lag = drive.time_constant_, left = exp(-seconds / lag);
     const double offset = drive.machine_position_ - demand_from + slope * lag;

@@ -36,7 +36,7 @@ void setDemand(SimulatedDrive& drive, MotionPoint point, double seconds) {
   followDemand(drive, before, seconds);
 }
 
-// 607Dh: both 0 is no limit.
+// 607Dh: 0 and 0 switch the limits off.
 int32_t clampedTarget(const SimulatedDrive& drive, int32_t target) {
   if (drive.min_position_limit_ >= drive.max_position_limit_) return target;
   return target < drive.min_position_limit_   ? drive.min_position_limit_
