@@ -29,7 +29,7 @@ linked_sizes() {  # root, objects
 }
 
 native_blocks=$(dirname "$(dirname "$rung")")/tools/native_table/include
-for source in stdlib/runtime/src/*.cpp stdlib/*/native/*.cpp stdlib/*/*/native/*.cpp; do
+for source in stdlib/runtime/src/*.cpp stdlib/*/native/*.cpp stdlib/*/*/native/*.cpp stdlib/motion/profile/*.cpp; do
   [ -f "$source" ] || continue
   compile "$work/$(echo "$source" | tr / _).o" "$source" -I "$native_blocks"
 done
