@@ -100,12 +100,14 @@ class Describer {
       const rung_task& task = is_.tasks[i];
       const std::string function = "task" + number(i);
       code_ += "static void " + function + "(rung_context* ctx) {\n  (void)ctx;\n";
+      if (module_.tasks[i].before) code_ += callOf(module_.tasks[i].before);
       for (uint32_t p = 0; p < module_.programs.size(); ++p) {
         const ir::ProgramInstance& program = module_.programs[p];
         if (program.task == i + 1 && program.body) code_ += runOf(program, facts_.program_block[p]);
       }
       for (const ir::BlockTask& block : module_.block_tasks)
         if (block.task == i + 1) code_ += callOf(block.run);
+      if (module_.tasks[i].after) code_ += callOf(module_.tasks[i].after);
       code_ += "}\n";
       row(task_rows_, {number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
                        signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),
@@ -121,6 +123,7 @@ class Describer {
       const std::string name = "test" + number(count++);
       std::string init = "nullptr", exit = "nullptr", first, last;
       std::string run = "static void " + name + "(rung_context* ctx) {\n";
+      if (test.before) run += callOf(test.before);
       if (body.kind == ir::BodyKind::Function) {
         declare(test.body);
         run += functionCall(body);
@@ -146,6 +149,7 @@ class Describer {
         exit = name + "_exit";
         code_ += "static void " + exit + "(rung_context* ctx) {\n" + last + "}\n";
       }
+      if (test.after) run += callOf(test.after);
       code_ += run + "}\n";
       row(test_rows_, {number(test.row.name), number(test.row.file), number(test.row.line),
                        unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name, exit});

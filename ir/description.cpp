@@ -337,7 +337,7 @@ class Describer {
     for (const ir::Test& described : module_.tests) {
       const BodyId id = described.body;
       const Body& body = module_.body(id);
-      Description::Test test{{}, id, RUNG_NONE, {}, {}};
+      Description::Test test{{}, id, RUNG_NONE, {}, {}, described.before, described.after};
       const auto ofFile = [&](const std::vector<BodyId>& all) {
         std::vector<BodyId> found;
         for (const BodyId one : all)

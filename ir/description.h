@@ -68,6 +68,7 @@ struct Description {
     BodyId body;
     uint32_t program;                       // index into Module::programs of its instance; RUNG_NONE: a function
     std::vector<BodyId> setups, teardowns;  // of its case and file
+    BodyId before, after;                   // of its run
   };
   std::vector<Test> tests;
   uint64_t layout_hash = 0;

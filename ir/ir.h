@@ -357,6 +357,8 @@ struct Task {
   int64_t watchdog_ns = 0;
   uint32_t sensitivity = 0;
   int64_t duration_ns = 0;  // simulated execution time, in virtual time only
+  // Functions without parameters, or none: in front of and after the programs of each activation.
+  BodyId before = {}, after = {};
 };
 
 // A located variable: name as a symbol, view of the image.
@@ -428,6 +430,7 @@ struct Test {
   NameId name;   // in reports
   BodyId setup;  // a function without parameters that gives the inputs of the instance their values, or none
   Loc loc;
+  BodyId before = {}, after = {};  // as of a task
 };
 
 struct Module {

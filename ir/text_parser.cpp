@@ -86,10 +86,10 @@ int64_t TokenReader::integer() {
 
 static bool isItemWord(std::string_view word) {
   for (const char* item :
-       {"enum",     "subrange",  "struct",     "union",    "block", "program", "globals",         "area",
-        "data",     "interface", "classes",    "dispatch", "list",  "task",    "instance",        "located",
-        "test",     "exit",      "after_init", "function", "body",  "init",    "aligned_globals", "safe",
-        "io_module"})
+       {"enum",      "subrange",   "struct",     "union",    "block", "program", "globals",         "area",
+        "data",      "interface",  "classes",    "dispatch", "list",  "task",    "instance",        "located",
+        "test",      "exit",       "after_init", "function", "body",  "init",    "aligned_globals", "safe",
+        "io_module", "around_task"})
     if (word == item) return true;
   return false;
 }
@@ -276,6 +276,14 @@ void Reader::task() {
   module_.tasks.push_back(std::move(created));
 }
 
+void Reader::taskCalls() {
+  const uint32_t index = numberOf(task_by_name_, "task", true);
+  if (failed_) return;
+  Task& task = module_.tasks[index];
+  if (accept("before")) task.before = bodyNamed("function");
+  if (accept("after")) task.after = bodyNamed("function");
+}
+
 BodyId Reader::bodyNamed(std::string_view what) {
   const Loc loc = token().loc;
   const std::string text = sigilName();
@@ -311,6 +319,8 @@ void Reader::instance() {
 void Reader::test(BodyId body) {
   Test created{body, module_.body(body).spelling, {}, module_.body(body).loc};
   if (accept("setup")) created.setup = bodyNamed("function");
+  if (accept("before")) created.before = bodyNamed("function");
+  if (accept("after")) created.after = bodyNamed("function");
   if (accept("as")) created.name = module_.names.intern(quotedText(TokenKind::String));
   if (!failed_) module_.tests.push_back(created);
 }
@@ -546,7 +556,7 @@ void Reader::declareItem() {
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.
   if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") &&
-      !isWord("dispatch"))
+      !isWord("dispatch") && !isWord("around_task"))
     record();
 }
 
@@ -567,7 +577,8 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") && !isWord("dispatch"))
+        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") && !isWord("dispatch") &&
+        !isWord("around_task"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -600,6 +611,7 @@ bool Reader::read() {
   });
   forEachItem([&] {
     if (accept("dispatch")) dispatch();
+    if (accept("around_task")) taskCalls();
   });
   if (diagnostics_.hasErrors() && !had_errors) return false;
   for (const Code& one : codes_) {

@@ -306,6 +306,17 @@ void Printer::task(uint32_t index) {
   put("\n");
 }
 
+// around_task t before @t~before after @t~after
+void Printer::taskCalls(uint32_t index) {
+  const Task& task = module_.tasks[index];
+  if (!task.before && !task.after) return;
+  put("around_task ");
+  numbered(module_.tasks, index);
+  clause(" before @", task.before);
+  clause(" after @", task.after);
+  put("\n");
+}
+
 void Printer::programName(uint32_t index) {
   put("$");
   numbered(module_.programs, index);
@@ -414,6 +425,7 @@ void Printer::items() {
   for (uint32_t i = 0; i < module_.programs.size(); ++i) instance(i);
   for (const Located& one : module_.located) located(one);
   classes();
+  for (uint32_t i = 0; i < module_.tasks.size(); ++i) taskCalls(i);
   if (module_.after_init) {
     clause("after_init @", module_.after_init);
     put("\n");
@@ -429,6 +441,8 @@ void Printer::items() {
   for (const Test& test : module_.tests) {
     clause("test @", test.body);
     clause(" setup @", test.setup);
+    clause(" before @", test.before);
+    clause(" after @", test.after);
     if (test.name != module_.body(test.body).spelling) {
       put(" as ");
       quoted(module_.names.string(test.name), '"');

@@ -90,6 +90,7 @@ class Reader : TokenReader {
   void classes();
   void dispatch();
   void task();
+  void taskCalls();
   void ioModule();
   void instance();
   void test(BodyId body);

@@ -68,6 +68,7 @@ class Printer {
   void clause(const char* word, BodyId value);
   void dataItem(size_t index);
   void task(uint32_t index);
+  void taskCalls(uint32_t index);
   void ioModule(const types::IoModule& module);
   void instance(uint32_t index);
   void located(const Located& located);

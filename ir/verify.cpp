@@ -163,6 +163,11 @@ void Verifier::checkModule() {
     const Body& body = module_.body(id);
     return body.kind == kind && types_.resolve(body.self) == types_.resolve(record);
   };
+  const auto requireCallable = [&](BodyId id) {
+    const Body* const body = id.index < module_.bodies.size() ? &module_.body(id) : nullptr;
+    require(!id || (body != nullptr && body->kind == BodyKind::Function && !body->result && parameters(*body).empty()),
+            2, "what a task or program instance calls is not a function without parameters and result");
+  };
   for (const Record& record : module_.records) {
     unique(record.name, "record");
     require(isRecord(record.type), 2, "a record without a record type");
@@ -184,14 +189,11 @@ void Verifier::checkModule() {
     require(isBodyOf(program.body, BodyKind::Block, program.record), 2,
             "the body of a program does not belong to its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
-    for (BodyId function : {program.run, program.setup, program.after_init, program.exit, module_.after_init,
-                            module_.exit, module_.safe}) {
-      require(
-          !function || (function.index < module_.bodies.size() && module_.body(function).kind == BodyKind::Function &&
-                        !module_.body(function).result && parameters(module_.body(function)).empty()),
-          2, "the run or setup of a program instance is not a function without parameters and result");
-    }
+    for (BodyId function : {program.run, program.setup, program.after_init, program.exit}) requireCallable(function);
   }
+  for (BodyId function : {module_.after_init, module_.exit, module_.safe}) requireCallable(function);
+  for (const Task& task : module_.tasks)
+    for (BodyId function : {task.before, task.after}) requireCallable(function);
   seen.clear();
   for (const Task& task : module_.tasks) unique(task.name, "task", task.resource);
   for (const Located& located : module_.located)

@@ -166,6 +166,7 @@ struct Pou {
     NameId replaces;                                  // {replaces 'X'}: a mock of X
     bool setup = false, teardown = false;             // {setup}, {teardown}: around each test of the file
     bool safe_values = false;                         // {safe_values}: sets outputs when the program stops
+    bool before_task = false, after_task = false;     // of a method: each activation calls it for every instance
     NameId skip;                                      // {skip 'why'} of a test: the reason
     std::vector<NameId> mocks;                        // {mock 'M'} of a test: name keys, sorted
     std::vector<TestCase> cases;                      // of a test; none: it runs once

@@ -146,16 +146,19 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
 
   for (uint32_t i = 0; i < module.tasks.size(); ++i) {
     steps.clear();
+    if (module.tasks[i].before) steps.push_back({Step::CallOf, module.tasks[i].before, 0});
     for (uint32_t p = 0; p < module.programs.size(); ++p) {
       if (module.programs[p].task == i + 1 && module.programs[p].body) runOf(steps, p);
     }
     for (const BlockTask& block : module.block_tasks)
       if (block.task == i + 1) steps.push_back({Step::CallOf, block.run, 0});
+    if (module.tasks[i].after) steps.push_back({Step::CallOf, module.tasks[i].after, 0});
     of_task.push_back(translator.translateSteps(steps));
   }
   for (const Description::Test& test : description->tests) {
     steps.clear();
     std::vector<Step> first, last;
+    if (test.before) steps.push_back({Step::CallOf, test.before, 0});
     if (test.program == RUNG_NONE) {
       steps.push_back({Step::CallOf, test.body, 0});
     } else {
@@ -168,6 +171,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
       if (program.after_init) first.push_back({Step::CallOf, program.after_init, 0});
       if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
     }
+    if (test.after) steps.push_back({Step::CallOf, test.after, 0});
     for (const BodyId setup : test.setups) first.push_back({Step::CallOf, setup, 0});
     std::vector<Step> teardowns;
     for (const BodyId teardown : test.teardowns) teardowns.push_back({Step::CallOf, teardown, 0});

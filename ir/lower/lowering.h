@@ -116,6 +116,12 @@ struct ModuleLowering {
                      bool is_test);
   void addAfterInit();
   void addTasks();
+  // task_calls.cpp: methods marked {before_task} and {after_task}.
+  void requestTaskCalls();
+  void addTaskCalls();
+  struct Held;
+  BodyId taskCallsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
+                     std::span<const Held> variables);
   void addActivations();
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
                      std::span<const sema::InstancePath> places);

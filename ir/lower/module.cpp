@@ -54,16 +54,18 @@ void ModuleLowering::run() {
       const BodyId init = initOf(module.records[i].type);
       module.records[i].init = init;
     }
+    requestTaskCalls();
   } while (next_to_lower_ < to_lower_.size());
   addAfterInit();
   addExit();
   lowerBodies();  // the functions that these call
   addClasses();
   addDispatches();
+  addTasks();
+  addTaskCalls();
   simplifyLimits();
   copyForResources();
   markFaulting();
-  addTasks();
   addLocated();
   addAccessPaths();
   module.aligned_globals = project.options.aligned_globals;

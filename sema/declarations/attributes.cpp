@@ -146,11 +146,13 @@ void resolveConnection(Context& context, PouId block, VarId id, const Pragma& pr
   }
 }
 
-// Forbids inputs of what is called after the initialization, of its object or of all: nothing gives them values.
+// Forbids inputs of what is called after the initialization, of its object or of all, and around a task: nothing gives
+// them values.
 //   fails   {attribute 'call_after_init'} METHOD Prepare VAR_INPUT x : INT; END_VAR …        E0649
 void checkCalledAfterInit(Context& context, const Pou& pou) {
-  const bool after_init = pou.pragmas.call_after_init && pou.kind == PouKind::Method;
-  if (!after_init && (!pou.pragmas.after_globals || pou.kind == PouKind::Program)) return;
+  const bool is_called = pou.pragmas.call_after_init || pou.pragmas.before_task || pou.pragmas.after_task;
+  if (!(is_called && pou.kind == PouKind::Method) && (!pou.pragmas.after_globals || pou.kind == PouKind::Program))
+    return;
   for (const VarId id : pou.vars) {
     const Var& var = context.symbols.var(id);
     if (var.section != SectionKind::Input && var.section != SectionKind::InOut) continue;

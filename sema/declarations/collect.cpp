@@ -34,6 +34,8 @@ void internKnownNames(Context& context) {
       {&Known::teardown, "teardown"},
       {&Known::test_case, "case"},
       {&Known::safe_values, "safe_values"},
+      {&Known::before_task, "before_task"},
+      {&Known::after_task, "after_task"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},
       {&Known::lazy, "lazy"},

@@ -59,6 +59,8 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   const Scopes::KnownNames& known = context.scopes.known_names;
   member.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
   member.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
+  member.pragmas.before_task = findPragma(context, decl.h, known.before_task) != nullptr;
+  member.pragmas.after_task = findPragma(context, decl.h, known.after_task) != nullptr;
   member.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   takeAttributes(context, decl.h, member);
   member.library_name = owner.library_name;

@@ -2,6 +2,7 @@
 //   ```st broken [options]    on docs/errors/E0231.md: `rung check` reports that code and no other error
 //   ```st fixed [options]     on such a page: no error, and not that code
 //   ```st run [options]       `rung run` succeeds; an ```output block after it is its output
+//   ```st test [options]      the same for `rung test`
 //   ```st check [options]     no error
 //   ```xml broken, fixed      the same for a project in XML
 //   ```ir broken, fixed       the same for IR text, which ir_golden reads; its comments begin with `; `
@@ -77,7 +78,7 @@ class Page {
         runCheck(block);
       } else if (block.language == "ir" && (block.kind == "broken" || block.kind == "fixed")) {
         runIr(block);
-      } else if (block.language == "st" && block.kind == "run") {
+      } else if (block.language == "st" && (block.kind == "run" || block.kind == "test")) {
         runProgram(block, after);
       } else if (block.kind.find('.') != std::string::npos) {
         const std::filesystem::path path = folder() + "/" + block.kind;
@@ -154,7 +155,7 @@ class Page {
   }
 
   void runProgram(const Block& block, const Block* expected) {
-    const Command c = commandFor(block, "run");
+    const Command c = commandFor(block, block.kind.c_str());
     const Output output = rung::tests::run(c);
     std::string problem;
     if (output.exit_code != 0)

@@ -35,7 +35,8 @@ const char kHelp[] =
   tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
-  docs/**.md, README.md     ```st broken, fixed, check, run; ```console
+  docs/**.md, README.md     ```st broken, fixed, check, run, test; ```console
+  samples/library/**.st     the diagrams in docs/library/diagrams are what these programs draw
   unit/NAME, tools/house    GoogleTest programs, differential; the checks of tools/precommit.sh
   A run of everything writes build/test-results.tsv and compares docs/compliance.md with it.
 )";
@@ -203,6 +204,7 @@ int main(int argc, char** argv) {
   addConformance(setting, jobs);
   addPrograms(setting, jobs);
   addDocumentation(setting, jobs);
+  addDiagrams(setting, jobs);
   addConsole(setting, jobs);
   addGolden(setting, jobs);
   int exit_code = 0;

@@ -48,6 +48,7 @@ void addGolden(const Setting& setting, std::vector<Job>& jobs);
 void addConformance(const Setting& setting, std::vector<Job>& jobs);
 void addPrograms(const Setting& setting, std::vector<Job>& jobs);
 void addConsole(const Setting& setting, std::vector<Job>& jobs);
+void addDiagrams(const Setting& setting, std::vector<Job>& jobs);
 void addDocumentation(const Setting& setting, std::vector<Job>& jobs);
 void addUnit(const Setting& setting, std::vector<Job>& jobs);
 

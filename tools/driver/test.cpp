@@ -114,6 +114,13 @@ class Tester {
     test_options_.timeout_ns = options.timeout_ns;
     test_options_.max_steps = options.max_steps;
     test_options_.junit_path = options.junit;
+    host::RunOptions shown;
+    std::vector<std::string> others;
+    host::parseRunOptions(options.host_arguments, shown,
+                          others);  // without mistakes: they are --watch, --trace, --plot
+    test_options_.watch = shown.watch;
+    test_options_.trace_path = shown.trace_path;
+    test_options_.plot_path = shown.plot_path;
     test_options_.out = sink.programOutput();
     test_options_.err = sink.programErrors();
   }

@@ -14,12 +14,14 @@
 #include "junit.h"
 #include "memory.h"
 #include "output_file.h"
+#include "plot.h"
 #include "rung/host.h"
 #include "served_image.h"
 #include "simulated_channels.h"
 #include "stopper.h"
 #include "symbols.h"
 #include "test_process.h"
+#include "trace.h"
 
 namespace rung::host {
 namespace {
@@ -113,7 +115,14 @@ void onCrash(const char* signal) { noteWhere(runningContext(), std::string("cras
 class TestRunner {
  public:
   TestRunner(const rung_module& module, const TestOptions& options)
-      : module_(module), options_(options), memory_(module), served_(module), channels_(memory_.context(), served_) {
+      : module_(module),
+        options_(options),
+        memory_(module),
+        symbols_(module, memory_),
+        trace_(symbols_),
+        plot_(module),
+        served_(module),
+        channels_(memory_.context(), served_) {
     channels_.serve(host_);
     host_.wall_clock = testClock;
     host_.set_wall_clock = setTestClock;
@@ -135,6 +144,17 @@ class TestRunner {
   }
 
   bool interrupted() const { return interrupted_; }
+
+  // What --trace and --plot show of a test: its own variables, or those of --watch. Returns an error message, or an
+  // empty string.
+  std::string chooseVariables(uint32_t number) {
+    std::string error, test = module_.strings + module_.tests[number].name;
+    test.resize(std::min(test.find('('), test.size()));  // without the values of a case
+    if (!options_.watch.empty() && !trace_.choose(options_.watch, error)) return "--watch: " + error;
+    if (options_.watch.empty() && !trace_.chooseProgram(test, error))
+      return "the test `" + test + "` is a function and keeps no variables; give --watch, or make it a PROGRAM";
+    return "";
+  }
 
   TestResult run(uint32_t number, char* where) {
     Case one{&memory_.context(), &options_.paths, describe(number)};
@@ -171,8 +191,14 @@ class TestRunner {
     channels_.reset();
     if (faulted(result, memory_.reset())) return;
     context.entry = &test;
-    context.task = 1;
-    runCycles(test, result, stopper);
+    context.task = context.module->task_count + 1;  // none of the module's: only MUTEX and SEMA look at it
+    std::string error;
+    const bool is_open =
+        trace_.open(options_.trace_path, options_.out, error) &&
+        (options_.plot_path.empty() || plot_.open(options_.plot_path, options_.out, trace_.variables(), error));
+    if (is_open) runCycles(test, result, stopper);
+    if (!is_open || !trace_.close(error) || !plot_.close(kCycleNs, error))
+      result.fail(TestResult::Broken, "error: " + error);
     if (stopper.reason() != RUNG_STOP_NONE) stopper.limitTime(kEndNs);
     if (test.exit != nullptr) faulted(result, guarded(&context, test.exit));
     faulted(result, memory_.end());
@@ -182,6 +208,7 @@ class TestRunner {
     rung_context& context = memory_.context();
     if (test.init != nullptr && faulted(result, guarded(&context, test.init))) return;
     const bool has_done = test.done_block != RUNG_NONE;
+    int64_t advanced = 0;  // rows that the test has skipped
     for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
       if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
       context.activation = static_cast<uint32_t>(cycle) + 1;
@@ -189,6 +216,10 @@ class TestRunner {
       if (faulted(result, guarded(&context, test.run))) return;
       served_.exchange(context.areas);
       channels_.answerMasters();
+      trace_.row(cycle, context.now_ns);
+      plot_.row();
+      plot_.hold(context.now_ns / kCycleNs - cycle - advanced);
+      advanced = context.now_ns / kCycleNs - cycle;
       if (stopper.reason() != RUNG_STOP_NONE) {  // seen by no poll
         result.fail(TestResult::Broken, describeFault(context, stopper.fault(), options_.paths));
         return;
@@ -202,6 +233,9 @@ class TestRunner {
   const rung_module& module_;
   const TestOptions& options_;
   Memory memory_;
+  Symbols symbols_;
+  Trace trace_;
+  Plot plot_;
   ServedImage served_;
   SimulatedChannels channels_;
   rung_host host_{};
@@ -258,6 +292,11 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
     result.kind = TestResult::Skipped;
     result.messages = skip->second;
     report(std::move(result), options, results);
+  }
+  if (!options.trace_path.empty() || !options.plot_path.empty()) {
+    if (chosen.size() + results.count() > 1) return "--trace and --plot show one test; choose it with --filter";
+    if (!chosen.empty())
+      if (const std::string error = runner.chooseVariables(chosen.front()); !error.empty()) return error;
   }
   const TestProcess process = {
       [&](uint32_t test, char* where) { return runner.run(test, where); },

@@ -32,6 +32,13 @@ bool Trace::choose(const std::string& watch, std::string& error) {
   return true;
 }
 
+bool Trace::chooseProgram(const std::string& name, std::string& error) {
+  Variable program;
+  if (!symbols_.find(name, program, error)) return false;
+  symbols_.expand(program, variables_, true);
+  return true;
+}
+
 bool Trace::open(const std::string& path, std::FILE* out, std::string& error) {
   if (path.empty()) return true;
   if (!file_.open(path, out, error)) return false;

@@ -16,6 +16,8 @@ class Trace {
 
   // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` has the message.
   bool choose(const std::string& watch, std::string& error);
+  // The variables of one program: of library blocks only the pins.
+  bool chooseProgram(const std::string& name, std::string& error);
   // `path`: --trace, "-" for standard output, empty for none.
   bool open(const std::string& path, std::FILE* out, std::string& error);
   void row(int64_t cycle, int64_t time_ns);

@@ -5,11 +5,15 @@ from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 
 where = sys.argv[1]
 client = ModbusTcpClient('127.0.0.1', port=int(where)) if where.isdigit() else ModbusSerialClient(
-    port=where, baudrate=19200, parity='N', stopbits=1, bytesize=8)  # a pseudo-terminal has no parity
+    port=where, baudrate=19200, parity='N', stopbits=1, bytesize=8, timeout=1)  # a pseudo-terminal has no parity
 for _ in range(250):
     if client.connect():
         break
     time.sleep(0.02)
+# A line takes bytes before the slave listens: the first answer says that it does.
+for _ in range(20):
+    if not client.read_holding_registers(3, 1, slave=1).isError():
+        break
 
 
 def check(what, is_right):

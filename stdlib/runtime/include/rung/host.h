@@ -59,6 +59,7 @@ struct TestOptions {
   std::vector<std::string> filters;            // --filter GLOB; none: all tests
   std::map<std::string, std::string> skipped;  // {skip 'why'}: test and reason
   std::string junit_path;                      // --junit
+  std::string watch, trace_path, plot_path;    // as in RunOptions, of one test
   std::string hint_when_long;                  // as in RunOptions
   int64_t max_steps = kDefaultMaxSteps;        // as in RunOptions
   int64_t timeout_ns = 10'000'000'000;         // --timeout, of each test; 0: none

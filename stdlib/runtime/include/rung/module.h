@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 12u
+#define RUNG_MODULE_ABI 13u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -340,6 +340,9 @@ typedef struct rung_hsio {
   bool (*write)(void* data, uint32_t item, uint32_t index, int64_t value, int64_t now_ns); /* false: refused */
 } rung_hsio;
 
+/* Drives of axes: rung/motion.h. */
+typedef struct rung_drives rung_drives;
+
 /* Current faults of the controller, its modules and its links: rung/diagnosis.h. */
 typedef struct rung_diagnosis rung_diagnosis;
 /* Serial lines, TCP and UDP. A channel is a number > 0. No function waits: what takes time goes on between the calls,
@@ -431,6 +434,12 @@ typedef struct rung_host {
   const rung_hsio* hsio;
   void* hsio_data;
   const char* address;
+  /* Default (null): every axis has a simulated drive. */
+  const rung_drives* drives;
+  void* drives_data;
+  /* A fault is about to leave the program's code: the calls that led to it are still on the stack. Default (null):
+   * nothing. */
+  void (*faulted)(void* data, const rung_context* ctx);
 } rung_host;
 
 struct rung_context {

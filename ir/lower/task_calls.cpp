@@ -1,0 +1,128 @@
+// Methods that each activation of a task calls in front of its programs ({before_task}) and after them ({after_task}),
+// for every instance that the task serves. In: such methods, the tasks, lowered bodies. Out: Task::before and
+// Task::after, and those of tests; functions without parameters, or none. An instance in a program belongs to the
+// program's task; in a global variable, to the task of the highest priority among those whose code names that variable.
+// Methods run in the order of declaration, those after the programs in reverse.
+#include <algorithm>
+#include <set>
+
+#include "ir/lower/lowering.h"
+#include "ir/reachable.h"
+
+namespace rung::ir {
+
+// A variable of a list or program that is or holds such instances.
+struct ModuleLowering::Held {
+  Root root;
+  uint32_t field;
+};
+
+namespace {
+
+bool isTaskCall(const sema::Pou& pou) { return pou.pragmas.before_task || pou.pragmas.after_task; }
+
+// The variables of lists that bodies name: list and field.
+std::set<std::pair<uint32_t, uint32_t>> namedGlobals(const Module& module, const std::vector<BodyId>& roots) {
+  std::set<std::pair<uint32_t, uint32_t>> named;
+  for (const BodyId id : reachableBodies(module, roots)) {
+    const Body& body = module.body(id);
+    for (size_t e = 1; e < body.exprs.size(); ++e) {
+      const auto* const field = body.exprs[e].tryAs<FieldExpr>();
+      if (field == nullptr) continue;
+      if (const auto* const list = body.expr(field->base).tryAs<GlobalExpr>()) named.insert({list->list, field->field});
+    }
+  }
+  return named;
+}
+
+}  // namespace
+
+// The methods of the blocks that have instances.
+void ModuleLowering::requestTaskCalls() {
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const sema::Pou& pou = project.pous[i];
+    if (!isTaskCall(pou) || pou.excluded || project.pou(pou.owner).generic) continue;
+    if (record_seen_.count(project.pou(pou.owner).record.index) != 0) bodyOf({i});
+  }
+}
+
+BodyId ModuleLowering::taskCallsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
+                                   std::span<const Held> variables) {
+  if (methods.empty() || variables.empty()) return {};
+  const BodyId created = addHelper(name, {}, suffix);
+  Body& body = module.body(created);
+  BodyLowering lowering(*this, body, {});
+  for (const sema::PouId method : methods) {
+    for (const Held& held : variables) {
+      const TypeId type = types.info(held.root.record).fields[held.field].type;
+      if (!holds(type, project.pou(method).owner)) continue;
+      const ExprId root = lowering.code.place(held.root, body.loc);
+      lowering.objects.callInstances(lowering.code.field(root, held.field, types.resolve(type), body.loc), method);
+    }
+  }
+  lowering.finish();
+  return created;
+}
+
+void ModuleLowering::addTaskCalls() {
+  std::vector<sema::PouId> before, after;
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    if (!isTaskCall(project.pous[i]) || !body_of_[i]) continue;
+    (project.pous[i].pragmas.before_task ? before : after).push_back({i});
+  }
+  if (before.empty() && after.empty()) return;
+  std::reverse(after.begin(), after.end());
+  const auto heldIn = [&](const Root& root) {
+    std::vector<Held> held;
+    const std::vector<types::Field>& fields = types.info(types.resolve(root.record)).fields;
+    for (uint32_t i = 0; i < fields.size(); ++i) {
+      const auto isHeld = [&](sema::PouId method) { return holds(fields[i].type, project.pou(method).owner); };
+      if (fields[i].by_reference) continue;
+      if (std::any_of(before.begin(), before.end(), isHeld) || std::any_of(after.begin(), after.end(), isHeld))
+        held.push_back({root, i});
+    }
+    return held;
+  };
+  std::vector<Held> globals;
+  std::vector<std::vector<Held>> of_task(module.tasks.size());
+  for (const Root& root : roots()) {
+    const std::vector<Held> held = heldIn(root);
+    const uint32_t task = root.is_list ? 0 : module.programs[root.index].task;
+    if (root.is_list) globals.insert(globals.end(), held.begin(), held.end());
+    if (task != 0) of_task[task - 1].insert(of_task[task - 1].end(), held.begin(), held.end());
+  }
+  std::vector<uint32_t> order(module.tasks.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return module.tasks[a].priority < module.tasks[b].priority; });
+  std::set<std::pair<uint32_t, uint32_t>> served;
+  for (const uint32_t task : order) {
+    const auto named = namedGlobals(module, rootsOfTask(module, task));
+    for (const Held& held : globals)
+      if (named.count({held.root.index, held.field}) != 0 && served.insert({held.root.index, held.field}).second)
+        of_task[task].push_back(held);
+  }
+  const auto inReverse = [](std::vector<Held> all) {
+    std::reverse(all.begin(), all.end());
+    return all;
+  };
+  for (uint32_t i = 0; i < module.tasks.size(); ++i) {
+    const BodyId first = taskCallsOf(module.tasks[i].name, "~before", before, of_task[i]);
+    const BodyId last = taskCallsOf(module.tasks[i].name, "~after", after, inReverse(of_task[i]));
+    module.tasks[i].before = first;
+    module.tasks[i].after = last;
+  }
+  for (Test& test : module.tests) {
+    std::vector<Held> own;
+    for (uint32_t p = 0; p < module.programs.size(); ++p)
+      if (module.programs[p].is_test && module.programs[p].body == test.body)
+        own = heldIn({false, p, module.programs[p].record});
+    const auto named = namedGlobals(module, {test.body, test.setup});
+    for (const Held& held : globals)
+      if (named.count({held.root.index, held.field}) != 0) own.push_back(held);
+    test.before = taskCallsOf(test.name, "~before", before, own);
+    test.after = taskCallsOf(test.name, "~after", after, inReverse(own));
+  }
+}
+
+}  // namespace rung::ir

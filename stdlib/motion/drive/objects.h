@@ -1,0 +1,20 @@
+// The object dictionary of the simulated drive, and the mapping of its process data. The objects are fields of the
+// instance; the service channel reaches them by CANopen over EtherCAT. Called by simulated_drive.cpp.
+// IEC 61800-7-201 and -301; TM/TP manual 2.4.1.
+#pragma once
+
+#include "drive/drive.h"
+#include "fieldbus/coe.h"
+
+namespace rung::motion {
+
+// The dictionary, for a SDO server.
+fieldbus::Dictionary dictionaryOf(SimulatedDrive& drive);
+
+// The PDOs that have the objects of `mapped` (bits of rung_drive_object), as after a start.
+void mapDefault(SimulatedDrive& drive, uint32_t mapped);
+
+// The bits of rung_drive_object that the assigned PDOs have.
+uint32_t mappedObjects(const SimulatedDrive& drive);
+
+}  // namespace rung::motion

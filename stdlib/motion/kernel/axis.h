@@ -1,0 +1,128 @@
+// The axis kernel: what all motion blocks share. An AXIS_REF_SM3 has one owner, the command that moves it. The owner's
+// block computes the set values of the cycle when it is called; beforeTask and afterTask exchange them with the drive
+// and watch the axis. In: commands of blocks; out: set values, states and errors.
+//
+// Positions in here count from the start of the axis without a jump, also on a modulo axis; `origin_` is what the
+// program sees as 0. So setting a position changes nothing but `origin_`.
+//
+// Set values of a cycle come from the state at its begin (base_…), so they may be computed again when another command
+// takes over in the same cycle. beforeTask makes the state at the end the state at the begin.
+#pragma once
+
+#include "profile/profile.h"
+#include "rung/code.h"
+#include "rung/motion.h"
+#include "rung/native_blocks.h"
+
+namespace rung::motion {
+
+using Axis = rung_sm3_basic::AXIS_REF_SM3_type;
+using Command = rung_sm3_basic::AXIS_COMMAND_type;
+using Request = rung_sm3_basic::AXIS_REQUEST_type;
+using Error = rung_sm3_basic::SMC_ERROR_type;
+using AxisState = rung_sm3_basic::SMC_AXIS_STATE_type;
+
+// What moves the axis.
+enum class Motion : uint8_t {
+  None,
+  Position,    // to a position
+  Continuous,  // to a position, and on with the end velocity
+  Velocity,    // with the end velocity, for ever
+  Follow,      // the owner's block gives the set values: a table, a master, a drive that homes
+  Brake,       // to rest, without an owner: after an error, or without release
+};
+
+enum class Outcome : uint8_t { Idle, Running, Done, Aborted, Failed };
+
+// ---- cycle (cycle.cpp)
+
+void beforeTask(const rung_context* ctx, Axis& axis);
+void afterTask(const rung_context* ctx, Axis& axis);
+
+// Ends all commands of the axis with an error and brakes it: errorstop.
+void fail(Axis& axis, Error error);
+bool isPowered(const Axis& axis);
+bool isMoving(const Axis& axis);
+
+// ---- motion (motion.cpp)
+
+// Why the axis accepts no motion: SMC_NO_ERROR when it does. `axis` may be null.
+Error refusal(const Axis* axis);
+// False when `axis` is null or not an axis.
+bool isAxis(const Axis* axis);
+
+// A number is finite and above 0; finite.
+bool isPositive(double value);
+bool isFinite(double value);
+
+// The set values at the begin of the cycle, with what is superimposed; where the last command ended in this cycle,
+// those of its end.
+State startState(const Axis& axis);
+// The period of positions, 0: linear. A position as the program sees it.
+double period(const Axis& axis);
+double shown(const Axis& axis, double position);
+// The kernel's position for one that the program gives.
+double inner(const Axis& axis, double position);
+// The target on a modulo axis for a direction; `direction` is an MC_Direction.
+double turned(const Axis& axis, const Request& request, double position, int16_t direction);
+
+// The plan of a request from a state, with the factors of the override.
+Result plan(const Axis& axis, const Request& request, const State& from, Profile& profile);
+
+// Makes a new command the owner, or the one that follows it. Returns false when the request cannot be planned.
+bool begin(Axis& axis, Command& command, const Request& request);
+// The owner with new parameters.
+bool renew(Axis& axis, const Command& command, const Request& request);
+// A superimposed motion; a shift of the master.
+bool beginExtra(Axis& axis, Command& command, const Request& request);
+bool beginPhase(Axis& axis, Command& command, const Request& request);
+
+// Computes the set values of this cycle, once.
+void advance(Axis& axis);
+// The set values from the block that owns a Follow.
+void follow(Axis& axis, const State& state);
+// The axis loses its owner, which is done or aborted: it rests, or goes on with its velocity in continuous motion.
+void release(Axis& axis, Outcome outcome = Outcome::Done);
+// The shift of the master at the end of this cycle.
+State phaseState(Axis& axis);
+// What the drive is to control: the object 6060h for an SMC_CONTROLLER_MODE, 0: not supported.
+int8_t driveMode(int16_t controller_mode);
+// The profile of the owner is over: InVelocity, InEndVelocity.
+bool isProfileOver(const Axis& axis);
+
+// ---- calls of blocks (call.cpp)
+
+// One call of a block with Execute. The outcome of its command is that of this call.
+class Call {
+ public:
+  Call(Axis* axis, Command& command, bool execute);
+
+  bool rises() const { return rises_; }
+  bool isRunning() const { return outcome() == Outcome::Running; }
+  bool isOwner() const;
+  bool is(Outcome outcome) const { return outcome == this->outcome(); }
+  Axis& axis() const { return *axis_; }
+
+  // The block shows an error; a command that it has goes on.
+  void refuse(Error error);
+  // Begins the request, or refuses with `error` when it cannot be planned.
+  void start(const Request& request, Error error);
+  void done();
+  // A command that does not move the axis, and that no other one aborts.
+  void launch();
+  // The owner computes the set values.
+  void run();
+  // Looks again at what became of the command.
+  void update();
+  // For the outputs: call it last, once.
+  void show(uint8_t& busy, uint8_t& error, int16_t& error_id);
+
+ private:
+  Outcome outcome() const { return static_cast<Outcome>(command_.outcome_); }
+
+  Axis* axis_;
+  Command& command_;
+  bool rises_;
+};
+
+}  // namespace rung::motion

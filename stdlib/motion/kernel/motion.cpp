@@ -1,0 +1,474 @@
+// Set values: plans of commands, their evaluation in each cycle, and the hand-over from one command to the next.
+#include "kernel/axis.h"
+
+#include <math.h>
+
+namespace rung::motion {
+namespace {
+
+using namespace rung_sm3_basic;
+
+constexpr double kTolerance = 1e-9;  // of a cycle: a profile that ends so shortly after it ends with it
+
+Profile& profileOf(double (&words)[50]) { return *reinterpret_cast<Profile*>(words); }
+const Profile& profileOf(const double (&words)[50]) { return *reinterpret_cast<const Profile*>(words); }
+
+State baseOf(const Axis& a) { return {a.base_position_, a.base_velocity_, a.base_acceleration_}; }
+
+void setBase(Axis& a, const State& state) {
+  a.base_position_ = state.position;
+  a.base_velocity_ = state.velocity;
+  a.base_acceleration_ = state.acceleration;
+}
+
+void setMotion(Axis& a, const State& state) {
+  a.position_ = state.position;
+  a.velocity_ = state.velocity;
+  a.acceleration_ = state.acceleration;
+}
+
+// What was superimposed becomes part of the motion.
+void mergeExtra(Axis& a) {
+  setBase(a, {a.base_position_ + a.extra_base_position_, a.base_velocity_ + a.extra_base_velocity_,
+              a.base_acceleration_ + a.extra_base_acceleration_});
+  setMotion(
+      a, {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, a.acceleration_ + a.extra_acceleration_});
+  a.extra_base_position_ = a.extra_base_velocity_ = a.extra_base_acceleration_ = 0;
+  a.extra_position_ = a.extra_velocity_ = a.extra_acceleration_ = 0;
+  a.extra_owner_ = 0;
+}
+
+Ramp rampOf(const Axis& a, const Request& request) {
+  if (a.eRampType_ == sin2_) return Ramp::Sin2;
+  if (a.eRampType_ == quadratic_smooth_) return Ramp::QuadraticSmooth;
+  return request.jerk_ > 0 ? Ramp::Quadratic : Ramp::Trapezoid;
+}
+
+Motion motionOf(const Request& request) { return static_cast<Motion>(request.kind_); }
+
+bool replan(Axis& a, const State& from) {
+  a.planned_override_ = a.override_changes_;
+  a.paused_ = a.fVelFactor_ == 0 && motionOf(a.request_) != Motion::Brake ? 1 : 0;
+  return plan(a, a.request_, from, profileOf(a.profile_)) == Result::Ok;
+}
+
+void noteEnd(Axis& a, double rest) {
+  for (size_t i = 3; i > 0; --i) a.ended_[i] = a.ended_[i - 1];
+  a.ended_[0] = a.owner_;
+  a.ended_rest_ = rest;
+  a.ended_cycle_ = a.cycle_;
+}
+
+// The buffered command takes over from a state, `rest` seconds before the end of the cycle.
+void beginNext(Axis& a, State from, double rest) {
+  if (a.next_request_.is_relative_ != 0) {
+    a.next_request_.target_ += from.position;
+    a.next_request_.is_relative_ = 0;
+  }
+  a.request_ = a.next_request_;
+  a.owner_ = a.next_owner_;
+  a.next_owner_ = 0;
+  a.nAxisState_ = a.request_.state_;
+  a.supervised_ = a.cycle_;
+  setBase(a, from);
+  a.begun_ = rest;
+  a.tick_ = -1;
+  if (!replan(a, from)) fail(a, SMC_AXIS_NOT_READY_FOR_MOTION_);
+}
+
+// At rest, also when the set values of this cycle are computed again.
+void rest(Axis& a, double position) {
+  setMotion(a, {position, 0, 0});
+  setBase(a, {position, 0, 0});
+  a.request_.kind_ = static_cast<uint8_t>(Motion::None);
+}
+
+// The owner's profile is over by `over` seconds.
+void endProfile(Axis& a, double over) {
+  const Profile& profile = profileOf(a.profile_);
+  const double at_end = over < 0 ? 0 : over;
+  const bool goes_on = motionOf(a.request_) != Motion::Position && motionOf(a.request_) != Motion::Brake;
+  if (motionOf(a.request_) == Motion::Continuous) a.nAxisState_ = continuous_motion_;
+  if (a.next_owner_ != 0 && motionOf(a.request_) != Motion::Brake) {
+    const bool is_halt = a.request_.end_velocity_ == 0 && a.nAxisState_ == discrete_motion_;
+    if (motionOf(a.request_) == Motion::Position || is_halt) noteEnd(a, at_end);
+    beginNext(a, {profile.end_position, profile.end_velocity, 0}, at_end);
+    a.advanced_ = a.cycle_ - 1;
+    advance(a);
+    return;
+  }
+  if (goes_on) {
+    State state = at(profile, duration(profile));
+    state.position += state.velocity * at_end;
+    setMotion(a, state);
+    return;
+  }
+  rest(a, profile.end_position);
+  if (motionOf(a.request_) == Motion::Brake || a.owner_ == 0) {
+    if (a.nAxisState_ == stopping_ && a.lock_ == 0) a.nAxisState_ = standstill_;
+    return;
+  }
+  noteEnd(a, at_end);
+  a.owner_ = 0;
+  if (a.nAxisState_ != stopping_) a.nAxisState_ = standstill_;
+}
+
+void moveOwner(Axis& a) {
+  const Motion motion = motionOf(a.request_);
+  if (motion == Motion::None) return rest(a, a.base_position_);
+  if (motion == Motion::Follow) return;
+  if (a.planned_override_ != a.override_changes_ && motion != Motion::Brake) {
+    a.begun_ = 0;
+    a.tick_ = 0;
+    replan(a, baseOf(a));
+  }
+  const Profile& profile = profileOf(a.profile_);
+  const double t = a.begun_ + (a.tick_ + 1) * a.fTaskCycle_;
+  const bool is_brake = motion == Motion::Brake;
+  if (t >= duration(profile) - kTolerance * a.fTaskCycle_ && (a.paused_ == 0 || is_brake))
+    endProfile(a, t - duration(profile));
+  else
+    setMotion(a, at(profile, t));
+}
+
+void moveExtra(Axis& a) {
+  if (a.extra_owner_ == 0) {
+    a.extra_position_ = a.extra_base_position_;
+    a.extra_velocity_ = a.extra_acceleration_ = 0;
+    return;
+  }
+  const Profile& profile = profileOf(a.extra_profile_);
+  const double t = (a.extra_tick_ + 1) * a.fTaskCycle_;
+  const State state = at(profile, t);
+  a.extra_position_ = state.position;
+  a.extra_velocity_ = state.velocity;
+  a.extra_acceleration_ = state.acceleration;
+  if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
+  a.extra_position_ = a.extra_base_position_ = profile.end_position;
+  a.extra_velocity_ = a.extra_acceleration_ = a.extra_base_velocity_ = a.extra_base_acceleration_ = 0;
+  const uint32_t owner = a.owner_;
+  a.owner_ = a.extra_owner_;
+  noteEnd(a, 0);
+  a.ended_cycle_ = a.cycle_ - 1;
+  a.owner_ = owner;
+  a.extra_owner_ = 0;
+  if (owner == 0 && a.nAxisState_ == discrete_motion_) a.nAxisState_ = standstill_;
+}
+
+void movePhase(Axis& a) {
+  if (a.phase_owner_ == 0) {
+    a.phase_position_ = a.phase_base_position_;
+    a.phase_velocity_ = a.phase_acceleration_ = 0;
+    return;
+  }
+  const Profile& profile = profileOf(a.phase_profile_);
+  const double t = (a.phase_tick_ + 1) * a.fTaskCycle_;
+  const State state = at(profile, t);
+  a.phase_position_ = state.position;
+  a.phase_velocity_ = state.velocity;
+  a.phase_acceleration_ = state.acceleration;
+  if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
+  a.phase_position_ = a.phase_base_position_ = profile.end_position;
+  a.phase_velocity_ = a.phase_acceleration_ = a.phase_base_velocity_ = a.phase_base_acceleration_ = 0;
+  const uint32_t owner = a.owner_;
+  a.owner_ = a.phase_owner_;
+  noteEnd(a, 0);
+  a.ended_cycle_ = a.cycle_ - 1;
+  a.owner_ = owner;
+  a.phase_owner_ = 0;
+}
+
+void show(Axis& a) {
+  a.fSetPosition_ = shown(a, a.position_ + a.extra_position_);
+  a.fSetVelocity_ = a.velocity_ + a.extra_velocity_;
+  a.fSetAcceleration_ = a.acceleration_ + a.extra_acceleration_;
+  a.fSetJerk_ = a.fTaskCycle_ > 0 ? (a.fSetAcceleration_ - a.set_acceleration_) / a.fTaskCycle_ : 0;
+  if (a.fSetVelocity_ != 0) a.last_direction_ = a.fSetVelocity_ > 0 ? 1 : -1;
+}
+
+// Limits that a set value must not pass; the axis brakes from there.
+void watch(Axis& a) {
+  a.bSWEndSwitchActive_ = 0;
+  if (a.bSWLimitEnable_ != 0 && period(a) == 0) {
+    const double p = a.fSetPosition_;
+    const bool above = p >= a.fSWLimitPositive_, below = p <= a.fSWLimitNegative_;
+    a.bSWEndSwitchActive_ = above || below ? 1 : 0;
+    const bool leaves = (above && a.fSetVelocity_ > 0) || (below && a.fSetVelocity_ < 0);
+    if (leaves && a.nAxisState_ != errorstop_ && a.nAxisState_ != homing_) return fail(a, SMC_DI_SWLIMITS_EXCEEDED_);
+  }
+  if (a.nAxisState_ == errorstop_) return;
+  const double v = fabs(a.fSetVelocity_), acceleration = a.fSetAcceleration_;
+  const auto exceeds = [](double value, double limit) { return limit > 0 && value > limit * (1 + 1e-9); };
+  if (exceeds(v, a.fMaxVelocity_)) return fail(a, SMC_VD_MAX_VELOCITY_EXCEEDED_);
+  const bool grows = acceleration * a.fSetVelocity_ >= 0;
+  if (grows && exceeds(fabs(acceleration), a.fMaxAcceleration_)) return fail(a, SMC_VD_MAX_ACCELERATION_EXCEEDED_);
+  if (!grows && exceeds(fabs(acceleration), a.fMaxDeceleration_)) return fail(a, SMC_VD_MAX_DECELERATION_EXCEEDED_);
+}
+
+// The velocity at which one command hands over to the next without a stop; signed.
+double blendVelocity(const Axis& a, const Request& next) {
+  const double first = a.request_.velocity_, second = next.velocity_;
+  double velocity = 0;
+  switch (static_cast<MC_BUFFER_MODE_type>(next.buffer_mode_)) {
+    case Aborting_:
+    case Buffered_: return 0;
+    case BlendingLow_: velocity = first < second ? first : second; break;
+    case BlendingPrevious_: velocity = first; break;
+    case BlendingNext_: velocity = second; break;
+    case BlendingHigh_: velocity = first > second ? first : second; break;
+  }
+  const double way = a.request_.target_ - (a.base_position_);
+  const double on = next.kind_ == static_cast<uint8_t>(Motion::Velocity)
+                        ? next.end_velocity_
+                        : (next.is_relative_ != 0 ? next.target_ : next.target_ - a.request_.target_);
+  if (way == 0 || on == 0 || (way > 0) != (on > 0)) return 0;  // it turns there
+  return way > 0 ? velocity : -velocity;
+}
+
+}  // namespace
+
+bool isPositive(double value) { return value > 0 && value < HUGE_VAL; }
+bool isFinite(double value) { return value - value == 0; }
+
+bool isAxis(const Axis* axis) { return axis != nullptr && axis->wAxisStructID_ == 0xFE12; }
+
+Error refusal(const Axis* axis) {
+  if (!isAxis(axis)) return SMC_AXIS_IS_NO_AXIS_REF_;
+  switch (static_cast<AxisState>(axis->nAxisState_)) {
+    case power_off_: return SMC_REGULATOR_OR_START_NOT_SET_;
+    case stopping_:
+      return axis->lock_ != 0 && axis->lock_called_ + 1 < axis->cycle_ ? SMC_BLOCKING_MC_STOP_WASNT_CALLED_
+                                                                       : SMC_AXIS_NOT_READY_FOR_MOTION_;
+    case errorstop_:
+    case homing_: return SMC_AXIS_NOT_READY_FOR_MOTION_;
+    case standstill_:
+    case discrete_motion_:
+    case continuous_motion_:
+    case synchronized_motion_: break;
+  }
+  return axis->bDriveStartRealState_ != 0 ? SMC_NO_ERROR_ : SMC_REGULATOR_OR_START_NOT_SET_;
+}
+
+double period(const Axis& axis) { return axis.fPositionPeriod_ > 0 ? axis.fPositionPeriod_ : 0; }
+
+double shown(const Axis& axis, double position) {
+  const double p = position - axis.origin_, turn = period(axis);
+  if (turn == 0) return p;
+  const double wrapped = p - turn * floor(p / turn);
+  return wrapped >= turn ? 0 : wrapped;
+}
+
+double inner(const Axis& axis, double position) { return position + axis.origin_; }
+
+State startState(const Axis& a) {
+  if (a.ended_cycle_ == a.cycle_ && a.owner_ == 0 && a.advanced_ == a.cycle_)
+    return {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, 0};
+  return {a.base_position_ + a.extra_base_position_, a.base_velocity_ + a.extra_base_velocity_,
+          a.base_acceleration_ + a.extra_base_acceleration_};
+}
+
+Result plan(const Axis& a, const Request& request, const State& from, Profile& profile) {
+  const bool is_brake = motionOf(request) == Motion::Brake;
+  const double factor = is_brake ? 1 : a.fVelFactor_;
+  const double ramps = is_brake ? 1 : a.fAccFactor_;
+  Limits limits = {request.velocity_ * factor, request.acceleration_ * ramps, request.deceleration_ * ramps,
+                   request.jerk_ * (is_brake ? 1 : a.fJerkFactor_)};
+  const Ramp ramp = rampOf(a, request);
+  if (motionOf(request) == Motion::Velocity || is_brake || factor == 0)
+    return planVelocity(profile, from, factor == 0 ? 0 : request.end_velocity_ * factor, limits, ramp);
+  double end = request.end_velocity_;
+  if (fabs(end) > limits.velocity) end = end > 0 ? limits.velocity : -limits.velocity;
+  return motionOf(request) == Motion::Continuous ? planContinuous(profile, from, request.target_, end, limits, ramp)
+                                                 : planPosition(profile, from, request.target_, end, limits, ramp);
+}
+
+double turned(const Axis& a, const Request& request, double position, int16_t direction) {
+  const double turn = period(a);
+  const State from = startState(a);
+  if (turn == 0) return inner(a, position);
+  const double target = position - turn * floor(position / turn);
+  double way = target - shown(a, from.position);  // above -turn, below turn
+  if (way < 0) way += turn;
+  const double back = way == 0 ? 0 : way - turn;
+  const auto direct = static_cast<MC_Direction_type>(direction);
+  bool goes_back = false;
+  switch (direct) {
+    case positive_: break;
+    case negative_: goes_back = true; break;
+    case current_: goes_back = a.last_direction_ < 0; break;
+    case shortest_: goes_back = way > turn / 2; break;
+    case fastest_: {
+      Profile there, other;
+      Request forward = request, backward = request;
+      forward.target_ = from.position + way;
+      backward.target_ = from.position + back;
+      goes_back = plan(a, forward, from, there) == Result::Ok && plan(a, backward, from, other) == Result::Ok &&
+                  duration(other) < duration(there);
+      break;
+    }
+  }
+  return from.position + (goes_back ? back : way);
+}
+
+bool begin(Axis& a, Command& command, const Request& request) {
+  const bool waits = request.buffer_mode_ != Aborting_ && a.owner_ != 0;
+  Request wanted = request;
+  const State from = startState(a);
+  const bool after_end = a.ended_cycle_ == a.cycle_ && a.owner_ == 0 && a.advanced_ == a.cycle_;
+  Profile profile;
+  if (!waits) {
+    if (wanted.is_relative_ != 0) wanted.target_ += from.position;
+    wanted.is_relative_ = 0;
+  }
+  if (motionOf(request) != Motion::Follow) {
+    Request probe = wanted;
+    if (waits && probe.is_relative_ != 0) probe.target_ += from.position;
+    if (plan(a, probe, from, profile) != Result::Ok) return false;
+  }
+  command.serial_ = ++a.serials_;
+  command.axis_ = reinterpret_cast<uintptr_t>(&a);
+  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
+  command.error_ = SMC_NO_ERROR_;
+  command.shown_ = 0;
+  if (waits) {
+    a.next_request_ = wanted;
+    a.next_owner_ = command.serial_;
+    const double blend = motionOf(a.request_) == Motion::Position ? blendVelocity(a, wanted) : 0;
+    if (blend != 0) {
+      a.request_.end_velocity_ = blend;
+      if (fabs(blend) > a.request_.velocity_) a.request_.velocity_ = fabs(blend);
+      ++a.override_changes_;
+      a.advanced_ = a.cycle_ - 1;
+    }
+    return true;
+  }
+  mergeExtra(a);
+  a.owner_ = command.serial_;
+  a.next_owner_ = 0;
+  a.coupled_ = 0;
+  a.coupled_master_ = 0;
+  a.request_ = wanted;
+  a.nAxisState_ = wanted.state_;
+  if (wanted.state_ != homing_) {
+    a.homing_ = 0;
+    a.mode_wanted_ = driveMode(a.eControllerMode_);
+  }
+  if (after_end) setBase(a, from);
+  a.begun_ = after_end ? a.ended_rest_ : 0;
+  a.tick_ = after_end ? -1 : 0;
+  a.planned_override_ = a.override_changes_;
+  a.paused_ = a.fVelFactor_ == 0 ? 1 : 0;
+  profileOf(a.profile_) = profile;
+  a.supervised_ = a.cycle_;
+  a.advanced_ = a.cycle_ - 1;
+  return true;
+}
+
+bool renew(Axis& a, const Command& command, const Request& request) {
+  Request& renewed = a.owner_ == command.serial_ ? a.request_ : a.next_request_;
+  if (renewed.target_ == request.target_ && renewed.end_velocity_ == request.end_velocity_ &&
+      renewed.velocity_ == request.velocity_ && renewed.acceleration_ == request.acceleration_ &&
+      renewed.deceleration_ == request.deceleration_ && renewed.jerk_ == request.jerk_)
+    return true;
+  Profile profile;
+  if (plan(a, request, startState(a), profile) != Result::Ok) return false;
+  const int16_t mode = renewed.buffer_mode_;
+  renewed = request;
+  renewed.buffer_mode_ = mode;
+  if (a.owner_ != command.serial_) return true;
+  a.nAxisState_ = request.state_;
+  ++a.override_changes_;
+  a.advanced_ = a.cycle_ - 1;
+  return true;
+}
+
+bool beginExtra(Axis& a, Command& command, const Request& request) {
+  Profile profile;
+  const State from = {a.extra_base_position_, a.extra_base_velocity_, a.extra_base_acceleration_};
+  Request wanted = request;
+  wanted.target_ += from.position;
+  if (plan(a, wanted, from, profile) != Result::Ok) return false;
+  command.serial_ = ++a.serials_;
+  command.axis_ = reinterpret_cast<uintptr_t>(&a);
+  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
+  command.error_ = SMC_NO_ERROR_;
+  command.shown_ = 0;
+  a.extra_owner_ = command.serial_;
+  a.extra_request_ = wanted;
+  a.extra_tick_ = 0;
+  profileOf(a.extra_profile_) = profile;
+  if (a.nAxisState_ == standstill_) a.nAxisState_ = discrete_motion_;
+  a.advanced_ = a.cycle_ - 1;
+  return true;
+}
+
+bool beginPhase(Axis& a, Command& command, const Request& request) {
+  Profile profile;
+  const State from = {a.phase_base_position_, a.phase_base_velocity_, a.phase_base_acceleration_};
+  if (plan(a, request, from, profile) != Result::Ok) return false;
+  command.serial_ = ++a.serials_;
+  command.axis_ = reinterpret_cast<uintptr_t>(&a);
+  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
+  command.error_ = SMC_NO_ERROR_;
+  command.shown_ = 0;
+  a.phase_owner_ = command.serial_;
+  a.phase_request_ = request;
+  a.phase_tick_ = 0;
+  profileOf(a.phase_profile_) = profile;
+  a.advanced_ = a.cycle_ - 1;
+  return true;
+}
+
+void advance(Axis& a) {
+  if (a.advanced_ == a.cycle_) return;
+  a.advanced_ = a.cycle_;
+  moveOwner(a);
+  moveExtra(a);
+  movePhase(a);
+  show(a);
+  watch(a);
+}
+
+void follow(Axis& a, const State& state) {
+  a.advanced_ = a.cycle_ - 1;
+  setMotion(a, state);
+  advance(a);
+}
+
+State phaseState(Axis& a) {
+  movePhase(a);
+  return {a.phase_position_, a.phase_velocity_, a.phase_acceleration_};
+}
+
+void release(Axis& a, Outcome outcome) {
+  if (outcome == Outcome::Done) {
+    noteEnd(a, 0);
+    a.ended_cycle_ = a.cycle_ - 1;
+  }
+  a.owner_ = 0;
+  a.coupled_ = 0;
+  a.coupled_master_ = 0;
+  if (a.velocity_ == 0) {
+    rest(a, a.position_);
+    a.nAxisState_ = standstill_;
+    return;
+  }
+  a.nAxisState_ = continuous_motion_;
+  a.request_.kind_ = static_cast<uint8_t>(Motion::Velocity);
+  a.request_.end_velocity_ = a.velocity_;
+  a.request_.velocity_ = fabs(a.velocity_);
+  a.request_.acceleration_ = a.request_.deceleration_ = 1;
+  a.request_.jerk_ = 0;
+  a.begun_ = 0;
+  a.tick_ = -1;
+  a.acceleration_ = 0;
+  replan(a, {a.position_, a.velocity_, 0});
+}
+
+bool isProfileOver(const Axis& a) {
+  const Profile& profile = profileOf(a.profile_);
+  return a.paused_ == 0 && a.planned_override_ == a.override_changes_ &&
+         a.begun_ + (a.tick_ + 1) * a.fTaskCycle_ >= duration(profile) - kTolerance * a.fTaskCycle_;
+}
+
+}  // namespace rung::motion
