@@ -7,6 +7,7 @@
 # mutants       30 000 corrupted programs and drawings: one error at the right place, and no crash (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
+# profiles      five million motion profiles: limits, continuity, arrival, and no rival faster (COUNT, FIRST)
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
@@ -55,6 +56,11 @@ bodies() {
   tests/bodies/bodies.py
 }
 
+profiles() {
+  needs motion_profile_test
+  RUNG_PROFILE_SEED=$first RUNG_PROFILE_COUNT=${COUNT:-1000000} "$bin/motion_profile_test"
+}
+
 kills() {
   needs rung
   tools/house/kill_retain.sh "${COUNT:-10000}" "$first"
@@ -87,11 +93,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers bodies kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers bodies profiles kills tsan lateness asan debug tidy compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|modifiers|bodies|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
-    *) sed -n '2,17s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|modifiers|bodies|profiles|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
+    *) sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -314,6 +314,7 @@ void rung_sm3_basic_MC_Phasing(rung_context*, MC_Phasing_type* self) {
     self->command_.outcome_ = static_cast<uint8_t>(Outcome::Aborted);
     self->command_.shown_ = 0;
   }
+  if (call.isRunning()) phaseState(call.axis());
   call.update();
   self->Done_ = call.is(Outcome::Done) ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;

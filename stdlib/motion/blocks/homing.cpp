@@ -221,10 +221,9 @@ void rung_sm3_basic_MC_Home(rung_context*, MC_Home_type* self) {
 
 void rung_sm3_basic_SMC_Homing(rung_context*, SMC_Homing_type* self) {
   Call call(self->Axis_, self->command_, self->bExecute_ != 0);
-  if (call.rises() && !call.isRunning())
-    startHoming(*self, call);
-  else if (call.isOwner())
-    runHoming(*self, call);
+  if (call.rises() && !call.isRunning()) startHoming(*self, call);
+  call.run();
+  if (call.isOwner() && !call.rises()) runHoming(*self, call);
   call.run();
   self->bDone_ = call.is(Outcome::Done) ? 1 : 0;
   self->bCommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;

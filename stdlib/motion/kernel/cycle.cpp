@@ -42,7 +42,7 @@ void commit(Axis& a) {
 void takeTaskCycle(const rung_context* ctx, Axis& a) {
   const int64_t passed = ctx->now_ns - a.now_;
   a.now_ = ctx->now_ns;
-  if (ctx->task == 0) return;
+  if (ctx->task == 0 || ctx->task > ctx->module->task_count) return;
   const rung_task& task = ctx->module->tasks[ctx->task - 1];
   if (task.interval_ns > 0)
     a.fTaskCycle_ = static_cast<double>(task.interval_ns) / 1e9;
@@ -196,6 +196,13 @@ void stopWithoutRelease(Axis& a) {
   brake(a, brakeDeceleration(a, SMC_NO_ERROR_));
 }
 
+// To the nearest, halves away from 0; beyond the range its end.
+int64_t rounded(double value, double limit) {
+  if (!(value > -limit)) return static_cast<int64_t>(-limit);
+  if (value >= limit) return static_cast<int64_t>(limit);
+  return static_cast<int64_t>(value < 0 ? value - 0.5 : value + 0.5);
+}
+
 // What CiA 402 wants next on the way to where the axis should be.
 uint16_t controlword(const Axis& a) {
   const uint16_t status = a.drive_.statusword_;
@@ -216,13 +223,10 @@ void send(const rung_context* ctx, Axis& a) {
   drive.controlword = controlword(a);
   drive.mode = a.mode_wanted_ != 0 ? a.mode_wanted_ : int8_t{8};
   const double target = (a.position_ + a.extra_position_) * scale(a);
-  const auto rounded = static_cast<int64_t>(fabs(target) < 9e18 ? llround(target) : 0);
-  drive.target_position = static_cast<int32_t>(static_cast<uint64_t>(rounded));
-  const double velocity = a.fSetVelocity_ * scale(a);
-  drive.target_velocity =
-      fabs(velocity) < 2147483647.0 ? static_cast<int32_t>(lround(velocity)) : (velocity > 0 ? INT32_MAX : INT32_MIN);
+  drive.target_position = static_cast<int32_t>(static_cast<uint64_t>(rounded(target, 9e15)));  // it wraps
+  drive.target_velocity = static_cast<int32_t>(rounded(a.fSetVelocity_ * scale(a), 2147483647.0));
   const double torque = a.fFactorTor_ != 0 ? a.fSetTorque_ / a.fFactorTor_ : 0;
-  drive.target_torque = static_cast<int16_t>(torque > 32767 ? 32767 : torque < -32768 ? -32768 : lround(torque));
+  drive.target_torque = static_cast<int16_t>(rounded(torque, 32767.0));
   if (a.host_drive_ != 0) ctx->host->drives->send(ctx->host->drives_data, &drive, ctx->now_ns);
 }
 
@@ -259,6 +263,7 @@ void beforeTask(const rung_context* ctx, Axis& a) {
   takePower(a);
   watchDrive(a);
   stopWithoutRelease(a);
+  if (isPowered(a) && a.owner_ == 0 && a.extra_owner_ == 0) advance(a);
 }
 
 void afterTask(const rung_context* ctx, Axis& a) {

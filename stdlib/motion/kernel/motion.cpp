@@ -76,8 +76,10 @@ void beginNext(Axis& a, State from, double rest) {
   if (!replan(a, from)) fail(a, SMC_AXIS_NOT_READY_FOR_MOTION_);
 }
 
+// At rest, also when the set values of this cycle are computed again.
 void rest(Axis& a, double position) {
   setMotion(a, {position, 0, 0});
+  setBase(a, {position, 0, 0});
   a.request_.kind_ = static_cast<uint8_t>(Motion::None);
 }
 
@@ -142,8 +144,8 @@ void moveExtra(Axis& a) {
   a.extra_velocity_ = state.velocity;
   a.extra_acceleration_ = state.acceleration;
   if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
-  a.extra_position_ = profile.end_position;
-  a.extra_velocity_ = a.extra_acceleration_ = 0;
+  a.extra_position_ = a.extra_base_position_ = profile.end_position;
+  a.extra_velocity_ = a.extra_acceleration_ = a.extra_base_velocity_ = a.extra_base_acceleration_ = 0;
   const uint32_t owner = a.owner_;
   a.owner_ = a.extra_owner_;
   noteEnd(a, 0);
@@ -166,8 +168,8 @@ void movePhase(Axis& a) {
   a.phase_velocity_ = state.velocity;
   a.phase_acceleration_ = state.acceleration;
   if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
-  a.phase_position_ = profile.end_position;
-  a.phase_velocity_ = a.phase_acceleration_ = 0;
+  a.phase_position_ = a.phase_base_position_ = profile.end_position;
+  a.phase_velocity_ = a.phase_acceleration_ = a.phase_base_velocity_ = a.phase_base_acceleration_ = 0;
   const uint32_t owner = a.owner_;
   a.owner_ = a.phase_owner_;
   noteEnd(a, 0);

@@ -9,8 +9,6 @@
 namespace rung::motion {
 namespace {
 
-constexpr double rounding = 2.220446049250313e-16;  // distance of 1 to the next LREAL
-
 bool isSmooth(Ramp ramp) { return ramp == Ramp::Sin2 || ramp == Ramp::QuadraticSmooth; }
 
 bool isJerkLimited(const Limits& limits, Ramp ramp) {
@@ -42,45 +40,144 @@ Limits meanLimits(const Limits& limits, Ramp ramp) {
   return {limits.velocity, limits.acceleration * mean, limits.deceleration * mean, 0};
 }
 
-Profile startOf(const State& start, Ramp ramp) {
-  Profile profile{};
-  profile.start = start;
-  profile.ramp = ramp;
-  return profile;
+// The phases are written by the planner.
+void begin(Profile& plan, const State& start, Ramp ramp) {
+  plan.start = start;
+  plan.duration = 0;
+  plan.cruise = 0;
+  plan.phase_count = 0;
+  plan.seam = 0;
+  plan.ramp = ramp;
 }
 
+void handOut(const Profile& plan, Profile& profile) {
+  profile.start = plan.start;
+  profile.duration = plan.duration;
+  profile.end_position = plan.end_position;
+  profile.end_velocity = plan.end_velocity;
+  profile.cruise = plan.cruise;
+  for (int i = 0; i < plan.phase_count; ++i) profile.phases[i] = plan.phases[i];
+  profile.phase_count = plan.phase_count;
+  profile.seam = plan.seam;
+  profile.ramp = plan.ramp;
+}
+
+bool isCruise(const Phase& phase) { return phase.acceleration == 0 && phase.jerk == 0; }
+
+// `t` seconds after the state at the start of a phase.
 State advance(const State& state, const Phase& phase, double t) {
   const double a = phase.acceleration;
   return {state.position + t * (state.velocity + t * (a / 2 + t * phase.jerk / 6)),
           state.velocity + t * (a + t * phase.jerk / 2), a + t * phase.jerk};
 }
 
+// `t` seconds before the state at the end of phase `i`. With limited jerk the acceleration there is that of the next
+// phase, which is not rounded by the greater one before it.
+State goBack(const Profile& profile, int i, const State& state, double t) {
+  const Phase& phase = profile.phases[i];
+  double a = phase.acceleration;
+  if (isCruise(phase)) return {state.position - t * profile.cruise, profile.cruise, 0};
+  if (phase.jerk != 0) a = i + 1 < profile.phase_count ? profile.phases[i + 1].acceleration : 0;
+  return {state.position - t * (state.velocity - t * (a / 2 - t * phase.jerk / 6)),
+          state.velocity - t * (a - t * phase.jerk / 2), a - phase.jerk * t};
+}
+
+// Both laws cover half of the rectangle, so a whole smooth phase is advanced through like one of its mean acceleration.
 State advanceSmoothly(const State& state, const Phase& phase, Ramp ramp, double t) {
-  if (phase.acceleration == 0) return {state.position + t * state.velocity, state.velocity, 0};
   const LawValues law = lawAt(ramp, t / phase.duration);
   const double change = phase.acceleration * phase.duration;
   return {state.position + t * state.velocity + change * phase.duration * law.integral,
           state.velocity + change * law.velocity, phase.acceleration * law.acceleration};
 }
 
-// The state at the end of a phase; both laws cover half of the rectangle.
-State endOf(const State& state, const Phase& phase) { return advance(state, phase, phase.duration); }
+// A cruise has its velocity from the profile.
+State cruise(const Profile& profile, const State& state, double t) {
+  return {state.position + t * profile.cruise, profile.cruise, 0};
+}
 
-// Fills in what follows from the phases, and hands the profile out when every figure is finite.
-Result finish(Profile& plan, double end_velocity, Profile& profile) {
+State endOf(const Profile& profile, const State& state, const Phase& phase) {
+  return isCruise(phase) ? cruise(profile, state, phase.duration) : advance(state, phase, phase.duration);
+}
+
+// Where the states from the start and from the end differ least, when rounding of great velocities has grown in long
+// phases after them.
+void moveSeam(Profile& plan) {
+  State forward[Profile::max_phases + 1];
+  forward[0] = plan.start;
+  for (int i = 0; i < plan.phase_count; ++i) forward[i + 1] = endOf(plan, forward[i], plan.phases[i]);
+  State state{plan.end_position, plan.end_velocity, 0};
+  double least = fabs(forward[plan.phase_count].position - state.position);
+  plan.seam = plan.phase_count;
+  for (int i = plan.phase_count - 1; i >= 0; --i) {
+    state = goBack(plan, i, state, plan.phases[i].duration);
+    const double gap = fabs(forward[i].position - state.position);
+    if (gap < least) {
+      least = gap;
+      plan.seam = uint8_t(i);
+    }
+  }
+}
+
+// Fills in what follows from the phases and hands the profile out when every figure is finite. The states meet at the
+// seam.
+Result finish(Profile& plan, Profile& profile) {
   State state = plan.start;
-  plan.duration = 0;
-  for (int i = 0; i < plan.phase_count; ++i) {
+  double way = fabs(plan.start.position) + fabs(plan.end_position);
+  for (int i = 0; i < plan.seam; ++i) {
+    const State end = endOf(plan, state, plan.phases[i]);
     plan.duration += plan.phases[i].duration;
-    state = endOf(state, plan.phases[i]);
+    way += fabs(end.position - state.position);
+    state = end;
   }
-  if (!isfinite(plan.duration) || !isfinite(state.position) || !isfinite(state.velocity)) {
-    return Result::OutOfRange;
+  State back{plan.end_position, plan.end_velocity, 0};
+  for (int i = plan.phase_count - 1; i >= plan.seam; --i) {
+    const State begin = goBack(plan, i, back, plan.phases[i].duration);
+    plan.duration += plan.phases[i].duration;
+    way += fabs(back.position - begin.position);
+    back = begin;
   }
+  if (!isfinite(plan.duration) || !isfinite(way)) return Result::OutOfRange;
+  if (!(fabs(state.position - back.position) <= 64 * rounding * way)) moveSeam(plan);
+  handOut(plan, profile);
+  return Result::Ok;
+}
+
+Result finishAt(Profile& plan, double position, double end_velocity, Profile& profile) {
+  plan.end_position = position;
+  plan.end_velocity = end_velocity;
+  return finish(plan, profile);
+}
+
+// The end of a velocity move is where its phases lead.
+Result finishMoving(Profile& plan, double end_velocity, Profile& profile) {
+  State state = plan.start;
+  for (int i = 0; i < plan.phase_count; ++i) {
+    state = endOf(plan, state, plan.phases[i]);
+    plan.duration += plan.phases[i].duration;
+  }
+  if (!isfinite(plan.duration) || !isfinite(state.position) || !isfinite(state.velocity)) return Result::OutOfRange;
   plan.end_position = state.position;
   plan.end_velocity = end_velocity;
-  profile = plan;
+  handOut(plan, profile);
   return Result::Ok;
+}
+
+// The state `left` seconds before the end, after the seam.
+State atFromEnd(const Profile& profile, double left) {
+  State state{profile.end_position, profile.end_velocity, 0};
+  for (int i = profile.phase_count - 1; i >= profile.seam; --i) {
+    const Phase& phase = profile.phases[i];
+    const double before_end = left < phase.duration ? left : phase.duration;
+    const bool inside = left <= phase.duration || i == profile.seam;
+    if (inside && isSmooth(profile.ramp)) {
+      return advanceSmoothly(goBack(profile, i, state, phase.duration), phase, profile.ramp,
+                             phase.duration - before_end);
+    }
+    state = goBack(profile, i, state, before_end);
+    if (inside) return state;
+    left -= phase.duration;
+  }
+  return state;
 }
 
 }  // namespace
@@ -92,17 +189,16 @@ Result planPosition(Profile& profile, const State& start, double position, doubl
                   end_velocity, 0};
   // At rest the distance is exact; in motion the position is a rounded sum.
   if (start.velocity != 0 || request.acceleration != 0 || end_velocity != 0) {
-    request.tolerance = 16 * rounding * (fabs(position) + fabs(start.position));
+    request.tolerance = 32 * rounding * (fabs(position) + fabs(start.position));
   }
-  Profile plan = startOf(start, ramp);
+  Profile plan;
+  begin(plan, start, ramp);
   if (isJerkLimited(limits, ramp)) {
     sCurveToPosition(plan, request, limits);
   } else {
     trapezoidToPosition(plan, request, meanLimits(limits, ramp));
   }
-  if (Result result = finish(plan, end_velocity, profile); result != Result::Ok) return result;
-  profile.end_position = position;
-  return Result::Ok;
+  return finishAt(plan, position, end_velocity, profile);
 }
 
 Result planVelocity(Profile& profile, const State& start, double velocity, const Limits& limits, Ramp ramp) {
@@ -110,13 +206,14 @@ Result planVelocity(Profile& profile, const State& start, double velocity, const
   if (!isfinite(velocity)) return Result::NotFinite;
   if (Result result = checkLimits(limits); result != Result::Ok) return result;
   Request request{start.velocity, isJerkLimited(limits, ramp) ? start.acceleration : 0, 0, velocity, 0};
-  Profile plan = startOf(start, ramp);
+  Profile plan;
+  begin(plan, start, ramp);
   if (isJerkLimited(limits, ramp)) {
     sCurveToVelocity(plan, request, limits);
   } else {
     trapezoidToVelocity(plan, request, meanLimits(limits, ramp));
   }
-  return finish(plan, velocity, profile);
+  return finishMoving(plan, velocity, profile);
 }
 
 Result planContinuous(Profile& profile, const State& start, double position, double end_velocity, const Limits& limits,
@@ -135,20 +232,23 @@ Result planContinuous(Profile& profile, const State& start, double position, dou
 }
 
 State at(const Profile& profile, double t) {
-  if (!(t < profile.duration)) {
-    return {profile.end_position + profile.end_velocity * (t - profile.duration), profile.end_velocity, 0};
-  }
+  const double left = profile.duration - t;
+  if (!(left > 0)) return {profile.end_position - profile.end_velocity * left, profile.end_velocity, 0};
+  if (!(t > 0)) return profile.start;
   State state = profile.start;
-  if (!(t > 0)) return state;
-  for (int i = 0; i < profile.phase_count; ++i) {
+  double begin = 0;  // of the phase
+  for (int i = 0; i < profile.seam; ++i) {
     const Phase& phase = profile.phases[i];
-    if (t < phase.duration) {
-      return isSmooth(profile.ramp) ? advanceSmoothly(state, phase, profile.ramp, t) : advance(state, phase, t);
+    const double inside = t - begin;
+    if (inside < phase.duration) {
+      if (isCruise(phase)) return cruise(profile, state, inside);
+      return isSmooth(profile.ramp) ? advanceSmoothly(state, phase, profile.ramp, inside)
+                                    : advance(state, phase, inside);
     }
-    t -= phase.duration;
-    state = endOf(state, phase);
+    begin += phase.duration;
+    state = endOf(profile, state, phase);
   }
-  return {profile.end_position, profile.end_velocity, 0};
+  return atFromEnd(profile, left);
 }
 
 double jerkAt(const Profile& profile, double t) {
@@ -156,7 +256,7 @@ double jerkAt(const Profile& profile, double t) {
   for (int i = 0; i < profile.phase_count; ++i) {
     const Phase& phase = profile.phases[i];
     if (t < phase.duration) {
-      if (!isSmooth(profile.ramp) || phase.acceleration == 0) return phase.jerk;
+      if (!isSmooth(profile.ramp) || isCruise(phase)) return phase.jerk;
       return phase.acceleration / phase.duration * lawAt(profile.ramp, t / phase.duration).jerk;
     }
     t -= phase.duration;

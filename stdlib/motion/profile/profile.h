@@ -43,14 +43,16 @@ struct Phase {
 };
 
 // A plan. All bytes 0: at rest at 0 for ever.
-struct Profile {
+struct alignas(8) Profile {
   static constexpr int max_phases = 14;
   State start;
   double duration;      // sum of the phases
   double end_position;  // at `duration`, exactly
   double end_velocity;  // from `duration` on, for ever
+  double cruise;        // velocity of the phase without acceleration: a rounded sum would drift in a long one
   Phase phases[max_phases];
   uint8_t phase_count;
+  uint8_t seam;  // from this phase on states are counted back from the end, so that the arrival is exact
   Ramp ramp;
 };
 static_assert(sizeof(Profile) <= 400 && alignof(Profile) == 8);

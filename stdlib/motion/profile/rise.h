@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#include "phases.h"
+
 namespace rung::motion {
 
 // Limits of the acceleration while the velocity is below and above 0.
@@ -29,8 +31,6 @@ struct Rise {
   double peak;    // acceleration where the last fall of the acceleration begins
 };
 
-inline double square(double x) { return x * x; }
-
 inline Stretch stretchOf(double a0, double a1, double change, double cap, double jerk) {
   const double free = (square(a0) + square(a1)) / 2 + jerk * change;
   Stretch stretch{0, 0, 0, cap};
@@ -44,7 +44,8 @@ inline Stretch stretchOf(double a0, double a1, double change, double cap, double
   return stretch;
 }
 
-inline Rise riseOf(double v0, double a0, double v1, double a1, const Caps& caps, double jerk) {
+// `change` is v1 - v0, which may be known better than the difference of the two.
+inline Rise riseOf(double v0, double a0, double v1, double a1, double change, const Caps& caps, double jerk) {
   Rise rise;
   rise.v0 = v0;
   rise.a0 = a0;
@@ -52,7 +53,7 @@ inline Rise riseOf(double v0, double a0, double v1, double a1, const Caps& caps,
   rise.a1 = a1;
   rise.count = 1;
   if (v0 >= 0 || v1 <= 0 || caps.below == caps.above) {
-    rise.stretches[0] = stretchOf(a0, a1, v1 - v0, v0 >= 0 ? caps.above : caps.below, jerk);
+    rise.stretches[0] = stretchOf(a0, a1, change, v0 >= 0 ? caps.above : caps.below, jerk);
     rise.peak = rise.stretches[0].peak;
     return rise;
   }

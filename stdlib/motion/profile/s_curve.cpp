@@ -32,12 +32,20 @@ double restVelocity(const Motion& start, double jerk) {
   return start.velocity + start.acceleration * fabs(start.acceleration) / (2 * jerk);
 }
 
+// Where the rest velocity and `velocity` are equal but for rounding, one of them is taken for both: a change of
+// velocity by e takes a time of the order of the square root of e.
+bool isRestVelocity(double velocity, const Motion& start, double jerk) {
+  const double part = square(start.acceleration) / (2 * jerk);
+  const double rest = restVelocity(start, jerk);
+  return start.acceleration != 0 && fabs(velocity - rest) <= 16 * rounding * (fabs(start.velocity) + part);
+}
+
 double jerkDistance(const Motion& start, double jerk, double t) {
   return t * (start.velocity + t * (start.acceleration / 2 + t * jerk / 6));
 }
 
-Rise fallOf(const Motion& from, double to, const Curve& curve) {
-  return riseOf(to, 0, from.velocity, -from.acceleration, curve.fall, curve.jerk);
+Rise fallOf(const Motion& from, double to, double change, const Curve& curve) {
+  return riseOf(to, 0, from.velocity, -from.acceleration, change, curve.fall, curve.jerk);
 }
 
 void addStretch(Writer& writer, const Stretch& s, double a0, double jerk) {
@@ -70,12 +78,14 @@ struct Approach {
   Rise rise;
 };
 
-Approach approach(const Motion& start, double to, const Curve& curve) {
+// `change` is the difference between `to` and the rest velocity.
+Approach approach(const Motion& start, double to, double change, const Curve& curve) {
+  const double j = curve.jerk;
   if (start.acceleration >= 0) {
-    return {start, 0, riseOf(start.velocity, start.acceleration, to, 0, curve.rise, curve.jerk)};
+    change += square(start.acceleration) / (2 * j);
+    return {start, 0, riseOf(start.velocity, start.acceleration, to, 0, change, curve.rise, j)};
   }
-  return {start, -start.acceleration / curve.jerk,
-          riseOf(restVelocity(start, curve.jerk), 0, to, 0, curve.rise, curve.jerk)};
+  return {start, -start.acceleration / j, riseOf(restVelocity(start, j), 0, to, 0, change, curve.rise, j)};
 }
 
 double approachDistance(const Approach& way, const Curve& curve) {
@@ -94,26 +104,28 @@ struct Direct {
 };
 
 Direct directRamp(const Motion& start, double to, const Curve& curve) {
-  const double sign = to >= restVelocity(start, curve.jerk) ? 1 : -1;
-  return {sign, approach({sign * start.velocity, sign * start.acceleration}, sign * to, curve)};
+  const double change = to - restVelocity(start, curve.jerk);
+  const double sign = change >= 0 ? 1 : -1;
+  return {sign, approach({sign * start.velocity, sign * start.acceleration}, sign * to, sign * change, curve)};
 }
 
 // A start beyond the limit of the acceleration goes back to it at once. Returns the duration; the start moves along.
 // Where the limit is lower above velocity 0 than below, it must be kept already when the velocity gets there.
 double dropExcess(Motion& start, const Curve& curve) {
-  constexpr double rounding = 1 + 1e-12;
+  constexpr double snap = 1 + 1e-12;
   const double sign = start.acceleration < 0 ? -1 : 1;
   const double v = sign * start.velocity;
   const double a = sign * start.acceleration;
   const double at_zero = square(a) / 2 + curve.jerk * v;  // a^2 / 2 where the velocity gets to 0
+  const double slack = 16 * rounding * square(a);
   double allowed = curve.rise.above;
   bool stops_at_zero = false;
-  if (v < 0 && at_zero <= square(curve.rise.above) / 2) {
-    stops_at_zero = a > curve.rise.below && at_zero > square(curve.rise.below) / 2;
+  if (v < 0 && at_zero <= square(curve.rise.above) / 2 + slack) {
+    stops_at_zero = a > curve.rise.below && at_zero > square(curve.rise.below) / 2 + slack;
     allowed = stops_at_zero ? sqrt(2 * at_zero) : curve.rise.below;
   }
   if (a <= allowed) return 0;
-  if (a <= allowed * rounding) {
+  if (a <= allowed * snap) {
     start.acceleration = sign * allowed;
     return 0;
   }
@@ -126,11 +138,12 @@ double dropExcess(Motion& start, const Curve& curve) {
 // A motion over the ramp from start to end velocity. All velocities are in the direction of the additional distance.
 class Over {
  public:
-  Over(Writer& writer, const Motion& start, double to, double distance, const Curve& curve)
+  Over(Writer& writer, const Motion& start, double to, double distance, double tolerance, const Curve& curve)
       : writer_(writer),
         start_(start),
         to_(to),
         distance_(distance),
+        tolerance_(tolerance),
         curve_(curve),
         rest_(restVelocity(start, curve.jerk)) {}
 
@@ -143,70 +156,101 @@ class Over {
   }
 
  private:
-  // distance(x) of a rise to x and a fall from it. Its slope is (x + A^2/2j)/A + (x + B^2/2j)/B with the accelerations
-  // A where the rise begins to end and B where the fall ends to begin: above velocity 0 it grows, below it is convex.
-  Value distanceOverPeak(double x, Approach& way, Rise& fall) const {
-    way = approach(start_, x, curve_);
-    fall = fallOf({x, 0}, to_, curve_);
-    const double a = way.rise.peak;
-    const double b = fall.peak;
-    return {approachDistance(way, curve_) + riseDistance(fall, curve_.jerk),
+  // distance(x) of a rise to x and a fall from it, where x is `above` the rest velocity of the start and `over` the end
+  // velocity. Its slope is (x + A^2/2j)/A + (x + B^2/2j)/B with the accelerations A where the rise begins to end and B
+  // where the fall ends to begin: above velocity 0 it grows, below it is convex.
+  Value distanceOverPeak(double x, double above, double over) {
+    way_ = approach(start_, x, above, curve_);
+    fall_ = fallOf({x, 0}, to_, over, curve_);
+    const double a = way_.rise.peak;
+    const double b = fall_.peak;
+    return {approachDistance(way_, curve_) + riseDistance(fall_, curve_.jerk),
             (x + square(a) / (2 * curve_.jerk)) / a + (x + square(b) / (2 * curve_.jerk)) / b};
   }
 
   void planPeak() {
-    Approach way;
-    Rise fall;
-    const double full = distanceOverPeak(curve_.velocity, way, fall).value;
-    if (distance_ >= full) {
-      addOverPeak(way, (distance_ - full) / curve_.velocity, fall);
-      return;
-    }
-    distanceOverPeak(peakVelocity(), way, fall);
-    addOverPeak(way, 0, fall);
+    const double full = distanceOverPeak(curve_.velocity, curve_.velocity - rest_, curve_.velocity - to_).value;
+    if (distance_ < full) findPeak();
+    addApproach(writer_, way_, curve_);
+    writer_.addCruise(distance_ > full ? (distance_ - full) / curve_.velocity : 0, curve_.velocity);
+    writer_.setSeam();
+    addFall(writer_, fall_, curve_.jerk);
   }
 
-  // The unknown is the acceleration w that the ramp with the shorter change of velocity would reach without its limit:
-  // the distance is smooth in it, and x is quadratic.
-  double peakVelocity() const {
+  // The unknown is the acceleration w that the ramp with the smaller change of velocity would reach without its limit:
+  // the distance is smooth in it, and it gives the smallest change exactly.
+  void findPeak() {
     const double j = curve_.jerk;
     const double s = start_.acceleration > 0 ? start_.acceleration : 0;
-    const bool rise_is_shorter = rest_ - square(s) / j >= to_;
-    const auto velocityOf = [&](double w) {
-      return rise_is_shorter ? rest_ + (w - s) * (w + s) / j : to_ + square(w) / j;
+    const bool rise_is_smaller = rest_ - square(s) / j >= to_;
+    const double base = rise_is_smaller ? rest_ : to_;
+    const double least = rise_is_smaller ? s : 0;  // w of the smaller ramp alone
+    const auto distanceOf = [&](double w) {
+      const double change = (w - least) * (w + least) / j;
+      Value at = distanceOverPeak(base + change, base - rest_ + change, base - to_ + change);
+      return Value{at.value - distance_, at.slope * 2 * w / j};
     };
-    const auto accelerationOf = [&](double x) {
-      const double e = rise_is_shorter ? square(s) + j * (x - rest_) : j * (x - to_);
-      return sqrt(e > 0 ? e : 0);
+    const auto unknownAbove = [&](double change) {
+      const double e = square(least) + j * change;
+      return e > 0 ? sqrt(e) : 0;
     };
-    const double lowest = rest_ > to_ ? rest_ : to_;
-    const double low = accelerationOf(lowest);
-    const double high = accelerationOf(curve_.velocity);
-    Approach way;
-    Rise fall;
-    const double w = rootOf(
-        [&](double acceleration) {
-          const Value at = distanceOverPeak(velocityOf(acceleration), way, fall);
-          return Value{at.value - distance_, at.slope * 2 * acceleration / j};
-        },
-        low, high, high);
-    const double x = velocityOf(w);
-    return x < lowest ? lowest : x > curve_.velocity ? curve_.velocity : x;
+    double low = base < rest_ ? unknownAbove(rest_ - base) : base < to_ ? unknownAbove(to_ - base) : least;
+    double high = unknownAbove(curve_.velocity - base);
+    // From where on each of the ramps has its greatest acceleration.
+    const double rise_limited = unknownAbove((square(curve_.rise.above) - square(s)) / j + rest_ - base);
+    const double fall_limited = unknownAbove(square(curve_.fall.above) / j + to_ - base);
+    const double both_limited = larger(low, larger(rise_limited, fall_limited));
+    Value top{0, 0};
+    if (both_limited < high) {
+      top = distanceOf(both_limited);
+      const double change = (both_limited - least) * (both_limited + least) / j;
+      if (top.value <= 0 && areLimited(base + change)) {
+        const double more = growBy(-top.value, base + change);
+        distanceOverPeak(base + change + more, base - rest_ + change + more, base - to_ + change + more);
+        return;
+      }
+      (top.value > 0 ? high : low) = both_limited;
+    }
+    if (!(top.value > 0)) top = distanceOf(high);
+    distanceOf(rootOf(distanceOf, low, high, guess(low, high, -distanceOf(low).value, top)));
   }
 
-  void addOverPeak(const Approach& way, double cruise, const Rise& fall) {
-    addApproach(writer_, way, curve_);
-    writer_.add(cruise, 0, 0);
-    addFall(writer_, fall, curve_.jerk);
+  // Whether both ramps have the greatest acceleration of velocities above 0 at their peak `velocity`.
+  bool areLimited(double velocity) const {
+    const bool same = curve_.rise.below == curve_.rise.above;
+    const auto isLimit = [](double peak, double limit) { return fabs(peak - limit) <= 1e-15 * limit; };
+    return (velocity >= 0 || same) && isLimit(way_.rise.peak, curve_.rise.above) &&
+           isLimit(fall_.peak, curve_.fall.above);
+  }
+
+  // How much higher the peak velocity gives `more` distance, where both ramps have their greatest acceleration: the
+  // slope of the distance is linear in the velocity there.
+  double growBy(double more, double velocity) const {
+    const double a = curve_.rise.above;
+    const double b = curve_.fall.above;
+    const double bend = 1 / a + 1 / b;
+    const double slope = velocity * bend + (a + b) / (2 * curve_.jerk);
+    const double root = sqrt(square(slope) + 2 * more * bend);
+    return slope > 0 ? 2 * more / (slope + root) : (root - slope) / bend;
+  }
+
+  // Where a power of w between the bounds, with the slope of the upper one, covers what is missing at the lower one.
+  static double guess(double low, double high, double missing, const Value& top) {
+    const double whole = missing + top.value;
+    const double part = missing / whole;
+    const double power = top.slope * (high - low) / whole;
+    const double root = power > 2.5 ? roughCubeRoot(part) : power > 1.5 ? sqrt(part) : part;
+    return low + (high - low) * root;
   }
 
   // The start brakes, and the end velocity is still lower: where the braking is relaxed to -m, taken up again at
   // rest_ + m^2/2j. slope: -(2/j) (B - m) ((rest_ + m^2/j)/B - m/2j) with B as above.
-  Value distanceOverDip(double m, Rise& fall) const {
+  Value distanceOverDip(double m) {
     const double j = curve_.jerk;
-    fall = fallOf({rest_ + square(m) / (2 * j), -m}, to_, curve_);
-    const double b = fall.peak;
-    return {jerkDistance(start_, j, releaseTo(m)) + riseDistance(fall, j),
+    const double back = square(m) / (2 * j);
+    fall_ = fallOf({rest_ + back, -m}, to_, rest_ - to_ + back, curve_);
+    const double b = fall_.peak;
+    return {jerkDistance(start_, j, releaseTo(m)) + riseDistance(fall_, j),
             -2 / j * (b - m) * ((rest_ + square(m) / j) / b - m / (2 * j))};
   }
 
@@ -214,49 +258,50 @@ class Over {
 
   bool planDip() {
     const double deepest = -start_.acceleration;
-    Rise fall;
     double low = 0;
-    double high = deepest;
-    const double through = distanceOverDip(0, fall).value;
-    const double bend = to_ < 0 ? bendOfDip(fall) : 0;
-    if (bend > 0 && bend < deepest && distanceOverDip(bend, fall).value >= distance_) {
-      low = bend;
-    } else if (through < distance_) {
-      return false;
-    } else if (bend > 0 && bend < deepest) {
-      high = bend;
+    if (to_ < 0) {
+      double bends[max_bends];
+      const int count = bendsOfDip(bends);
+      for (int i = 0; i < count; ++i) {
+        const bool better = bends[i] > low && bends[i] < deepest;
+        if (better && distanceOverDip(bends[i]).value >= distance_ - tolerance_) low = bends[i];
+      }
     }
+    if (low == 0 && distanceOverDip(0).value < distance_) return false;
     // As the distance falls with m, the unknown is what is taken off.
-    const double m = high - rootOf(
-                                [&](double less) {
-                                  const Value at = distanceOverDip(high - less, fall);
-                                  return Value{at.value - distance_, -at.slope};
-                                },
-                                0, high - low, (high - low) / 2);
-    distanceOverDip(m, fall);
+    const double m = deepest - rootOf(
+                                   [&](double less) {
+                                     const Value at = distanceOverDip(deepest - less);
+                                     return Value{at.value - distance_, -at.slope};
+                                   },
+                                   0, deepest - low, (deepest - low) / 2);
+    distanceOverDip(m);
     writer_.add(releaseTo(m), start_.acceleration, curve_.jerk);
-    addFall(writer_, fall, curve_.jerk);
+    writer_.setSeam();
+    addFall(writer_, fall_, curve_.jerk);
     return true;
   }
 
-  // A fall that crosses velocity 0 covers less distance when it takes long below 0: the largest m where the slope is 0.
-  double bendOfDip(const Rise&) const {
+  // A fall that crosses velocity 0 covers less distance when it takes long below 0. Where the slope changes its sign,
+  // by what limits B: nothing or the acceleration at velocity 0 (B^2 = m^2 + k), a limit, or the change between the
+  // two.
+  static constexpr int max_bends = 5;
+  int bendsOfDip(double (&bends)[max_bends]) const {
     const double c = curve_.jerk * rest_;
-    const double k = curve_.jerk * (rest_ - to_);
-    double bend = 0;
-    const auto take = [&](double m) {
-      if (m > bend && m < -start_.acceleration) bend = m;
-    };
-    const double without_cap = square(k) - 16 * c * k + 16 * square(c);
-    if (without_cap >= 0) {
-      const double m2 = (k - 8 * c + sqrt(without_cap)) / 6;
-      if (m2 > 0) take(sqrt(m2));
-    }
     const double caps[2] = {curve_.fall.above, curve_.fall.below};
-    for (double cap : caps) {
-      if (square(cap) >= 16 * c) take((cap + sqrt(square(cap) - 16 * c)) / 4);
+    const double lower = caps[0] < caps[1] ? caps[0] : caps[1];
+    int count = 0;
+    const double ks[2] = {curve_.jerk * (rest_ - to_), square(lower) / 2 + c};
+    for (double k : ks) {
+      const double root = square(k) - 16 * c * k + 16 * square(c);
+      const double m2 = root >= 0 ? (k - 8 * c + sqrt(root)) / 6 : -1;
+      if (m2 > 0) bends[count++] = sqrt(m2);
     }
-    return bend;
+    if (square(lower) / 2 > c) bends[count++] = sqrt(square(lower) / 2 - c);
+    for (double cap : caps) {
+      if (square(cap) >= 16 * c) bends[count++] = (cap + sqrt(square(cap) - 16 * c)) / 4;
+    }
+    return count;
   }
 
   // Over the velocity limit even when the acceleration goes to 0 at once: down to the limit, cruise, and on. When the
@@ -266,17 +311,17 @@ class Over {
     const double release = start_.acceleration > 0 ? start_.acceleration / j : 0;
     const double released = jerkDistance(start_, -j, release);
     const Motion top{release > 0 ? rest_ : start_.velocity, release > 0 ? 0 : start_.acceleration};
-    Rise first, second;
+    Rise first;
     const auto distanceOver = [&](double m) {
       const double v = curve_.velocity;
-      first = riseOf(v, m, top.velocity, -top.acceleration, curve_.fall, j);
-      second = fallOf({v, -m}, to_, curve_);
+      first = riseOf(v, m, top.velocity, -top.acceleration, top.velocity - v, curve_.fall, j);
+      fall_ = fallOf({v, -m}, to_, v - to_, curve_);
       const double a = backwardsPeak(first);
-      const double b = second.peak;
+      const double b = fall_.peak;
       const double slope = -((a - m) * ((v - square(m) / (2 * j)) / a + m / (2 * j)) +
                              (b - m) * ((v + square(m) / (2 * j)) / b - m / (2 * j))) /
                            j;
-      return Value{released + riseDistance(first, j) + riseDistance(second, j), slope};
+      return Value{released + riseDistance(first, j) + riseDistance(fall_, j), slope};
     };
     const double full = distanceOver(0).value;
     double cruise = 0;
@@ -294,8 +339,9 @@ class Over {
     }
     writer_.add(release, start_.acceleration, -j);
     addFall(writer_, first, j);
-    writer_.add(cruise, 0, 0);
-    addFall(writer_, second, j);
+    writer_.addCruise(cruise, curve_.velocity);
+    writer_.setSeam();
+    addFall(writer_, fall_, j);
   }
 
   static double backwardsPeak(const Rise& rise) { return rise.stretches[0].peak; }
@@ -323,8 +369,12 @@ class Over {
   const Motion start_;
   const double to_;
   const double distance_;
+  const double tolerance_;
   const Curve& curve_;
   const double rest_;
+  // Of the member of the family that was looked at last.
+  Approach way_;
+  Rise fall_;
 };
 
 Curve curveOf(const Limits& limits) {
@@ -342,13 +392,16 @@ void sCurveToVelocity(Profile& profile, const Request& request, const Limits& li
   Writer writer(profile, start.acceleration < 0 ? -1 : 1);
   const double excess = dropExcess(start, curve);
   writer.add(excess, fabs(request.acceleration), -curve.jerk);
-  const Direct direct = directRamp(start, request.end_velocity, curve);
+  const double to =
+      isRestVelocity(request.end_velocity, start, curve.jerk) ? restVelocity(start, curve.jerk) : request.end_velocity;
+  const Direct direct = directRamp(start, to, curve);
   writer.setSign(direct.sign);
   addApproach(writer, direct.way, curve);
+  writer.setSeam();
 }
 
 void sCurveToPosition(Profile& profile, const Request& request, const Limits& limits) {
-  const Curve curve = curveOf(limits);
+  Curve curve = curveOf(limits);
   Motion start{request.velocity, request.acceleration};
   const double sign = start.acceleration < 0 ? -1 : 1;
   Writer writer(profile, sign);
@@ -357,17 +410,27 @@ void sCurveToPosition(Profile& profile, const Request& request, const Limits& li
   const double distance =
       request.distance - jerkDistance({request.velocity, request.acceleration}, -sign * curve.jerk, excess);
 
-  const Direct direct = directRamp(start, request.end_velocity, curve);
+  const double rest = restVelocity(start, curve.jerk);
+  const double to = isRestVelocity(request.end_velocity, start, curve.jerk) ? rest : request.end_velocity;
+  if (isRestVelocity(copysign(curve.velocity, rest), start, curve.jerk)) curve.velocity = fabs(rest);
+  const Direct direct = directRamp(start, to, curve);
   const double more = distance - direct.sign * approachDistance(direct.way, curve);
-  if (fabs(more) <= request.tolerance) {
+  const double side = more > 0 ? 1 : -1;
+  double tolerance = request.tolerance;
+  if (side * to < 0 && (side * rest <= 0 || side * start.acceleration < 0)) {
+    // The other way would be a loop. Without acceleration a small change of velocity has next to no peak.
+    const double speed = larger(larger(fabs(start.velocity), fabs(rest)), fabs(to));
+    const double least_peak = sqrt(curve.jerk * speed * 1e-11);
+    tolerance += rampRounding(speed, direct.way.rise.peak > least_peak ? direct.way.rise.peak : least_peak);
+  }
+  if (fabs(more) <= tolerance) {
     writer.setSign(direct.sign);
+    writer.setSeam();
     addApproach(writer, direct.way, curve);
     return;
   }
-  const double side = more > 0 ? 1 : -1;
   writer.setSign(side);
-  Over(writer, {side * start.velocity, side * start.acceleration}, side * request.end_velocity, side * distance, curve)
-      .plan();
+  Over(writer, {side * start.velocity, side * start.acceleration}, side * to, side * distance, tolerance, curve).plan();
 }
 
 }  // namespace rung::motion

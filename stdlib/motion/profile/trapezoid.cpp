@@ -7,67 +7,95 @@
 namespace rung::motion {
 namespace {
 
-double square(double x) { return x * x; }
-
 // Distance that a ramp upwards needs between velocity 0 and `velocity`, by the limit on that side of 0.
 double upward(double velocity, const Limits& limits) {
   return square(velocity) / (2 * (velocity > 0 ? limits.acceleration : limits.deceleration));
 }
 
-// A ramp has two phases when it crosses velocity 0.
-void addRamp(Writer& writer, double from, double to, const Limits& limits) {
-  if (from <= to) {
-    if (from < 0) writer.add(((to < 0 ? to : 0) - from) / limits.deceleration, limits.deceleration, 0);
-    if (to > 0) writer.add((to - (from > 0 ? from : 0)) / limits.acceleration, limits.acceleration, 0);
+// A ramp upwards has two phases when it crosses velocity 0. `change` is to - from, which may be known better than the
+// difference of the two. A ramp downwards is its mirror image.
+void addRampUp(Writer& writer, double from, double to, double change, const Limits& limits) {
+  if (from < 0 && to > 0) {
+    writer.add(-from / limits.deceleration, limits.deceleration, 0);
+    writer.add(to / limits.acceleration, limits.acceleration, 0);
   } else {
-    if (from > 0) writer.add((from - (to > 0 ? to : 0)) / limits.deceleration, -limits.deceleration, 0);
-    if (to < 0) writer.add(((from < 0 ? from : 0) - to) / limits.acceleration, -limits.acceleration, 0);
+    const double acceleration = from < 0 ? limits.deceleration : limits.acceleration;
+    writer.add(change / acceleration, acceleration, 0);
   }
 }
 
-// More distance than the ramp from start to end velocity gives: over a higher velocity, at most the limit.
-void planOver(Writer& writer, double from, double to, double distance, const Limits& limits) {
-  const double rise = upward(from, limits);
-  const double fall = upward(-to, limits);  // seen backwards in time the fall is a rise of -v
-  const double slope = 1 / (2 * limits.acceleration) + 1 / (2 * limits.deceleration);
-  double peak = limits.velocity;
-  double cruise = 0;
-  if (from <= limits.velocity) {
-    const double needed = (distance + rise + fall) / slope;
-    if (needed < square(limits.velocity)) {
-      peak = sqrt(needed > 0 ? needed : 0);
-      if (peak < from) peak = from;
-      if (peak < to) peak = to;
-    }
+void addRampDown(Writer& writer, double from, double to, double change, const Limits& limits) {
+  if (from > 0 && to < 0) {
+    writer.add(from / limits.deceleration, -limits.deceleration, 0);
+    writer.add(-to / limits.acceleration, -limits.acceleration, 0);
+  } else {
+    const double acceleration = from > 0 ? limits.deceleration : limits.acceleration;
+    writer.add(change / acceleration, -acceleration, 0);
   }
-  if (peak == limits.velocity) {
-    cruise = (distance - trapezoidRampDistance(from, peak, limits) - trapezoidRampDistance(peak, to, limits)) / peak;
+}
+
+void addRamp(Writer& writer, double from, double to, const Limits& limits) {
+  if (from <= to) {
+    addRampUp(writer, from, to, to - from, limits);
+  } else {
+    addRampDown(writer, from, to, from - to, limits);
   }
-  addRamp(writer, from, peak, limits);
-  writer.add(cruise, 0, 0);
-  addRamp(writer, peak, to, limits);
+}
+
+// `more` distance than the ramp from start to end velocity gives: over a higher velocity, at most the limit.
+// The distance over a peak x >= 0 grows with x^2.
+void planOver(Writer& writer, double from, double to, double more, const Limits& limits) {
+  const double higher = from > to ? from : to;
+  const double growth = more / (1 / (2 * limits.acceleration) + 1 / (2 * limits.deceleration));
+  const double peak = sqrt(square(higher) + growth);
+  if (peak < limits.velocity) {
+    const double change = higher > 0 ? growth / (higher + peak) : peak - higher;
+    addRampUp(writer, from, peak, change + (higher - from), limits);
+    writer.setSeam();
+    addRampDown(writer, peak, to, change + (higher - to), limits);
+    return;
+  }
+  // From above the limit the ramp to the end velocity passes the limit: all that is missing is cruise.
+  double cruise = more;
+  if (from < limits.velocity) {
+    cruise -= (limits.velocity - higher) * (limits.velocity + higher) *
+              (1 / (2 * limits.acceleration) + 1 / (2 * limits.deceleration));
+  }
+  addRamp(writer, from, limits.velocity, limits);
+  writer.addCruise(cruise / limits.velocity, limits.velocity);
+  writer.setSeam();
+  addRamp(writer, limits.velocity, to, limits);
 }
 
 }  // namespace
 
 double trapezoidRampDistance(double from, double to, const Limits& limits) {
-  return from <= to ? upward(to, limits) - upward(from, limits) : upward(-from, limits) - upward(-to, limits);
+  if (from > to) return -trapezoidRampDistance(-from, -to, limits);
+  if (from < 0 && to > 0) return upward(to, limits) - upward(from, limits);
+  return (to - from) * (to + from) / (2 * (from < 0 ? limits.deceleration : limits.acceleration));
 }
 
 void trapezoidToPosition(Profile& profile, const Request& request, const Limits& limits) {
-  const double excess = request.distance - trapezoidRampDistance(request.velocity, request.end_velocity, limits);
-  if (fabs(excess) <= request.tolerance) {
-    trapezoidToVelocity(profile, request, limits);
+  const double more = request.distance - trapezoidRampDistance(request.velocity, request.end_velocity, limits);
+  const double sign = more > 0 ? 1 : -1;
+  double tolerance = request.tolerance;
+  if (sign * request.end_velocity < 0 && sign * request.velocity <= 0) {  // the other way would be a loop
+    const double smaller = limits.acceleration < limits.deceleration ? limits.acceleration : limits.deceleration;
+    tolerance += rampRounding(larger(fabs(request.velocity), fabs(request.end_velocity)), smaller);
+  }
+  if (fabs(more) <= tolerance) {
+    Writer writer(profile, 1);
+    addRamp(writer, request.velocity, request.end_velocity, limits);
     return;
   }
-  const double sign = excess > 0 ? 1 : -1;
   Writer writer(profile, sign);
-  planOver(writer, sign * request.velocity, sign * request.end_velocity, sign * request.distance, limits);
+  planOver(writer, sign * request.velocity, sign * request.end_velocity, sign * more, limits);
 }
 
 void trapezoidToVelocity(Profile& profile, const Request& request, const Limits& limits) {
   Writer writer(profile, 1);
   addRamp(writer, request.velocity, request.end_velocity, limits);
+  writer.setSeam();
 }
 
 }  // namespace rung::motion

@@ -32,12 +32,16 @@ int64_t writeAll(int descriptor, const char* bytes, uint64_t count) {
 
 }  // namespace
 
-int64_t FileWork::begin(const rung_file_work& work) {
+void FileWork::start() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!requests_) {
-    requests_ = std::make_unique<Request[]>(kMostRequests);
-    if (in_background_) thread_ = std::thread([this] { runThread(); });
-  }
+  if (requests_) return;
+  requests_ = std::make_unique<Request[]>(kMostRequests);
+  if (in_background_) thread_ = std::thread([this] { runThread(); });
+}
+
+int64_t FileWork::begin(const rung_file_work& work) {
+  if (!requests_) start();
+  const std::lock_guard<std::mutex> lock(mutex_);
   Request* const end = requests_.get() + kMostRequests;
   Request* const free =
       std::find_if(requests_.get(), end, [](const Request& request) { return request.state == Free; });

@@ -1,6 +1,6 @@
 // Work on files off the cycle (rung_file_work). In real time a thread does it, one after the other; in virtual time it
-// is done when its result is asked for, so that runs are reproducible. Memory is reserved in advance: begin and result
-// copy, and do not wait for the disk. In: work. Out: results. Called by files.cpp.
+// is done when its result is asked for, so that runs are reproducible. In real time memory is reserved in advance:
+// begin and result copy, and do not wait for the disk. In: work. Out: results. Called by files.cpp and run.cpp.
 #pragma once
 
 #include <condition_variable>
@@ -24,6 +24,8 @@ class FileWork {
   FileWork(const FileWork&) = delete;
   FileWork& operator=(const FileWork&) = delete;
 
+  // Reserves the memory, and in real time starts the thread. Without it the first work does.
+  void start();
   int64_t begin(const rung_file_work& work);
   int64_t result(int64_t number, void* bytes, uint64_t capacity);
   // Completes what is begun.
@@ -51,7 +53,7 @@ class FileWork {
   const bool in_background_;
   std::mutex mutex_;
   std::condition_variable condition_;
-  std::unique_ptr<Request[]> requests_;  // made by the first work
+  std::unique_ptr<Request[]> requests_;  // once started
   std::thread thread_;
   uint64_t begun_ = 0;
   bool ending_ = false;

@@ -576,6 +576,7 @@ int Run::runInRealTime() {
     const Saver saver(*this);
     realtime = &threads;
     channels.start();
+    files.work().start();  // not in the first cycle that needs it
     result = threads.run();
     channels.stop();
   }

@@ -191,7 +191,7 @@ class TestRunner {
     channels_.reset();
     if (faulted(result, memory_.reset())) return;
     context.entry = &test;
-    context.task = 1;
+    context.task = context.module->task_count + 1;  // none of the module's: only MUTEX and SEMA look at it
     std::string error;
     const bool is_open =
         trace_.open(options_.trace_path, options_.out, error) &&

@@ -1,4 +1,4 @@
-// rung_find_axes: axes in programs, lists, arrays of several dimensions, base blocks and behind references.
+// rung_find_axes: axes in programs, lists, arrays of several dimensions and base blocks, and none through references.
 #include "rung/motion.h"
 
 #include <gtest/gtest.h>
