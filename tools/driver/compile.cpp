@@ -156,7 +156,7 @@ bool Compilation::parse() {
   }
   if (inputs.project.configuration)
     text::parseFile(tree, names, sources, inputs.project.configuration, options.dialect, diagnostics);
-  for (const FileId made : {inputs.project.safe_values, inputs.project.module_variables})
+  for (const FileId made : {inputs.project.safe_values, inputs.project.module_variables, inputs.project.axis_variables})
     if (made) text::parseFile(tree, names, sources, made, options.dialect, diagnostics);
   setPhaseSubject("", 0);
   times_.end();

@@ -55,7 +55,7 @@ void receive(const rung_context* ctx, Axis& a) {
   rung_drive& drive = driveOf(a);
   const rung_drives* const host = ctx->host == nullptr ? nullptr : ctx->host->drives;
   a.host_drive_ = host != nullptr && host->receive(ctx->host->drives_data, &drive, ctx->now_ns) ? 1 : 0;
-  if (a.host_drive_ == 0) stepDrive(a.simulation_, drive, a.fTaskCycle_);
+  if (a.host_drive_ == 0 && a.bBoundDrive_ == 0) stepDrive(a.simulation_, drive, a.fTaskCycle_);
 }
 
 double scale(const Axis& a) { return a.fScalefactor_ != 0 ? a.fScalefactor_ : 1; }
