@@ -2,7 +2,8 @@
 // for every instance that the task serves. In: such methods, the tasks, lowered bodies. Out: Task::before and
 // Task::after, and those of tests; functions without parameters, or none. An instance in a program belongs to the
 // program's task; in a global variable, to the task of the highest priority among those whose code names that variable.
-// Methods run in the order of declaration, those after the programs in reverse.
+// One that no task names goes with the instances that its own methods name. Methods of the project run around those of
+// libraries; among them in the order of declaration, those after the programs in reverse.
 #include <algorithm>
 #include <set>
 
@@ -71,6 +72,9 @@ void ModuleLowering::addTaskCalls() {
     (project.pous[i].pragmas.before_task ? before : after).push_back({i});
   }
   if (before.empty() && after.empty()) return;
+  for (std::vector<sema::PouId>* const methods : {&before, &after})
+    std::stable_partition(methods->begin(), methods->end(),
+                          [&](sema::PouId method) { return !project.pou(method).library; });
   std::reverse(after.begin(), after.end());
   const auto heldIn = [&](const Root& root) {
     std::vector<Held> held;
@@ -102,6 +106,28 @@ void ModuleLowering::addTaskCalls() {
       if (named.count({held.root.index, held.field}) != 0 && served.insert({held.root.index, held.field}).second)
         of_task[task].push_back(held);
   }
+  const auto methodsOf = [&](const Held& held) {
+    const TypeId type = types.info(held.root.record).fields[held.field].type;
+    std::vector<BodyId> bodies;
+    for (const std::vector<sema::PouId>* const methods : {&before, &after})
+      for (const sema::PouId method : *methods)
+        if (holds(type, project.pou(method).owner)) bodies.push_back(body_of_[method.index]);
+    return bodies;
+  };
+  // Whether the methods of an instance name one of the others.
+  const auto goesWith = [&](const Held& held, const std::vector<Held>& others) {
+    const auto named = namedGlobals(module, methodsOf(held));
+    return std::any_of(others.begin(), others.end(), [&](const Held& other) {
+      return other.root.is_list && named.count({other.root.index, other.field}) != 0;
+    });
+  };
+  for (const Held& held : globals)
+    if (served.count({held.root.index, held.field}) == 0)
+      for (const uint32_t task : order)
+        if (goesWith(held, of_task[task])) {
+          of_task[task].push_back(held);
+          break;
+        }
   const auto inReverse = [](std::vector<Held> all) {
     std::reverse(all.begin(), all.end());
     return all;
@@ -120,6 +146,9 @@ void ModuleLowering::addTaskCalls() {
     const auto named = namedGlobals(module, {test.body, test.setup});
     for (const Held& held : globals)
       if (named.count({held.root.index, held.field}) != 0) own.push_back(held);
+    const std::vector<Held> of_test = own;
+    for (const Held& held : globals)
+      if (named.count({held.root.index, held.field}) == 0 && goesWith(held, of_test)) own.push_back(held);
     test.before = taskCallsOf(test.name, "~before", before, own);
     test.after = taskCallsOf(test.name, "~after", after, inReverse(own));
   }

@@ -9,6 +9,7 @@
 #include "frontend/source/scanner.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/libraries.h"
+#include "tools/driver/project_axes.h"
 #include "tools/driver/project_modules.h"
 
 namespace rung::driver {
@@ -24,7 +25,7 @@ constexpr Schema kSchemas[] = {
     {"project", false, "name sources std native-width libraries checks optimize warnings defines globals"},
     {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
     {"module", true, "type station task inputs outputs"},
-    {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
+    {"axis", true, nullptr},  // project_axes.cpp checks them
     {"area", true, "owner bytes"},
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
@@ -378,6 +379,7 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
     else if (section.kind == "task")
       readDuration(section, diagnostics, project);
   readModules(sources, diagnostics, project);
+  readAxes(sources, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);
   project.safe_values = writeSafeValues(sources, diagnostics, project);
 }

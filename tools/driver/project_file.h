@@ -48,6 +48,7 @@ struct ProjectFile {
   std::vector<text::Define> defines;
 
   FileId module_variables;  // the channels of the [module] sections in ST, mapped to this file; none: no such section
+  FileId axis_variables;    // the axes of the [axis] sections in ST, mapped to this file; none: no such section
   FileId safe_values;       // the section [safe] as a function in ST, mapped to this file; none: no such section
   FileId configuration;     // the tasks as a CONFIGURATION in ST, mapped to this file; none: no [task] section
 };

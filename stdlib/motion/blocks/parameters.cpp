@@ -129,6 +129,7 @@ int64_t run(const rung_context* ctx, Axis& a, AXIS_OBJECT_ACCESS_type& access) {
     if (result == RUNG_OBJECT_DONE) access.value_ = value;
     return result;
   }
+  if (a.bBoundDrive_ != 0) return RUNG_OBJECT_FAILED;  // the process image has no service channel
   const uint64_t self = reinterpret_cast<uintptr_t>(&access);
   const bool is_free = a.access_owner_ == 0 || a.access_owner_ == self || a.access_called_ + 1 < a.cycle_;
   if (!is_free) return RUNG_OBJECT_BUSY;

@@ -22,14 +22,26 @@ bool Drivers::load(const std::string& spec, std::string& error) {
   if (path.find('/') == std::string::npos) path.insert(0, "./");  // not a library of the system
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return error = dlerror(), false;
+  const char* const argument = equals == std::string::npos ? "" : spec.c_str() + equals + 1;
   using Drivers = const rung_driver* (*)(const char*, uint32_t*);
+  using Drives = const rung_drives* (*)(const char*, void**);
   const auto drivers = reinterpret_cast<Drivers>(dlsym(library, "rung_drivers"));
-  if (drivers == nullptr) return error = path + ": it has no function `rung_drivers`", false;
+  const auto drives = reinterpret_cast<Drives>(dlsym(library, "rung_axis_drives"));
+  if (drivers == nullptr && drives == nullptr)
+    return error = path + ": it has no function `rung_drivers` or `rung_axis_drives`", false;
+  if (drives != nullptr && drives_ != nullptr) return error = path + ": another library has drives", false;
+  if (drives != nullptr) drives_ = drives(argument, &drives_data_);
   uint32_t count = 0;
-  const rung_driver* const all = drivers(equals == std::string::npos ? "" : spec.c_str() + equals + 1, &count);
-  if (all == nullptr) return error = path + ": it refuses `" + spec + "`", false;
+  const rung_driver* const all = drivers == nullptr ? nullptr : drivers(argument, &count);
+  if ((drivers != nullptr && all == nullptr) || (drives != nullptr && drives_ == nullptr))
+    return error = path + ": it refuses `" + spec + "`", false;
   for (uint32_t i = 0; i < count; ++i) drivers_.push_back({all + i, RUNG_NONE});
   return true;
+}
+
+void Drivers::serve(rung_host& host) const {
+  host.drives = drives_;
+  host.drives_data = drives_data_;
 }
 
 void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis) {

@@ -17,9 +17,12 @@ class Drivers {
  public:
   Drivers(const rung_module& module, Memory& memory) : module_(module), memory_(memory) {}
 
-  // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`.
-  // `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
+  // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`,
+  // or that of drives. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
   bool load(const std::string& spec, std::string& error);
+  // Drives of axes that a library serves, by its function `const rung_drives* rung_axis_drives(const char* argument,
+  // void** data)`.
+  void serve(rung_host& host) const;
   // Simulates the project's modules, but those for which there is a driver of their name. Their terminals become
   // variables, `ad.V0`.
   void simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis);
@@ -44,6 +47,8 @@ class Drivers {
   const rung_module& module_;
   Memory& memory_;
   std::vector<Bound> drivers_;
+  const rung_drives* drives_ = nullptr;
+  void* drives_data_ = nullptr;
   std::vector<std::unique_ptr<SimulatedModule>> modules_;
   std::deque<rung_driver> of_modules_;
 };

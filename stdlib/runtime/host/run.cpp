@@ -306,6 +306,7 @@ int Run::prepare() {
   host.message = onMessage;
   if (gethostname(machine_name, sizeof machine_name - 1) == 0) host.name = machine_name;
   host.address = findOwnAddress(machine_address, sizeof machine_address);
+  drivers.serve(host);
   files.serve(host);
   hsio.serve(host);
   channels.serve(host);
