@@ -120,7 +120,9 @@ static std::vector<std::string>* namesOfProject(Inputs& inputs, std::string_view
 // Reports the libraries that a project of another tool asks for and Rung does not have, and adds the project's names
 // for the others.
 void Compilation::noteLibraries() {
+  std::vector<std::string> named;
   for (const importer::Library& wanted : inputs.libraries) {
+    named.push_back(wanted.name);
     if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
       if (std::vector<std::string>* names = namesOfProject(inputs, wanted.name); names != nullptr)
         names->push_back(wanted.space);
@@ -137,6 +139,7 @@ void Compilation::noteLibraries() {
       diagnostics.report(diag::UnknownLibrary, wanted.loc, {wanted.name})
           .length(static_cast<uint32_t>(wanted.name.size()));
   }
+  libraries.prefer(named);
 }
 
 bool Compilation::parse() {

@@ -48,6 +48,13 @@ LibraryPath libraryPath(const std::string& written) {
   return {std::string(name), written.substr(equal + 1)};
 }
 
+void LibrarySet::prefer(const std::vector<std::string>& names) {
+  std::stable_partition(files_.begin(), files_.end(), [&](const sema::LibraryFile& file) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return sameIdentifier(name, file.library); });
+  });
+}
+
 void LibrarySet::addAlias(const std::string& alias, const std::string& library) {
   contents_.push_back(alias);
   const char* shown = contents_.back().c_str();

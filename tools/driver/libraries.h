@@ -26,6 +26,8 @@ class LibrarySet {
   [[nodiscard]] std::string load(const Options& options);
   // Another name for a library: `Std.TON` when a project refers to Tc2_Standard as Std.
   void addAlias(const std::string& alias, const std::string& library);
+  // A bare name that several libraries have means that of these.
+  void prefer(const std::vector<std::string>& names);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }
   // The folders of -I: a library and where it is.

@@ -49,19 +49,18 @@ void runHome(MC_Home_type& block, Call& call) {
     case kMode:
       axis.mode_wanted_ = 6;
       if (axis.drive_.mode_display_ == 6)
-        axis.homing_ = 1, next(kBegins);
+        axis.homing_ = 1, block.had_error_ = (status & kHomingError) != 0, next(kBegins);
       else if (cycles > kPatience)
         refuseHome(call, axis, SMC_H_AXIS_DIDNT_START_HOMING_);
       return;
     case kBegins:
-      if ((status & kHomingError) != 0) return refuseHome(call, axis, SMC_H_ERROR_WHEN_STOPPING_);
-      if ((status & kAttained) == 0 && cycles > 1)
-        next(kSearches);
-      else if (cycles > kPatience)
-        refuseHome(call, axis, SMC_H_AXIS_DIDNT_START_HOMING_);
+      if ((status & kHomingError) == 0) block.had_error_ = 0;  // of the homing before
+      if ((status & kHomingError) != 0 && block.had_error_ == 0)
+        return refuseHome(call, axis, SMC_H_ERROR_WHEN_STOPPING_);
+      if ((status & (kAttained | kHomingError)) == 0 && cycles > 1) return next(kSearches);
       // A search that takes no time, such as method 35, is over before its begin is seen.
-      else if ((status & kAttained) != 0 && cycles > 3)
-        next(kSearches);
+      if ((status & kAttained) != 0 && cycles > 3) return next(kSearches);
+      if (cycles > kPatience) refuseHome(call, axis, SMC_H_AXIS_DIDNT_START_HOMING_);
       return;
     case kSearches:
       if ((status & kHomingError) != 0) return refuseHome(call, axis, SMC_H_ERROR_WHEN_STOPPING_);

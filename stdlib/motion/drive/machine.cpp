@@ -1,5 +1,6 @@
 // The simulated machine: see machine.h.
 #include "drive/machine.h"
+#include "drive/rounding.h"
 
 #include <math.h>
 
@@ -47,11 +48,11 @@ void setTorque(SimulatedDrive& drive, double acceleration) {
 }  // namespace
 
 int32_t countedPosition(const SimulatedDrive& drive, double position) {
-  return static_cast<int32_t>(static_cast<uint32_t>(llrint(position - drive.zero_)));
+  return static_cast<int32_t>(static_cast<uint32_t>(rounded(position - drive.zero_)));
 }
 
 int32_t countedVelocity(double value) {
-  return value >= INT32_MAX ? INT32_MAX : value <= INT32_MIN ? INT32_MIN : static_cast<int32_t>(lrint(value));
+  return value >= INT32_MAX ? INT32_MAX : value <= INT32_MIN ? INT32_MIN : static_cast<int32_t>(rounded(value));
 }
 
 uint32_t inputsAt(const SimulatedDrive& drive, double position) {

@@ -7,6 +7,7 @@
 #include "drive/modes.h"
 #include "drive/objects.h"
 #include "drive/probes.h"
+#include "drive/rounding.h"
 #include "drive/state_machine.h"
 #include "fieldbus/coe.h"
 
@@ -71,7 +72,7 @@ void send(const SimulatedDrive& drive, rung_drive& data) {
   if ((mapped & RUNG_DRIVE_MODE_DISPLAY) != 0) data.mode_display = drive.mode_display_;
   if ((mapped & RUNG_DRIVE_POSITION) != 0) data.position = countedPosition(drive, drive.machine_position_);
   if ((mapped & RUNG_DRIVE_VELOCITY) != 0) data.velocity = countedVelocity(drive.machine_velocity_);
-  if ((mapped & RUNG_DRIVE_TORQUE) != 0) data.torque = static_cast<int16_t>(lrint(drive.torque_));
+  if ((mapped & RUNG_DRIVE_TORQUE) != 0) data.torque = static_cast<int16_t>(rounded(drive.torque_));
   if ((mapped & RUNG_DRIVE_ERROR_CODE) != 0) data.error_code = drive.error_;
   if ((mapped & RUNG_DRIVE_PROBE_STATUS) != 0) data.probe_status = drive.probe_status_;
   if ((mapped & RUNG_DRIVE_DIGITAL_INPUTS) != 0) data.digital_inputs = drive.inputs_;

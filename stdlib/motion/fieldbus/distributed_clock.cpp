@@ -1,5 +1,6 @@
 // Distributed clocks: see distributed_clock.h.
 #include "fieldbus/distributed_clock.h"
+#include "drive/rounding.h"
 
 #include <math.h>
 
@@ -19,12 +20,12 @@ int64_t systemTimeOf(int64_t unix_nanoseconds) { return unix_nanoseconds - kDcEp
 uint32_t shortTimeOf(int64_t system_time) { return static_cast<uint32_t>(system_time); }
 
 int64_t localTime(const DcClock& clock, int64_t true_time) {
-  return clock.local_offset + true_time + llrint(clock.drift * static_cast<double>(true_time));
+  return clock.local_offset + true_time + motion::rounded(clock.drift * static_cast<double>(true_time));
 }
 
 int64_t localSystemTime(const DcClock& clock, int64_t true_time) {
   const int64_t local = localTime(clock, true_time);
-  return local + clock.system_offset + llrint(correctionAt(clock, local));
+  return local + clock.system_offset + motion::rounded(correctionAt(clock, local));
 }
 
 // The time that a frame is away from a slave is twice the way to the end; the difference of two slaves is twice the way

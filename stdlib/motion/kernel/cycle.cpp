@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "drive/drive.h"
+#include "drive/rounding.h"
 #include "kernel/axis.h"
 
 namespace rung::motion {
@@ -196,13 +197,6 @@ void stopWithoutRelease(Axis& a) {
   brake(a, brakeDeceleration(a, SMC_NO_ERROR_));
 }
 
-// To the nearest, halves away from 0; beyond the range its end.
-int64_t rounded(double value, double limit) {
-  if (!(value > -limit)) return static_cast<int64_t>(-limit);
-  if (value >= limit) return static_cast<int64_t>(limit);
-  return static_cast<int64_t>(value < 0 ? value - 0.5 : value + 0.5);
-}
-
 // What CiA 402 wants next on the way to where the axis should be.
 uint16_t controlword(const Axis& a) {
   const uint16_t status = a.drive_.statusword_;
@@ -223,7 +217,7 @@ void send(const rung_context* ctx, Axis& a) {
   drive.controlword = controlword(a);
   drive.mode = a.mode_wanted_ != 0 ? a.mode_wanted_ : int8_t{8};
   const double target = (a.position_ + a.extra_position_) * scale(a);
-  drive.target_position = static_cast<int32_t>(static_cast<uint64_t>(rounded(target, 9e15)));  // it wraps
+  drive.target_position = static_cast<int32_t>(static_cast<uint64_t>(rounded(target)));  // it wraps
   drive.target_velocity = static_cast<int32_t>(rounded(a.fSetVelocity_ * scale(a), 2147483647.0));
   const double torque = a.fFactorTor_ != 0 ? a.fSetTorque_ / a.fFactorTor_ : 0;
   drive.target_torque = static_cast<int16_t>(rounded(torque, 32767.0));

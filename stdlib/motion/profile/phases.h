@@ -33,7 +33,10 @@ class Writer {
   void setSign(double sign) { sign_ = sign; }
 
   void add(double duration, double acceleration, double jerk) {
-    if (!(duration > 0)) return;
+    if (!(duration > 0)) {
+      if (isnan(duration)) profile_.duration = duration;  // beyond the range of LREAL: the plan is refused
+      return;
+    }
     acceleration = sign_ * acceleration + 0.0;  // no -0
     jerk = sign_ * jerk + 0.0;
     if (profile_.phase_count > 0) {

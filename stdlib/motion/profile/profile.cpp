@@ -12,26 +12,36 @@ namespace {
 bool isSmooth(Ramp ramp) { return ramp == Ramp::Sin2 || ramp == Ramp::QuadraticSmooth; }
 
 bool isJerkLimited(const Limits& limits, Ramp ramp) {
-  return ramp == Ramp::Quadratic && limits.jerk > 0 && isfinite(limits.jerk);
+  return ramp == Ramp::Quadratic && limits.jerk > 0 && limits.jerk != HUGE_VAL;
 }
 
-Result checkStart(const State& start) {
-  const bool finite = isfinite(start.position) && isfinite(start.velocity) && isfinite(start.acceleration);
-  return finite ? Result::Ok : Result::NotFinite;
+// Products and quotients of a few numbers between these are LREALs.
+constexpr double greatest = 1e30;
+constexpr double smallest = 1e-30;
+
+Result checkNumbers(double a, double b, double c) {
+  if (!isfinite(a) || !isfinite(b) || !isfinite(c)) return Result::NotFinite;
+  return larger(larger(fabs(a), fabs(b)), fabs(c)) <= greatest ? Result::Ok : Result::OutOfRange;
+}
+
+Result checkLimit(double limit) {
+  if (!isfinite(limit)) return Result::NotFinite;
+  if (!(limit > 0)) return Result::BadLimits;
+  return limit >= smallest && limit <= greatest ? Result::Ok : Result::OutOfRange;
 }
 
 Result checkLimits(const Limits& limits) {
-  if (!isfinite(limits.acceleration) || !isfinite(limits.deceleration) || isnan(limits.jerk)) {
-    return Result::NotFinite;
-  }
-  return limits.acceleration > 0 && limits.deceleration > 0 && limits.jerk >= 0 ? Result::Ok : Result::BadLimits;
+  if (Result result = checkLimit(limits.acceleration); result != Result::Ok) return result;
+  if (Result result = checkLimit(limits.deceleration); result != Result::Ok) return result;
+  return limits.jerk == 0 || limits.jerk == HUGE_VAL ? Result::Ok : checkLimit(limits.jerk);
 }
 
 Result checkRequest(const State& start, double position, double end_velocity, const Limits& limits) {
-  if (Result result = checkStart(start); result != Result::Ok) return result;
-  if (!isfinite(position) || !isfinite(end_velocity) || !isfinite(limits.velocity)) return Result::NotFinite;
+  if (Result result = checkNumbers(start.position, start.velocity, start.acceleration); result != Result::Ok)
+    return result;
+  if (Result result = checkNumbers(position, end_velocity, 0); result != Result::Ok) return result;
+  if (Result result = checkLimit(limits.velocity); result != Result::Ok) return result;
   if (Result result = checkLimits(limits); result != Result::Ok) return result;
-  if (!(limits.velocity > 0)) return Result::BadLimits;
   return fabs(end_velocity) <= limits.velocity ? Result::Ok : Result::EndVelocityTooHigh;
 }
 
@@ -202,8 +212,9 @@ Result planPosition(Profile& profile, const State& start, double position, doubl
 }
 
 Result planVelocity(Profile& profile, const State& start, double velocity, const Limits& limits, Ramp ramp) {
-  if (Result result = checkStart(start); result != Result::Ok) return result;
-  if (!isfinite(velocity)) return Result::NotFinite;
+  if (Result result = checkNumbers(start.position, start.velocity, start.acceleration); result != Result::Ok)
+    return result;
+  if (Result result = checkNumbers(velocity, 0, 0); result != Result::Ok) return result;
   if (Result result = checkLimits(limits); result != Result::Ok) return result;
   Request request{start.velocity, isJerkLimited(limits, ramp) ? start.acceleration : 0, 0, velocity, 0};
   Profile plan;

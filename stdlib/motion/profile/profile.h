@@ -34,7 +34,7 @@ enum class Result : uint8_t {
   NotFinite,           // NaN or infinity in the start state, the target or a limit (an infinite jerk is allowed)
   BadLimits,           // a limit <= 0 or jerk < 0
   EndVelocityTooHigh,  // |end velocity| above the velocity limit
-  OutOfRange,          // so far away, or with such limits, that a time or a position is beyond LREAL
+  OutOfRange,          // a number above 1e30, a limit below 1e-30, or a profile whose figures are beyond LREAL
 };
 
 // One stretch of a profile. Sin2 and QuadraticSmooth: `acceleration` is the mean of the stretch, and jerk is 0.

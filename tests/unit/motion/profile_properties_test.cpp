@@ -93,6 +93,62 @@ void checkMany(double spread, uint64_t first) {
 TEST(ProfileProperties, UsualLimits) { checkMany(1e2, seed()); }
 TEST(ProfileProperties, LimitsFarApart) { checkMany(1e9, seed() + 1000); }
 
+// Numbers of any magnitude: a plan whose figures are finite and which arrives, or a refusal.
+TEST(ProfileProperties, AnyNumbers) {
+  Random random(seed() + 5000);
+  int reports = 0;
+  long planned = 0;
+  for (long i = 0; i < count() && reports < max_reports; ++i) {
+    const double most = random.chance(0.1) ? 1e300 : 1e29;
+    const auto any = [&] { return random.chance(0.1) ? 0 : random.sign() * random.magnitude(1 / most, most); };
+    Request r;
+    r.start = {any(), any(), any()};
+    r.position = any();
+    r.end_velocity = any();
+    r.limits = {std::fabs(any()), std::fabs(any()), std::fabs(any()), std::fabs(any())};
+    r.ramp = Ramp(random.below(4));
+    Profile profile;
+    const Result result = plan(profile, r);
+    EXPECT_NE(int(result), int(Result::NotFinite)) << print(r);
+    if (result != Result::Ok) continue;
+    ++planned;
+    bool finite = std::isfinite(duration(profile)) && duration(profile) >= 0;
+    for (int k = 0; k <= 10; ++k) {
+      const State state = at(profile, duration(profile) * k / 10);
+      finite =
+          finite && std::isfinite(state.position) && std::isfinite(state.velocity) && std::isfinite(state.acceleration);
+    }
+    const State end = at(profile, duration(profile));
+    if (!finite || end.position != r.position || end.velocity != r.end_velocity) {
+      ADD_FAILURE() << print(r);
+      ++reports;
+    }
+  }
+  EXPECT_GT(planned, count() / 100);
+}
+
+// Continuous moves arrive at the target, or cross it once in the direction of the end velocity and go on to that.
+TEST(ProfileProperties, ContinuousMoves) {
+  Random random(seed() + 6000);
+  int reports = 0;
+  for (long i = 0; i < count() && reports < max_reports; ++i) {
+    Request r = randomRequest(random, 1e2);
+    r.to_position = true;
+    Profile profile;
+    ASSERT_EQ(int(planContinuous(profile, r.start, r.position, r.end_velocity, r.limits, r.ramp)), int(Result::Ok));
+    const double end = at(profile, duration(profile)).position;
+    if (end != r.position) {
+      const bool crossed =
+          (end - r.position) * r.end_velocity > 0 && (r.position - r.start.position) * r.end_velocity >= 0;
+      EXPECT_TRUE(crossed) << print(r);
+      r.to_position = false;
+    }
+    const std::string found = violation(profile, r);
+    EXPECT_EQ(found, "") << print(r);
+    reports += found.empty() ? 0 : 1;
+  }
+}
+
 // Five commands in a row, each from where the one before is.
 TEST(ProfileProperties, Interruptions) {
   Random random(seed() + 2000);
@@ -105,9 +161,7 @@ TEST(ProfileProperties, Interruptions) {
         ++reports;
         break;
       }
-      const State before = request.start;
       request.start = at(profile, random.uniform(0, 1.1) * duration(profile));
-      (void)before;
       if (random.chance(0.5)) {
         const Limits old = request.limits;
         request.limits = randomLimits(random, 1e3);
