@@ -137,7 +137,7 @@ int64_t run(const rung_context* ctx, Axis& a, AXIS_OBJECT_ACCESS_type& access) {
   if (a.access_called_ == a.cycle_ && access.busy_ != 0) return RUNG_OBJECT_BUSY;  // called twice in a cycle
   a.access_called_ = a.cycle_;
   access.busy_ = 1;
-  const int64_t result = accessObject(a.simulation_, drive, wanted, &value);
+  const int64_t result = accessObject(a.simulation_, wanted, &value);
   if (result == RUNG_OBJECT_BUSY) return result;
   access.busy_ = 0;
   a.access_owner_ = 0;

@@ -15,6 +15,6 @@ void stepDrive(SimulatedDrive& drive, rung_drive& data, double seconds);
 
 // One read or write of an object by the service channel: called once a cycle with the same `access` until the result is
 // not RUNG_OBJECT_BUSY. Another `access` replaces one that was not answered. Returns a rung_object_result.
-int64_t accessObject(SimulatedDrive& drive, rung_drive& data, const rung_object_access& access, uint32_t* value);
+int64_t accessObject(SimulatedDrive& drive, const rung_object_access& access, uint32_t* value);
 
 }  // namespace rung::motion

@@ -25,12 +25,16 @@ void start(SimulatedDrive& drive) {
   mapDefault(drive, drive.mapped_);
 }
 
+void enterBusState(SimulatedDrive& drive, EcatState state) {
+  drive.bus_state_ = static_cast<uint8_t>(state);
+  drive.exchanged_ = fieldbus::sendsInputs(state) ? mappedObjects(drive) : 0;
+}
+
 // The master brings the slave to the state asked for, step by step.
 void runFieldbus(SimulatedDrive& drive) {
   if (drive.communication_lost_) {
-    drive.bus_state_ = static_cast<uint8_t>(EcatState::Init);
     drive.bus_wait_ = 0;
-    return;
+    return enterBusState(drive, EcatState::Init);
   }
   while (drive.bus_state_ != drive.requested_state_) {
     if (drive.bus_wait_ < drive.bus_cycles_) {
@@ -43,16 +47,12 @@ void runFieldbus(SimulatedDrive& drive) {
                              ? static_cast<uint8_t>(fieldbus::nextState(now, static_cast<EcatState>(wanted)))
                              : wanted;
     const fieldbus::AlStatus status = fieldbus::requestState({now, drive.bus_error_ != 0}, next);
-    drive.bus_state_ = static_cast<uint8_t>(status.state);
+    enterBusState(drive, status.state);
     drive.bus_error_ = status.error ? 1 : 0;
     drive.bus_wait_ = 0;
     if (status.error) return;
   }
   drive.bus_wait_ = 0;
-}
-
-uint32_t mappedNow(const SimulatedDrive& drive) {
-  return fieldbus::sendsInputs(static_cast<EcatState>(drive.bus_state_)) ? mappedObjects(drive) : 0;
 }
 
 void receive(SimulatedDrive& drive, const rung_drive& data) {
@@ -177,7 +177,7 @@ void stepDrive(SimulatedDrive& drive, rung_drive& data, double seconds) {
   runFieldbus(drive);
   const auto bus_state = static_cast<EcatState>(drive.bus_state_);
   data.communication = fieldbus::takesOutputs(bus_state) ? 1 : 0;
-  data.mapped = mappedNow(drive);
+  data.mapped = drive.exchanged_;
   if (data.communication != 0) receive(drive, data);
   takeMode(drive);
   runStateMachine(drive);
@@ -259,7 +259,7 @@ bool isLength(unsigned bytes) { return bytes == 1 || bytes == 2 || bytes == 4; }
 
 }  // namespace
 
-int64_t accessObject(SimulatedDrive& drive, rung_drive& data, const rung_object_access& access, uint32_t* value) {
+int64_t accessObject(SimulatedDrive& drive, const rung_object_access& access, uint32_t* value) {
   if (!isLength(access.length)) return RUNG_OBJECT_UNKNOWN;
   if (!drive.started_) start(drive);
   if (!isUnderWay(drive, access)) begin(drive, access);
@@ -272,9 +272,7 @@ int64_t accessObject(SimulatedDrive& drive, rung_drive& data, const rung_object_
   }
   if (passed < drive.sdo_cycles_) return RUNG_OBJECT_BUSY;
   drive.sdo_busy_ = 0;
-  const int64_t result = transfer(drive, access, value);
-  data.mapped = mappedNow(drive);  // an access may change the mapping
-  return result;
+  return transfer(drive, access, value);
 }
 
 }  // namespace rung::motion
@@ -294,8 +292,7 @@ int32_t rung_sm3_basic_SIMULATED_DRIVE__access(rung_context*, rung_sm3_basic::SI
                                                uint16_t index, uint8_t subindex, uint8_t length, uint8_t is_write,
                                                uint32_t* value) {
   const rung_object_access access = {index, subindex, length, is_write, *value};
-  rung_drive data = {};
-  return static_cast<int32_t>(rung::motion::accessObject(*self, data, access, value));
+  return static_cast<int32_t>(rung::motion::accessObject(*self, access, value));
 }
 
 }  // extern "C"

@@ -63,7 +63,7 @@ struct TestDrive {
     const rung_object_access request = {index, subindex, length, static_cast<uint8_t>(is_write ? 1 : 0), *value};
     int64_t result = RUNG_OBJECT_BUSY;
     for (int i = 0; i < 1000 && result == RUNG_OBJECT_BUSY; ++i) {
-      result = accessObject(drive, data, request, value);
+      result = accessObject(drive, request, value);
       if (result == RUNG_OBJECT_BUSY) step();
     }
     return result;

@@ -82,10 +82,10 @@ TEST(Objects, AnswersAfterTheCyclesSet) {
   uint32_t value = 0;
   const rung_object_access request = {0x6041, 0, 2, 0, 0};
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(RUNG_OBJECT_BUSY, accessObject(test.drive, test.data, request, &value));
+    EXPECT_EQ(RUNG_OBJECT_BUSY, accessObject(test.drive, request, &value));
     test.step();
   }
-  EXPECT_EQ(RUNG_OBJECT_DONE, accessObject(test.drive, test.data, request, &value));
+  EXPECT_EQ(RUNG_OBJECT_DONE, accessObject(test.drive, request, &value));
   EXPECT_EQ(test.data.statusword, value);
 }
 
