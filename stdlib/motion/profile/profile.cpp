@@ -47,6 +47,11 @@ Result checkRequest(const State& start, double position, double end_velocity, co
   return fabs(end_velocity) <= limits.velocity ? Result::Ok : Result::EndVelocityTooHigh;
 }
 
+// In motion a position is a rounded sum.
+double roundingOf(double position, const State& start) {
+  return 32 * rounding * (fabs(position) + fabs(start.position));
+}
+
 Limits meanLimits(const Limits& limits, Ramp ramp) {
   const double mean = meanOfPeak(ramp);
   return {limits.velocity, limits.acceleration * mean, limits.deceleration * mean, 0};
@@ -199,9 +204,9 @@ Result planPosition(Profile& profile, const State& start, double position, doubl
   if (Result result = checkRequest(start, position, end_velocity, limits); result != Result::Ok) return result;
   Request request{start.velocity, isJerkLimited(limits, ramp) ? start.acceleration : 0, position - start.position,
                   end_velocity, 0};
-  // At rest the distance is exact; in motion the position is a rounded sum.
+  // At rest the distance is exact.
   if (start.velocity != 0 || request.acceleration != 0 || end_velocity != 0) {
-    request.tolerance = 32 * rounding * (fabs(position) + fabs(start.position));
+    request.tolerance = roundingOf(position, start);
   }
   Profile plan;
   begin(plan, start, ramp);
@@ -234,11 +239,16 @@ Result planContinuous(Profile& profile, const State& start, double position, dou
   if (Result result = checkRequest(start, position, end_velocity, limits); result != Result::Ok) return result;
   Profile ramp_only;
   if (Result result = planVelocity(ramp_only, start, end_velocity, limits, ramp); result != Result::Ok) return result;
-  const double distance = position - start.position;
-  const double needed = ramp_only.end_position - start.position;
-  const bool same_direction = end_velocity != 0 && (distance > 0) == (end_velocity > 0) && distance != 0;
-  if (same_direction && fabs(needed) > fabs(distance) && (needed > 0) == (distance > 0)) {
+  // Both in the direction of the end velocity.
+  const double sign = end_velocity < 0 ? -1 : 1;
+  const double distance = sign * (position - start.position);
+  const double needed = sign * (ramp_only.end_position - start.position);
+  const double smaller = limits.acceleration < limits.deceleration ? limits.acceleration : limits.deceleration;
+  const double bits =
+      roundingOf(position, start) + rampRounding(larger(fabs(start.velocity), fabs(end_velocity)), smaller);
+  if (end_velocity != 0 && distance >= 0 && needed > distance - bits) {
     profile = ramp_only;
+    if (needed < distance + bits) profile.end_position = position;
     return Result::Ok;
   }
   return planPosition(profile, start, position, end_velocity, limits, ramp);

@@ -65,7 +65,9 @@ static_assert(sizeof(Profile) <= 400 && alignof(Profile) == 8);
                                   const Limits& limits, Ramp ramp);
 
 // The same without going back: when `end_velocity` cannot be reached on the way to `position`, the axis crosses it with
-// what it has reached and goes on to the end velocity; end_position is then where it reaches that.
+// what it has reached and goes on to the end velocity; end_position is then where it reaches that. Where
+// the end velocity points away from the target, the axis turns; planned again while it goes back for the run-up, the
+// target lies ahead and may be crossed.
 [[nodiscard]] Result planContinuous(Profile& profile, const State& start, double position, double end_velocity,
                                     const Limits& limits, Ramp ramp);
 

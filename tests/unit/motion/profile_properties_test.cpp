@@ -71,6 +71,13 @@ Request randomRequest(Random& random, double spread) {
   return r;
 }
 
+// Whether the start is beyond a limit of the velocity, or will be.
+bool isBeyond(const Request& r) {
+  const double a = r.start.acceleration;
+  const double rest = r.start.velocity + (r.isJerkLimited() ? a * std::fabs(a) / (2 * r.limits.jerk) : 0);
+  return std::max(std::fabs(r.start.velocity), std::fabs(rest)) > r.limits.velocity;
+}
+
 // Returns whether the profile holds what it must.
 bool holds(const Request& request, Profile& profile) {
   const Result result = plan(profile, request);
@@ -137,6 +144,21 @@ TEST(ProfileProperties, ContinuousMoves) {
     Profile profile;
     ASSERT_EQ(int(planContinuous(profile, r.start, r.position, r.end_velocity, r.limits, r.ramp)), int(Result::Ok));
     const double end = at(profile, duration(profile)).position;
+    const bool ahead = (r.position - r.start.position) * r.end_velocity > 0 && r.start.velocity * r.end_velocity > 0;
+    if (end == r.position && ahead && r.start.acceleration == 0 && !isBeyond(r)) {
+      // Given again on the way, the command leads there again.
+      Request again = r;
+      again.start = at(profile, random.uniform(0, 1) * duration(profile));
+      Profile rest;
+      const bool resumes = again.ramp == Ramp::Trapezoid || again.ramp == Ramp::Quadratic;
+      ASSERT_EQ(int(planContinuous(rest, again.start, r.position, r.end_velocity, r.limits, r.ramp)), int(Result::Ok));
+      const double there = at(rest, duration(rest)).position;
+      const double scale = std::fabs(r.position) + std::fabs(r.start.position) + r.limits.velocity * duration(profile);
+      if (resumes && std::fabs(there - r.position) > 1e-9 * scale) {
+        ADD_FAILURE() << print(again);
+        ++reports;
+      }
+    }
     if (end != r.position) {
       const bool crossed =
           (end - r.position) * r.end_velocity > 0 && (r.position - r.start.position) * r.end_velocity >= 0;
@@ -170,13 +192,6 @@ TEST(ProfileProperties, Interruptions) {
       aim(random, request);
     }
   }
-}
-
-// Whether the start is beyond a limit of the velocity, or will be.
-bool isBeyond(const Request& r) {
-  const double a = r.start.acceleration;
-  const double rest = r.start.velocity + (r.isJerkLimited() ? a * std::fabs(a) / (2 * r.limits.jerk) : 0);
-  return std::max(std::fabs(r.start.velocity), std::fabs(rest)) > r.limits.velocity;
 }
 
 // The same command again in mid-motion does not change the arrival.
