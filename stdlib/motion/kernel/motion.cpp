@@ -59,6 +59,8 @@ void noteEnd(Axis& a, double rest) {
   a.ended_cycle_ = a.cycle_;
 }
 
+void moveOwner(Axis& a);
+
 // The buffered command takes over from a state, `rest` seconds before the end of the cycle.
 void beginNext(Axis& a, State from, double rest) {
   if (a.next_request_.is_relative_ != 0) {
@@ -87,6 +89,15 @@ void rest(Axis& a, double position) {
 void endProfile(Axis& a, double over) {
   const Profile& profile = profileOf(a.profile_);
   const double at_end = over < 0 ? 0 : over;
+  const bool at_last_velocity = profile.end_velocity == a.request_.last_velocity_;
+  if (a.request_.last_velocity_ != 0 && a.request_.speeds_up_ == 0 && !at_last_velocity) {
+    const State from = {profile.end_position, profile.end_velocity, 0};
+    a.request_.speeds_up_ = 1;
+    setBase(a, from);
+    a.begun_ = at_end;
+    a.tick_ = -1;
+    if (replan(a, from)) return moveOwner(a);
+  }
   const bool goes_on = motionOf(a.request_) != Motion::Position && motionOf(a.request_) != Motion::Brake;
   if (motionOf(a.request_) == Motion::Continuous) a.nAxisState_ = continuous_motion_;
   if (a.next_owner_ != 0 && motionOf(a.request_) != Motion::Brake) {
@@ -225,6 +236,19 @@ double blendVelocity(const Axis& a, const Request& next) {
   return way > 0 ? velocity : -velocity;
 }
 
+// To where the speed begins to rise to the last velocity; where the way is too short for that, as fast as it goes.
+Result planLastVelocity(const Request& request, const State& from, const Limits& limits, Ramp ramp, Profile& profile) {
+  const double own = request.last_velocity_ < 0 ? -limits.velocity : limits.velocity;
+  if (request.speeds_up_ != 0) return planVelocity(profile, from, request.last_velocity_, limits, ramp);
+  const Result result = planVelocity(profile, {request.target_, own, 0}, request.last_velocity_, limits, ramp);
+  if (result != Result::Ok) return result;
+  const double begin = 2 * request.target_ - profile.end_position;
+  const double way = begin - from.position;
+  if ((way > 0) == (own > 0) && planPosition(profile, from, begin, own, limits, ramp) == Result::Ok) return Result::Ok;
+  const Limits faster = {fabs(request.last_velocity_), limits.acceleration, limits.deceleration, limits.jerk};
+  return planPosition(profile, from, request.target_, request.last_velocity_, faster, ramp);
+}
+
 }  // namespace
 
 bool isPositive(double value) { return value > 0 && value < HUGE_VAL; }
@@ -276,6 +300,7 @@ Result plan(const Axis& a, const Request& request, const State& from, Profile& p
   const Ramp ramp = rampOf(a, request);
   if (motionOf(request) == Motion::Velocity || is_brake || factor == 0)
     return planVelocity(profile, from, factor == 0 ? 0 : request.end_velocity_ * factor, limits, ramp);
+  if (request.last_velocity_ != 0) return planLastVelocity(request, from, limits, ramp, profile);
   double end = request.end_velocity_;
   if (fabs(end) > limits.velocity) end = end > 0 ? limits.velocity : -limits.velocity;
   return motionOf(request) == Motion::Continuous ? planContinuous(profile, from, request.target_, end, limits, ramp)
@@ -335,8 +360,10 @@ bool begin(Axis& a, Command& command, const Request& request) {
     a.next_owner_ = command.serial_;
     const double blend = motionOf(a.request_) == Motion::Position ? blendVelocity(a, wanted) : 0;
     if (blend != 0) {
-      a.request_.end_velocity_ = blend;
-      if (fabs(blend) > a.request_.velocity_) a.request_.velocity_ = fabs(blend);
+      if (fabs(blend) > a.request_.velocity_)
+        a.request_.last_velocity_ = blend;
+      else
+        a.request_.end_velocity_ = blend;
       ++a.override_changes_;
       a.advanced_ = a.cycle_ - 1;
     }
