@@ -3,6 +3,7 @@
 # tools/house/tsan in real time, with tasks that take turns and, where permitted, with SCHED_FIFO. The code of the
 # programs is not instrumented: plain globals are shared without order by design (docs/language.md). Called by
 # tools/long.sh.
+#   tools/house/tsan.sh [NAME]      only tsan/NAME.st
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
 rung=${RUNG:-$here/build/bin/rung}
@@ -21,8 +22,9 @@ extern "C" const rung_module* plant_module(void);
 int main(int argc, char** argv) { return rung::host::applicationMain(*plant_module(), argc, argv); }
 END
 failed=0
-for program in "$here"/tools/house/tsan/*.st; do
+for program in "$here"/tools/house/tsan/${1:-*}.st; do
   name=$(basename "$program" .st)
+  options=$(sed -n 's,^// options: ,,p' "$program")
   "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
   ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
   g++ $flags "$folder/main.cpp" "$folder/$name"/*.o "$folder"/host/*.o "$lib"/librung_runtime.a -lpthread -ldl -o "$folder/$name/app"
@@ -30,7 +32,7 @@ for program in "$here"/tools/house/tsan/*.st; do
     runner=""
     [ $rights = with ] || runner="setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-all"
     (cd "$folder" && $runner "$name/app" --realtime --for 3s --driver log.so=log --retain "$name.kept" --retain-interval 5ms \
-      --control "$here/tools/house/tsan/commands.txt" --trace "$name.csv" > "$name.out" 2>&1) || status=$?
+      --control "$here/tools/house/tsan/commands.txt" --trace "$name.csv" $options > "$name.out" 2>&1) || status=$?
     if grep -q 'WARNING: ThreadSanitizer' "$folder/$name.out" || [ "${status:-0}" != 0 ]; then
       echo "$name, $rights rights: status ${status:-0}"
       head -60 "$folder/$name.out"
