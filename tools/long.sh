@@ -5,6 +5,7 @@
 # differential  20 000 random programs in three dialects: interpreter and, of every tenth, g++ and clang++ (COUNT, FIRST)
 # networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
 # mutants       30 000 corrupted programs and drawings: one error at the right place, and no crash (COUNT, FIRST)
+# frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
 # profiles      five million motion profiles: limits, continuity, arrival, and no rival faster (COUNT, FIRST)
@@ -44,6 +45,12 @@ mutants() {
   for test in mutation_test drawing_mutation_test network_mutation_test; do
     RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-10000} "$bin/$test"
   done
+}
+
+frames() {
+  needs runtime_test
+  RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-1000000} "$bin/runtime_test" --gtest_filter='Modbus.*' --gtest_brief=1
+  tests/fuzz/frames/frames.sh "${SECONDS_EACH:-300}" "$first"
 }
 
 modifiers() {
@@ -93,10 +100,10 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants modifiers bodies profiles kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies profiles kills tsan lateness asan debug tidy compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|modifiers|bodies|profiles|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
+    differential|networks|mutants|frames|modifiers|bodies|profiles|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
     *) sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done

@@ -96,8 +96,7 @@ void rung_sm3_basic_MC_SetPosition(rung_context*, MC_SetPosition_type* self) {
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
     Axis& axis = call.axis();
-    if (axis.nAxisState_ == errorstop_ || axis.nAxisState_ == homing_ || axis.coupled_ != 0 || isMaster(axis) ||
-        !isFinite(self->Position_)) {
+    if (axis.nAxisState_ == errorstop_ || axis.coupled_ != 0 || isMaster(axis) || !isFinite(self->Position_)) {
       call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
     } else {
       showAt(axis, self->Mode_ != 0 ? axis.fSetPosition_ + self->Position_ : self->Position_);

@@ -2,7 +2,7 @@
 // libraries.
 #include "laws.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -67,4 +67,4 @@ double meanOfPeak(Ramp ramp) {
   return 1;
 }
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

@@ -4,7 +4,7 @@
 
 #include "profile.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 
 struct LawValues {
   double integral, velocity, acceleration, jerk;
@@ -15,4 +15,4 @@ LawValues lawAt(Ramp ramp, double s);
 // Mean acceleration of a ramp whose peak acceleration is 1: 2/pi and 8/15; 1 for the forms without a law.
 double meanOfPeak(Ramp ramp);
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

@@ -6,7 +6,7 @@
 
 #include "profile.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 
 inline double square(double x) { return x * x; }
 inline double larger(double a, double b) { return a > b ? a : b; }
@@ -76,4 +76,4 @@ double trapezoidRampDistance(double from, double to, const Limits& limits);
 void sCurveToPosition(Profile& profile, const Request& request, const Limits& limits);
 void sCurveToVelocity(Profile& profile, const Request& request, const Limits& limits);
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

@@ -9,6 +9,8 @@
 namespace rung::motion {
 namespace {
 
+using namespace planning;
+
 bool isSmooth(Ramp ramp) { return ramp == Ramp::Sin2 || ramp == Ramp::QuadraticSmooth; }
 
 bool isJerkLimited(const Limits& limits, Ramp ramp) {

@@ -10,7 +10,7 @@
 
 #include "phases.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 
 // Limits of the acceleration while the velocity is below and above 0.
 struct Caps {
@@ -86,4 +86,4 @@ inline double riseDistance(const Rise& rise, double jerk) {
          stretchDistance(rise.stretches[1], 0, rise.a_zero, rise.v1, rise.a1, jerk);
 }
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-namespace rung::motion {
+namespace rung::motion::planning {
 
 struct Value {
   double value, slope;
@@ -46,4 +46,4 @@ double rootOf(Function f, double low, double high, double guess) {
   return x;
 }
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

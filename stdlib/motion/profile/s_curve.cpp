@@ -15,7 +15,7 @@
 #include "rise.h"
 #include "root.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 namespace {
 
 struct Curve {
@@ -433,4 +433,4 @@ void sCurveToPosition(Profile& profile, const Request& request, const Limits& li
   Over(writer, {side * start.velocity, side * start.acceleration}, side * to, side * distance, tolerance, curve).plan();
 }
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

@@ -4,7 +4,7 @@
 
 #include "phases.h"
 
-namespace rung::motion {
+namespace rung::motion::planning {
 namespace {
 
 // Distance that a ramp upwards needs between velocity 0 and `velocity`, by the limit on that side of 0.
@@ -98,4 +98,4 @@ void trapezoidToVelocity(Profile& profile, const Request& request, const Limits&
   writer.setSeam();
 }
 
-}  // namespace rung::motion
+}  // namespace rung::motion::planning

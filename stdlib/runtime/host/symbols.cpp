@@ -317,8 +317,18 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   return true;
 }
 
-void Symbols::expand(const Variable& variable, std::vector<Variable>& to, bool own) const {
+// An axis has hundreds of variables, of which these are of interest; the others have to be named.
+static bool isAxis(const char* type) { return strcmp(type, "AXIS_REF_SM3") == 0; }
+static bool isAxisValue(const char* name) {
+  for (const char* const value :
+       {"nAxisState", "fSetPosition", "fSetVelocity", "fSetAcceleration", "fSetJerk", "fActPosition"})
+    if (strcmp(name, value) == 0) return true;
+  return false;
+}
+
+void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail detail) const {
   const rung_type& type = *variable.type;
+  const bool is_axis = detail != Detail::Everything && type.kind == RUNG_RECORD && isAxis(text(type.name));
   if (type.kind == RUNG_RECORD) {
     for (uint32_t i = 0; i < type.count; ++i) {
       const rung_field& field = module_.fields[type.first + i];
@@ -327,7 +337,8 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, bool o
           strncmp(name, "__", 2) == 0)
         continue;
       constexpr uint32_t kSeen = RUNG_FIELD_INPUT | RUNG_FIELD_OUTPUT | RUNG_FIELD_BASE;
-      if (own && type.library != 0 && (field.flags & kSeen) == 0) continue;
+      if (is_axis && !isAxisValue(name)) continue;
+      if (detail == Detail::Own && type.library != 0 && (field.flags & kSeen) == 0) continue;
       Variable part = variable;
       if ((field.flags & RUNG_FIELD_BASE) == 0) {
         part.path += '.';
@@ -336,7 +347,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, bool o
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
       part.setFlags(field.flags);
-      expand(part, to, own);
+      expand(part, to, detail);
     }
   } else if (type.kind == RUNG_ARRAY) {
     const rung_type& element = module_.types[type.element];
@@ -353,7 +364,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, bool o
       part.path += ']';
       part.type = &element;
       part.lastOffset() += n * element.size;
-      expand(part, to, own);
+      expand(part, to, detail);
       size_t d = index.size();
       while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {
         index[d - 1] = module_.dimensions[type.first + d - 1].low;
@@ -370,12 +381,12 @@ std::vector<Variable> Symbols::ofPrograms() const {
   std::vector<Variable> all;
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
     if (!module_.symbols[i].is_program) continue;
-    expand(root(i), all, true);
+    expand(root(i), all, Detail::Own);
     // Its located variables are separate roots: `Main.valve`.
     const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
     for (uint32_t j = 0; j < module_.symbol_count; ++j)
       if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)
-        expand(root(j), all, true);
+        expand(root(j), all, Detail::Own);
   }
   return all;
 }

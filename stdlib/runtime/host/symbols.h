@@ -46,9 +46,14 @@ class Symbols {
 
   // False: `error` has the message ("did you mean" included).
   bool find(std::string_view path, Variable& variable, std::string& error) const;
+  // Which variables inside another one.
+  enum class Detail : uint8_t {
+    Everything,
+    Watched,  // of an axis: its set values, its actual position and its state
+    Own       // as Watched, and of library blocks only the pins
+  };
   // The elementary variables, enumerations and pointers inside `variable`, in order of declaration.
-  // `own`: without the variables of library blocks that are not pins.
-  void expand(const Variable& variable, std::vector<Variable>& to, bool own = false) const;
+  void expand(const Variable& variable, std::vector<Variable>& to, Detail detail = Detail::Everything) const;
   // All elementary variables of all program instances, without in-outs, pointers, constants and the internal variables
   // of library blocks.
   std::vector<Variable> ofPrograms() const;

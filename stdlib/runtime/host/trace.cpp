@@ -27,7 +27,7 @@ bool Trace::choose(const std::string& watch, std::string& error) {
     if (variable.type->kind == RUNG_POINTER)
       variables_.push_back(variable);
     else
-      symbols_.expand(variable, variables_);
+      symbols_.expand(variable, variables_, Symbols::Detail::Watched);
   }
   return true;
 }
@@ -35,7 +35,7 @@ bool Trace::choose(const std::string& watch, std::string& error) {
 bool Trace::chooseProgram(const std::string& name, std::string& error) {
   Variable program;
   if (!symbols_.find(name, program, error)) return false;
-  symbols_.expand(program, variables_, true);
+  symbols_.expand(program, variables_, Symbols::Detail::Own);
   return true;
 }
 
