@@ -228,6 +228,7 @@ class Tester {
       Options one = options_;
       one.inputs = {file.path};
       one.root = root;
+      one.bundles = 1;  // a unit includes several of its sources
       one.name = all.options.moduleName() + "_" + std::to_string(i);
       const int exit = compileProject(one, &file);
       if (exit != kSuccess) return exit;

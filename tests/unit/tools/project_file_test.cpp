@@ -31,14 +31,14 @@ class ProjectFileTest : public testing::Test {
 TEST_F(ProjectFileTest, AllSections) {
   read(
       "# a press\n[project]\nname = press\nstd = iec2\nchecks = div, index\noptimize = 2\nwarnings = no-W0101\n"
-      "[axis feed]\nfPositionPeriod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
+      "[axis feed]\nperiod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
       "[module slot1]\ntype = AX_EM_1600D\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
   EXPECT_EQ(project.name, "press");
   EXPECT_EQ(project.level, 2);
   ASSERT_EQ(project.sections.size(), 6u);
   EXPECT_EQ(project.sections[1].name, "feed");
-  EXPECT_EQ(project.sections[1].find("fPositionPeriod")->value, "360");
+  EXPECT_EQ(project.sections[1].find("period")->value, "360");
 
   Options options;
   applyProjectFile(project, options);
