@@ -64,7 +64,7 @@ struct Var {
   VarId tells_input;       // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   struct Pragmas {         // of the declaration
-    bool required = false, lazy = false, extensible = false;  // pins of library declarations
+    bool required = false, optional = false, lazy = false, extensible = false;  // pins of library declarations
     bool long_time = false;                                   // {long_time}: a TIME that takes an LTIME too (iec3)
     bool instance_path = false;       // {attribute 'instance-path'}: holds the path of its instance
     bool no_exit = false;             // {attribute 'no-exit'}: an instance whose FB_Exit is not called

@@ -654,7 +654,7 @@ const char* Lexer::pragma(const char* begin) {
 void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
   static const std::vector<std::string_view> kPragmas = {
       "attribute", "test",  "info",     "warning",  "error",       "text",        "define",    "undefine", "IF",
-      "ELSIF",     "ELSE",  "END_IF",   "region",   "endregion",   "native",      "alias",     "required", "extensible",
+      "ELSIF",     "ELSE",  "END_IF",   "region",   "endregion",   "native",      "alias",     "required", "optional", "extensible",
       "lazy",      "pure",  "operator", "replaces", "std",         "sized",       "list",      "entry",    "active",
       "exit",      "fault", "no_copy",  "bytes",    "long_time",   "test_only",   "mock",      "skip",     "setup",
       "teardown",  "case",  "prefix",   "slice",    "safe_values", "before_task", "after_task"};

@@ -3,6 +3,7 @@
 // number).
 //   passes  mix(level := tank);   LIMIT(0, x, 9)
 //   fails   mix();                LIMIT(0, x)
+// A native block may have {optional} in-outs: one that is left open keeps its variable, or has none.
 // Called for every resolved call of any language.
 #include "sema/checks/required_pins.h"
 
@@ -20,7 +21,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
     const Var& pin = context.symbols.var(pins[i]);
-    const bool must = pin.section == SectionKind::InOut || pin.pragmas.required ||
+    const bool must = (pin.section == SectionKind::InOut && !pin.pragmas.optional) || pin.pragmas.required ||
                       (pin.section == SectionKind::Input && context.types().isOpenArray(pin.type));
     if (given) {
       const bool open = !context.tree().list(node.arguments)[arguments.slots[i] - 1].value;

@@ -38,6 +38,7 @@ void internKnownNames(Context& context) {
       {&Known::after_task, "after_task"},
       {&Known::alias, "alias"},
       {&Known::required, "required"},
+      {&Known::optional, "optional"},
       {&Known::lazy, "lazy"},
       {&Known::long_time, "long_time"},
       {&Known::extensible, "extensible"},

@@ -113,6 +113,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     var.symbol_access = symbols.global_lists[list.index].symbol_access;
   if (!decl.h.pragmas.empty()) {
     var.pragmas.required = findPragma(context, decl.h, known.required) != nullptr;
+    var.pragmas.optional = findPragma(context, decl.h, known.optional) != nullptr;
     var.pragmas.long_time = findPragma(context, decl.h, known.long_time) != nullptr;
     var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
     var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;

@@ -56,7 +56,7 @@ void persist(Block& block, int64_t drive, Moved&& moved) {
     block.bBusy_ = block.bPositionRestored_ = block.bPositionStored_ = block.was_ = 0;
     return;
   }
-  if (!isAxis(axis)) {
+  if (!isAxis(axis) || block.PersistentData_ == nullptr) {
     block.bError_ = 1;
     block.eErrorID_ = SMC_AXIS_IS_NO_AXIS_REF_;
     block.bBusy_ = 0;

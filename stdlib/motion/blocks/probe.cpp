@@ -56,8 +56,9 @@ void end(MC_TouchProbe_type& block, TRIGGER_REF_type& trigger) {
 extern "C" {
 
 void rung_sm3_basic_MC_TouchProbe(rung_context*, MC_TouchProbe_type* self) {
+  TRIGGER_REF_type none = {};
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
-  TRIGGER_REF_type& trigger = triggerOf(self->TriggerInput_);
+  TRIGGER_REF_type& trigger = self->TriggerInput_ != nullptr ? triggerOf(self->TriggerInput_) : none;
   const bool fast = trigger.bFastLatching_ != 0;
   const int number = trigger.iTriggerNumber_;
   if (call.rises() && self->armed_ == 0) {
@@ -114,7 +115,8 @@ void rung_sm3_basic_MC_TouchProbe(rung_context*, MC_TouchProbe_type* self) {
 void rung_sm3_basic_MC_AbortTrigger(rung_context*, MC_AbortTrigger_type* self) {
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
-    TRIGGER_REF_type& trigger = triggerOf(self->TriggerInput_);
+    TRIGGER_REF_type none = {};
+    TRIGGER_REF_type& trigger = self->TriggerInput_ != nullptr ? triggerOf(self->TriggerInput_) : none;
     if (trigger.bActive_ == 0) {
       call.refuse(SMC_AT_TRIGGERNOTOCCUPIED_);
     } else {
