@@ -112,7 +112,7 @@ void rung_sm3_basic_MC_Stop(rung_context*, MC_Stop_type* self) {
     }
     if (self->stopped_ != 0 && self->Execute_ == 0) {
       axis->lock_ = 0;
-      axis->nAxisState_ = standstill_;
+      if (axis->nAxisState_ == stopping_) axis->nAxisState_ = standstill_;
     }
   }
   self->Done_ = call.is(Outcome::Done) ? 1 : 0;

@@ -110,18 +110,11 @@ void takePower(Axis& a) {
     a.bDriveStartRealState_ = a.bRegulatorOn_ != 0 && a.bDriveStart_ != 0 ? 1 : 0;
   }
   if (a.bRegulatorRealState_ == 0) {
-    if (was && isMoving(a) && a.nAxisState_ != errorstop_) fail(a, SMC_FB_ACTIVE_AXIS_DISABLED_);
-    if (a.nAxisState_ != errorstop_) {
-      if (a.owner_ != 0)
-        fail(a, SMC_FB_ACTIVE_AXIS_DISABLED_);
-      else
-        a.nAxisState_ = power_off_;
-    }
-    if (hasDrive(a) || a.request_.kind_ == static_cast<uint8_t>(Motion::None))
-      followActual(a);
-    else
-      followActual(a);
-    return;
+    const bool was_commanded = a.owner_ != 0 || (was && isMoving(a));
+    if (a.nAxisState_ != errorstop_ && was_commanded) fail(a, SMC_FB_ACTIVE_AXIS_DISABLED_);
+    if (a.nAxisState_ != errorstop_) a.nAxisState_ = power_off_;
+    a.lock_ = 0;
+    return followActual(a);
   }
   if (a.nAxisState_ != power_off_) return;
   a.nAxisState_ = standstill_;

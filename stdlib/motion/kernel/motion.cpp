@@ -85,6 +85,9 @@ void rest(Axis& a, double position) {
   a.request_.kind_ = static_cast<uint8_t>(Motion::None);
 }
 
+// Of an axis whose command is done: what is superimposed may still move it.
+AxisState restingState(const Axis& a) { return a.extra_owner_ != 0 ? discrete_motion_ : standstill_; }
+
 // The owner's profile is over by `over` seconds.
 void endProfile(Axis& a, double over) {
   const Profile& profile = profileOf(a.profile_);
@@ -121,7 +124,7 @@ void endProfile(Axis& a, double over) {
   }
   noteEnd(a, at_end);
   a.owner_ = 0;
-  if (a.nAxisState_ != stopping_) a.nAxisState_ = standstill_;
+  if (a.nAxisState_ != stopping_) a.nAxisState_ = restingState(a);
 }
 
 void moveOwner(Axis& a) {
@@ -477,7 +480,7 @@ void release(Axis& a, Outcome outcome) {
   a.coupled_master_ = 0;
   if (a.velocity_ == 0) {
     rest(a, a.position_);
-    a.nAxisState_ = standstill_;
+    a.nAxisState_ = restingState(a);
     return;
   }
   a.nAxisState_ = continuous_motion_;
