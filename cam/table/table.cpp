@@ -179,7 +179,12 @@ bool at(const Table& table, double x, int32_t& segment, Value& value) {
     const Point* const points = static_cast<const Point*>(table.points);
     const bool is_cached =
         segment >= 0 && segment < table.count - 1 && points[segment].x <= x && x < points[segment + 1].x;
-    if (!is_cached) segment = find(table, x, segment);
+    if (!is_cached) {
+      segment = find(table, x, segment);
+      // Points that the program has put out of order are seen where the master comes to them.
+      if (segment > 0 && !(points[segment - 1].x < points[segment].x)) return false;
+      if (segment + 2 < table.count && !(points[segment + 1].x < points[segment + 2].x)) return false;
+    }
     const Point &from = points[segment], &to = points[segment + 1];
     if (!(from.x <= x && x <= to.x && from.x < to.x)) return false;
     const bool is_line = table.segments != nullptr && table.segments[segment] == SegmentKind::Line;

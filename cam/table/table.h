@@ -20,7 +20,7 @@ enum class Kind : uint8_t {
 // Numbers of Equidistant and Pairs; the values of MC_CAM_REF.byVarType.
 enum class Number : uint8_t { None = 0, Int = 1, UInt = 2, DInt = 3, UDInt = 4, Real = 5, LReal = 6 };
 
-// The segment behind a quintic point; the values of CamSegmentType.
+// The segment after a quintic point; the values of CamSegmentType.
 enum class SegmentKind : int16_t { Line = 0, Quintic = 1 };
 
 // SMC_CAMXYVA
