@@ -1,6 +1,6 @@
 // Native bodies of gear.st: couplings of a slave to a master. The slave follows the set values that the master has when
 // the block is called: call it after the block that moves the master.
-#include "kernel/axis.h"
+#include "blocks/coupling.h"
 
 #include <math.h>
 
@@ -9,35 +9,7 @@ using namespace rung::motion;
 
 namespace {
 
-enum Coupling : uint8_t { kNone, kGear };
 enum Phase : uint8_t { kWaiting, kApproaching, kInSync, kMissed };
-
-State stateOf(const Axis& a) {
-  return {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, a.acceleration_ + a.extra_acceleration_};
-}
-
-// The master as the slave sees it.
-State masterOf(const Axis& master, Axis& slave) {
-  const State set = stateOf(master), shift = phaseState(slave);
-  return {set.position - shift.position, set.velocity - shift.velocity, set.acceleration - shift.acceleration};
-}
-
-void couple(Axis& slave, Axis& master) {
-  slave.coupled_ = kGear;
-  slave.coupled_master_ = reinterpret_cast<uintptr_t>(&master);
-  slave.phase_owner_ = 0;
-  slave.phase_base_position_ = slave.phase_position_ = 0;
-  slave.phase_base_velocity_ = slave.phase_velocity_ = 0;
-  slave.phase_base_acceleration_ = slave.phase_acceleration_ = 0;
-}
-
-Request followRequest(double deceleration) {
-  Request request = {};
-  request.kind_ = static_cast<uint8_t>(Motion::Follow);
-  request.state_ = synchronized_motion_;
-  request.deceleration_ = deceleration;  // with which it brakes after an error
-  return request;
-}
 
 Error gearError(const MC_GearIn_type& block) {
   if (block.Master_ == block.Slave_ || !isAxis(block.Master_)) return SMC_AXIS_IS_NO_AXIS_REF_;
@@ -55,7 +27,7 @@ void startGear(MC_GearIn_type& block, Call& call) {
   if (error == SMC_NO_ERROR_) error = gearError(block);
   if (error != SMC_NO_ERROR_) return call.refuse(error);
   call.start(followRequest(block.Deceleration_), SMC_AXIS_NOT_READY_FOR_MOTION_);
-  couple(call.axis(), *block.Master_);
+  couple(call.axis(), *block.Master_, kGear);
   block.ratio_ = ratioOf(block);
   block.in_gear_ = 0;
 }
@@ -197,7 +169,7 @@ bool beginApproach(MC_GearInPos_type& block, Call& call) {
   }
   const State at_begin = from;
   call.start(followRequest(0), SMC_AXIS_NOT_READY_FOR_MOTION_);
-  couple(slave, *block.Master_);
+  couple(slave, *block.Master_, kGear);
   block.slave_start_ = at_begin.position;
   block.phase_ = kApproaching;
   return true;
