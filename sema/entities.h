@@ -65,7 +65,7 @@ struct Var {
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   struct Pragmas {         // of the declaration
     bool required = false, optional = false, lazy = false, extensible = false;  // pins of library declarations
-    bool long_time = false;                                   // {long_time}: a TIME that takes an LTIME too (iec3)
+    bool long_time = false;           // {long_time}: a TIME that takes an LTIME too (iec3)
     bool instance_path = false;       // {attribute 'instance-path'}: holds the path of its instance
     bool no_exit = false;             // {attribute 'no-exit'}: an instance whose FB_Exit is not called
     bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: an input that each call begins with

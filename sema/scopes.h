@@ -189,9 +189,9 @@ struct Scopes {
   // Name keys of pragmas and keywords that declarations look for.
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, skip,
-        setup, teardown, test_case, safe_values, before_task, after_task, alias, required, optional, lazy, extensible, long_time,
-        prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy, bytes, attribute_no_check,
-        attribute_obsolete, attribute_to_string, attribute_call_after_init, attribute_pack_mode,
+        setup, teardown, test_case, safe_values, before_task, after_task, alias, required, optional, lazy, extensible,
+        long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy, bytes,
+        attribute_no_check, attribute_obsolete, attribute_to_string, attribute_call_after_init, attribute_pack_mode,
         attribute_global_init_slot, attribute_after_globals, attribute_initialize_on_call, attribute_is_connected,
         attribute_no_exit, attribute_reflection, attribute_symbol;
   } known_names;

@@ -653,11 +653,12 @@ const char* Lexer::pragma(const char* begin) {
 // A name close to that of a known pragma is most likely a typing error and reported; other unknown pragmas are ignored.
 void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
   static const std::vector<std::string_view> kPragmas = {
-      "attribute", "test",  "info",     "warning",  "error",       "text",        "define",    "undefine", "IF",
-      "ELSIF",     "ELSE",  "END_IF",   "region",   "endregion",   "native",      "alias",     "required", "optional", "extensible",
-      "lazy",      "pure",  "operator", "replaces", "std",         "sized",       "list",      "entry",    "active",
-      "exit",      "fault", "no_copy",  "bytes",    "long_time",   "test_only",   "mock",      "skip",     "setup",
-      "teardown",  "case",  "prefix",   "slice",    "safe_values", "before_task", "after_task"};
+      "attribute", "test",        "info",        "warning",   "error",  "text",      "define",   "undefine",
+      "IF",        "ELSIF",       "ELSE",        "END_IF",    "region", "endregion", "native",   "alias",
+      "required",  "optional",    "extensible",  "lazy",      "pure",   "operator",  "replaces", "std",
+      "sized",     "list",        "entry",       "active",    "exit",   "fault",     "no_copy",  "bytes",
+      "long_time", "test_only",   "mock",        "skip",      "setup",  "teardown",  "case",     "prefix",
+      "slice",     "safe_values", "before_task", "after_task"};
   static const std::vector<std::string_view> kAttributes = {
       "qualified_only",     "strict",          "test",      "no_final_scan",    "obsolete",
       "to_string",          "call_after_init", "pack_mode", "global_init_slot", "call_after_global_init_slot",
