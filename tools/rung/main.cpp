@@ -24,6 +24,7 @@ int runCommand(const rung::tool::Options& options, Console& console) {
     case Command::Convert: return rung::driver::runConvert(options, console);
     case Command::Graph: return rung::driver::runGraph(options, console);
     case Command::List: return rung::driver::runList(options, console);
+    case Command::Cam: return rung::driver::runCam(options.inputs, options.cam, options.output, console);
     case Command::Explain: return rung::driver::runExplain(options, console);
     case Command::Version: return rung::driver::runVersion(console);
     case Command::None:

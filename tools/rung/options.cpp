@@ -34,12 +34,13 @@ constexpr CommandRow kCommands[] = {
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
+    {Command::Cam, "cam", "law [NAME]", "list motion laws of cams, or print the points of one"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
 
 // Commands announced in the project's documentation.
-constexpr std::string_view kLaterCommands[] = {"fmt", "cam", "lint", "lsp", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"fmt", "lint", "lsp", "monitor"};
 
 enum class Key : uint8_t {
   Output,
@@ -82,6 +83,7 @@ enum class Key : uint8_t {
   Separate,
   TargetPointer,
   Signature,
+  CamNumber,
   Later,
   Help,
 };
@@ -94,7 +96,8 @@ struct OptionRow {
   const char* help;  // null: not in the help
 };
 constexpr OptionRow kOptions[] = {
-    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph),
+    {Key::Output, "-o", "PATH",
+     bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Cam),
      "output file or folder"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
@@ -142,6 +145,16 @@ constexpr OptionRow kOptions[] = {
     {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write coverage for lcov and genhtml"},
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "treat each file as a separate project"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "show the declaration of a function, block or type"},
+    {Key::CamNumber, "--stroke", "S", bit(Command::Cam), "way of the slave (default: 1)"},
+    {Key::CamNumber, "--length", "X", bit(Command::Cam), "way of the master (default: 1)"},
+    {Key::CamNumber, "--v0", "V", bit(Command::Cam), "velocity at the begin, per unit of the master"},
+    {Key::CamNumber, "--v1", "V", bit(Command::Cam), "velocity at the end"},
+    {Key::CamNumber, "--a0", "A", bit(Command::Cam), "acceleration at the begin"},
+    {Key::CamNumber, "--a1", "A", bit(Command::Cam), "acceleration at the end"},
+    {Key::CamNumber, "--j0", "J", bit(Command::Cam), "jerk at the begin"},
+    {Key::CamNumber, "--j1", "J", bit(Command::Cam), "jerk at the end"},
+    {Key::CamNumber, "--turn", "Z", bit(Command::Cam), "turning point, from 0 to 1 (default: 0.5)"},
+    {Key::CamNumber, "--points", "N", bit(Command::Cam), "points of the table (default: 33)"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
@@ -280,6 +293,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.pointer_size = choice == 0 ? 8 : 4;
       return error;
     case Key::Signature: options.signature = value; return {};
+    case Key::CamNumber: return setCamOption(row.name, value, options.cam);
     case Key::Later: return backquoted(row.name) + " is not supported in this version of rung";
     case Key::Help: options.help = true; return {};
   }
@@ -348,6 +362,9 @@ std::string checkCombination(const Options& options) {
       if (options.inputs.empty() && options.signature.empty())
         return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, `warnings` or `--signature "
                "NAME`";
+      break;
+    case Command::Cam:
+      if (options.inputs.empty()) return "`rung cam` takes `law` or `law NAME`";
       break;
     case Command::None:
     case Command::Version:

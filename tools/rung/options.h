@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "tools/driver/cam.h"
 #include "tools/driver/options.h"
 
 namespace rung::tool {
 
 using namespace driver;
 
-enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Graph, List, Explain, Version, Help };
+enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Graph, List, Cam, Explain, Version, Help };
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
 enum class Color : uint8_t { Auto, Always, Never };
@@ -21,6 +22,7 @@ struct Options : driver::Options {
   Command command = Command::None;
   bool help = false;  // `rung CMD --help`
   Color color_choice = Color::Auto;
+  CamOptions cam;
 };
 
 // Parses the arguments after the program's name. Returns an error message for the user, or an empty string.

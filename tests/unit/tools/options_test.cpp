@@ -64,9 +64,9 @@ TEST(Options, MistakesSayWhatToDo) {
   EXPECT_EQ(
       errorOf({"check", "--max-error=3", "a.st"}),
       "unknown option `--max-error` of `rung check`; did you mean `--max-errors`? (`rung check --help` lists all)");
-  EXPECT_EQ(
-      errorOf({"check", "-o", "x", "a.st"}),
-      "`-o` is not an option of `rung check`; it belongs to `rung emit`, `rung build`, `rung convert`, `rung graph`");
+  EXPECT_EQ(errorOf({"check", "-o", "x", "a.st"}),
+            "`-o` is not an option of `rung check`; it belongs to `rung emit`, `rung build`, `rung convert`, `rung "
+            "graph`, `rung cam`");
   EXPECT_EQ(errorOf({"check"}), "`rung check` needs files or folders to read");
   EXPECT_EQ(errorOf({"check", "a.st", "--std=iec4"}),
             "`iec4` is not a value of `--std`; it takes iec2|iec3|codesys; did you mean `iec2`?");
