@@ -414,7 +414,7 @@ void endCam(MC_CamIn_type& block, Call& call, double x, const State& master) {
 
 // ---- the cycle
 
-// A jump of the position is not a velocity of the cam, and would pass the limits of the axis unseen.
+// A jump of the position is not in the velocity of the cam, so the limits of the axis would not see it.
 bool jumps(const Axis& slave, const State& state) {
   const double way = fabs(state.position - slave.base_position_);
   return slave.fMaxVelocity_ > 0 && way > slave.fMaxVelocity_ * slave.fTaskCycle_ * (1 + 1e-6) + 1e-9;
