@@ -497,20 +497,6 @@ void rung_sm3_basic_MC_CamIn(rung_context*, MC_CamIn_type* self) {
   call.show(self->Busy_, self->Error_, self->ErrorID_);
 }
 
-void rung_sm3_basic_MC_CamOut(rung_context*, MC_CamOut_type* self) {
-  Call call(self->Slave_, self->command_, self->Execute_ != 0);
-  if (call.rises()) {
-    Axis& slave = call.axis();
-    if (slave.nAxisState_ != synchronized_motion_ || slave.coupled_ != kCam) {
-      call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
-    } else {
-      release(slave, Outcome::Aborted);
-      call.launch();
-      call.done();
-    }
-  }
-  self->Done_ = call.is(Outcome::Done) ? 1 : 0;
-  call.show(self->Busy_, self->Error_, self->ErrorID_);
-}
+void rung_sm3_basic_MC_CamOut(rung_context*, MC_CamOut_type* self) { decouple(*self, kCam); }
 
 }  // extern "C"

@@ -9,7 +9,7 @@ namespace rung::motion {
 enum Coupling : uint8_t { kNone, kGear, kCam };
 
 inline State stateOf(const Axis& a) {
-  return {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, a.acceleration_ + a.extra_acceleration_};
+  return {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_, a.acceleration_ + a.extra_.acceleration_};
 }
 
 // The master as the slave sees it: shifted by MC_Phasing.
@@ -21,10 +21,7 @@ inline State masterOf(const Axis& master, Axis& slave) {
 inline void couple(Axis& slave, Axis& master, Coupling coupling) {
   slave.coupled_ = coupling;
   slave.coupled_master_ = reinterpret_cast<uintptr_t>(&master);
-  slave.phase_owner_ = 0;
-  slave.phase_base_position_ = slave.phase_position_ = 0;
-  slave.phase_base_velocity_ = slave.phase_velocity_ = 0;
-  slave.phase_base_acceleration_ = slave.phase_acceleration_ = 0;
+  slave.phase_ = {};
 }
 
 inline Request followRequest(double deceleration) {
@@ -33,6 +30,25 @@ inline Request followRequest(double deceleration) {
   request.state_ = rung_sm3_basic::synchronized_motion_;
   request.deceleration_ = deceleration;  // with which it brakes after an error
   return request;
+}
+
+// MC_GearOut and MC_CamOut: the slave keeps its velocity.
+template <class Block>
+void decouple(Block& block, Coupling coupling) {
+  using namespace rung_sm3_basic;
+  Call call(block.Slave_, block.command_, block.Execute_ != 0);
+  if (call.rises()) {
+    Axis& slave = call.axis();
+    if (slave.nAxisState_ != synchronized_motion_ || slave.coupled_ != coupling) {
+      call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
+    } else {
+      release(slave, Outcome::Aborted);
+      call.launch();
+      call.done();
+    }
+  }
+  block.Done_ = call.is(Outcome::Done) ? 1 : 0;
+  call.show(block.Busy_, block.Error_, block.ErrorID_);
 }
 
 }  // namespace rung::motion

@@ -221,21 +221,7 @@ void rung_sm3_basic_MC_GearIn(rung_context*, MC_GearIn_type* self) {
   call.show(self->Busy_, self->Error_, self->ErrorID_);
 }
 
-void rung_sm3_basic_MC_GearOut(rung_context*, MC_GearOut_type* self) {
-  Call call(self->Slave_, self->command_, self->Execute_ != 0);
-  if (call.rises()) {
-    Axis& slave = call.axis();
-    if (slave.nAxisState_ != synchronized_motion_ || slave.coupled_ != kGear) {
-      call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
-    } else {
-      release(slave, Outcome::Aborted);
-      call.launch();
-      call.done();
-    }
-  }
-  self->Done_ = call.is(Outcome::Done) ? 1 : 0;
-  call.show(self->Busy_, self->Error_, self->ErrorID_);
-}
+void rung_sm3_basic_MC_GearOut(rung_context*, MC_GearOut_type* self) { decouple(*self, kGear); }
 
 void rung_sm3_basic_MC_GearInPos(rung_context*, MC_GearInPos_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
@@ -282,7 +268,7 @@ void rung_sm3_basic_MC_Phasing(rung_context*, MC_Phasing_type* self) {
       call.refuse(SMC_PH_INVALID_VELACCDEC_);
   }
   if (call.isRunning() && call.axis().coupled_ == kNone) {  // the coupling has ended
-    call.axis().phase_owner_ = 0;
+    call.axis().phase_.owner_ = 0;
     self->command_.outcome_ = static_cast<uint8_t>(Outcome::Aborted);
     self->command_.shown_ = 0;
   }

@@ -14,12 +14,6 @@ enum Phase : uint8_t { kFast, kBraking, kSlow, kIndex, kStopping, kReturning };
 constexpr uint32_t kPatience = 1000;  // cycles for the drive's answer
 constexpr uint16_t kTargetReached = 1u << 10, kAttained = 1u << 12, kHomingError = 1u << 13;
 
-void showAt(Axis& a, double position) {
-  a.origin_ = a.position_ + a.extra_position_ - position;
-  a.fSetPosition_ = shown(a, a.position_ + a.extra_position_);
-  a.fActPosition_ = shown(a, a.actual_position_);
-}
-
 void refuseHome(Call& call, Axis& axis, Error error) {
   axis.homing_ = 0;
   axis.mode_wanted_ = driveMode(axis.eControllerMode_);

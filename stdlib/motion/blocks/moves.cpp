@@ -97,6 +97,27 @@ void continueWith(Request& request, const Block& block, const Axis& axis) {
   if (block.EndVelocity_ == 0) request.kind_ = static_cast<uint8_t>(Motion::Position);
 }
 
+// A move by a distance from `from`, or from where the axis is. With ContinuousUpdate the place that it counts from
+// stays.
+template <class Block>
+void moveBy(Block& block, Error value_error, double from, bool from_here) {
+  Call call(block.Axis_, block.command_, block.Execute_ != 0);
+  Request request = requestOf(block, Motion::Position, discrete_motion_);
+  request.buffer_mode_ = block.BufferMode_;
+  const Error error = distanceError(block, value_error);
+  if (call.rises()) {
+    request.target_ = from + block.Distance_;
+    request.is_relative_ = from_here ? 1 : 0;
+    startMove(call, block.Axis_, error, request);
+    if (call.isRunning()) block.began_ = call.axis().request_.target_ - block.Distance_;
+  } else if (block.ContinuousUpdate_ != 0 && call.isOwner() && error == SMC_NO_ERROR_) {
+    request.target_ = block.began_ + block.Distance_;
+    renew(call.axis(), block.command_, request);
+  }
+  call.run();
+  showMove(block, call);
+}
+
 template <class Block>
 void showContinuous(Block& block, Call& call) {
   const bool arrived = call.isOwner() && call.axis().nAxisState_ == continuous_motion_;
@@ -126,48 +147,15 @@ void rung_sm3_basic_MC_MoveAbsolute(rung_context*, MC_MoveAbsolute_type* self) {
 }
 
 void rung_sm3_basic_MC_MoveRelative(rung_context*, MC_MoveRelative_type* self) {
-  Call call(self->Axis_, self->command_, self->Execute_ != 0);
-  Request request = requestOf(*self, Motion::Position, discrete_motion_);
-  request.buffer_mode_ = self->BufferMode_;
-  request.target_ = self->Distance_;
-  request.is_relative_ = 1;
-  if (call.rises()) {
-    startMove(call, self->Axis_, distanceError(*self, SMC_MR_INVALID_VELACC_VALUES_), request);
-    if (call.isRunning()) self->began_ = call.axis().request_.target_ - self->Distance_;
-  } else if (self->ContinuousUpdate_ != 0 && call.isOwner() &&
-             distanceError(*self, SMC_MR_INVALID_VELACC_VALUES_) == SMC_NO_ERROR_) {
-    request.is_relative_ = 0;
-    request.target_ += self->began_;
-    renew(call.axis(), self->command_, request);
-  }
-  call.run();
-  showMove(*self, call);
+  moveBy(*self, SMC_MR_INVALID_VELACC_VALUES_, 0, true);
 }
 
 void rung_sm3_basic_MC_MoveAdditive(rung_context*, MC_MoveAdditive_type* self) {
-  Call call(self->Axis_, self->command_, self->Execute_ != 0);
-  Request request = requestOf(*self, Motion::Position, discrete_motion_);
-  request.buffer_mode_ = self->BufferMode_;
-  request.target_ = self->Distance_;
-  request.is_relative_ = 1;
-  if (call.rises()) {
-    // From the target of a discrete motion; else as MC_MoveRelative.
-    const Axis* const axis = self->Axis_;
-    if (axis->nAxisState_ == discrete_motion_ && self->BufferMode_ == Aborting_ &&
-        axis->request_.kind_ == static_cast<uint8_t>(Motion::Position)) {
-      request.is_relative_ = 0;
-      request.target_ += axis->request_.target_;
-    }
-    startMove(call, axis, distanceError(*self, SMC_MAD_INVALID_VELACC_VALUES_), request);
-    if (call.isRunning()) self->began_ = call.axis().request_.target_ - self->Distance_;
-  } else if (self->ContinuousUpdate_ != 0 && call.isOwner() &&
-             distanceError(*self, SMC_MAD_INVALID_VELACC_VALUES_) == SMC_NO_ERROR_) {
-    request.is_relative_ = 0;
-    request.target_ += self->began_;
-    renew(call.axis(), self->command_, request);
-  }
-  call.run();
-  showMove(*self, call);
+  // From the target of a discrete motion; else as MC_MoveRelative.
+  const Axis* const axis = self->Axis_;
+  const bool has_target = isAxis(axis) && axis->nAxisState_ == discrete_motion_ && self->BufferMode_ == Aborting_ &&
+                          axis->request_.kind_ == static_cast<uint8_t>(Motion::Position);
+  moveBy(*self, SMC_MAD_INVALID_VELACC_VALUES_, has_target ? axis->request_.target_ : 0, !has_target);
 }
 
 void rung_sm3_basic_MC_MoveSuperImposed(rung_context*, MC_MoveSuperImposed_type* self) {
@@ -187,10 +175,10 @@ void rung_sm3_basic_MC_MoveSuperImposed(rung_context*, MC_MoveSuperImposed_type*
              !isFinite(self->Distance_) || !beginExtra(call.axis(), self->command_, request))
       call.refuse(SMC_MSI_INVALID_VELACC_VALUES_);
     else
-      self->began_ = call.axis().extra_base_position_;
+      self->began_ = call.axis().extra_.base_position_;
   }
   call.run();
-  if (call.isRunning()) self->CoveredDistance_ = call.axis().extra_position_ - self->began_;
+  if (call.isRunning()) self->CoveredDistance_ = call.axis().extra_.position_ - self->began_;
   if (call.is(Outcome::Done)) self->CoveredDistance_ = self->Distance_;
   self->Done_ = call.is(Outcome::Done) ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
@@ -205,7 +193,7 @@ void rung_sm3_basic_MC_MoveVelocity(rung_context*, MC_MoveVelocity_type* self) {
     renew(call.axis(), self->command_, velocityRequest(*self));
   call.run();
   const bool steady =
-      call.isOwner() && isProfileOver(call.axis()) && call.axis().fVelFactor_ == 1 && call.axis().extra_velocity_ == 0;
+      call.isOwner() && isProfileOver(call.axis()) && call.axis().fVelFactor_ == 1 && call.axis().extra_.velocity_ == 0;
   self->InVelocity_ = steady || call.is(Outcome::Done) ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
   self->Active_ = call.isOwner() ? 1 : 0;

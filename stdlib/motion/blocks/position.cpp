@@ -8,12 +8,6 @@ using namespace rung::motion;
 
 namespace {
 
-void showAt(Axis& a, double position) {
-  a.origin_ = a.position_ + a.extra_position_ - position;
-  a.fSetPosition_ = shown(a, a.position_ + a.extra_position_);
-  a.fActPosition_ = shown(a, a.actual_position_);
-}
-
 bool isMaster(const Axis& a) { return a.master_called_ != 0 && a.master_called_ + 1 >= a.cycle_; }
 
 // ---- persistent positions
@@ -78,7 +72,7 @@ void persist(Block& block, int64_t drive, Moved&& moved) {
         const double scale = axis->fScalefactor_ != 0 ? axis->fScalefactor_ : 1;
         const double position = stored.copy->Position_ + static_cast<double>(moved(*stored.copy)) / scale;
         axis->origin_ = axis->actual_position_ - position;
-        axis->fSetPosition_ = shown(*axis, axis->position_ + axis->extra_position_);
+        axis->fSetPosition_ = shown(*axis, axis->position_ + axis->extra_.position_);
         axis->fActPosition_ = shown(*axis, axis->actual_position_);
         block.bPositionRestored_ = 1;
       }

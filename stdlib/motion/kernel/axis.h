@@ -19,6 +19,7 @@ namespace rung::motion {
 using Axis = rung_sm3_basic::AXIS_REF_SM3_type;
 using Command = rung_sm3_basic::AXIS_COMMAND_type;
 using Request = rung_sm3_basic::AXIS_REQUEST_type;
+using Added = rung_sm3_basic::AXIS_ADDED_MOTION_type;
 using Error = rung_sm3_basic::SMC_ERROR_type;
 using AxisState = rung_sm3_basic::SMC_AXIS_STATE_type;
 
@@ -85,6 +86,8 @@ void follow(Axis& axis, const State& state);
 void release(Axis& axis, Outcome outcome = Outcome::Done);
 // The shift of the master at the end of this cycle.
 State phaseState(Axis& axis);
+// From now on the program sees the set position as this.
+void showAt(Axis& axis, double position);
 // What the drive is to control: the object 6060h for an SMC_CONTROLLER_MODE, 0: not supported.
 int8_t driveMode(int16_t controller_mode);
 // The profile of the owner is over: InVelocity, InEndVelocity.

@@ -39,8 +39,8 @@ void Call::update() {
   }
   const uint32_t serial = command_.serial_;
   if (serial == 0) return;  // launched
-  if (serial == axis_->owner_ || serial == axis_->next_owner_ || serial == axis_->extra_owner_ ||
-      serial == axis_->phase_owner_)
+  if (serial == axis_->owner_ || serial == axis_->next_owner_ || serial == axis_->extra_.owner_ ||
+      serial == axis_->phase_.owner_)
     return;
   command_.shown_ = 0;
   if (holds(axis_->failed_, serial)) {

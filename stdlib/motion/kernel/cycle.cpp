@@ -23,20 +23,20 @@ bool hasDrive(const Axis& a) { return a.bVirtual_ == 0; }
 void commit(Axis& a) {
   if (a.advanced_ == a.cycle_) {
     ++a.tick_;
-    ++a.extra_tick_;
-    ++a.phase_tick_;
+    ++a.extra_.tick_;
+    ++a.phase_.tick_;
   }
   ++a.cycle_;
   a.set_acceleration_ = a.fSetAcceleration_;
   a.base_position_ = a.position_;
   a.base_velocity_ = a.velocity_;
   a.base_acceleration_ = a.acceleration_;
-  a.extra_base_position_ = a.extra_position_;
-  a.extra_base_velocity_ = a.extra_velocity_;
-  a.extra_base_acceleration_ = a.extra_acceleration_;
-  a.phase_base_position_ = a.phase_position_;
-  a.phase_base_velocity_ = a.phase_velocity_;
-  a.phase_base_acceleration_ = a.phase_acceleration_;
+  Added* const added_motions[] = {&a.extra_, &a.phase_};
+  for (Added* const added : added_motions) {
+    added->base_position_ = added->position_;
+    added->base_velocity_ = added->velocity_;
+    added->base_acceleration_ = added->acceleration_;
+  }
 }
 
 // The interval of the task; in tests, and for tasks without one, fTaskCycle as it is or the time that has passed.
@@ -63,7 +63,7 @@ double scale(const Axis& a) { return a.fScalefactor_ != 0 ? a.fScalefactor_ : 1;
 void takeActualValues(Axis& a) {
   if (!hasDrive(a)) {
     a.bCommunication_ = 1;
-    a.actual_position_ = a.position_ + a.extra_position_;
+    a.actual_position_ = a.position_ + a.extra_.position_;
     a.fActVelocity_ = a.fSetVelocity_;
     a.fActPosition_ = shown(a, a.actual_position_);
     return;
@@ -90,8 +90,7 @@ void followActual(Axis& a) {
   a.request_.kind_ = static_cast<uint8_t>(Motion::None);
   a.base_position_ = a.position_ = a.actual_position_;
   a.base_velocity_ = a.velocity_ = a.base_acceleration_ = a.acceleration_ = 0;
-  a.extra_base_position_ = a.extra_position_ = a.extra_base_velocity_ = a.extra_velocity_ = 0;
-  a.extra_base_acceleration_ = a.extra_acceleration_ = 0;
+  a.extra_ = {};
   a.fSetPosition_ = a.fActPosition_;
   a.fSetVelocity_ = a.fSetAcceleration_ = a.fSetJerk_ = 0;
 }
@@ -127,7 +126,7 @@ void watchDrive(Axis& a) {
   const double forward = a.fSetVelocity_ * scale(a);
   const bool at_limit = ((inputs & 1) != 0 && forward < 0) || ((inputs & 2) != 0 && forward > 0);
   if (a.bHWLimitEnable_ != 0 && at_limit && a.nAxisState_ != homing_) return fail(a, SMC_DI_HWLIMITS_EXCEEDED_);
-  const double lag = a.position_ + a.extra_position_ - a.actual_position_;
+  const double lag = a.position_ + a.extra_.position_ - a.actual_position_;
   if (a.bPosLagMonitoring_ != 0 && a.eControllerMode_ == SMC_position_ && a.homing_ == 0 &&
       fabs(lag) > a.fMaxPositionLag_)
     fail(a, SMC_DI_POSITIONLAGERROR_);
@@ -143,10 +142,9 @@ double brakeDeceleration(const Axis& a, Error error) {
 void brake(Axis& a, double deceleration) {
   const bool known = a.advanced_ == a.cycle_;
   const State from =
-      known ? State{a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, 0}
-            : State{a.base_position_ + a.extra_base_position_, a.base_velocity_ + a.extra_base_velocity_, 0};
-  a.extra_base_position_ = a.extra_position_ = a.extra_base_velocity_ = a.extra_velocity_ = 0;
-  a.extra_base_acceleration_ = a.extra_acceleration_ = 0;
+      known ? State{a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_, 0}
+            : State{a.base_position_ + a.extra_.base_position_, a.base_velocity_ + a.extra_.base_velocity_, 0};
+  a.extra_ = {};
   a.base_position_ = a.position_ = from.position;
   a.base_velocity_ = a.velocity_ = from.velocity;
   a.request_.kind_ = static_cast<uint8_t>(Motion::None);
@@ -170,10 +168,10 @@ void brake(Axis& a, double deceleration) {
 void endCommands(Axis& a, Error error) {
   a.failed_[0] = a.owner_;
   a.failed_[1] = a.next_owner_;
-  a.failed_[2] = a.extra_owner_;
-  a.failed_[3] = a.phase_owner_;
+  a.failed_[2] = a.extra_.owner_;
+  a.failed_[3] = a.phase_.owner_;
   a.failed_error_ = error;
-  a.owner_ = a.next_owner_ = a.extra_owner_ = a.phase_owner_ = 0;
+  a.owner_ = a.next_owner_ = a.extra_.owner_ = a.phase_.owner_ = 0;
   a.coupled_ = 0;
   a.coupled_master_ = 0;
   a.homing_ = 0;
@@ -209,7 +207,7 @@ void send(const rung_context* ctx, Axis& a) {
   rung_drive& drive = driveOf(a);
   drive.controlword = controlword(a);
   drive.mode = a.mode_wanted_ != 0 ? a.mode_wanted_ : int8_t{8};
-  const double target = (a.position_ + a.extra_position_) * scale(a);
+  const double target = (a.position_ + a.extra_.position_) * scale(a);
   drive.target_position = static_cast<int32_t>(static_cast<uint64_t>(rounded(target)));  // it wraps
   drive.target_velocity = static_cast<int32_t>(rounded(a.fSetVelocity_ * scale(a), 2147483647.0));
   const double torque = a.fFactorTor_ != 0 ? a.fSetTorque_ / a.fFactorTor_ : 0;
@@ -231,7 +229,7 @@ int8_t driveMode(int16_t controller_mode) {
 
 bool isPowered(const Axis& axis) { return axis.bRegulatorRealState_ != 0; }
 
-bool isMoving(const Axis& axis) { return axis.owner_ != 0 || axis.extra_owner_ != 0 || axis.fSetVelocity_ != 0; }
+bool isMoving(const Axis& axis) { return axis.owner_ != 0 || axis.extra_.owner_ != 0 || axis.fSetVelocity_ != 0; }
 
 void fail(Axis& a, Error error) {
   endCommands(a, error);
@@ -250,7 +248,7 @@ void beforeTask(const rung_context* ctx, Axis& a) {
   takePower(a);
   watchDrive(a);
   stopWithoutRelease(a);
-  if (isPowered(a) && a.owner_ == 0 && a.extra_owner_ == 0) advance(a);
+  if (isPowered(a) && a.owner_ == 0 && a.extra_.owner_ == 0) advance(a);
 }
 
 void afterTask(const rung_context* ctx, Axis& a) {

@@ -29,13 +29,11 @@ void setMotion(Axis& a, const State& state) {
 
 // What was superimposed becomes part of the motion.
 void mergeExtra(Axis& a) {
-  setBase(a, {a.base_position_ + a.extra_base_position_, a.base_velocity_ + a.extra_base_velocity_,
-              a.base_acceleration_ + a.extra_base_acceleration_});
-  setMotion(
-      a, {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, a.acceleration_ + a.extra_acceleration_});
-  a.extra_base_position_ = a.extra_base_velocity_ = a.extra_base_acceleration_ = 0;
-  a.extra_position_ = a.extra_velocity_ = a.extra_acceleration_ = 0;
-  a.extra_owner_ = 0;
+  setBase(a, {a.base_position_ + a.extra_.base_position_, a.base_velocity_ + a.extra_.base_velocity_,
+              a.base_acceleration_ + a.extra_.base_acceleration_});
+  setMotion(a, {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_,
+                a.acceleration_ + a.extra_.acceleration_});
+  a.extra_ = {};
 }
 
 Ramp rampOf(const Axis& a, const Request& request) {
@@ -52,11 +50,26 @@ bool replan(Axis& a, const State& from) {
   return plan(a, a.request_, from, profileOf(a.profile_)) == Result::Ok;
 }
 
-void noteEnd(Axis& a, double rest) {
+void noteDone(Axis& a, uint32_t serial) {
   for (size_t i = 3; i > 0; --i) a.ended_[i] = a.ended_[i - 1];
-  a.ended_[0] = a.owner_;
+  a.ended_[0] = serial;
+}
+
+// The owner is done, `rest` seconds before the end of the cycle.
+void noteEnd(Axis& a, double rest) {
+  noteDone(a, a.owner_);
   a.ended_rest_ = rest;
   a.ended_cycle_ = a.cycle_;
+}
+
+// A new command of the axis.
+uint32_t adopt(Axis& a, Command& command) {
+  command.serial_ = ++a.serials_;
+  command.axis_ = reinterpret_cast<uintptr_t>(&a);
+  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
+  command.error_ = SMC_NO_ERROR_;
+  command.shown_ = 0;
+  return command.serial_;
 }
 
 void moveOwner(Axis& a);
@@ -86,7 +99,7 @@ void rest(Axis& a, double position) {
 }
 
 // Of an axis whose command is done: what is superimposed may still move it.
-AxisState restingState(const Axis& a) { return a.extra_owner_ != 0 ? discrete_motion_ : standstill_; }
+AxisState restingState(const Axis& a) { return a.extra_.owner_ != 0 ? discrete_motion_ : standstill_; }
 
 // The owner's profile is over by `over` seconds.
 void endProfile(Axis& a, double over) {
@@ -145,57 +158,46 @@ void moveOwner(Axis& a) {
     setMotion(a, at(profile, t));
 }
 
-void moveExtra(Axis& a) {
-  if (a.extra_owner_ == 0) {
-    a.extra_position_ = a.extra_base_position_;
-    a.extra_velocity_ = a.extra_acceleration_ = 0;
-    return;
+// The added motion at the end of this cycle. True when it is over in it.
+bool moveAdded(const Axis& a, Added& added) {
+  if (added.owner_ == 0) {
+    added.position_ = added.base_position_;
+    added.velocity_ = added.acceleration_ = 0;
+    return false;
   }
-  const Profile& profile = profileOf(a.extra_profile_);
-  const double t = (a.extra_tick_ + 1) * a.fTaskCycle_;
+  const Profile& profile = profileOf(added.profile_);
+  const double t = (added.tick_ + 1) * a.fTaskCycle_;
+  const bool is_over = t >= duration(profile) - kTolerance * a.fTaskCycle_;
   const State state = at(profile, t);
-  a.extra_position_ = state.position;
-  a.extra_velocity_ = state.velocity;
-  a.extra_acceleration_ = state.acceleration;
-  if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
-  a.extra_position_ = a.extra_base_position_ = profile.end_position;
-  a.extra_velocity_ = a.extra_acceleration_ = a.extra_base_velocity_ = a.extra_base_acceleration_ = 0;
-  const uint32_t owner = a.owner_;
-  a.owner_ = a.extra_owner_;
-  noteEnd(a, 0);
-  a.ended_cycle_ = a.cycle_ - 1;
-  a.owner_ = owner;
-  a.extra_owner_ = 0;
-  if (owner == 0 && a.nAxisState_ == discrete_motion_) a.nAxisState_ = standstill_;
+  added.position_ = is_over ? profile.end_position : state.position;
+  added.velocity_ = is_over ? 0 : state.velocity;
+  added.acceleration_ = is_over ? 0 : state.acceleration;
+  if (!is_over) return false;
+  added.base_position_ = added.position_;
+  added.base_velocity_ = added.base_acceleration_ = 0;
+  return true;
+}
+
+// Its command is done.
+void endAdded(Axis& a, Added& added) {
+  noteDone(a, added.owner_);
+  added.owner_ = 0;
+}
+
+void moveExtra(Axis& a) {
+  if (!moveAdded(a, a.extra_)) return;
+  endAdded(a, a.extra_);
+  if (a.owner_ == 0 && a.nAxisState_ == discrete_motion_) a.nAxisState_ = standstill_;
 }
 
 void movePhase(Axis& a) {
-  if (a.phase_owner_ == 0) {
-    a.phase_position_ = a.phase_base_position_;
-    a.phase_velocity_ = a.phase_acceleration_ = 0;
-    return;
-  }
-  const Profile& profile = profileOf(a.phase_profile_);
-  const double t = (a.phase_tick_ + 1) * a.fTaskCycle_;
-  const State state = at(profile, t);
-  a.phase_position_ = state.position;
-  a.phase_velocity_ = state.velocity;
-  a.phase_acceleration_ = state.acceleration;
-  if (t < duration(profile) - kTolerance * a.fTaskCycle_) return;
-  a.phase_position_ = a.phase_base_position_ = profile.end_position;
-  a.phase_velocity_ = a.phase_acceleration_ = a.phase_base_velocity_ = a.phase_base_acceleration_ = 0;
-  const uint32_t owner = a.owner_;
-  a.owner_ = a.phase_owner_;
-  noteEnd(a, 0);
-  a.ended_cycle_ = a.cycle_ - 1;
-  a.owner_ = owner;
-  a.phase_owner_ = 0;
+  if (moveAdded(a, a.phase_)) endAdded(a, a.phase_);
 }
 
 void show(Axis& a) {
-  a.fSetPosition_ = shown(a, a.position_ + a.extra_position_);
-  a.fSetVelocity_ = a.velocity_ + a.extra_velocity_;
-  a.fSetAcceleration_ = a.acceleration_ + a.extra_acceleration_;
+  a.fSetPosition_ = shown(a, a.position_ + a.extra_.position_);
+  a.fSetVelocity_ = a.velocity_ + a.extra_.velocity_;
+  a.fSetAcceleration_ = a.acceleration_ + a.extra_.acceleration_;
   a.fSetJerk_ = a.fTaskCycle_ > 0 ? (a.fSetAcceleration_ - a.set_acceleration_) / a.fTaskCycle_ : 0;
   if (a.fSetVelocity_ != 0) a.last_direction_ = a.fSetVelocity_ > 0 ? 1 : -1;
 }
@@ -285,13 +287,19 @@ double shown(const Axis& axis, double position) {
   return wrapped >= turn ? 0 : wrapped;
 }
 
+void showAt(Axis& a, double position) {
+  a.origin_ = a.position_ + a.extra_.position_ - position;
+  a.fSetPosition_ = shown(a, a.position_ + a.extra_.position_);
+  a.fActPosition_ = shown(a, a.actual_position_);
+}
+
 double inner(const Axis& axis, double position) { return position + axis.origin_; }
 
 State startState(const Axis& a) {
   if (a.ended_cycle_ == a.cycle_ && a.owner_ == 0 && a.advanced_ == a.cycle_)
-    return {a.position_ + a.extra_position_, a.velocity_ + a.extra_velocity_, 0};
-  return {a.base_position_ + a.extra_base_position_, a.base_velocity_ + a.extra_base_velocity_,
-          a.base_acceleration_ + a.extra_base_acceleration_};
+    return {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_, 0};
+  return {a.base_position_ + a.extra_.base_position_, a.base_velocity_ + a.extra_.base_velocity_,
+          a.base_acceleration_ + a.extra_.base_acceleration_};
 }
 
 Result plan(const Axis& a, const Request& request, const State& from, Profile& profile) {
@@ -353,11 +361,7 @@ bool begin(Axis& a, Command& command, const Request& request) {
     if (waits && probe.is_relative_ != 0) probe.target_ += from.position;
     if (plan(a, probe, from, profile) != Result::Ok) return false;
   }
-  command.serial_ = ++a.serials_;
-  command.axis_ = reinterpret_cast<uintptr_t>(&a);
-  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
-  command.error_ = SMC_NO_ERROR_;
-  command.shown_ = 0;
+  adopt(a, command);
   if (waits) {
     a.next_request_ = wanted;
     a.next_owner_ = command.serial_;
@@ -412,42 +416,26 @@ bool renew(Axis& a, const Command& command, const Request& request) {
   return true;
 }
 
-bool beginExtra(Axis& a, Command& command, const Request& request) {
+static bool beginAdded(Axis& a, Added& added, Command& command, const Request& request) {
   Profile profile;
-  const State from = {a.extra_base_position_, a.extra_base_velocity_, a.extra_base_acceleration_};
-  Request wanted = request;
-  wanted.target_ += from.position;
-  if (plan(a, wanted, from, profile) != Result::Ok) return false;
-  command.serial_ = ++a.serials_;
-  command.axis_ = reinterpret_cast<uintptr_t>(&a);
-  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
-  command.error_ = SMC_NO_ERROR_;
-  command.shown_ = 0;
-  a.extra_owner_ = command.serial_;
-  a.extra_request_ = wanted;
-  a.extra_tick_ = 0;
-  profileOf(a.extra_profile_) = profile;
-  if (a.nAxisState_ == standstill_) a.nAxisState_ = discrete_motion_;
+  const State from = {added.base_position_, added.base_velocity_, added.base_acceleration_};
+  if (plan(a, request, from, profile) != Result::Ok) return false;
+  added.owner_ = adopt(a, command);
+  added.tick_ = 0;
+  profileOf(added.profile_) = profile;
   a.advanced_ = a.cycle_ - 1;
   return true;
 }
 
-bool beginPhase(Axis& a, Command& command, const Request& request) {
-  Profile profile;
-  const State from = {a.phase_base_position_, a.phase_base_velocity_, a.phase_base_acceleration_};
-  if (plan(a, request, from, profile) != Result::Ok) return false;
-  command.serial_ = ++a.serials_;
-  command.axis_ = reinterpret_cast<uintptr_t>(&a);
-  command.outcome_ = static_cast<uint8_t>(Outcome::Running);
-  command.error_ = SMC_NO_ERROR_;
-  command.shown_ = 0;
-  a.phase_owner_ = command.serial_;
-  a.phase_request_ = request;
-  a.phase_tick_ = 0;
-  profileOf(a.phase_profile_) = profile;
-  a.advanced_ = a.cycle_ - 1;
+bool beginExtra(Axis& a, Command& command, const Request& request) {
+  Request wanted = request;
+  wanted.target_ += a.extra_.base_position_;
+  if (!beginAdded(a, a.extra_, command, wanted)) return false;
+  if (a.nAxisState_ == standstill_) a.nAxisState_ = discrete_motion_;
   return true;
 }
+
+bool beginPhase(Axis& a, Command& command, const Request& request) { return beginAdded(a, a.phase_, command, request); }
 
 void advance(Axis& a) {
   if (a.advanced_ == a.cycle_) return;
@@ -467,14 +455,11 @@ void follow(Axis& a, const State& state) {
 
 State phaseState(Axis& a) {
   movePhase(a);
-  return {a.phase_position_, a.phase_velocity_, a.phase_acceleration_};
+  return {a.phase_.position_, a.phase_.velocity_, a.phase_.acceleration_};
 }
 
 void release(Axis& a, Outcome outcome) {
-  if (outcome == Outcome::Done) {
-    noteEnd(a, 0);
-    a.ended_cycle_ = a.cycle_ - 1;
-  }
+  if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.owner_ = 0;
   a.coupled_ = 0;
   a.coupled_master_ = 0;

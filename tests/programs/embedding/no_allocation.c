@@ -1,6 +1,6 @@
 /* A host that counts what is allocated while a program runs. Arguments: shared libraries of `rung build`. Each runs a
- * thousand cycles of 10 ms of all its tasks. The functions below replace those of the C library in the whole process.
- * Called by no_allocation.test. */
+ * thousand cycles of 10 ms of all its tasks. The functions of counted_malloc.h replace those of the C library in the
+ * whole process. Called by no_allocation.test. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,39 +10,12 @@
 
 enum { CYCLES = 1000 };
 
-extern void* __libc_malloc(size_t size);
-extern void* __libc_calloc(size_t count, size_t size);
-extern void* __libc_realloc(void* old, size_t size);
-extern void* __libc_memalign(size_t align, size_t size);
-extern void __libc_free(void* old);
-
 static int in_cycle;
 static unsigned calls;
 
 static void note(void) { calls += in_cycle != 0; }
 
-void* malloc(size_t size) {
-  note();
-  return __libc_malloc(size);
-}
-void* calloc(size_t count, size_t size) {
-  note();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, size_t size) {
-  note();
-  return __libc_realloc(old, size);
-}
-void* memalign(size_t align, size_t size) {
-  note();
-  return __libc_memalign(align, size);
-}
-void* aligned_alloc(size_t align, size_t size) { return memalign(align, size); }
-int posix_memalign(void** to, size_t align, size_t size) { return (*to = memalign(align, size)) == NULL; }
-void free(void* old) {
-  note();
-  __libc_free(old);
-}
+#include "counted_malloc.h"
 
 static void* memory(uint64_t size) { return memset(aligned_alloc(64, (size + 127) / 64 * 64), 0, size); }
 
