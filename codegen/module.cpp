@@ -24,7 +24,7 @@ constexpr const char* kTypeKinds[] = {
     "RUNG_USTRING", "RUNG_ENUM", "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
 static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
 constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_AREA"};
-constexpr const char* kOwners[] = {"RUNG_AREA_INPUT", "RUNG_AREA_OUTPUT", "RUNG_AREA_MEMORY"};
+constexpr const char* kOwners[] = {"RUNG_AREA_INPUT", "RUNG_AREA_OUTPUT", "RUNG_AREA_MEMORY", "RUNG_AREA_SHARED"};
 constexpr const char* kTaskKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
 
 class Describer {

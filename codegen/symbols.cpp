@@ -16,7 +16,7 @@ constexpr const char* kTypeWords[] = {
     "udint", "ulint", "real",  "lreal", "time",   "ltime",   "date",    "ldate", "tod",   "ltod",   "dt",
     "ldt",   "char",  "wchar", "uchar", "string", "wstring", "ustring", "enum",  "array", "record", "pointer"};
 static_assert(std::size(kTypeWords) == RUNG_POINTER + 1);
-constexpr const char* kOwnerWords[] = {"input", "output", "memory"};
+constexpr const char* kOwnerWords[] = {"input", "output", "memory", "shared"};
 constexpr const char* kTaskWords[] = {"cyclic", "freewheeling", "event", "status", "external"};
 static_assert(std::size(kTaskWords) == RUNG_EXTERNAL + 1);
 

@@ -218,6 +218,7 @@ class Describer {
   void addArea(const types::MemoryArea& area) {
     const uint8_t owner = area.owner == types::AreaOwner::Input    ? RUNG_AREA_INPUT
                           : area.owner == types::AreaOwner::Output ? RUNG_AREA_OUTPUT
+                          : area.owner == types::AreaOwner::Shared ? RUNG_AREA_SHARED
                                                                    : RUNG_AREA_MEMORY;
     const std::string prefix = {'%', area.letter};
     out_.areas.push_back({string(prefix.substr(1)), string(prefix), area.bytes, owner});

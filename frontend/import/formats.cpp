@@ -7,6 +7,7 @@
 #include "frontend/import/codesys2/codesys2.h"
 #include "frontend/import/iec10/iec10.h"
 #include "frontend/import/multiprog/multiprog.h"
+#include "frontend/import/nct/nct.h"
 #include "frontend/import/plcopen/plcopen.h"
 #include "frontend/import/twincat/twincat.h"
 #include "frontend/import/xml.h"
@@ -35,7 +36,7 @@ constexpr Format kFormats[] = {
     {FileKind::Xml, "XML other than PLCopen's or that of IEC 61131-10", ".xml .cfc", isXml, nullptr},
     {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
     {FileKind::Il, "", ".il", nullptr, nullptr},
-    {FileKind::Nct, "machine-tool ladder", ".nct", nullptr, nullptr},
+    {FileKind::Nct, "", ".nct", nullptr, nct::readProgram},
     {FileKind::Cam, "a cam table", ".cam", nullptr, nullptr},
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "sema/checks/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -30,6 +31,7 @@ void checkOverlappingAddresses(Context& context) {
     if (var.storage != Storage::Image || var.external || !var.type || var.type == types::kError) continue;
     if (!var.use.written && !var.init) continue;
     const ImageView& view = var.image;
+    if (context.project.options.areas[view.area.index].owner == types::AreaOwner::Shared) continue;
     const uint64_t begin = uint64_t{view.byte} * 8 + (view.is_bit ? view.bit : 0);
     const uint64_t bits = view.is_bit ? 1 : uint64_t{table.info(table.resolve(var.type)).size} * 8;
     spans.push_back({view.area, begin, begin + bits, {i}});

@@ -23,19 +23,21 @@ enum class AreaOwner : uint8_t {
   Input,   // the host: before a cycle. The program reads it
   Output,  // the program; the host takes it after a cycle, and sets it to safe values after a fault
   Memory,  // the program alone, or what the product defines
+  Shared,  // tasks that write different bits of a word: what a task has changed leaves it. Variables overlap as a rule
 };
 // As written in rung.project and in the text form of the IR: "input".
 constexpr std::string_view spelling(AreaOwner owner) {
   switch (owner) {
     case AreaOwner::Input: return "input";
     case AreaOwner::Output: return "output";
+    case AreaOwner::Shared: return "shared";
     case AreaOwner::Memory: break;
   }
   return "memory";
 }
 
 inline std::optional<AreaOwner> ownerCalled(std::string_view spelled) {
-  for (const AreaOwner owner : {AreaOwner::Input, AreaOwner::Output, AreaOwner::Memory})
+  for (const AreaOwner owner : {AreaOwner::Input, AreaOwner::Output, AreaOwner::Memory, AreaOwner::Shared})
     if (spelled == spelling(owner)) return owner;
   return std::nullopt;
 }
@@ -62,7 +64,11 @@ inline constexpr uint64_t kMaxAreaBytes = uint64_t{1} << 24;
 inline MemoryAreas standardAreas() {
   return {{'I', AreaOwner::Input}, {'Q', AreaOwner::Output}, {'M', AreaOwner::Memory}};
 }
-// Of those rows.
+// The two memories of the NCT ladder, which programs with a `.nct` file have besides: 10 000 words, and those up to
+// PLCNVRAM of the TimeSlice. NCT manual 2, 3.3.
+inline MemoryAreas nctAreas() { return {{'N', AreaOwner::Shared, 40000}, {'T', AreaOwner::Shared, 16000}}; }
+
+// Of standardAreas().
 inline constexpr AreaId kInputArea{0}, kOutputArea{1}, kMemoryArea{2};
 
 // Whether a letter may name an area; the others are sizes.

@@ -375,6 +375,12 @@ void readInputs(const Options& options, Sources& sources, Diagnostics& diagnosti
   Collector(options, sources, diagnostics, inputs).collect();
 }
 
+// A product may have an area of such a letter itself, and then knows why.
+static void addNctAreas(types::MemoryAreas& areas) {
+  for (const types::MemoryArea& area : types::nctAreas())
+    if (!types::findArea(areas, area.letter)) areas.push_back(area);
+}
+
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   std::vector<importer::PairCandidate> halves;
   for (const InputFile& input : inputs.files)
@@ -386,6 +392,8 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 
   importer::ReadContext context{sources, diagnostics, inputs.libraries};
+  const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
+  if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct)) addNctAreas(inputs.project.areas);
   for (InputFile& input : inputs.files) {
     const importer::Format& format = importer::formatOf(input.kind);
     if (format.read == nullptr) continue;

@@ -234,7 +234,7 @@ void readAreaSection(const ProjectSection& section, Diagnostics& diagnostics, Pr
     if (const auto known = types::ownerCalled(owner->value))
       area.owner = *known;
     else
-      badValue(diagnostics, *owner, "it takes input, output or memory");
+      badValue(diagnostics, *owner, "it takes input, output, memory or shared");
   }
   project.areas.push_back(area);
 }

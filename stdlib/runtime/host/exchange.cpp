@@ -34,6 +34,8 @@ Exchange::Exchange(const Symbols& symbols, Memory& memory) : module_(symbols.mod
     for (uint32_t i = 0; i < module_.area_count; ++i) {
       copy.storage.emplace_back(words(module_.areas[i].size));
       copy.areas.push_back(reinterpret_cast<uint8_t*>(copy.storage.back().data()));
+      const bool is_shared = module_.areas[i].owner == RUNG_AREA_SHARED;
+      copy.taken.emplace_back(is_shared ? copy.storage.back().size() : 0);
     }
     for (uint32_t i = 0; i < module_.block_count; ++i) copy.blocks.push_back(memory.block(i));
     for (const Globals& globals : globals_) {
@@ -97,6 +99,8 @@ void Exchange::take(uint32_t task, rung_context& context) {
   Copy& copy = copies_[task];
   const Lock lock(*this);
   for (uint32_t i = 0; i < module_.area_count; ++i) memcpy(copy.areas[i], memory_.area(i), module_.areas[i].size);
+  for (uint32_t i = 0; i < module_.area_count; ++i)
+    if (!copy.taken[i].empty()) memcpy(copy.taken[i].data(), memory_.area(i), module_.areas[i].size);
   for (size_t i = 0; i < globals_.size(); ++i) {
     const uint32_t block = globals_[i].block;
     memcpy(copy.blocks[block], memory_.block(block), module_.blocks[block].size);
@@ -113,10 +117,25 @@ void Exchange::give(uint32_t task, rung_context& context) {
   const Lock lock(*this);
   for (uint32_t i = 0; i < row.write_count; ++i) {
     const rung_write& part = module_.writes[row.first_write + i];
-    copyBits(memory_.area(part.area), copy.areas[part.area], part);
+    if (copy.taken[part.area].empty()) copyBits(memory_.area(part.area), copy.areas[part.area], part);
   }
+  giveShared(copy);
   giveGlobals(copy);
   drop(context);
+}
+
+// The bits that the task has changed, whatever other tasks did meanwhile.
+void Exchange::giveShared(const Copy& copy) {
+  for (uint32_t i = 0; i < module_.area_count; ++i) {
+    if (copy.taken[i].empty()) continue;
+    uint8_t* const common = memory_.area(i);
+    const uint8_t* const mine = copy.areas[i];
+    const auto* const before = reinterpret_cast<const uint8_t*>(copy.taken[i].data());
+    for (uint32_t at = 0; at < module_.areas[i].size; ++at) {
+      const auto changed = static_cast<uint8_t>(mine[at] ^ before[at]);
+      common[at] = static_cast<uint8_t>((common[at] & ~changed) | (mine[at] & changed));
+    }
+  }
 }
 
 void Exchange::drop(rung_context& context) const {

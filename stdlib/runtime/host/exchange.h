@@ -52,12 +52,14 @@ class Exchange {
   struct Copy {
     std::vector<std::vector<uint64_t>> storage;
     std::vector<uint8_t*> areas;
+    std::vector<std::vector<uint64_t>> taken;  // shared areas as they were taken; others are empty
     std::vector<void*> blocks;
     std::vector<std::vector<uint64_t>> before;  // per row of globals_: as it was taken
   };
   void findGlobals(const Symbols& symbols);
   void addRun(const Run& run);
   void closeGlobals();
+  void giveShared(const Copy& copy);
   void giveGlobals(const Copy& copy);
 
   const rung_module& module_;

@@ -64,6 +64,16 @@ int64_t processorNs() {
   return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
 }
 
+// The ladder of NCT has two memories of its own, and a cycle is one of its main program: T_PLC.
+bool isNct(const rung_module& module) {
+  const auto has = [&](char letter) {
+    return std::any_of(module.areas, module.areas + module.area_count, [&](const rung_area& area) {
+      return module.strings[area.name] == letter && module.strings[area.name + 1] == '\0';
+    });
+  };
+  return has('N') && has('T');
+}
+
 struct Run;
 Run* running = nullptr;
 void endHungRun(const rung_context* context, uint8_t reason);
@@ -109,6 +119,8 @@ struct Run {
   }
   bool reset(rung_start kind);
   void stop();
+  int64_t cycleNs() const { return rows_per_cycle * tasks.rowNs(); }
+  int64_t cyclesDone() const { return (rows_done + rows_per_cycle - 1) / rows_per_cycle; }
   int64_t nowNs() { return realtime ? realtime->programNs() : memory.context().now_ns; }
   std::string describe(const rung_context& context, const rung_fault& fault) const {
     return describeFault(context, fault, options.paths);
@@ -150,9 +162,10 @@ struct Run {
   std::vector<bool> is_reported;      // by task: that a fault has stopped it
   int64_t cycles = 0;
   int64_t rows_done = 0;
-  int64_t base_ns = 0;      // the program's time at row 0
-  int64_t pace_ns = 0;      // in virtual time: the clock at row 0, while a channel is open
-  bool is_stopped = false;  // by a command
+  int64_t rows_per_cycle = 1;  // the last of them is the cycle's time; cycle 0 has one
+  int64_t base_ns = 0;         // the program's time at row 0
+  int64_t pace_ns = 0;         // in virtual time: the clock at row 0, while a channel is open
+  bool is_stopped = false;     // by a command
   bool single_cycle = false;
   bool has_quit = false;
   bool cannot_pause = false;
@@ -326,11 +339,15 @@ int Run::prepare() {
   if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
     return refuse(options, error);
 
-  const int64_t row_ns = tasks.rowNs();
+  if (isNct(module)) {
+    for (const Task& task : tasks.all())
+      if (std::string_view(tasks.nameOf(task)) == "Main")
+        rows_per_cycle = std::max<int64_t>(task.interval_ns / tasks.rowNs(), 1);
+  }
   if (options.cycles >= 0)
     cycles = options.cycles;
   else if (options.for_ns >= 0)
-    cycles = options.for_ns / row_ns + (options.for_ns % row_ns != 0 ? 1 : 0);
+    cycles = options.for_ns / cycleNs() + (options.for_ns % cycleNs() != 0 ? 1 : 0);
   else
     cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
   if (options.trace_calls) host.called = onCall;
@@ -458,11 +475,11 @@ int Run::finish(bool faulted, const std::string& what, const std::string& extra)
   if (!faulted && retain) retain->copy(base_ns + rows_done * tasks.rowNs());
   tasks.makeOutputsSafe(nowNs());
   const std::string refused = saveRetained();
-  if (!trace.close(error) || !plot.close(tasks.rowNs(), error)) return refuse(options, error);
+  if (!trace.close(error) || !plot.close(cycleNs(), error)) return refuse(options, error);
   if (options.trace_path.empty()) {
     fprintf(options.out, "%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
-            static_cast<long long>(rows_done), durationText(tasks.rowNs()).c_str(),
-            durationText(rows_done * tasks.rowNs()).c_str());
+            static_cast<long long>(cyclesDone()), durationText(cycleNs()).c_str(),
+            durationText(cyclesDone() * cycleNs()).c_str());
   }
   if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? options.err : options.out);
   fflush(options.out);
@@ -502,33 +519,36 @@ int Run::runVirtual() {
     stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
     return finish(true, describe(context, fault), "");
   };
-  for (int64_t row = 0; row < cycles; ++row) {
-    if (!obey(row)) break;
-    keepPace(row);
-    inputs.apply(row);
-    const Schedule::Ending ending = is_stopped ? Schedule::Ending::Complete : schedule.run(base_ns + row * row_ns);
-    if (options.trace_calls) fputs(calls.line(row).c_str(), options.out);
+  for (int64_t cycle = 0; cycle < cycles; ++cycle) {
+    if (!obey(cycle)) break;
+    keepPace(rows_done);
+    inputs.apply(cycle);
+    Schedule::Ending ending = Schedule::Ending::Complete;
+    for (int64_t row = rows_done; row <= cycle * rows_per_cycle && ending == Schedule::Ending::Complete; ++row) {
+      if (!is_stopped) ending = schedule.run(base_ns + row * row_ns);
+    }
+    if (options.trace_calls) fputs(calls.line(cycle).c_str(), options.out);
     if (ending == Schedule::Ending::Faulted) return ended(context.fault);
     if (stopper->reason() != RUNG_STOP_NONE) return ended(stopper->fault());
     if (ending == Schedule::Ending::Watchdog)
       return finish(true, watchdogText(tasks.nameOf(*schedule.stoppedTask())), tasks.statistics(0));
     if (const std::string lost = tasks.lostDriver(); !lost.empty()) return finish(true, driverText(lost), "");
     reportStopped();
-    trace.row(row, row * row_ns);
+    trace.row(cycle, cycle * cycleNs());
     plot.row();
-    rows_done = row + 1;
+    rows_done = cycle * rows_per_cycle + 1;
     if (retain && schedule.isIdle()) retain->copy(base_ns + rows_done * row_ns);
     if (single_cycle) {
       single_cycle = false;
       stop();
     }
     if (!options.stop_on.empty() && stop_on.holds())
-      return finish(false, "", "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
+      return finish(false, "", "stopped after cycle " + std::to_string(cycle) + ": " + options.stop_on + "\n");
     if (next_hint != INT64_MAX && processorNs() >= next_hint) {
       fprintf(options.err, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }
-    if (retain && row % 64 == 0 && processorNs() >= next_save) {
+    if (retain && cycle % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
       if (!refused.empty()) return refuse(options, refused);
       next_save = processorNs() + options.retain_interval_ns;
@@ -547,7 +567,7 @@ int Run::runInRealTime() {
   const int64_t row_ns = tasks.rowNs();
   if (cycles == 0) return finish(false, "", "");
   RealtimeOptions wanted;
-  wanted.rows = cycles;
+  wanted.rows = cycles < 0 ? cycles : (cycles - 1) * rows_per_cycle + 1;
   wanted.timeout_ns = options.timeout_ns;
   wanted.base_ns = base_ns;
   const bool has_events = std::any_of(module.tasks, module.tasks + module.task_count,
@@ -557,11 +577,12 @@ int Run::runInRealTime() {
   std::atomic<int64_t> row_now{0};
   RealtimeHooks hooks;
   hooks.before = [&](int64_t row) {
-    row_now.store(row);
-    inputs.apply(row);
+    row_now.store(row / rows_per_cycle);
+    if ((row + rows_per_cycle - 1) % rows_per_cycle == 0) inputs.apply((row + rows_per_cycle - 1) / rows_per_cycle);
   };
   hooks.after = [&](int64_t row) {
-    trace.row(row, row * row_ns);
+    if (row % rows_per_cycle != 0) return;
+    trace.row(row / rows_per_cycle, row * row_ns);
     plot.row();
   };
   if (retain) hooks.complete = [&](int64_t now_ns) { retain->copy(now_ns); };

@@ -33,6 +33,19 @@ bool equalNames(std::string_view a, const char* b) {
   return *b == 0;
 }
 
+// `9056` and `9056.17`, words and bits of the NCT ladder's memory, as addresses: %ND9056, %NX36226.1. Empty: neither.
+std::string addressOfNct(std::string_view path) {
+  const auto digits = [&](size_t at, size_t count) {
+    return std::all_of(path.begin() + static_cast<ptrdiff_t>(at), path.begin() + static_cast<ptrdiff_t>(at + count),
+                       [](char c) { return c >= '0' && c <= '9'; });
+  };
+  if (path.size() == 4 && digits(0, 4)) return "%ND" + std::to_string(std::stoi(std::string(path)));
+  if (path.size() != 7 || path[4] != '.' || !digits(0, 4) || !digits(5, 2)) return {};
+  const int word = std::stoi(std::string(path.substr(0, 4))), bit = std::stoi(std::string(path.substr(5)));
+  if (bit > 31) return {};
+  return "%NX" + std::to_string(word * 4 + bit / 8) + "." + std::to_string(bit % 8);
+}
+
 bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
 
 }  // namespace
@@ -304,6 +317,7 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   }
   if (root_length == 0) {
     if (path.front() == '%') return findAddress(path, variable, error);
+    if (const std::string address = addressOfNct(path); !address.empty()) return findAddress(address, variable, error);
     std::vector<std::string_view> names;
     for (uint32_t i = 0; i < module_.symbol_count; ++i) names.push_back(text(module_.symbols[i].name));
     const std::string_view first = path.substr(0, path.find_first_of(".[^"));

@@ -1,0 +1,18 @@
+// Reads an NCT program; see nct.h.
+#include "frontend/import/nct/nct.h"
+
+#include "frontend/import/nct/write.h"
+
+namespace rung::importer::nct {
+
+FileId readProgram(ReadContext& context, FileId file) {
+  const uint32_t errors = context.diagnostics.errorCount();
+  const Program program = read(context.sources, file, context.diagnostics);
+  Memory memory(program, {}, context.diagnostics);
+  xml::SourceMappedText out(context.sources);
+  write(program, memory, context.diagnostics, out);
+  if (context.diagnostics.errorCount() != errors) return {};
+  return out.finish(context.sources, file);
+}
+
+}  // namespace rung::importer::nct
