@@ -1,6 +1,6 @@
 // The exact extremes of a cam table: of position, slope and curvature between the ends of the table. In: a table that
-// check() accepts. Out: the extremes, segment by segment, so that a caller can spread the work over cycles. Called by the
-// cam blocks (stdlib/motion/blocks/cam_bounds.cpp): no allocation.
+// check() accepts. Out: the extremes, segment by segment, so that a caller can spread the work over cycles. Called by
+// the cam blocks (stdlib/motion/blocks/cam_bounds.cpp): no allocation.
 #pragma once
 
 #include "cam/table/table.h"

@@ -9,8 +9,6 @@ using namespace rung_sm3_basic;
 
 namespace {
 
-constexpr uint16_t kStructId = 0xDC34;
-
 // Positions of the numbers in an XY table.
 bool takeScale(const MC_CAM_REF_type& from, CamId& id) {
   id.table_.scale_ = 1;
@@ -40,7 +38,7 @@ Error tappetError(const CamId& id) {
 
 }  // namespace
 
-bool isCam(const MC_CAM_REF_type* cam) { return cam != nullptr && cam->wCamStructID_ == kStructId; }
+bool isCam(const MC_CAM_REF_type* cam) { return cam != nullptr && cam->wCamStructID_ == kCamStructId; }
 
 cam::Table tableOf(const CamId& id) {
   cam::Table table = {};

@@ -10,7 +10,8 @@ namespace rung::motion {
 using CamId = rung_sm3_basic::MC_CAM_ID_type;
 using Tappet = rung_sm3_basic::SMC_CAMTappet_type;
 
-constexpr int kMostGroup = 512;  // MAX_NUM_TAPPETS
+constexpr uint16_t kCamStructId = 0xDC34;  // MC_CAM_REF.wCamStructID
+constexpr int kMostGroup = 512;            // MAX_NUM_TAPPETS
 constexpr int kMostPulses = 32;
 enum TappetDirection : int16_t { kForward = 0, kBoth = 1, kBack = 2 };
 enum TappetAction : int16_t { kOn = 0, kOff = 1, kInvert = 2, kTime = 3 };
