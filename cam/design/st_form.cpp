@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kMostOnALine = 8;  // numbers
 
-// With a decimal point: LREAL also in dialects where an integer is none.
+// With a decimal point, because in some dialects an integer is not an LREAL.
 std::string real(double value) {
   std::string text = exactText(value);
   const size_t exponent = text.find('e');
@@ -17,9 +17,9 @@ std::string real(double value) {
   return text;
 }
 
-class Writer {
+class DeclarationWriter {
  public:
-  explicit Writer(const Cam& cam) : cam_(cam) {}
+  explicit DeclarationWriter(const Cam& cam) : cam_(cam) {}
 
   std::string write() {
     // pce is a POINTER TO BYTE for all kinds of rows.
@@ -138,6 +138,6 @@ class Writer {
 
 }  // namespace
 
-std::string globalsOf(const Cam& cam) { return Writer(cam).write(); }
+std::string globalsOf(const Cam& cam) { return DeclarationWriter(cam).write(); }
 
 }  // namespace rung::cam

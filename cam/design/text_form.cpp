@@ -14,9 +14,9 @@ std::string exactReal(float value) {
   return {text, end.ptr};
 }
 
-class Writer {
+class LineWriter {
  public:
-  explicit Writer(const Cam& cam) : cam_(cam) {}
+  explicit LineWriter(const Cam& cam) : cam_(cam) {}
 
   std::string write() {
     line({"cam", cam_.name});
@@ -116,6 +116,6 @@ std::string exactText(double value) {
   return {text, end.ptr};
 }
 
-std::string textOf(const Cam& cam) { return Writer(cam).write(); }
+std::string textOf(const Cam& cam) { return LineWriter(cam).write(); }
 
 }  // namespace rung::cam

@@ -24,8 +24,8 @@ struct CamLocations {
   std::vector<Span> tappets;
 };
 
-// Sets the master range to that of the rows if the file has none. Not `is_complete`: some lines were reported, and what
-// they leave out is no mistake of its own.
+// Sets the master range to that of the rows if the file has none. Not `is_complete`: some lines were reported, and
+// what they leave out is not reported again.
 void checkCam(cam::Cam& cam, const CamLocations& locations, bool is_complete, Diagnostics& diagnostics);
 
 }  // namespace rung::importer::cams

@@ -21,9 +21,9 @@ using cam::Kind;
 constexpr size_t kMostUnit = 40;  // bytes
 constexpr size_t kMostWords = 8;  // of a line: those of a polynomial
 
-class Reader {
+class CamReader {
  public:
-  Reader(const Sources& sources, FileId file, Diagnostics& diagnostics, Cam& cam, CamSource* places)
+  CamReader(const Sources& sources, FileId file, Diagnostics& diagnostics, Cam& cam, CamSource* places)
       : source_(sources.sourceText(file)),
         begin_(sources.begin(file)),
         diagnostics_(diagnostics),
@@ -58,7 +58,7 @@ class Reader {
   struct Key {
     std::string_view word;
     const char* takes;
-    void (Reader::*read)();
+    void (CamReader::*read)();
     bool repeats;
   };
   struct KeyOfNumbers {
@@ -419,24 +419,24 @@ class Reader {
   bool has_rows_ = false, misses_name_ = false, is_wrong_ = false;
 };
 
-constexpr std::array<Reader::Key, 15> Reader::kKeys = {{
-    {"cam", "a name", &Reader::readName, false},
-    {"repeat", "`closed`, `relative` or `modulo PERIOD`", &Reader::readRepeat, false},
-    {"master", "`START END` and a unit", &Reader::readMaster, false},
-    {"slave", "a unit", &Reader::readSlave, false},
-    {"speed", "a number above 0", &Reader::readSpeed, false},
-    {"limit", "`position LOW HIGH`, or `velocity`, `acceleration` or `jerk` with a number above 0", &Reader::readLimit,
-     true},
-    {"capacity", "a number of rows from 1 to 32767", &Reader::readCapacity, false},
-    {"number", "INT, UINT, DINT, UDINT, REAL or LREAL", &Reader::readNumber, false},
-    {"interpolation", "`cubic` or `linear`", &Reader::readInterpolation, false},
+constexpr std::array<CamReader::Key, 15> CamReader::kKeys = {{
+    {"cam", "a name", &CamReader::readName, false},
+    {"repeat", "`closed`, `relative` or `modulo PERIOD`", &CamReader::readRepeat, false},
+    {"master", "`START END` and a unit", &CamReader::readMaster, false},
+    {"slave", "a unit", &CamReader::readSlave, false},
+    {"speed", "a number above 0", &CamReader::readSpeed, false},
+    {"limit", "`position LOW HIGH`, or `velocity`, `acceleration` or `jerk` with a number above 0",
+     &CamReader::readLimit, true},
+    {"capacity", "a number of rows from 1 to 32767", &CamReader::readCapacity, false},
+    {"number", "INT, UINT, DINT, UDINT, REAL or LREAL", &CamReader::readNumber, false},
+    {"interpolation", "`cubic` or `linear`", &CamReader::readInterpolation, false},
     {"scale", "`TABLE_MIN TABLE_MAX MASTER_MIN MASTER_MAX`, with two numbers that differ and two positions",
-     &Reader::readScale, false},
-    {"point", "`X Y [V [A]] [line]`", &Reader::readPoint, true},
-    {"polynomial", "`X C0 [C1 [C2 [C3 [C4 [C5]]]]]`", &Reader::readPolynomial, true},
-    {"value", "`Y`", &Reader::readValue, true},
-    {"pair", "`X Y`", &Reader::readPair, true},
-    {"tappet", "`X GROUP ACTION [DIRECTION] [delay TIME] [duration TIME]`", &Reader::readTappet, true},
+     &CamReader::readScale, false},
+    {"point", "`X Y [V [A]] [line]`", &CamReader::readPoint, true},
+    {"polynomial", "`X C0 [C1 [C2 [C3 [C4 [C5]]]]]`", &CamReader::readPolynomial, true},
+    {"value", "`Y`", &CamReader::readValue, true},
+    {"pair", "`X Y`", &CamReader::readPair, true},
+    {"tappet", "`X GROUP ACTION [DIRECTION] [delay TIME] [duration TIME]`", &CamReader::readTappet, true},
 }};
 
 }  // namespace
@@ -444,7 +444,7 @@ constexpr std::array<Reader::Key, 15> Reader::kKeys = {{
 bool readCam(const Sources& sources, FileId file, Diagnostics& diagnostics, Cam& cam, CamSource* places) {
   const uint32_t errors = diagnostics.errorCount() + diagnostics.droppedCount();
   cam = {};
-  Reader(sources, file, diagnostics, cam, places).read();
+  CamReader(sources, file, diagnostics, cam, places).read();
   return diagnostics.errorCount() + diagnostics.droppedCount() == errors;
 }
 
