@@ -71,7 +71,8 @@ struct Quintic {
   double v0, a0, c3, c4, c5;
 };
 
-Quintic quinticOf(const Point& from, const Point& to, double h) {
+// Inline: a call takes as long as the polynomial.
+__attribute__((always_inline)) inline Quintic quinticOf(const Point& from, const Point& to, double h) {
   const double half = h * h / 2, way = to.y - from.y;
   const double v0 = from.slope * h, v1 = to.slope * h, a0 = from.curvature * half, a1 = to.curvature * half;
   return {v0, a0, 10 * way - 6 * v0 - 4 * v1 - 3 * a0 + a1, -15 * way + 8 * v0 + 7 * v1 + 3 * a0 - 2 * a1,
