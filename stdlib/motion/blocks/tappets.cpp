@@ -45,6 +45,9 @@ void Tappets::switchTappet(int index, bool back) {
   pulse.on_at_ = state_.elapsed_ + tappet.dwDelay_ * 1e-6;
   pulse.off_at_ = pulse.on_at_ + tappet.dwDuration_ * 1e-6;
   pulse.state_ = kDelayed;
+  if (tappet.dwDelay_ > 0 || tappet.dwDuration_ == 0) return;
+  pulse.state_ = kActive;
+  setGroup(tappet.iGroupID_, kOn);
 }
 
 // Switches those between two positions in the order in which the master passes them: without `from`, but with `to`
