@@ -9,6 +9,7 @@
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
 # profiles      five million motion profiles: limits, continuity, arrival, and no rival faster (COUNT, FIRST)
+# cams          200 random cams, 100 s of four slaves each: no set position further than 1e-9 of the stroke from the exact curve (COUNT, FIRST)
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
@@ -68,6 +69,18 @@ profiles() {
   RUNG_PROFILE_SEED=$first RUNG_PROFILE_COUNT=${COUNT:-1000000} "$bin/motion_profile_test"
 }
 
+cams() {
+  needs rung
+  local folder seed
+  folder=$(mktemp -d)
+  for ((seed = first; seed < first + ${COUNT:-200}; ++seed)); do
+    sed "s/SEED : ULINT := 42/SEED : ULINT := $seed/; s/CYCLES : DINT := 20000/CYCLES : DINT := 100000/" tests/conformance/motion/cam_judge.st >"$folder/$seed.st"
+    "$bin/rung" test "$folder/$seed.st" --engine=native --timeout T#5m >"$folder/log" 2>&1 || { grep -v warning "$folder/log" | tail -5; echo "seed $seed"; exit 1; }
+  done
+  echo "$((seed - first)) seeds, 100000 cycles of four slaves each: within 1e-9 of the stroke"
+  rm -r "$folder"
+}
+
 kills() {
   needs rung
   tools/house/kill_retain.sh "${COUNT:-10000}" "$first"
@@ -100,11 +113,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies profiles kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies profiles cams kills tsan lateness asan debug tidy compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|profiles|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
-    *) sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|profiles|cams|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
+    *) sed -n '2,19s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -1,6 +1,9 @@
 #include "cam/table/table.h"
 
 namespace rung::cam {
+
+int32_t segmentCount(const Table& table) { return table.kind == Kind::Polynomials ? table.count : table.count - 1; }
+
 namespace {
 
 bool isFinite(double value) { return value - value == 0; }
@@ -34,8 +37,6 @@ double slaveAt(const Table& table, int32_t index) {
   return table.kind == Kind::Equidistant ? numberAt(table, index) : numberAt(table, 2 * index + 1);
 }
 
-int32_t segmentCount(const Table& table) { return table.kind == Kind::Polynomials ? table.count : table.count - 1; }
-
 // Where the segment ends; the last polynomial ends with the table.
 double segmentEnd(const Table& table, int32_t segment) {
   return segment + 1 < table.count ? masterAt(table, segment + 1) : table.end;
@@ -65,13 +66,23 @@ int32_t find(const Table& table, double x, int32_t segment) {
   return search(table, x);
 }
 
+// The factors of s to s^5 of a quintic segment of the length `h`.
+struct Quintic {
+  double v0, a0, c3, c4, c5;
+};
+
+// Inline: a call takes as long as the polynomial.
+__attribute__((always_inline)) inline Quintic quinticOf(const Point& from, const Point& to, double h) {
+  const double half = h * h / 2, way = to.y - from.y;
+  const double v0 = from.slope * h, v1 = to.slope * h, a0 = from.curvature * half, a1 = to.curvature * half;
+  return {v0, a0, 10 * way - 6 * v0 - 4 * v1 - 3 * a0 + a1, -15 * way + 8 * v0 + 7 * v1 + 3 * a0 - 2 * a1,
+          6 * way - 3 * (v0 + v1) - a0 + a1};
+}
+
 // `d` from `from`, on a segment of the length `h` to `to`.
 Value quintic(const Point& from, const Point& to, double h, double d) {
-  const double per_length = 1 / h, s = d * per_length, half = h * h / 2, way = to.y - from.y;
-  const double v0 = from.slope * h, v1 = to.slope * h, a0 = from.curvature * half, a1 = to.curvature * half;
-  const double c3 = 10 * way - 6 * v0 - 4 * v1 - 3 * a0 + a1;
-  const double c4 = -15 * way + 8 * v0 + 7 * v1 + 3 * a0 - 2 * a1;
-  const double c5 = 6 * way - 3 * (v0 + v1) - a0 + a1;
+  const double per_length = 1 / h, s = d * per_length;
+  const auto [v0, a0, c3, c4, c5] = quinticOf(from, to, h);
   return {from.y + s * (v0 + s * (a0 + s * (c3 + s * (c4 + s * c5)))),
           from.slope + s * (2 * a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5))) * per_length,
           from.curvature + s * (6 * c3 + s * (12 * c4 + s * 20 * c5)) * per_length * per_length};
@@ -160,7 +171,52 @@ bool isKind(const Table& table) {
   return false;
 }
 
+bool isLine(const Table& table, int32_t segment) {
+  return table.segments != nullptr && table.segments[segment] == SegmentKind::Line;
+}
+
+void setSegment(const Table& table, int32_t index, Segment& segment) {
+  const double h = segment.to - segment.from;
+  switch (table.kind) {
+    case Kind::Polynomials: {
+      double power = 1;
+      for (int i = 0; i < 6; ++i, power *= h)
+        segment.c[i] = static_cast<const Polynomial*>(table.points)[index].c[i] * power;
+      return;
+    }
+    case Kind::Equidistant:
+    case Kind::Pairs: {
+      const double y = slaveAt(table, index), way = slaveAt(table, index + 1) - y;
+      segment.c[0] = y;
+      segment.c[1] = way;
+      if (!table.cubic) return;
+      const double m0 = parabolaSlope(table, index) * h, m1 = parabolaSlope(table, index + 1) * h;
+      segment.c[1] = m0;
+      segment.c[2] = 3 * way - 2 * m0 - m1;
+      segment.c[3] = m0 + m1 - 2 * way;
+      return;
+    }
+    case Kind::QuinticPoints: {
+      const Point* const points = static_cast<const Point*>(table.points);
+      const Point &from = points[index], &to = points[index + 1];
+      const Quintic q = quinticOf(from, to, h);
+      segment = {from.x, to.x, {from.y, q.v0, q.a0, q.c3, q.c4, q.c5}};
+      if (isLine(table, index)) segment = {from.x, to.x, {from.y, to.y - from.y}};
+      return;
+    }
+  }
+}
+
 }  // namespace
+
+bool segmentOf(const Table& table, int32_t index, Segment& segment) {
+  segment = {masterAt(table, index), segmentEnd(table, index), {}};
+  if (!(segment.from < segment.to)) return false;
+  setSegment(table, index, segment);
+  for (const double c : segment.c)
+    if (!isFinite(c)) return false;
+  return true;
+}
 
 Fault check(const Table& table) {
   if (table.points == nullptr || !isKind(table)) return Fault::NotACam;
@@ -187,8 +243,7 @@ bool at(const Table& table, double x, int32_t& segment, Value& value) {
     }
     const Point &from = points[segment], &to = points[segment + 1];
     if (!(from.x <= x && x <= to.x && from.x < to.x)) return false;
-    const bool is_line = table.segments != nullptr && table.segments[segment] == SegmentKind::Line;
-    value = is_line ? onLine(from.x, from.y, to.x, to.y, x) : onQuintic(from, to, x);
+    value = isLine(table, segment) ? onLine(from.x, from.y, to.x, to.y, x) : onQuintic(from, to, x);
   } else {
     segment = find(table, x, segment);
     const double begin = masterAt(table, segment), end = segmentEnd(table, segment);

@@ -63,4 +63,14 @@ enum class Fault : uint8_t {
 // False when the points around `x` have been changed so that they are out of order or not finite.
 [[nodiscard]] bool at(const Table& table, double x, int32_t& segment, Value& value);
 
+// A segment as a polynomial: y = c[0] + c[1] s + … + c[5] s^5, where s is 0 at `from` and 1 at `to`.
+struct Segment {
+  double from, to;
+  double c[6];
+};
+
+int32_t segmentCount(const Table& table);
+// False when its points are out of order or not finite.
+[[nodiscard]] bool segmentOf(const Table& table, int32_t index, Segment& segment);
+
 }  // namespace rung::cam

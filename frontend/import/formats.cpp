@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "frontend/import/beremiz/beremiz.h"
+#include "frontend/import/cam/cam_file.h"
 #include "frontend/import/codesys2/codesys2.h"
 #include "frontend/import/iec10/iec10.h"
 #include "frontend/import/multiprog/multiprog.h"
@@ -37,7 +38,7 @@ constexpr Format kFormats[] = {
     {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
     {FileKind::Il, "", ".il", nullptr, nullptr},
     {FileKind::Nct, "", ".nct", nullptr, nct::readProgram},
-    {FileKind::Cam, "a cam table", ".cam", nullptr, nullptr},
+    {FileKind::Cam, "", ".cam", nullptr, cams::readProgram},
 };
 
 bool hasOneOf(std::string_view path, std::string_view extensions) {

@@ -1,8 +1,9 @@
-// `rung cam`: the motion laws of cams. In: what to show, and the numbers of the motion. Out: an exit code; results go
-// to the sink and to options.output. Called by tools/rung.
+// `rung cam`: motion laws and cams. In: the subcommand with its words, and its options. Out: an exit code; results go
+// to the sink and to the file of `-o`. Called by tools/rung. The subcommands are in cam_commands.h.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,15 +14,16 @@
 namespace rung::driver {
 
 struct CamOptions {
-  double stroke = 1, length = 1;  // of the slave and of the master
-  cam::Ends ends;                 // in units of the slave per unit of the master
+  std::vector<std::string> given;  // the names of all that were set
+  double stroke = 1, length = 1;   // of the slave and of the master
+  cam::Ends ends;                  // in units of the slave per unit of the master
   uint32_t points = 33;
+  std::optional<double> speed;  // of the master
 };
 
 // Sets the option `name` ("--v0"); returns an error message, or an empty string.
 [[nodiscard]] std::string setCamOption(std::string_view name, std::string_view value, CamOptions& options);
 
-// inputs: `law`, or `law NAME`; output: a CSV file for the points, or empty.
 int runCam(const std::vector<std::string>& inputs, const CamOptions& options, const std::string& output, Sink& sink);
 
 }  // namespace rung::driver

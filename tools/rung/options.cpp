@@ -34,7 +34,7 @@ constexpr CommandRow kCommands[] = {
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
-    {Command::Cam, "cam", "law [NAME]", "list motion laws of cams, or print the points of one"},
+    {Command::Cam, "cam", "law [NAME] | check FILE ... | show FILE -o SVG", "motion laws; check and draw cams"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -155,6 +155,7 @@ constexpr OptionRow kOptions[] = {
     {Key::CamNumber, "--j1", "J", bit(Command::Cam), "jerk at the end"},
     {Key::CamNumber, "--turn", "Z", bit(Command::Cam), "turning point, from 0 to 1 (default: 0.5)"},
     {Key::CamNumber, "--points", "N", bit(Command::Cam), "points of the table (default: 33)"},
+    {Key::CamNumber, "--speed", "V", bit(Command::Cam), "speed of the master (default: that of the file)"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
@@ -364,7 +365,7 @@ std::string checkCombination(const Options& options) {
                "NAME`";
       break;
     case Command::Cam:
-      if (options.inputs.empty()) return "`rung cam` takes `law` or `law NAME`";
+      if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check or show";
       break;
     case Command::None:
     case Command::Version:

@@ -4,11 +4,11 @@
 // In a table the master has positions from StartMaster to EndMaster: x = table_zero + master_scale * (master -
 // master_zero). Where it leaves them, a periodic cam moves table_zero by the width, and slave_zero by what the slave
 // has gained.
-#include "cam/table/table.h"
-
 #include <math.h>
 
+#include "blocks/cam_table.h"
 #include "blocks/coupling.h"
+#include "blocks/tappets.h"
 
 using namespace rung_sm3_basic;
 using namespace rung::motion;
@@ -16,214 +16,12 @@ namespace cam = rung::cam;
 
 namespace {
 
-using CamId = MC_CAM_ID_type;
-using Tappet = SMC_CAMTappet_type;
-
-constexpr uint16_t kStructId = 0xDC34;
-constexpr int kGroups = 512;  // MAX_NUM_TAPPETS
-constexpr int kPulses = 32;
-constexpr double kMostPeriods = 1000;  // in a cycle
-enum Direction : int16_t { kForward = 0, kBoth = 1, kBack = 2 };
-enum Action : int16_t { kOn = 0, kOff = 1, kInvert = 2, kTime = 3 };
-enum Pulse : uint8_t { kNoPulse, kDelayed, kActive };
-
-// ---- selection
-
-const Tappet* tappetsOf(const CamId& id) { return static_cast<const Tappet*>(id.table_.tappets_); }
-
-cam::Table tableOf(const CamId& id) {
-  cam::Table table = {};
-  table.points = id.table_.elements_;
-  table.segments = static_cast<const cam::SegmentKind*>(id.table_.segments_);
-  table.count = id.table_.count_;
-  table.kind = static_cast<cam::Kind>(id.table_.kind_);
-  table.number = static_cast<cam::Number>(id.table_.var_type_);
-  table.cubic = id.table_.quality_ == 3;
-  table.start = id.StartMaster_;
-  table.end = id.EndMaster_;
-  table.scale = id.table_.scale_;
-  table.shift = id.table_.shift_;
-  return table;
-}
-
-// Positions of the numbers in an XY table.
-bool takeScale(const MC_CAM_REF_type& from, CamId& id) {
-  id.table_.scale_ = 1;
-  id.table_.shift_ = 0;
-  const double width = from.fTableMasterMax_ - from.fTableMasterMin_;
-  const double positions = from.fEditorMasterMax_ - from.fEditorMasterMin_;
-  if (from.fTableMasterMax_ == 0 && from.fTableMasterMin_ == 0 && from.fEditorMasterMax_ == 0 &&
-      from.fEditorMasterMin_ == 0)
-    return true;
-  if (!isPositive(width) || !isPositive(positions)) return false;
-  id.table_.scale_ = positions / width;
-  id.table_.shift_ = from.fEditorMasterMin_ - from.fTableMasterMin_ * id.table_.scale_;
-  return true;
-}
-
-Error tappetError(const CamId& id) {
-  if (id.table_.tappet_count_ == 0) return SMC_NO_ERROR_;
-  if (id.table_.tappet_count_ < 0 || id.table_.tappets_ == nullptr) return SMC_CR_NO_TAPPETS_IN_CAM_;
-  int pulses = 0;
-  for (int i = 0; i < id.table_.tappet_count_; ++i) {
-    const Tappet& tappet = tappetsOf(id)[i];
-    if (tappet.cta_ == kTime) ++pulses;
-    if (tappet.iGroupID_ < 0 || tappet.iGroupID_ > kGroups || pulses > kPulses) return SMC_CR_TOO_MANY_TAPPETS_;
-  }
-  return SMC_NO_ERROR_;
-}
-
-Error select(const MC_CamTableSelect_type& block, CamId& id) {
-  if (block.Master_ == block.Slave_ || !isAxis(block.Master_)) return SMC_AXIS_IS_NO_AXIS_REF_;
-  const MC_CAM_REF_type* const from = block.CamTable_;
-  if (from == nullptr || from->wCamStructID_ != kStructId) return SMC_NO_CAM_REF_TYPE_;
-  id.pCT_ = block.CamTable_;
-  id.Periodic_ = block.Periodic_;
-  id.MasterAbsolute_ = block.MasterAbsolute_;
-  id.SlaveAbsolute_ = block.SlaveAbsolute_;
-  id.StartMaster_ = from->xStart_;
-  id.EndMaster_ = from->xEnd_;
-  id.table_.elements_ = from->pce_;
-  id.table_.segments_ = from->pSegments_;
-  id.table_.tappets_ = from->pt_;
-  id.table_.count_ = from->nElements_;
-  id.table_.tappet_count_ = from->nTappets_;
-  id.table_.kind_ = from->byType_;
-  id.table_.var_type_ = from->byVarType_;
-  id.table_.quality_ = from->byInterpolationQuality_;
-  if (from->byType_ < POLY_ || from->byType_ > XYVA_) return SMC_NO_CAM_REF_TYPE_;
-  if (!takeScale(*from, id)) return SMC_CI_SCALING_INCORRECT_;
-  if (from->nCapacity_ > 0 && from->nElements_ > from->nCapacity_) return SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_;
-  const cam::Table table = tableOf(id);
-  switch (cam::check(table)) {
-    case cam::Fault::None: break;
-    case cam::Fault::NotACam: return SMC_NO_CAM_REF_TYPE_;
-    case cam::Fault::DoesNotCover: return SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_;
-  }
-  int32_t segment = 0;
-  cam::Value value = {};
-  if (!cam::at(table, table.start, segment, value)) return SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_;
-  id.StartSlave_ = value.position;
-  if (!cam::at(table, table.end, segment, value)) return SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_;
-  id.EndSlave_ = value.position;
-  return tappetError(id);
-}
+Tappets tappetsOfBlock(MC_CamIn_type& block) { return {block.cam_, block.tappet_state_, block.Tappets_}; }
 
 bool isSame(const CamId& a, const CamId& b) {
   return a.pCT_ == b.pCT_ && a.serial_ == b.serial_ && a.Periodic_ == b.Periodic_ &&
          a.MasterAbsolute_ == b.MasterAbsolute_ && a.SlaveAbsolute_ == b.SlaveAbsolute_ &&
          a.table_.elements_ == b.table_.elements_ && a.table_.count_ == b.table_.count_;
-}
-
-// ---- tappets
-
-void setGroup(MC_CamIn_type& block, int group, int16_t action) {
-  if (group < 0 || group > kGroups) return;  // the program has changed it
-  uint32_t& known = block.Tappets_.known_[group / 32];
-  uint32_t& value = block.Tappets_.value_[group / 32];
-  const uint32_t bit = 1u << (group % 32);
-  if (action == kInvert) {
-    value ^= bit;
-    return;
-  }
-  known |= bit;
-  value = action == kOn ? value | bit : value & ~bit;
-}
-
-void switchTappet(MC_CamIn_type& block, int index, bool back) {
-  const Tappet* const tappets = tappetsOf(block.cam_);
-  const Tappet& tappet = tappets[index];
-  if (tappet.ctt_ == (back ? kForward : kBack)) return;
-  if (tappet.cta_ != kTime) return setGroup(block, tappet.iGroupID_, tappet.cta_);
-  int slot = 0;
-  for (int i = 0; i < index; ++i) slot += tappets[i].cta_ == kTime ? 1 : 0;
-  if (slot >= kPulses) return;
-  CAM_PULSE_type& pulse = block.pulses_[slot];
-  pulse.group_ = tappet.iGroupID_;
-  pulse.on_at_ = block.elapsed_ + tappet.dwDelay_ * 1e-6;
-  pulse.off_at_ = pulse.on_at_ + tappet.dwDuration_ * 1e-6;
-  pulse.state_ = kDelayed;
-}
-
-// Switches those between two positions in the order in which the master passes them: without `from`, but with `to`
-// where it goes forward; the other way round where it goes back. So a tappet is passed once, also when the master stops
-// on it and goes back.
-void passTappets(MC_CamIn_type& block, double from, double to, bool includes_from, bool includes_to, bool back) {
-  const Tappet* const tappets = tappetsOf(block.cam_);
-  const double sign = back ? -1 : 1;
-  double reached = from;
-  while (true) {
-    bool any = false;
-    double next = 0;
-    for (int i = 0; i < block.cam_.table_.tappet_count_; ++i) {
-      const double x = tappets[i].x_, ahead = sign * (x - reached), rest = sign * (to - x);
-      if (!(ahead > 0 || (ahead == 0 && includes_from)) || !(rest > 0 || (rest == 0 && includes_to))) continue;
-      if (!any || sign * (next - x) > 0) next = x;
-      any = true;
-    }
-    if (!any) return;
-    for (int i = 0; i < block.cam_.table_.tappet_count_; ++i)
-      if (tappets[i].x_ == next) switchTappet(block, i, back);
-    reached = next;
-    includes_from = false;
-  }
-}
-
-// The master is at `x`. Positions that the tappets have seen lie in the same period as `x` or periods away.
-void moveTappets(MC_CamIn_type& block, double x) {
-  if (block.cam_.table_.tappet_count_ <= 0) return;
-  const double start = block.cam_.StartMaster_, end = block.cam_.EndMaster_, width = end - start;
-  const bool is_fresh = block.tappet_fresh_ != 0;
-  block.tappet_fresh_ = 0;
-  if (is_fresh) {
-    block.tappet_x_ = x;
-    block.tappet_back_ = 0;
-    return passTappets(block, x, x, true, true, false);
-  }
-  const double way = x - block.tappet_x_;
-  const bool was_back = block.tappet_back_ != 0;
-  if (way == 0) return;
-  const bool back = way < 0;
-  if (back != was_back && fabs(way) < block.hysteresis_) return;
-  double from = block.tappet_x_;
-  block.tappet_x_ = x;
-  block.tappet_back_ = back ? 1 : 0;
-  const double beyond = back ? from - end : start - from;
-  double periods = beyond > 0 ? ceil(beyond / width) : 0;
-  if (periods > kMostPeriods) periods = 0;
-  from += (back ? -1 : 1) * periods * width;
-  bool includes_from = back;
-  for (; periods > 0; --periods) {
-    passTappets(block, from, back ? start : end, includes_from, true, back);
-    from = back ? end : start;
-    includes_from = true;
-  }
-  passTappets(block, from, x, includes_from, !back, back);
-}
-
-void runPulses(MC_CamIn_type& block, const Axis& slave) {
-  if (block.elapsed_cycle_ != slave.cycle_) block.elapsed_ += slave.fTaskCycle_;
-  block.elapsed_cycle_ = slave.cycle_;
-  const double now = block.elapsed_ + 1e-9 * slave.fTaskCycle_;
-  for (CAM_PULSE_type& pulse : block.pulses_) {
-    if (pulse.state_ == kDelayed && now >= pulse.on_at_) {
-      pulse.state_ = kActive;
-      setGroup(block, pulse.group_, kOn);
-    }
-    if (pulse.state_ == kActive && now >= pulse.off_at_) {
-      pulse.state_ = kNoPulse;
-      setGroup(block, pulse.group_, kOff);
-    }
-  }
-}
-
-void resetTappets(MC_CamIn_type& block, const Axis& slave) {
-  ++block.Tappets_.starts_;
-  for (uint32_t& known : block.Tappets_.known_) known = 0;
-  for (uint32_t& value : block.Tappets_.value_) value = 0;
-  for (CAM_PULSE_type& pulse : block.pulses_) pulse.state_ = kNoPulse;
-  block.elapsed_ = 0;
-  block.elapsed_cycle_ = slave.cycle_;
 }
 
 // ---- coupling
@@ -239,11 +37,6 @@ bool isAbsolute(const MC_CamIn_type& block) { return block.cam_.SlaveAbsolute_ !
 
 double tableX(const MC_CamIn_type& block, const State& master) {
   return block.table_zero_ + block.master_scale_ * (master.position - block.master_zero_);
-}
-
-double wrapped(double x, double start, double end) {
-  const double in = x - (end - start) * floor((x - start) / (end - start));
-  return in >= end ? start : in;
 }
 
 // The set values for a master in the table, without the ramp.
@@ -262,7 +55,7 @@ Error camInError(const MC_CamIn_type& block) {
   if (block.Master_ == block.Slave_ || !isAxis(block.Master_)) return SMC_AXIS_IS_NO_AXIS_REF_;
   const MC_CAM_REF_type* const cam = static_cast<const MC_CAM_REF_type*>(block.CamTableID_.pCT_);
   if (cam == nullptr) return SMC_CI_NO_CAM_SELECTED_;
-  if (cam->wCamStructID_ != kStructId || block.CamTableID_.table_.elements_ == nullptr) return SMC_NO_CAM_REF_TYPE_;
+  if (!isCam(cam) || block.CamTableID_.table_.elements_ == nullptr) return SMC_NO_CAM_REF_TYPE_;
   if (!isPositive(block.MasterScaling_) || !isPositive(block.SlaveScaling_) || !isFinite(block.MasterOffset_) ||
       !isFinite(block.SlaveOffset_))
     return SMC_CI_SCALING_INCORRECT_;
@@ -350,12 +143,12 @@ void startCam(MC_CamIn_type& block, Call& call) {
   if (error == SMC_NO_ERROR_)
     error = placeSlave(next, slave, master, keeps_zero ? block.slave_zero_ : startState(slave).position);
   if (error != SMC_NO_ERROR_) return call.refuse(error);
-  next.hysteresis_ = block.TappetHysteresis_ > 0 ? block.TappetHysteresis_ * next.master_scale_ : 0;
+  next.tappet_state_.hysteresis_ = block.TappetHysteresis_ > 0 ? block.TappetHysteresis_ * next.master_scale_ : 0;
   next.was_inside_ = next.is_over_ = 0;
   next.end_cycle_ = slave.cycle_ - 1;
-  next.tappet_fresh_ = 1;
+  next.tappet_state_.is_fresh_ = 1;
   block = next;
-  resetTappets(block, slave);
+  tappetsOfBlock(block).reset(slave);
   if (is_owner) return;
   call.start(followRequest(block.Deceleration_), SMC_AXIS_NOT_READY_FOR_MOTION_);
   couple(slave, *block.Master_, kCam);
@@ -380,10 +173,11 @@ bool beginPeriod(MC_CamIn_type& block, const Axis& slave, bool back) {
   if (!positionAt(was, back ? was.StartMaster_ : was.EndMaster_, from)) return false;
   if (switches) block.cam_ = block.CamTableID_;
   if (!positionAt(block.cam_, back ? block.cam_.EndMaster_ : block.cam_.StartMaster_, to)) return false;
-  block.table_zero_ += back ? block.cam_.EndMaster_ - was.StartMaster_ : block.cam_.StartMaster_ - was.EndMaster_;
-  block.tappet_x_ += back ? block.cam_.EndMaster_ - was.StartMaster_ : block.cam_.StartMaster_ - was.EndMaster_;
+  const double shift = back ? block.cam_.EndMaster_ - was.StartMaster_ : block.cam_.StartMaster_ - was.EndMaster_;
+  block.table_zero_ += shift;
+  tappetsOfBlock(block).shift(shift);
   block.end_cycle_ = slave.cycle_;
-  if (switches) block.tappet_fresh_ = 1;
+  if (switches) tappetsOfBlock(block).refresh();
   if (!isAbsolute(block)) {
     // In the positive direction the whole end position is gained, so a cam that does not begin at 0 jumps.
     block.slave_zero_ += block.slave_scale_ * (back ? -to : from);
@@ -401,7 +195,7 @@ void endCam(MC_CamIn_type& block, Call& call, double x, const State& master) {
   const double edge = x >= block.cam_.EndMaster_ ? block.cam_.EndMaster_ : block.cam_.StartMaster_;
   State state = {};
   if (!slaveAt(block, edge, master, state)) return fail(slave, SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_);
-  moveTappets(block, edge);
+  tappetsOfBlock(block).move(edge);
   const double velocity = block.master_scale_ * master.velocity;
   if (velocity != 0) state.position += state.velocity * (x - edge) / velocity;
   state.acceleration = 0;
@@ -455,7 +249,7 @@ void runCam(MC_CamIn_type& block, Call& call) {
   }
   State state = {};
   if (!slaveAt(block, x, master, state)) return fail(slave, SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_);
-  moveTappets(block, x);
+  tappetsOfBlock(block).move(x);
   if (block.is_ramping_ != 0) addRamp(block, slave, state);
   if (jumps(slave, state)) return fail(slave, SMC_VD_MAX_VELOCITY_EXCEEDED_);
   follow(slave, state);
@@ -469,10 +263,14 @@ void rung_sm3_basic_MC_CamTableSelect(rung_context*, MC_CamTableSelect_type* sel
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
     CamId id = {};
-    const Error error = select(*self, id);
+    const bool are_axes = self->Master_ != self->Slave_ && isAxis(self->Master_);
+    const Error error = are_axes ? select(self->CamTable_, id) : SMC_AXIS_IS_NO_AXIS_REF_;
     if (error != SMC_NO_ERROR_) {
       call.refuse(error);
     } else {
+      id.Periodic_ = self->Periodic_;
+      id.MasterAbsolute_ = self->MasterAbsolute_;
+      id.SlaveAbsolute_ = self->SlaveAbsolute_;
       id.serial_ = ++self->serials_;
       self->CamTableID_ = id;
       call.launch();
@@ -486,7 +284,7 @@ void rung_sm3_basic_MC_CamTableSelect(rung_context*, MC_CamTableSelect_type* sel
 void rung_sm3_basic_MC_CamIn(rung_context*, MC_CamIn_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) startCam(*self, call);
-  if (isAxis(self->Slave_)) runPulses(*self, *self->Slave_);
+  if (isAxis(self->Slave_)) tappetsOfBlock(*self).run(*self->Slave_);
   if (call.isOwner()) runCam(*self, call);
   call.run();
   const bool ends =

@@ -30,6 +30,18 @@ int64_t writeAll(int descriptor, const char* bytes, uint64_t count) {
   return static_cast<int64_t>(count);
 }
 
+// read() may return less than there is.
+int64_t readUpTo(int descriptor, char* bytes, uint64_t count) {
+  uint64_t done = 0;
+  while (done < count) {
+    const ssize_t got = read(descriptor, bytes + done, count - done);
+    if (got < 0) return fileErrorOf(errno);
+    if (got == 0) break;
+    done += static_cast<uint64_t>(got);
+  }
+  return static_cast<int64_t>(done);
+}
+
 }  // namespace
 
 void FileWork::start() {
@@ -52,10 +64,9 @@ int64_t FileWork::begin(const rung_file_work& work) {
   free->file = work.file;
   free->count = work.kind == RUNG_WORK_LIST ? std::min<uint64_t>(work.count, kMostEntries) : work.count;
   free->found = 0;
-  if (work.kind == RUNG_WORK_WRITE) {
-    if (work.count > RUNG_WORK_BYTES) return RUNG_FILE_FAILED;
-    memcpy(free->bytes, work.bytes, work.count);
-  }
+  const bool moves_bytes = work.kind == RUNG_WORK_WRITE || work.kind == RUNG_WORK_READ;
+  if (moves_bytes && work.count > RUNG_WORK_BYTES) return RUNG_FILE_FAILED;
+  if (work.kind == RUNG_WORK_WRITE) memcpy(free->bytes, work.bytes, work.count);
   free->order = ++begun_;
   free->state = Waiting;
   condition_.notify_one();
@@ -111,6 +122,12 @@ void FileWork::execute(Request& request) {
           copyTree(root, request.name, request.target, (request.flags & RUNG_WORK_OVERWRITE) != 0, request.count);
       break;
     case RUNG_WORK_REMOVE: request.result = removeTree(root, request.name); break;
+    case RUNG_WORK_READ: {
+      const int descriptor = files_.descriptor(request.file);
+      request.result = descriptor < 0 ? int64_t{RUNG_FILE_HANDLE} : readUpTo(descriptor, request.bytes, request.count);
+      request.found = request.result > 0 ? static_cast<uint64_t>(request.result) : 0;
+      break;
+    }
   }
 }
 

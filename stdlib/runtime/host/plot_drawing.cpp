@@ -25,6 +25,10 @@ const char* const kStyle =
     ".edge{stroke:#656c76}.level{stroke:#58a6ff}.high{fill:#58a6ff;opacity:.2}.curve{stroke:#ffa657}"
     ".item{stroke:#9198a1}.page{fill:#0d1117}}</style>\n";
 
+const char* const kLimitStyle =
+    "<style>.limit{stroke:#cf222e;stroke-dasharray:5 3}.mark{fill:#b3470b}"
+    "@media(prefers-color-scheme:dark){.limit{stroke:#ff7b72}.mark{fill:#ffa657}}</style>\n";
+
 // Tenths of a pixel are precise enough.
 std::string pixels(double value) {
   char text[32];
@@ -87,8 +91,8 @@ std::string shortNumber(double value) {
 // A lane's place, and what it shows on its axis.
 class Drawing {
  public:
-  Drawing(const std::vector<PlotLane>& lanes, double columns, int64_t end_ns)
-      : lanes_(lanes), columns_(std::max(columns, 1e-9)), end_ns_(static_cast<double>(end_ns)) {
+  Drawing(const std::vector<PlotLane>& lanes, double columns, const PlotRange& range)
+      : lanes_(lanes), columns_(std::max(columns, 1e-9)), range_(range) {
     int ticks = 0;
     double names = 3 * kCharacter;
     for (const PlotLane& lane : lanes) {
@@ -108,8 +112,8 @@ class Drawing {
     const std::string width_text = std::to_string(left_ + kWidth + kRight), height_text = std::to_string(height);
     svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width_text + "\" height=\"" + height_text +
            "\" viewBox=\"0 0 " + width_text + " " + height_text + "\" role=\"img\">\n" + kStyle +
-           "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n";
-    drawTime();
+           (hasLimits() ? kLimitStyle : "") + "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n";
+    drawRange();
     drawEdges();
     int top = kTop;
     for (size_t i = 0; i < lanes_.size(); ++i) {
@@ -122,6 +126,10 @@ class Drawing {
  private:
   int heightOf(size_t lane) const { return hasAxis(lanes_[lane]) && axes_[lane].count() > 1 ? kNumber : kLevel; }
   static bool hasAxis(const PlotLane& lane) { return lane.kind == PlotKind::Number || lane.kind == PlotKind::Duration; }
+  bool hasLimits() const {
+    return std::any_of(lanes_.begin(), lanes_.end(),
+                       [](const PlotLane& lane) { return !lane.limits.empty() || !lane.marks.empty(); });
+  }
   double x(double column) const { return left_ + kWidth * std::min(column / columns_, 1.0); }
 
   static PlotAxis axisOf(const PlotLane& lane) {
@@ -132,6 +140,10 @@ class Drawing {
       high = std::fmax(high, column.high);
     }
     if (std::isnan(low)) return {};
+    for (const double limit : lane.limits) {
+      low = std::fmin(low, limit);
+      high = std::fmax(high, limit);
+    }
     if (lane.kind == PlotKind::Number) return axisFor(low, high, lane.is_whole);
     const double scale = lane.unit_ns / unitOf(lane, low, high).ns;
     PlotAxis axis = axisFor(low * scale, high * scale, false);
@@ -164,17 +176,16 @@ class Drawing {
     return std::fabs(value) < axis.step * 1e-6 ? 0 : value;
   }
 
-  void drawTime() {
-    const double total = std::max(end_ns_, 1.0);
-    const TimeUnit unit = unitFor(total);
-    const double step = roundStep(total / unit.ns / 8) * unit.ns;
+  void drawRange() {
+    const double total = range_.to > range_.from ? range_.to - range_.from : 1;
+    const double step = roundStep(total / 8), first = std::ceil(range_.from / step - 1e-9) * step;
     svg_ += "<g class=\"s\">\n";
-    for (int i = 0; i * step <= total * (1 + 1e-9); ++i) {
-      const double at = left_ + kWidth * (i * step / total);
+    for (int i = 0; first + i * step <= range_.from + total * (1 + 1e-9); ++i) {
+      const double value = first + i * step, at = left_ + kWidth * ((value - range_.from) / total);
       svg_ += lineFrom("grid", at, kTop - 6, "V" + pixels(bottom_));
-      svg_ += textAt(at, bottom_ + 14, "middle", shortNumber(i * step / unit.ns));
+      svg_ += textAt(at, bottom_ + 14, "middle", shortNumber(std::fabs(value) < step * 1e-6 ? 0 : value));
     }
-    svg_ += "</g>\n" + textAt(names_, bottom_ + 14, "end", std::string("t/") + unit.name);
+    svg_ += "</g>\n" + textAt(names_, bottom_ + 14, "end", range_.name);
   }
 
   // A dotted line through all lanes where a level changes: what happens at the same time is seen.
@@ -203,8 +214,29 @@ class Drawing {
         break;
       case PlotKind::Item: drawItems(lane, top); break;
       case PlotKind::Number:
-      case PlotKind::Duration: drawAxis(number, top); svg_ += curve(lane, "curve", axes_[number], top, height);
+      case PlotKind::Duration:
+        drawAxis(number, top);
+        svg_ += curve(lane, "curve", axes_[number], top, height);
+        drawLimits(number, top);
     }
+  }
+
+  void drawLimits(size_t number, int top) {
+    const PlotLane& lane = lanes_[number];
+    const int height = heightOf(number);
+    for (const double limit : lane.limits)
+      svg_ += lineFrom("limit", left_, y(axes_[number], top, height, limit), "h" + std::to_string(kWidth));
+    if (lane.marks.empty()) return;
+    svg_ += "<g class=\"s\">\n";
+    for (const PlotLane::Mark& mark : lane.marks) {
+      const double at_x = x(mark.column), at_y = y(axes_[number], top, height, mark.value);
+      svg_ += "<circle class=\"mark\" cx=\"" + pixels(at_x) + "\" cy=\"" + pixels(at_y) + "\" r=\"2.5\"/>\n";
+      const double width = kSmallCharacter * static_cast<double>(mark.text.size());
+      const bool is_left = at_x + 5 + width > left_ + kWidth;
+      svg_ += textAt(is_left ? at_x - 5 : at_x + 5, at_y < top + 10 ? at_y + 9 : at_y - 3, is_left ? "end" : "start",
+                     mark.text);
+    }
+    svg_ += "</g>\n";
   }
 
   static double y(const PlotAxis& axis, int top, int height, double value) {
@@ -311,7 +343,8 @@ class Drawing {
   }
 
   const std::vector<PlotLane>& lanes_;
-  const double columns_, end_ns_;
+  const double columns_;
+  const PlotRange range_;
   std::vector<PlotAxis> axes_;
   int names_ = 0, left_ = 0;  // where the names end, where the lanes begin
   int bottom_ = 0;            // of the lanes
@@ -330,7 +363,13 @@ PlotAxis axisFor(double low, double high, bool is_whole) {
 }
 
 std::string drawPlot(const std::vector<PlotLane>& lanes, double columns, int64_t end_ns) {
-  return Drawing(lanes, columns, end_ns).draw();
+  const double total = std::max(static_cast<double>(end_ns), 1.0);
+  const TimeUnit unit = unitFor(total);
+  return drawPlot(lanes, columns, {0, total / unit.ns, std::string("t/") + unit.name});
+}
+
+std::string drawPlot(const std::vector<PlotLane>& lanes, double columns, const PlotRange& range) {
+  return Drawing(lanes, columns, range).draw();
 }
 
 }  // namespace rung::host

@@ -47,7 +47,7 @@ RUNG_OF_ONE_NAME(FOLDER_REMOVE, remove_folder)
 
 int64_t rung_system_HOST_FILE_BEGIN(rung_context* ctx, uint8_t kind, uint32_t flags, int64_t file, const char* name,
                                     const char* target, void* buffer, uint64_t count) {
-  if (kind > RUNG_WORK_REMOVE) return RUNG_FILE_FAILED;
+  if (kind > RUNG_WORK_READ) return RUNG_FILE_FAILED;
   if (kind == RUNG_WORK_WRITE && (buffer == nullptr || count > RUNG_WORK_BYTES)) return RUNG_FILE_FAILED;
   const rung_files* const files = ctx->host == nullptr ? nullptr : ctx->host->files;
   if (files == nullptr || files->begin == nullptr) return RUNG_FILE_DENIED;

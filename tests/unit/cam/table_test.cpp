@@ -1,6 +1,8 @@
 // Cam tables: values against the boundary conditions of each segment and against polynomials in long double.
 #include "cam/table/table.h"
 
+#include "cam/table/bounds.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -273,6 +275,75 @@ TEST(CamTable, IsFastWithACachedSegment) {
   RecordProperty("nanoseconds", std::to_string(best));
   std::printf("%.1f ns, %g\n", best, sum);
   EXPECT_LT(best, 200);
+}
+
+double nanosecondsOfAJump(const Table& table) {
+  constexpr int count = 20000;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(table.start, table.end);
+  std::vector<double> places(count);
+  for (double& place : places) place = anywhere(random);
+  double best = 1e9;
+  for (int run = 0; run < 5; ++run) {
+    int32_t segment = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    for (const double x : places) {
+      Value value = {};
+      EXPECT_TRUE(at(table, x, segment, value));
+    }
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
+    best = std::min(best, taken.count() / count);
+  }
+  return best;
+}
+
+// A hundred times the points: 1.7 times the steps of a search.
+TEST(CamTable, FindsASegmentInLogarithmicTime) {
+  const std::vector<Point> few = randomPoints(1001, 6), many = randomPoints(100001, 6);
+  EXPECT_LT(nanosecondsOfAJump(tableOf(many)), 20 * nanosecondsOfAJump(tableOf(few)));
+}
+
+Bounds boundsOf(const Table& table) {
+  Bounds bounds = emptyBounds();
+  for (int32_t i = 0; i < segmentCount(table); ++i) EXPECT_TRUE(include(table, i, bounds));
+  return bounds;
+}
+
+// No sample is beyond the bounds, and one is near each.
+void expectBounds(const Table& table, const Bounds& bounds) {
+  Value low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
+  constexpr int count = 200000;
+  for (int i = 0; i <= count; ++i) {
+    const Value value = valueAt(table, table.start + (table.end - table.start) * i / count);
+    low = {std::min(low.position, value.position), std::min(low.slope, value.slope),
+           std::min(low.curvature, value.curvature)};
+    high = {std::max(high.position, value.position), std::max(high.slope, value.slope),
+            std::max(high.curvature, value.curvature)};
+  }
+  const auto expect = [](double from, double to, const Range& range) {
+    const double margin = 1e-3 * (to - from), rounding = 1e-11 * (to - from);
+    EXPECT_LE(range.low, from + rounding);
+    EXPECT_GE(range.high, to - rounding);
+    EXPECT_NEAR(range.low, from, margin);
+    EXPECT_NEAR(range.high, to, margin);
+  };
+  expect(low.position, high.position, bounds.position);
+  expect(low.slope, high.slope, bounds.slope);
+  expect(low.curvature, high.curvature, bounds.curvature);
+}
+
+TEST(CamBounds, AreTheExtremesOfSamples) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const std::vector<Point> points = randomPoints(20, seed);
+    Table table = tableOf(points);
+    expectBounds(table, boundsOf(table));
+    table.start += 0.3 * (table.end - table.start);  // a part of it, from inside a segment
+    table.end -= 0.1 * (table.end - table.start);
+    expectBounds(table, boundsOf(table));
+  }
+  const std::vector<double> values = {0, 5, -3, 8, 8, 1, 2};
+  expectBounds(numbers(Kind::Equidistant, values, -1, 9, true),
+               boundsOf(numbers(Kind::Equidistant, values, -1, 9, true)));
 }
 
 }  // namespace

@@ -283,26 +283,27 @@ enum rung_file_mode {
 
 /* Work on files that the host does off the cycle: a program begins it, and asks for the result in later cycles. */
 typedef enum rung_file_work_kind {
-  RUNG_WORK_OPEN,  /* `name`, rung_file_mode: the file */
-  RUNG_WORK_WRITE, /* `bytes` to `file`: the count */
-  RUNG_WORK_CLOSE, /* `file`: 0 */
-  RUNG_WORK_LIST,  /* a folder; bytes: rung_file_entry rows. The count of rows */
-  RUNG_WORK_COPY,  /* a file or a folder with its content to the folder `target`: 0 */
-  RUNG_WORK_REMOVE /* a file or a folder with its content: 0 */
+  RUNG_WORK_OPEN,   /* `name`, rung_file_mode: the file */
+  RUNG_WORK_WRITE,  /* `bytes` to `file`: the count */
+  RUNG_WORK_CLOSE,  /* `file`: 0 */
+  RUNG_WORK_LIST,   /* a folder; bytes: rung_file_entry rows. The count of rows */
+  RUNG_WORK_COPY,   /* a file or a folder with its content to the folder `target`: 0 */
+  RUNG_WORK_REMOVE, /* a file or a folder with its content: 0 */
+  RUNG_WORK_READ    /* up to `count` bytes of `file`: the count of bytes, 0 at the end */
 } rung_file_work_kind;
 enum rung_file_work_flags {
   RUNG_WORK_ONLY_FILES = 1, /* LIST */
   RUNG_WORK_OVERWRITE = 2   /* COPY: existing files are replaced */
 };
-#define RUNG_WORK_BYTES 4096 /* that one WRITE may have */
+#define RUNG_WORK_BYTES 4096 /* that one WRITE or READ may have */
 typedef struct rung_file_work {
   uint8_t kind;       /* rung_file_work_kind */
   uint32_t flags;     /* rung_file_work_flags, or the rung_file_mode */
-  int64_t file;       /* WRITE, CLOSE */
+  int64_t file;       /* WRITE, READ, CLOSE */
   const char* name;   /* all others */
   const char* target; /* COPY */
   const void* bytes;  /* WRITE */
-  uint64_t count;     /* WRITE: bytes; LIST: rows at most; COPY: bytes of a file at most, 0: any */
+  uint64_t count;     /* WRITE, READ: bytes; LIST: rows at most; COPY: bytes of a file at most, 0: any */
 } rung_file_work;
 typedef struct rung_file_entry {
   char name[256];
