@@ -228,13 +228,6 @@ void resetTappets(MC_CamIn_type& block, const Axis& slave) {
 
 // ---- coupling
 
-// A master without power is followed where it really is, so its velocity is the real one too.
-State camMasterOf(const Axis& master, Axis& slave) {
-  State state = masterOf(master, slave);
-  if (!isPowered(master)) state.velocity += master.fActVelocity_;
-  return state;
-}
-
 bool isAbsolute(const MC_CamIn_type& block) { return block.cam_.SlaveAbsolute_ != 0 && block.mode_ != relative_; }
 
 double tableX(const MC_CamIn_type& block, const State& master) {
@@ -340,7 +333,7 @@ void startCam(MC_CamIn_type& block, Call& call) {
   if (error != SMC_NO_ERROR_) return call.refuse(error);
   const bool is_owner = call.isOwner() && slave.coupled_master_ == reinterpret_cast<uintptr_t>(block.Master_);
   const bool switches = is_owner && !isSame(block.cam_, block.CamTableID_);
-  const State master = is_owner ? camMasterOf(*block.Master_, slave) : stateOf(*block.Master_);
+  const State master = is_owner ? masterOf(*block.Master_, slave) : stateOf(*block.Master_);
   MC_CamIn_type next = block;  // a refused start changes nothing
   next.cam_ = block.CamTableID_;
   next.mode_ = block.StartMode_;
@@ -414,12 +407,6 @@ void endCam(MC_CamIn_type& block, Call& call, double x, const State& master) {
 
 // ---- the cycle
 
-// A jump of the position is not in the velocity of the cam, so the limits of the axis would not see it.
-bool jumps(const Axis& slave, const State& state) {
-  const double way = fabs(state.position - slave.base_position_);
-  return slave.fMaxVelocity_ > 0 && way > slave.fMaxVelocity_ * slave.fTaskCycle_ * (1 + 1e-6) + 1e-9;
-}
-
 void addRamp(MC_CamIn_type& block, const Axis& slave, State& state) {
   const Profile& ramp = *reinterpret_cast<const Profile*>(block.ramp_);
   const double t = (slave.cycle_ - block.ramp_cycle_ + 1) * slave.fTaskCycle_;
@@ -437,7 +424,7 @@ void runCam(MC_CamIn_type& block, Call& call) {
   Axis& slave = call.axis();
   slave.supervised_ = slave.cycle_;
   block.Master_->master_called_ = block.Master_->cycle_;
-  State master = camMasterOf(*block.Master_, slave);
+  State master = masterOf(*block.Master_, slave);
   double x = tableX(block, master);
   if (!(fabs(x - block.cam_.StartMaster_) <= kMostPeriods * (block.cam_.EndMaster_ - block.cam_.StartMaster_)))
     return fail(slave, SMC_CI_MASTER_OUT_OF_SCALE_);
@@ -457,7 +444,6 @@ void runCam(MC_CamIn_type& block, Call& call) {
   if (!slaveAt(block, x, master, state)) return fail(slave, SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_);
   moveTappets(block, x);
   if (block.is_ramping_ != 0) addRamp(block, slave, state);
-  if (jumps(slave, state)) return fail(slave, SMC_VD_MAX_VELOCITY_EXCEEDED_);
   follow(slave, state);
 }
 

@@ -6,15 +6,18 @@
 namespace rung::motion {
 
 // The values of AXIS_REF_SM3.coupled.
-enum Coupling : uint8_t { kNone, kGear, kCam };
+enum Coupling : uint8_t { kNone, kGear, kCam, kBacklash };
 
 inline State stateOf(const Axis& a) {
   return {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_, a.acceleration_ + a.extra_.acceleration_};
 }
 
-// The master as the slave sees it: shifted by MC_Phasing.
+// The master as the slave sees it: shifted by MC_Phasing. A master without power is followed where it really is, so its
+// velocity is the real one too.
 inline State masterOf(const Axis& master, Axis& slave) {
-  const State set = stateOf(master), shift = phaseState(slave);
+  State set = stateOf(master);
+  const State shift = phaseState(slave);
+  if (!isPowered(master)) set.velocity += master.fActVelocity_;
   return {set.position - shift.position, set.velocity - shift.velocity, set.acceleration - shift.acceleration};
 }
 

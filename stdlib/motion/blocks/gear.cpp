@@ -51,11 +51,7 @@ void runGear(MC_GearIn_type& block, Call& call) {
   ramp.deceleration_ = block.Deceleration_;
   ramp.jerk_ = block.Jerk_;
   const State from = {slave.base_position_, slave.base_velocity_, slave.base_acceleration_};
-  const double factor = slave.fVelFactor_;
-  slave.fVelFactor_ = 1;  // the master gives the velocity; the ramps are scaled
-  const Result result = plan(slave, ramp, from, profile);
-  slave.fVelFactor_ = factor;
-  if (result != Result::Ok) return fail(slave, SMC_GI_INVALID_ACC_);
+  if (planUnscaled(slave, ramp, from, profile) != Result::Ok) return fail(slave, SMC_GI_INVALID_ACC_);
   const State now = at(profile, slave.fTaskCycle_);
   if (duration(profile) <= slave.fTaskCycle_ * (1 + 1e-9)) {
     block.in_gear_ = 1;

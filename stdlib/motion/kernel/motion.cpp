@@ -293,6 +293,16 @@ void showAt(Axis& a, double position) {
   a.fActPosition_ = shown(a, a.actual_position_);
 }
 
+void rescale(Axis& a, double increments, double position_period) {
+  const double before = a.fScalefactor_ != 0 ? a.fScalefactor_ : 1;
+  a.fScalefactor_ = increments;
+  a.fPositionPeriod_ = position_period;
+  a.origin_ = 0;
+  a.position_ *= before / increments;
+  a.base_position_ = a.actual_position_ = a.position_;
+  a.fSetPosition_ = a.fActPosition_ = shown(a, a.position_);
+}
+
 double inner(const Axis& axis, double position) { return position + axis.origin_; }
 
 State startState(const Axis& a) {
@@ -316,6 +326,14 @@ Result plan(const Axis& a, const Request& request, const State& from, Profile& p
   if (fabs(end) > limits.velocity) end = end > 0 ? limits.velocity : -limits.velocity;
   return motionOf(request) == Motion::Continuous ? planContinuous(profile, from, request.target_, end, limits, ramp)
                                                  : planPosition(profile, from, request.target_, end, limits, ramp);
+}
+
+Result planUnscaled(Axis& a, const Request& request, const State& from, Profile& profile) {
+  const double factor = a.fVelFactor_;
+  a.fVelFactor_ = 1;
+  const Result result = plan(a, request, from, profile);
+  a.fVelFactor_ = factor;
+  return result;
 }
 
 double turned(const Axis& a, const Request& request, double position, int16_t direction) {
@@ -447,7 +465,15 @@ void advance(Axis& a) {
   watch(a);
 }
 
+bool isStepTooFar(const Axis& a, double position) {
+  const double way = fabs(position - a.base_position_);
+  return a.fMaxVelocity_ > 0 && way > a.fMaxVelocity_ * a.fTaskCycle_ * (1 + 1e-6) + 1e-9;
+}
+
 void follow(Axis& a, const State& state) {
+  // A step is not in the velocity of the state, so watch() would not see it; and the axis must not make it. While the
+  // drive homes, the set values are where it is.
+  if (a.nAxisState_ != homing_ && isStepTooFar(a, state.position)) return fail(a, SMC_VD_MAX_VELOCITY_EXCEEDED_);
   a.advanced_ = a.cycle_ - 1;
   setMotion(a, state);
   advance(a);
