@@ -330,7 +330,10 @@ void startCam(MC_CamIn_type& block, Call& call) {
   Axis& slave = call.axis();
   Error error = refusal(&slave);
   if (error == SMC_NO_ERROR_) error = camInError(block);
+  if (error == SMC_NO_ERROR_ && !isBufferMode(block.BufferMode_)) error = SMC_AXIS_NOT_READY_FOR_MOTION_;
   if (error != SMC_NO_ERROR_) return call.refuse(error);
+  if (!call.isOwner() && waitsInBuffer(block, call, followRequest(block.Deceleration_))) return;
+  block.waits_ = 0;
   const bool is_owner = call.isOwner() && slave.coupled_master_ == reinterpret_cast<uintptr_t>(block.Master_);
   const bool switches = is_owner && !isSame(block.cam_, block.CamTableID_);
   const State master = is_owner ? masterOf(*block.Master_, slave) : stateOf(*block.Master_);
@@ -473,8 +476,11 @@ void rung_sm3_basic_MC_CamIn(rung_context*, MC_CamIn_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) startCam(*self, call);
   if (isAxis(self->Slave_)) runPulses(*self, *self->Slave_);
-  if (call.isOwner()) runCam(*self, call);
+  takeOver(*self, call, startCam);
+  if (call.follows()) runCam(*self, call);
+  if (call.follows() && self->end_cycle_ == self->Slave_->cycle_) handOver(*self->Slave_, Outcome::Aborted);
   call.run();
+  self->Active_ = call.isOwner() ? 1 : 0;
   const bool ends =
       call.isOwner() ? self->end_cycle_ == self->Slave_->cycle_ : call.is(Outcome::Done) && self->is_over_ != 0;
   self->InSync_ = self->Execute_ != 0 && call.isOwner() && self->is_ramping_ == 0 ? 1 : 0;

@@ -35,6 +35,32 @@ inline Request followRequest(double deceleration) {
   return request;
 }
 
+// BufferMode of a block that follows a master, a table or a drive; PLCopen part 1, 2.4.2. What it does when its turn
+// has come depends on where the axis is then, so it is begun as any other: at its edge, or when it takes over.
+inline bool isBufferMode(int16_t mode) {
+  using namespace rung_sm3_basic;
+  return mode == Aborting_ || mode == Buffered_ || mode == BlendingPrevious_;
+}
+
+// True when the command waits for the one that moves the axis.
+template <class Block>
+bool waitsInBuffer(Block& block, Call& call, Request request) {
+  block.waits_ = 0;
+  if (!call.rises() || block.BufferMode_ == rung_sm3_basic::Aborting_ || call.axis().owner_ == 0) return false;
+  request.buffer_mode_ = block.BufferMode_;
+  call.start(request, rung_sm3_basic::SMC_AXIS_NOT_READY_FOR_MOTION_);
+  block.waits_ = call.isRunning() ? 1 : 0;
+  return true;
+}
+
+// Begins with `start` a command that has waited. One that is refused now gives the axis back.
+template <class Block, class Start>
+void takeOver(Block& block, Call& call, Start start) {
+  if (block.waits_ == 0 || !call.follows()) return;
+  start(block, call);
+  if (!call.isRunning()) release(call.axis(), Outcome::Aborted);
+}
+
 // MC_GearOut and MC_CamOut: the slave keeps its velocity.
 template <class Block>
 void decouple(Block& block, Coupling coupling) {

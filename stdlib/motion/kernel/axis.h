@@ -88,6 +88,8 @@ void follow(Axis& axis, const State& state);
 bool isStepTooFar(const Axis& axis, double position);
 // The axis loses its owner, which is done or aborted: it rests, or goes on with its velocity in continuous motion.
 void release(Axis& axis, Outcome outcome = Outcome::Done);
+// The buffered command, if there is one, takes over at the end of this cycle.
+bool handOver(Axis& axis, Outcome outcome);
 // The shift of the master at the end of this cycle.
 State phaseState(Axis& axis);
 // From now on the program sees the set position as this.
@@ -110,6 +112,8 @@ class Call {
   bool rises() const { return rises_; }
   bool isRunning() const { return outcome() == Outcome::Running; }
   bool isOwner() const;
+  // The owner of a Follow computes set values, but not in the cycle at whose end it took over from another command.
+  bool follows() const { return isOwner() && axis_->handed_over_ != axis_->cycle_; }
   bool is(Outcome outcome) const { return outcome == this->outcome(); }
   Axis& axis() const { return *axis_; }
 

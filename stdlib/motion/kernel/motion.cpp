@@ -85,6 +85,12 @@ void beginNext(Axis& a, State from, double rest) {
   a.next_owner_ = 0;
   a.nAxisState_ = a.request_.state_;
   a.supervised_ = a.cycle_;
+  if (motionOf(a.request_) == Motion::Follow) {  // it begins with the next cycle
+    from.position += from.velocity * rest;
+    setMotion(a, from);
+    a.handed_over_ = a.cycle_;
+    return;
+  }
   setBase(a, from);
   a.begun_ = rest;
   a.tick_ = -1;
@@ -233,7 +239,8 @@ double blendVelocity(const Axis& a, const Request& next) {
     case BlendingNext_: velocity = second; break;
     case BlendingHigh_: velocity = first > second ? first : second; break;
   }
-  const double way = a.request_.target_ - (a.base_position_);
+  const double way = a.request_.target_ - a.base_position_;
+  if (next.kind_ == static_cast<uint8_t>(Motion::Follow)) return way > 0 ? velocity : -velocity;
   const double on = next.kind_ == static_cast<uint8_t>(Motion::Velocity)
                         ? next.end_velocity_
                         : (next.is_relative_ != 0 ? next.target_ : next.target_ - a.request_.target_);
@@ -484,7 +491,18 @@ State phaseState(Axis& a) {
   return {a.phase_.position_, a.phase_.velocity_, a.phase_.acceleration_};
 }
 
+bool handOver(Axis& a, Outcome outcome) {
+  if (a.next_owner_ == 0) return false;
+  if (outcome == Outcome::Done) noteDone(a, a.owner_);
+  a.coupled_ = 0;
+  a.coupled_master_ = 0;
+  beginNext(a, {a.position_, a.velocity_, a.acceleration_}, 0);
+  moveOwner(a);
+  return true;
+}
+
 void release(Axis& a, Outcome outcome) {
+  if (handOver(a, outcome)) return;
   if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.owner_ = 0;
   a.coupled_ = 0;
