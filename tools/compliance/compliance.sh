@@ -68,8 +68,9 @@ LC_ALL=C awk -F'\t' '
     printf "%d of %d features are supported.\n", all_proved, all
     print ""
     print "Motion control: the blocks of CNC that the manuals name in error texts only (SMC_NCDecoder, SMC_Interpolator, SMC_Interpolator2Dir,"
-    print "SMC_GCodeViewer, SMC_ReadNCFile, SMC_ReadNCQueue, SMC_AxisDiagnosticLog, SMC_WriteDriveParamsToFile, SMC_ResetAxisGroup) and their types"
-    print "are not built, not even empty: no manual describes them, and a path needs the language of a CNC, which is another product."
+    print "SMC_GCodeViewer, SMC_ReadNCFile, SMC_ReadNCQueue, SMC_AxisDiagnosticLog, SMC_WriteDriveParamsToFile, SMC_ResetAxisGroup) and their types,"
+    print "but the queue that SMC_CheckVelocities takes, are not built, not even empty: no manual describes them, and a path needs the language of a"
+    print "CNC, which is another product."
     print ""
     print "| table | supported | features |"
     print "|---|---|---|"

@@ -26,13 +26,6 @@ bool isSame(const CamId& a, const CamId& b) {
 
 // ---- coupling
 
-// A master without power is followed where it really is, so its velocity is the real one too.
-State camMasterOf(const Axis& master, Axis& slave) {
-  State state = masterOf(master, slave);
-  if (!isPowered(master)) state.velocity += master.fActVelocity_;
-  return state;
-}
-
 bool isAbsolute(const MC_CamIn_type& block) { return block.cam_.SlaveAbsolute_ != 0 && block.mode_ != relative_; }
 
 double tableX(const MC_CamIn_type& block, const State& master) {
@@ -130,10 +123,13 @@ void startCam(MC_CamIn_type& block, Call& call) {
   Axis& slave = call.axis();
   Error error = refusal(&slave);
   if (error == SMC_NO_ERROR_) error = camInError(block);
+  if (error == SMC_NO_ERROR_ && !isBufferMode(block.BufferMode_)) error = SMC_AXIS_NOT_READY_FOR_MOTION_;
   if (error != SMC_NO_ERROR_) return call.refuse(error);
+  if (!call.isOwner() && waitsInBuffer(block, call, followRequest(block.Deceleration_))) return;
+  block.waits_ = 0;
   const bool is_owner = call.isOwner() && slave.coupled_master_ == reinterpret_cast<uintptr_t>(block.Master_);
   const bool switches = is_owner && !isSame(block.cam_, block.CamTableID_);
-  const State master = is_owner ? camMasterOf(*block.Master_, slave) : stateOf(*block.Master_);
+  const State master = is_owner ? masterOf(*block.Master_, slave) : stateOf(*block.Master_);
   MC_CamIn_type next = block;  // a refused start changes nothing
   next.cam_ = block.CamTableID_;
   next.mode_ = block.StartMode_;
@@ -208,12 +204,6 @@ void endCam(MC_CamIn_type& block, Call& call, double x, const State& master) {
 
 // ---- the cycle
 
-// A jump of the position is not in the velocity of the cam, so the limits of the axis would not see it.
-bool jumps(const Axis& slave, const State& state) {
-  const double way = fabs(state.position - slave.base_position_);
-  return slave.fMaxVelocity_ > 0 && way > slave.fMaxVelocity_ * slave.fTaskCycle_ * (1 + 1e-6) + 1e-9;
-}
-
 void addRamp(MC_CamIn_type& block, const Axis& slave, State& state) {
   const Profile& ramp = *reinterpret_cast<const Profile*>(block.ramp_);
   const double t = (slave.cycle_ - block.ramp_cycle_ + 1) * slave.fTaskCycle_;
@@ -231,7 +221,7 @@ void runCam(MC_CamIn_type& block, Call& call) {
   Axis& slave = call.axis();
   slave.supervised_ = slave.cycle_;
   block.Master_->master_called_ = block.Master_->cycle_;
-  State master = camMasterOf(*block.Master_, slave);
+  State master = masterOf(*block.Master_, slave);
   double x = tableX(block, master);
   if (!(fabs(x - block.cam_.StartMaster_) <= kMostPeriods * (block.cam_.EndMaster_ - block.cam_.StartMaster_)))
     return fail(slave, SMC_CI_MASTER_OUT_OF_SCALE_);
@@ -251,7 +241,6 @@ void runCam(MC_CamIn_type& block, Call& call) {
   if (!slaveAt(block, x, master, state)) return fail(slave, SMC_CAM_TABLE_DOES_NOT_COVER_MASTER_SCALE_);
   tappetsOfBlock(block).move(x);
   if (block.is_ramping_ != 0) addRamp(block, slave, state);
-  if (jumps(slave, state)) return fail(slave, SMC_VD_MAX_VELOCITY_EXCEEDED_);
   follow(slave, state);
 }
 
@@ -285,8 +274,11 @@ void rung_sm3_basic_MC_CamIn(rung_context*, MC_CamIn_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) startCam(*self, call);
   if (isAxis(self->Slave_)) tappetsOfBlock(*self).run(*self->Slave_);
-  if (call.isOwner()) runCam(*self, call);
+  takeOver(*self, call, startCam);
+  if (call.follows()) runCam(*self, call);
+  if (call.follows() && self->end_cycle_ == self->Slave_->cycle_) handOver(*self->Slave_, Outcome::Aborted);
   call.run();
+  self->Active_ = call.isOwner() ? 1 : 0;
   const bool ends =
       call.isOwner() ? self->end_cycle_ == self->Slave_->cycle_ : call.is(Outcome::Done) && self->is_over_ != 0;
   self->InSync_ = self->Execute_ != 0 && call.isOwner() && self->is_ramping_ == 0 ? 1 : 0;

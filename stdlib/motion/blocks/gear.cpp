@@ -14,6 +14,7 @@ enum Phase : uint8_t { kWaiting, kApproaching, kInSync, kMissed };
 Error gearError(const MC_GearIn_type& block) {
   if (block.Master_ == block.Slave_ || !isAxis(block.Master_)) return SMC_AXIS_IS_NO_AXIS_REF_;
   if (block.RatioDenominator_ == 0) return SMC_GI_RATIO_DENOM_;
+  if (!isBufferMode(block.BufferMode_)) return SMC_AXIS_NOT_READY_FOR_MOTION_;
   if (!isPositive(block.Acceleration_) || block.Jerk_ < 0 || !isFinite(block.Jerk_)) return SMC_GI_INVALID_ACC_;
   return isPositive(block.Deceleration_) ? SMC_NO_ERROR_ : SMC_GI_INVALID_DEC_;
 }
@@ -26,6 +27,7 @@ void startGear(MC_GearIn_type& block, Call& call) {
   Error error = refusal(block.Slave_);
   if (error == SMC_NO_ERROR_) error = gearError(block);
   if (error != SMC_NO_ERROR_) return call.refuse(error);
+  if (waitsInBuffer(block, call, followRequest(block.Deceleration_))) return;
   call.start(followRequest(block.Deceleration_), SMC_AXIS_NOT_READY_FOR_MOTION_);
   couple(call.axis(), *block.Master_, kGear);
   block.ratio_ = ratioOf(block);
@@ -51,11 +53,7 @@ void runGear(MC_GearIn_type& block, Call& call) {
   ramp.deceleration_ = block.Deceleration_;
   ramp.jerk_ = block.Jerk_;
   const State from = {slave.base_position_, slave.base_velocity_, slave.base_acceleration_};
-  const double factor = slave.fVelFactor_;
-  slave.fVelFactor_ = 1;  // the master gives the velocity; the ramps are scaled
-  const Result result = plan(slave, ramp, from, profile);
-  slave.fVelFactor_ = factor;
-  if (result != Result::Ok) return fail(slave, SMC_GI_INVALID_ACC_);
+  if (planUnscaled(slave, ramp, from, profile) != Result::Ok) return fail(slave, SMC_GI_INVALID_ACC_);
   const State now = at(profile, slave.fTaskCycle_);
   if (duration(profile) <= slave.fTaskCycle_ * (1 + 1e-9)) {
     block.in_gear_ = 1;
@@ -119,8 +117,11 @@ void waitForSync(MC_GearInPos_type& block, Call& call) {
       isFinite(block.MasterSyncPosition_) && isFinite(block.SlaveSyncPosition_) && isFinite(block.MasterStartDistance_);
   if (error == SMC_NO_ERROR_ && (!finite || (block.AvoidReversal_ != 0 && period(*block.Slave_) == 0)))
     error = SMC_AXIS_NOT_READY_FOR_MOTION_;
+  if (error == SMC_NO_ERROR_ && !isBufferMode(block.BufferMode_)) error = SMC_AXIS_NOT_READY_FOR_MOTION_;
   if (error != SMC_NO_ERROR_) return call.refuse(error);
-  call.launch();
+  const bool has_waited = block.waits_ != 0 && !call.rises();
+  if (waitsInBuffer(block, call, followRequest(0))) return;
+  if (!has_waited) call.launch();
   const Axis& master = *block.Master_;
   const double now = stateOf(master).position, turn = period(master);
   const double sign = master.fSetVelocity_ < 0 ? -1 : 1;
@@ -175,6 +176,14 @@ bool beginApproach(MC_GearInPos_type& block, Call& call) {
   return true;
 }
 
+// A command that was buffered has the axis before its master comes: the axis goes on as it was.
+void keepOn(Call& call) {
+  if (!call.follows()) return;
+  Axis& slave = call.axis();
+  slave.supervised_ = slave.cycle_;
+  follow(slave, {slave.base_position_ + slave.base_velocity_ * slave.fTaskCycle_, slave.base_velocity_, 0});
+}
+
 void runApproach(MC_GearInPos_type& block, Call& call) {
   Axis& slave = call.axis();
   slave.supervised_ = slave.cycle_;
@@ -205,7 +214,7 @@ extern "C" {
 void rung_sm3_basic_MC_GearIn(rung_context*, MC_GearIn_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
-    if (call.isOwner() && gearError(*self) == SMC_NO_ERROR_) {
+    if (call.isOwner() && self->waits_ == 0 && gearError(*self) == SMC_NO_ERROR_) {
       if (ratioOf(*self) != self->ratio_) {  // a new ramp; without a change nothing happens
         self->ratio_ = ratioOf(*self);
         self->in_gear_ = 0;
@@ -214,9 +223,12 @@ void rung_sm3_basic_MC_GearIn(rung_context*, MC_GearIn_type* self) {
       startGear(*self, call);
     }
   }
-  if (call.isOwner()) runGear(*self, call);
+  takeOver(*self, call, startGear);
+  if (call.follows()) runGear(*self, call);
+  if (call.follows() && self->in_gear_ != 0) handOver(call.axis(), Outcome::Aborted);
   call.run();
-  self->InGear_ = call.isOwner() && self->in_gear_ != 0 ? 1 : 0;
+  self->Active_ = call.isOwner() ? 1 : 0;
+  self->InGear_ = call.isOwner() && self->waits_ == 0 && self->in_gear_ != 0 ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
   call.show(self->Busy_, self->Error_, self->ErrorID_);
 }
@@ -226,7 +238,9 @@ void rung_sm3_basic_MC_GearOut(rung_context*, MC_GearOut_type* self) { decouple(
 void rung_sm3_basic_MC_GearInPos(rung_context*, MC_GearInPos_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) waitForSync(*self, call);
-  if (call.isRunning() && self->phase_ == kWaiting) {
+  takeOver(*self, call, waitForSync);
+  if (call.isRunning() && self->waits_ == 0 && (self->phase_ == kWaiting || self->phase_ == kMissed)) keepOn(call);
+  if (call.isRunning() && self->waits_ == 0 && self->phase_ == kWaiting) {
     const double sign = self->master_sync_ < self->master_start_ ? -1 : 1;
     const double now = stateOf(*self->Master_).position;
     const bool enters = sign * (now - self->master_start_) >= -1e-12 * fabs(now);
@@ -236,10 +250,13 @@ void rung_sm3_basic_MC_GearInPos(rung_context*, MC_GearInPos_type* self) {
     else if (enters)
       beginApproach(*self, call);
   }
-  if (call.isOwner() && self->phase_ != kWaiting) runApproach(*self, call);
-  if (self->phase_ == kApproaching || self->phase_ == kInSync) call.run();
-  self->StartSync_ = call.isOwner() && self->phase_ == kApproaching ? 1 : 0;
-  self->InSync_ = call.isOwner() && self->phase_ == kInSync ? 1 : 0;
+  const bool moves = self->waits_ == 0 && (self->phase_ == kApproaching || self->phase_ == kInSync);
+  if (call.follows() && moves) runApproach(*self, call);
+  if (call.follows() && moves && self->phase_ == kInSync) handOver(call.axis(), Outcome::Aborted);
+  if (moves || self->waits_ != 0) call.run();
+  self->Active_ = call.isOwner() ? 1 : 0;
+  self->StartSync_ = call.isOwner() && moves && self->phase_ == kApproaching ? 1 : 0;
+  self->InSync_ = call.isOwner() && moves && self->phase_ == kInSync ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
   call.show(self->Busy_, self->Error_, self->ErrorID_);
 }

@@ -1,5 +1,5 @@
 // Native bodies of homing.st.
-#include "kernel/axis.h"
+#include "blocks/coupling.h"
 
 #include <math.h>
 
@@ -19,6 +19,26 @@ void refuseHome(Call& call, Axis& axis, Error error) {
   axis.mode_wanted_ = driveMode(axis.eControllerMode_);
   release(axis, Outcome::Aborted);
   call.refuse(error);
+}
+
+void startHome(MC_Home_type& block, Call& call) {
+  const bool waits = call.rises() && block.BufferMode_ != Aborting_ && isAxis(block.Axis_) && block.Axis_->owner_ != 0;
+  const bool has_waited = !call.rises();
+  const Error error = refusal(block.Axis_);
+  if (error == SMC_REGULATOR_OR_START_NOT_SET_) return call.refuse(error);
+  if (block.BufferMode_ != Aborting_ && block.BufferMode_ != Buffered_)
+    return call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
+  const bool rests = has_waited ? block.Axis_->velocity_ == 0 : block.Axis_->nAxisState_ == standstill_;
+  if (!rests && !waits) return call.refuse(SMC_H_AXIS_WASNT_STANDSTILL_);
+  if (!isFinite(block.Position_)) return call.refuse(SMC_H_AXIS_DIDNT_START_HOMING_);
+  Request request = {};
+  request.kind_ = static_cast<uint8_t>(Motion::Follow);
+  request.state_ = homing_;
+  if (waitsInBuffer(block, call, request)) return;
+  call.start(request, SMC_H_AXIS_DIDNT_START_HOMING_);
+  block.phase_ = kMode;
+  block.cycles_ = 0;
+  block.last_cycle_ = call.axis().cycle_ - 1;
 }
 
 // The drive searches; the set values follow it.
@@ -183,30 +203,14 @@ extern "C" {
 
 void rung_sm3_basic_MC_Home(rung_context*, MC_Home_type* self) {
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
-  if (call.rises()) {
-    const Axis* const axis = self->Axis_;
-    const Error error = refusal(axis);
-    if (error == SMC_REGULATOR_OR_START_NOT_SET_) {
-      call.refuse(error);
-    } else if (axis->nAxisState_ != standstill_) {
-      call.refuse(SMC_H_AXIS_WASNT_STANDSTILL_);
-    } else if (!isFinite(self->Position_)) {
-      call.refuse(SMC_H_AXIS_DIDNT_START_HOMING_);
-    } else {
-      Request request = {};
-      request.kind_ = static_cast<uint8_t>(Motion::Follow);
-      request.state_ = homing_;
-      call.start(request, SMC_H_AXIS_DIDNT_START_HOMING_);
-      self->phase_ = kMode;
-      self->cycles_ = 0;
-      self->last_cycle_ = call.axis().cycle_ - 1;
-    }
-  }
-  if (call.isOwner() && self->last_cycle_ != call.axis().cycle_) {
+  if (call.rises()) startHome(*self, call);
+  takeOver(*self, call, startHome);
+  if (call.follows() && self->last_cycle_ != call.axis().cycle_) {
     self->last_cycle_ = call.axis().cycle_;
     runHome(*self, call);
   }
   call.run();
+  self->Active_ = call.isOwner() ? 1 : 0;
   self->Done_ = call.is(Outcome::Done) ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
   call.show(self->Busy_, self->Error_, self->ErrorID_);

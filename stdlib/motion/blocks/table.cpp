@@ -1,6 +1,6 @@
 // Native body of AXIS_TABLE in profiles.st: positions, velocities or accelerations at given times. Between two points a
 // position is a cubic with the slope of its neighbours, a velocity a smooth step, an acceleration a straight line.
-#include "kernel/axis.h"
+#include "blocks/coupling.h"
 
 using namespace rung_sm3_basic;
 using namespace rung::motion;
@@ -59,10 +59,12 @@ void start(AXIS_TABLE_type& table, Call& call) {
   for (int i = 0; i < table.count_; ++i)
     if (!isFinite(table.values_[i]) || !isPositive(table.durations_[i]))
       return call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
-  const State from = startState(call.axis());
+  if (!isBufferMode(table.BufferMode_)) return call.refuse(SMC_AXIS_NOT_READY_FOR_MOTION_);
   Request request = {};
   request.kind_ = static_cast<uint8_t>(Motion::Follow);
   request.state_ = discrete_motion_;
+  if (waitsInBuffer(table, call, request)) return;
+  const State from = startState(call.axis());
   call.start(request, SMC_AXIS_NOT_READY_FOR_MOTION_);
   if (!call.isRunning()) return;
   table.segment_ = 0;
@@ -107,11 +109,13 @@ extern "C" {
 void rung_sm3_basic_AXIS_TABLE(rung_context*, AXIS_TABLE_type* self) {
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
   if (call.rises()) start(*self, call);
-  if (call.isOwner()) {
+  takeOver(*self, call, start);
+  if (call.follows()) {
     call.axis().supervised_ = call.axis().cycle_;
     run(*self, call);
   }
   call.run();
+  self->Active_ = call.isOwner() ? 1 : 0;
   self->Done_ = call.is(Outcome::Done) ? 1 : 0;
   self->CommandAborted_ = call.is(Outcome::Aborted) ? 1 : 0;
   call.show(self->Busy_, self->Error_, self->ErrorID_);

@@ -69,6 +69,8 @@ double turned(const Axis& axis, const Request& request, double position, int16_t
 
 // The plan of a request from a state, with the factors of the override.
 Result plan(const Axis& axis, const Request& request, const State& from, Profile& profile);
+// The same without the velocity factor, for a block whose velocity comes from elsewhere; the ramps are scaled.
+Result planUnscaled(Axis& axis, const Request& request, const State& from, Profile& profile);
 
 // Makes a new command the owner, or the one that follows it. Returns false when the request cannot be planned.
 bool begin(Axis& axis, Command& command, const Request& request);
@@ -80,14 +82,21 @@ bool beginPhase(Axis& axis, Command& command, const Request& request);
 
 // Computes the set values of this cycle, once.
 void advance(Axis& axis);
-// The set values from the block that owns a Follow.
+// The set values from the block that owns a Follow. A step that is too far stops the axis where it is: error 40.
 void follow(Axis& axis, const State& state);
+// Whether the axis would need more than fMaxVelocity to be there at the end of this cycle.
+bool isStepTooFar(const Axis& axis, double position);
 // The axis loses its owner, which is done or aborted: it rests, or goes on with its velocity in continuous motion.
 void release(Axis& axis, Outcome outcome = Outcome::Done);
+// The buffered command, if there is one, takes over at the end of this cycle.
+bool handOver(Axis& axis, Outcome outcome);
 // The shift of the master at the end of this cycle.
 State phaseState(Axis& axis);
 // From now on the program sees the set position as this.
 void showAt(Axis& axis, double position);
+// Of an axis without power: increments of the drive in one unit, and the period of positions. The drive stays where it
+// is.
+void rescale(Axis& axis, double increments, double position_period);
 // What the drive is to control: the object 6060h for an SMC_CONTROLLER_MODE, 0: not supported.
 int8_t driveMode(int16_t controller_mode);
 // The profile of the owner is over: InVelocity, InEndVelocity.
@@ -103,6 +112,8 @@ class Call {
   bool rises() const { return rises_; }
   bool isRunning() const { return outcome() == Outcome::Running; }
   bool isOwner() const;
+  // The owner of a Follow computes set values, but not in the cycle at whose end it took over from another command.
+  bool follows() const { return isOwner() && axis_->handed_over_ != axis_->cycle_; }
   bool is(Outcome outcome) const { return outcome == this->outcome(); }
   Axis& axis() const { return *axis_; }
 

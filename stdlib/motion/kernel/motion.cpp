@@ -85,6 +85,12 @@ void beginNext(Axis& a, State from, double rest) {
   a.next_owner_ = 0;
   a.nAxisState_ = a.request_.state_;
   a.supervised_ = a.cycle_;
+  if (motionOf(a.request_) == Motion::Follow) {  // it begins with the next cycle
+    from.position += from.velocity * rest;
+    setMotion(a, from);
+    a.handed_over_ = a.cycle_;
+    return;
+  }
   setBase(a, from);
   a.begun_ = rest;
   a.tick_ = -1;
@@ -233,7 +239,8 @@ double blendVelocity(const Axis& a, const Request& next) {
     case BlendingNext_: velocity = second; break;
     case BlendingHigh_: velocity = first > second ? first : second; break;
   }
-  const double way = a.request_.target_ - (a.base_position_);
+  const double way = a.request_.target_ - a.base_position_;
+  if (next.kind_ == static_cast<uint8_t>(Motion::Follow)) return way > 0 ? velocity : -velocity;
   const double on = next.kind_ == static_cast<uint8_t>(Motion::Velocity)
                         ? next.end_velocity_
                         : (next.is_relative_ != 0 ? next.target_ : next.target_ - a.request_.target_);
@@ -293,6 +300,16 @@ void showAt(Axis& a, double position) {
   a.fActPosition_ = shown(a, a.actual_position_);
 }
 
+void rescale(Axis& a, double increments, double position_period) {
+  const double before = a.fScalefactor_ != 0 ? a.fScalefactor_ : 1;
+  a.fScalefactor_ = increments;
+  a.fPositionPeriod_ = position_period;
+  a.origin_ = 0;
+  a.position_ *= before / increments;
+  a.base_position_ = a.actual_position_ = a.position_;
+  a.fSetPosition_ = a.fActPosition_ = shown(a, a.position_);
+}
+
 double inner(const Axis& axis, double position) { return position + axis.origin_; }
 
 State startState(const Axis& a) {
@@ -316,6 +333,14 @@ Result plan(const Axis& a, const Request& request, const State& from, Profile& p
   if (fabs(end) > limits.velocity) end = end > 0 ? limits.velocity : -limits.velocity;
   return motionOf(request) == Motion::Continuous ? planContinuous(profile, from, request.target_, end, limits, ramp)
                                                  : planPosition(profile, from, request.target_, end, limits, ramp);
+}
+
+Result planUnscaled(Axis& a, const Request& request, const State& from, Profile& profile) {
+  const double factor = a.fVelFactor_;
+  a.fVelFactor_ = 1;
+  const Result result = plan(a, request, from, profile);
+  a.fVelFactor_ = factor;
+  return result;
 }
 
 double turned(const Axis& a, const Request& request, double position, int16_t direction) {
@@ -447,7 +472,15 @@ void advance(Axis& a) {
   watch(a);
 }
 
+bool isStepTooFar(const Axis& a, double position) {
+  const double way = fabs(position - a.base_position_);
+  return a.fMaxVelocity_ > 0 && way > a.fMaxVelocity_ * a.fTaskCycle_ * (1 + 1e-6) + 1e-9;
+}
+
 void follow(Axis& a, const State& state) {
+  // A step is not in the velocity of the state, so watch() would not see it; and the axis must not make it. While the
+  // drive homes, the set values are where it is.
+  if (a.nAxisState_ != homing_ && isStepTooFar(a, state.position)) return fail(a, SMC_VD_MAX_VELOCITY_EXCEEDED_);
   a.advanced_ = a.cycle_ - 1;
   setMotion(a, state);
   advance(a);
@@ -458,7 +491,18 @@ State phaseState(Axis& a) {
   return {a.phase_.position_, a.phase_.velocity_, a.phase_.acceleration_};
 }
 
+bool handOver(Axis& a, Outcome outcome) {
+  if (a.next_owner_ == 0) return false;
+  if (outcome == Outcome::Done) noteDone(a, a.owner_);
+  a.coupled_ = 0;
+  a.coupled_master_ = 0;
+  beginNext(a, {a.position_, a.velocity_, a.acceleration_}, 0);
+  moveOwner(a);
+  return true;
+}
+
 void release(Axis& a, Outcome outcome) {
+  if (handOver(a, outcome)) return;
   if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.owner_ = 0;
   a.coupled_ = 0;
