@@ -9,7 +9,7 @@
 namespace rung::cam {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the peak: a smaller step is none
+constexpr double kRounding = 1e-9;  // of a peak, a stroke or a limit: what is smaller is not reported
 
 double power(double speed, size_t order) {
   double factor = 1;

@@ -22,13 +22,12 @@ class DeclarationWriter {
   explicit DeclarationWriter(const Cam& cam) : cam_(cam) {}
 
   std::string write() {
-    // pce is a POINTER TO BYTE for all kinds of rows.
-    out_ = "{warning disable W0526}\nVAR_GLOBAL\n";
+    out_ = "VAR_GLOBAL\n";
     writeRows();
     if (cam_.hasLines()) writeSegments();
     if (!cam_.tappets.empty()) writeTappets();
     writeReference();
-    return out_ + "END_VAR\n{warning restore W0526}\n";
+    return out_ + "END_VAR\n";
   }
 
  private:
@@ -116,10 +115,10 @@ class DeclarationWriter {
     member("xStart", real(cam_.start));
     member("xEnd", real(cam_.end));
     member("pce", "ADR(" + cam_.name + "_A)");
-    if (cam_.hasLines()) member("pSegments", "ADR(" + cam_.name + "_S)");
+    if (cam_.hasLines()) member("pSegments", "ADR(" + cam_.name + "_S[0])");
     if (!cam_.tappets.empty()) {
       member("nTappets", std::to_string(cam_.tappets.size()));
-      member("pt", "ADR(" + cam_.name + "_T)");
+      member("pt", "ADR(" + cam_.name + "_T[0])");
     }
     if (cam_.scale) {
       member("fTableMasterMin", real(cam_.scale->table_min));

@@ -58,6 +58,9 @@ Roots rootsOf(const Powers& f, double from, double to) {
   return roots;
 }
 
+double higher(double a, double b) { return a > b ? a : b; }
+double lower(double a, double b) { return a < b ? a : b; }
+
 void widen(Range& range, double value) {
   if (value < range.low) range.low = value;
   if (value > range.high) range.high = value;
@@ -74,7 +77,7 @@ bool include(const Table& table, int32_t segment, Bounds& bounds) {
   Segment part = {};
   if (!segmentOf(table, segment, part)) return false;
   const double length = part.to - part.from;
-  const double from = fmax(0, (table.start - part.from) / length), to = fmin(1, (table.end - part.from) / length);
+  const double from = higher(0, (table.start - part.from) / length), to = lower(1, (table.end - part.from) / length);
   if (!(from <= to)) return true;  // beyond the ends of the table
   Powers f;
   for (int i = 0; i <= kDegree; ++i) f.c[i] = part.c[i];

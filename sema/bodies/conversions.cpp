@@ -5,6 +5,7 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
 #include "sema/checks/widened_result.h"
+#include "sema/declarations/declarations.h"
 #include "sema/intermediate.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
@@ -395,6 +396,16 @@ bool checkSubrange(Context& context, ExprId expr, TypeId to) {
   return isInSubrange(context, expr, number, to) || !context.iec();
 }
 
+// A library's own name for POINTER TO BYTE stands for memory of any type, such as the rows of a cam.
+bool isMemory(Context& context, TypeId type) {
+  const types::TypeInfo& named = context.types().info(type);
+  if (named.kind != TypeKind::Alias) return false;
+  const types::TypeInfo& pointer = context.types().info(context.types().resolve(type));
+  if (pointer.kind != TypeKind::Pointer || context.types().kind(pointer.base) != TypeKind::Byte) return false;
+  const Entity found = lookUpLibrary(context, keyOf(context, named.name));
+  return found.entityKind() == EntityKind::Type && found.index == type.index;
+}
+
 }  // namespace
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
@@ -415,7 +426,8 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(to));
   if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.tree().expr(expr).is_constant)
     fitness = Fit::No;
-  if (!reportFit(context, fitness, expr, from, to, purpose)) {
+  const bool is_memory = fitness == Fit::Pointer && (isMemory(context, to) || isMemory(context, from));
+  if (!is_memory && !reportFit(context, fitness, expr, from, to, purpose)) {
     context.tree().expr(expr).type = types::kError;
     return false;
   }
