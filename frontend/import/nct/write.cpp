@@ -714,9 +714,21 @@ class Writer {
     if (power.text != "TRUE") put("END_IF\n");
   }
 
+  // Instructions whose other side is in the numerical control, which this version does not simulate.
+  static bool asksControl(const Element& element) {
+    if (element.instruction == nullptr) return false;
+    for (const std::string_view word : {"MOVCMND", "MACR", "MACW", "SCP", "MR", "MW"})
+      if (element.instruction->word == word) return true;
+    return element.shape == Shape::Message;
+  }
+
   // True: the row is closed.
   bool writeElement(uint32_t at, Power& power, bool is_end) {
     const Element& element = elements_[at];
+    if (asksControl(element)) {
+      report(diag::NctNeedsControl, element.word, {element.word.text});
+      return false;
+    }
     switch (element.shape) {
       case Shape::Contact: writeContact(element, power); return false;
       case Shape::CompareContact: writeCompareContact(element, power); return false;
