@@ -52,7 +52,8 @@ Peaks peaksOf(const Cam& cam, const Curve& curve, double speed) {
 std::vector<Exceeded> exceededLimits(const Limits& limits, const Peaks& peaks) {
   std::vector<Exceeded> all;
   const double margin = kRounding * (peaks[0].high.value - peaks[0].low.value);
-  if (limits.low && peaks[0].low.value < *limits.low - margin) all.push_back({LimitKind::Low, *limits.low, peaks[0].low, false});
+  if (limits.low && peaks[0].low.value < *limits.low - margin)
+    all.push_back({LimitKind::Low, *limits.low, peaks[0].low, false});
   if (limits.high && peaks[0].high.value > *limits.high + margin)
     all.push_back({LimitKind::High, *limits.high, peaks[0].high, false});
   constexpr LimitKind kKinds[] = {LimitKind::Velocity, LimitKind::Acceleration, LimitKind::Jerk};

@@ -470,7 +470,7 @@ bool Fitter::chooseKnots(Solution& best) {
   return true;
 }
 
-// The weights of the loss at its minimum, then the curve again; knots that outliers have attracted are chosen anew.
+// The weights of the loss at its minimum, then the curve again; knots that outliers have attracted are chosen again.
 void Fitter::reweight(Solution& best) {
   std::vector<double> errors;
   double last = 0;
@@ -597,19 +597,23 @@ bool Fitter::constrain(Solution& best, std::string& why) {
 
 bool Fitter::keepLimits(Solution& best) {
   if (bounds(best.system).empty()) return true;
-  std::string why;
-  while (!constrain(best, why)) {
+  const double tolerance = request_.tolerance ? *request_.tolerance / stroke_ : std::numeric_limits<double>::infinity();
+  for (;;) {
+    std::string why;
+    const bool keeps = constrain(best, why);
+    if (keeps) measure(best);
+    if (keeps && best.largest <= tolerance) return true;
     const size_t segments = best.system.segments();
     const std::vector<double> all(segments, 1.0);
     std::vector<double> knots = split(best, all, request_.most_segments - std::min(segments, request_.most_segments));
-    if (knots.size() - 1 == segments) {
+    const bool is_last = knots.size() - 1 == segments;
+    if (is_last && keeps) return true;  // finish() reports the tolerance
+    if (is_last) {
       result_.error = "no curve of " + std::to_string(segments) + " segments meets all wishes: " + why;
       return false;
     }
     if (!solveHalving(std::move(knots), best)) return false;
   }
-  measure(best);
-  return true;
 }
 
 void Fitter::finish(const Solution& best) {
