@@ -38,6 +38,7 @@ constexpr Subcommand kSubcommands[] = {
     {"law", "--stroke --length --v0 --v1 --a0 --a1 --j0 --j1 --turn --points", runCamLaw},
     {"check", "--speed", runCamCheck},
     {"show", "--speed", runCamShow},
+    {"convert", "", runCamConvert},
     {"fit",
      "--name --segments --tolerance --smooth --repeat --range --exact --dwell --v0 --a0 --v1 --a1 --speed "
      "--max-velocity --max-acceleration --max-jerk --position --loss --loss-scale --master-unit --slave-unit",
@@ -186,8 +187,14 @@ FileId readCamSource(const std::string& path, CamInput& input) {
 }
 
 void readCamInput(const std::string& path, CamInput& input) {
-  if (const FileId file = readCamSource(path, input))
-    input.is_read = importer::cams::readCam(input.sources, file, input.diagnostics, input.cam, &input.places);
+  const FileId file = readCamSource(path, input);
+  if (!file) return;
+  if (importer::hasExtension(path, ".csv")) {
+    std::string blanks(input.sources.original(file));
+    std::replace(blanks.begin(), blanks.end(), ',', ' ');
+    input.sources.activate(file, std::move(blanks));
+  }
+  input.is_read = importer::cams::readCam(input.sources, file, input.diagnostics, input.cam, &input.places);
 }
 
 int finishCamInput(CamInput& input, Sink& sink) {

@@ -34,7 +34,8 @@ constexpr CommandRow kCommands[] = {
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
-    {Command::Cam, "cam", "law [NAME] | check|show|fit FILE ...", "motion laws; check, draw and fit cams"},
+    {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
+     "motion laws; check, draw, convert and fit cams"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -381,7 +382,7 @@ std::string checkCombination(const Options& options) {
                "NAME`";
       break;
     case Command::Cam:
-      if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check, show or fit";
+      if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check, show, convert or fit";
       break;
     case Command::None:
     case Command::Version:
