@@ -5,7 +5,7 @@
 set -eu
 packages=(g++ cmake ninja-build libgtest-dev python3)
 [ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user
-    socat libmodbus-dev python3-pymodbus python3-serial-asyncio)
+    libceres-dev libeigen3-dev socat libmodbus-dev python3-pymodbus python3-serial-asyncio)
 
 missing=()
 for package in "${packages[@]}"; do

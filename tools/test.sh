@@ -6,6 +6,6 @@ cd "$(dirname "$0")/.."
 tools/install-packages.sh --tests
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-{ cmake --preset release && cmake --build build; } >"$log" 2>&1 || { tail -40 "$log"; echo "0 passed, 1 failed"; exit 1; }
+{ cmake --preset release -DRUNG_CAM_FIT=ON && cmake --build build; } >"$log" 2>&1 || { tail -40 "$log"; echo "0 passed, 1 failed"; exit 1; }
 rm -f "$log"
 exec build/bin/rung_test_runner "$@"

@@ -51,8 +51,10 @@ Peaks peaksOf(const Cam& cam, const Curve& curve, double speed) {
 
 std::vector<Exceeded> exceededLimits(const Limits& limits, const Peaks& peaks) {
   std::vector<Exceeded> all;
-  if (limits.low && peaks[0].low.value < *limits.low) all.push_back({LimitKind::Low, *limits.low, peaks[0].low, false});
-  if (limits.high && peaks[0].high.value > *limits.high)
+  const double margin = kRounding * (peaks[0].high.value - peaks[0].low.value);
+  if (limits.low && peaks[0].low.value < *limits.low - margin)
+    all.push_back({LimitKind::Low, *limits.low, peaks[0].low, false});
+  if (limits.high && peaks[0].high.value > *limits.high + margin)
     all.push_back({LimitKind::High, *limits.high, peaks[0].high, false});
   constexpr LimitKind kKinds[] = {LimitKind::Velocity, LimitKind::Acceleration, LimitKind::Jerk};
   for (size_t i = 0; i < std::size(kKinds); ++i) {
@@ -61,7 +63,7 @@ std::vector<Exceeded> exceededLimits(const Limits& limits, const Peaks& peaks) {
     if (!limit) continue;
     if (peak.isInfinite())
       all.push_back({kKinds[i], *limit, peak.step, true});
-    else if (std::fabs(peak.largest().value) > *limit)
+    else if (std::fabs(peak.largest().value) > *limit * (1 + kRounding))
       all.push_back({kKinds[i], *limit, peak.largest(), false});
   }
   return all;

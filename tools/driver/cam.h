@@ -19,6 +19,18 @@ struct CamOptions {
   cam::Ends ends;                  // in units of the slave per unit of the master
   uint32_t points = 33;
   std::optional<double> speed;  // of the master
+
+  // Of `fit`.
+  struct Pair {
+    double first = 0, second = 0;
+    std::optional<double> third;
+  };
+  std::string name = "Cam", master_unit, slave_unit, repeat, loss;
+  std::optional<double> period, tolerance, loss_scale, max_velocity, max_acceleration, max_jerk;
+  std::optional<Pair> range, position;
+  std::vector<Pair> exact, dwells;  // x, y; from, to, y
+  uint32_t segments = 100;
+  bool has_smooth_jerk = false;
 };
 
 // Sets the option `name` ("--v0"); returns an error message, or an empty string.

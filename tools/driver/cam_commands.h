@@ -22,6 +22,8 @@ struct CamRun {
 int runCamLaw(const CamRun& run, Sink& sink);
 int runCamCheck(const CamRun& run, Sink& sink);
 int runCamShow(const CamRun& run, Sink& sink);
+int runCamConvert(const CamRun& run, Sink& sink);
+int runCamFit(const CamRun& run, Sink& sink);
 
 // A number of the motion laws that an option sets.
 struct CamNumber {
@@ -42,6 +44,9 @@ struct CamInput {
 
   int exitCode() const;
 };
+// No file: reported.
+FileId readCamSource(const std::string& path, CamInput& input);
+// Of a `.csv`, commas separate words as blanks do.
 void readCamInput(const std::string& path, CamInput& input);
 // Passes the diagnostics to the sink; returns the exit code.
 int finishCamInput(CamInput& input, Sink& sink);

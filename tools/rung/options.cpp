@@ -34,7 +34,8 @@ constexpr CommandRow kCommands[] = {
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
-    {Command::Cam, "cam", "law [NAME] | check FILE ... | show FILE -o SVG", "motion laws; check and draw cams"},
+    {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
+     "motion laws; check, draw, convert and fit cams"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -156,6 +157,21 @@ constexpr OptionRow kOptions[] = {
     {Key::CamNumber, "--turn", "Z", bit(Command::Cam), "turning point, from 0 to 1 (default: 0.5)"},
     {Key::CamNumber, "--points", "N", bit(Command::Cam), "points of the table (default: 33)"},
     {Key::CamNumber, "--speed", "V", bit(Command::Cam), "speed of the master (default: that of the file)"},
+    {Key::CamNumber, "--segments", "N", bit(Command::Cam), "most segments of a fit (default: 100)"},
+    {Key::CamNumber, "--tolerance", "E", bit(Command::Cam), "largest error (default: the noise of the points)"},
+    {Key::CamNumber, "--smooth", "c2|c3", bit(Command::Cam), "continuous acceleration, or jerk too (default: c2)"},
+    {Key::CamNumber, "--repeat", "KIND", bit(Command::Cam), "closed, relative or modulo:PERIOD"},
+    {Key::CamNumber, "--range", "X0:X1", bit(Command::Cam), "of the master (default: that of the points)"},
+    {Key::CamNumber, "--exact", "X:Y", bit(Command::Cam), "the curve goes through it; may be repeated"},
+    {Key::CamNumber, "--dwell", "X0:X1[:Y]", bit(Command::Cam), "the slave rests; may be repeated"},
+    {Key::CamNumber, "--max-velocity", "V", bit(Command::Cam), "limit of the slave, at --speed"},
+    {Key::CamNumber, "--max-acceleration", "A", bit(Command::Cam), "the same"},
+    {Key::CamNumber, "--max-jerk", "J", bit(Command::Cam), "the same"},
+    {Key::CamNumber, "--position", "LOW:HIGH", bit(Command::Cam), "limits of the slave"},
+    {Key::CamNumber, "--loss", "squares|huber|cauchy|tukey", bit(Command::Cam), "how errors count (default: squares)"},
+    {Key::CamNumber, "--loss-scale", "E", bit(Command::Cam), "error from which they count less"},
+    {Key::CamNumber, "--master-unit", "U", bit(Command::Cam), "unit in the file, such as deg"},
+    {Key::CamNumber, "--slave-unit", "U", bit(Command::Cam), "the same"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
     {Key::Checks, "--checks", "LIST", kCompile,
@@ -172,7 +188,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "make paths in the output relative to DIR"},
-    {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (default: plc)"},
+    {Key::Name, "--name", "ID", kCompile | bit(Command::Cam), "prefix of the module's symbols, or name of the cam"},
     {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),
      "size of a pointer on the target (default: 8 bytes)"},
     {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
@@ -213,6 +229,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Define: return parseDefine(value, options.defines);
     case Key::Root: options.root = value; return {};
     case Key::Name:
+      if (options.command == Command::Cam) return setCamOption(row.name, value, options.cam);
       if (!isModuleName(value))
         return backquoted(value) + " is not a C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
@@ -365,7 +382,7 @@ std::string checkCombination(const Options& options) {
                "NAME`";
       break;
     case Command::Cam:
-      if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check or show";
+      if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check, show, convert or fit";
       break;
     case Command::None:
     case Command::Version:
