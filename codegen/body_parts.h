@@ -152,6 +152,7 @@ class CallWriter : public BodyPart {
   };
   CallPlan planCall(const ir::CallStmt& stmt) const;
   bool writesInPlace(const ir::CallStmt& stmt) const;
+  void noteCall(const ir::CallStmt& stmt, Loc loc);
   void sliceCall(const ir::CallStmt& stmt);
   void appendText(const ir::CallStmt& make, ExprId to);
   void passArguments(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text);
@@ -174,6 +175,9 @@ class CheckWriter : public BodyPart {
   void prepare(ExprId id);
   void prepareChildren(const Expr& expr);
   bool needsPreparation(ExprId id) const;
+  // A row of the site table: its number in the group.
+  uint32_t addSite(Loc loc, int64_t low = 0, int64_t high = 0);
+  // The number of a check: its row and the kind of fault.
   uint32_t site(Loc loc, types::Fault fault, int64_t low = 0, int64_t high = 0);
   // `RUNG_CHECK(`, the condition, then `, site, `, the value and `); `.
   void beginCheck() { out_ += "RUNG_CHECK("; }

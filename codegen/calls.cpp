@@ -98,13 +98,16 @@ void CallWriter::callStatement(StmtId id) {
   }
   passResult(stmt, plan, text);
   const std::string function = captured([&] { callFunction(stmt, plan, text); });
+  if (!callee.native) out_ += "RUNG_CALL ";
   if (plan.result == CallPlan::Result::Value) {
     places().store(stmt.result, function);
   } else {
     if (callee.native && text.copy.empty() && plan.is_measured) out_ += text.length + " = ";
     out_ += function;
   }
-  out_ += ';' + text.lengths;
+  out_ += ';';
+  if (!callee.native) noteCall(stmt, body_->stmt(id).loc);
+  out_ += text.lengths;
   if (!text.copy.empty() && stmt.result) copyResult(stmt.result, callee.result, text);
   if (plan.is_measured && !callee.native && text.copy.empty()) {
     out_ += ' ' + text.length + " = rung_string_length(";
@@ -112,6 +115,23 @@ void CallWriter::callStatement(StmtId id) {
     out_ += ");";
   }
   out_ += text.after;
+}
+
+// After a call: what a fault inside of it notes. Where a pointer leads may have changed by then.
+void CallWriter::noteCall(const ir::CallStmt& stmt, Loc loc) {
+  out_ += " RUNG_CALLED(sites_" + group_.stem + " + ";
+  appendUnsigned(out_, checks().addSite(loc));
+  out_ += "u, ";
+  uint32_t pointers = 0;  // to be read for the address; that of `p^` is p
+  if (stmt.self)
+    ir::forEachExpr(*body_, stmt.self, [&](ExprId at) { pointers += expr(at).kind == ExprKind::Deref ? 1 : 0; });
+  if (stmt.self && pointers == (expr(stmt.self).kind == ExprKind::Deref ? 1u : 0u)) {
+    out_ += '&';
+    places().place(stmt.self);
+  } else {
+    out_ += "nullptr";
+  }
+  out_ += ')';
 }
 
 // line_n += rung_standard_TO_STRING__DINT_sized(n, line + line_n, 80 - line_n); an in-out may be longer than its type.

@@ -10,8 +10,7 @@ using types::Fault;
 using types::TypeInfo;
 using types::TypeTable;
 
-uint32_t CheckWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
-  state_.uses_fault = true;
+uint32_t CheckWriter::addSite(Loc loc, int64_t low, int64_t high) {
   Site created;
   created.pou = body_->spelling ? body_->spelling : body_->name;
   created.low = low;
@@ -26,7 +25,12 @@ uint32_t CheckWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
     created.column = location.column;
   }
   group_.sites.push_back(created);
-  return static_cast<uint32_t>(group_.sites.size() - 1) << 4 | static_cast<uint32_t>(fault);
+  return static_cast<uint32_t>(group_.sites.size() - 1);
+}
+
+uint32_t CheckWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
+  state_.uses_fault = true;
+  return addSite(loc, low, high) << 4 | static_cast<uint32_t>(fault);
 }
 
 void CheckWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {

@@ -10,7 +10,7 @@
 
 namespace rung::codegen {
 
-// The location of a check: a row of the module's site table.
+// The location of a check or a call: a row of the module's site table.
 struct Site {
   NameId pou;
   NameId origin_path;  // of IR text; else `file`

@@ -291,7 +291,7 @@ class Describer {
     description_ += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
     description_ += "sites, " + number(site_count_) + ", ";
     description_ += cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") +
-                    ", " + (module_.safe ? "safe" : "nullptr") + "\n};\n";
+                    ", " + (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
     return out;
   }
 
@@ -313,8 +313,8 @@ class Describer {
   // The description is here because it counts the sites: a count of another file would be an initial value that is
   // computed at run time, in a static constructor.
   std::string sitesSource() const {
-    return "// Where the checks are, and the description of the module: see rung/module.h.\n#include "
-           "\"rung/module.h\"\n\n" +
+    return "// Where the checks and calls are, and the description of the module: see rung/module.h.\n#include "
+           "\"rung/call_paths.h\"\n#include \"rung/module.h\"\n\n" +
            openNamespace(name_space_) + '\n' + site_numbers_ + "static const rung_site sites[] = {\n" + site_rows_ +
            "};\n\n" + declarations_ + '\n' + description_ + "\n}  // namespace " + name_space_ +
            "\n\nextern \"C\" RUNG_EXPORT const rung_module* " + options_.module_name +

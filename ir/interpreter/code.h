@@ -46,6 +46,9 @@ struct Machine {
   uint8_t *fp = nullptr, *self = nullptr;
 };
 
+// The site of a call instruction, from 1.
+uint32_t siteOfCall(const Insn* call);
+
 // Runs until Halt.
 void execute(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m);
 

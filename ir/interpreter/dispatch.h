@@ -107,6 +107,7 @@ inline uint8_t* address(const Insn* ip, uint8_t* fp, uint8_t* self, uint32_t off
 }
 
 // Leaves the interpreted code as a native check does. `site` counts from 1.
-[[noreturn, gnu::cold, gnu::noinline]] void fail(Machine* m, rung_fault_kind kind, uint32_t site, int64_t value);
+[[noreturn, gnu::cold, gnu::noinline]] void fail(Machine* m, const uint8_t* fp, const uint8_t* self,
+                                                 rung_fault_kind kind, uint32_t site, int64_t value);
 
 }  // namespace rung::ir::interpreter

@@ -89,7 +89,7 @@ void divide(RUNG_HANDLER_PARAMETERS) {
   const T a = get<A, T>(ip, fp, self, ip->b), b = get<B, T>(ip, fp, self, ip->c);
   T result = 0;
   if (RUNG_UNLIKELY(b == 0)) {
-    if (ip->d != 0) fail(m, RUNG_FAULT_DIV, ip->d, 0);
+    if (ip->d != 0) fail(m, fp, self, RUNG_FAULT_DIV, ip->d, 0);
   } else if constexpr (std::is_signed_v<T>) {
     if (RUNG_UNLIKELY(b == -1)) {
       result = IsDiv ? Sub::of<Unsigned<T>>(0, static_cast<Unsigned<T>>(a)) : 0;
@@ -212,7 +212,7 @@ void overflow(RUNG_HANDLER_PARAMETERS) {
     if constexpr (O == Op::Div) bad = bad && load<T>(fp + ip->c) == -1;
     value = static_cast<int64_t>(a);
   }
-  if (RUNG_UNLIKELY(bad)) fail(m, RUNG_FAULT_OVERFLOW, ip->d, value);
+  if (RUNG_UNLIKELY(bad)) fail(m, fp, self, RUNG_FAULT_OVERFLOW, ip->d, value);
   RUNG_NEXT;
 }
 
@@ -220,7 +220,7 @@ template <rung_fault_kind Kind, class T>
 void range(RUNG_HANDLER_PARAMETERS) {
   const T value = load<T>(fp + ip->b);
   if (RUNG_UNLIKELY(value < static_cast<T>(ip[1].imm) || value > static_cast<T>(ip[2].imm))) {
-    fail(m, Kind, ip->d, static_cast<int64_t>(value));
+    fail(m, fp, self, Kind, ip->d, static_cast<int64_t>(value));
   }
   RUNG_GO(ip + 3, fp, self);
 }
@@ -238,13 +238,14 @@ void roundedRange(RUNG_HANDLER_PARAMETERS) {
   const double low = rung_f64_of(static_cast<uint64_t>(ip[1].imm)),
                high = rung_f64_of(static_cast<uint64_t>(ip[2].imm));
   if (RUNG_UNLIKELY(Even ? rung_round_saturates(value, low, high) : rung_whole_wraps(value, low, high)))
-    fail(m, RUNG_FAULT_CONVERT, ip->d, Even ? rung_round_i64(value) : rung_whole_i64(value));
+    fail(m, fp, self, RUNG_FAULT_CONVERT, ip->d, Even ? rung_round_i64(value) : rung_whole_i64(value));
   RUNG_GO(ip + 3, fp, self);
 }
 
 template <class T>
 void zeroPower(RUNG_HANDLER_PARAMETERS) {
-  if (RUNG_UNLIKELY(load<T>(fp + ip->b) == 0 && load<int64_t>(fp + ip->c) < 0)) fail(m, RUNG_FAULT_DIV, ip->d, 0);
+  if (RUNG_UNLIKELY(load<T>(fp + ip->b) == 0 && load<int64_t>(fp + ip->c) < 0))
+    fail(m, fp, self, RUNG_FAULT_DIV, ip->d, 0);
   RUNG_NEXT;
 }
 

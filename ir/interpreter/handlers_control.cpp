@@ -12,7 +12,7 @@ void jump(RUNG_HANDLER_PARAMETERS) { RUNG_JUMP; }
 inline uint8_t* enter(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
   uint8_t* const frame = fp + ip->a;
   if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(ip->c)))
-    fail(m, RUNG_FAULT_STACK, static_cast<uint32_t>(ip->imm), 0);
+    fail(m, fp, self, RUNG_FAULT_STACK, static_cast<uint32_t>(ip->imm), 0);
   *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
   return frame;
 }
@@ -33,10 +33,11 @@ void callVirtual(RUNG_HANDLER_PARAMETERS) {
   uint8_t* const object = load<uint8_t*>(fp + ip->b);
   const uint32_t number = load<uint32_t>(object), index = number - call.first;
   if (RUNG_UNLIKELY(index >= call.count || call.entries[index].frame == 0))
-    fail(m, RUNG_FAULT_CAST, call.site, RUNG_NO_SUCH_METHOD);
+    fail(m, fp, self, RUNG_FAULT_CAST, call.site, RUNG_NO_SUCH_METHOD);
   const VirtualEntry entry = call.entries[index];
   uint8_t* const frame = fp + ip->a;
-  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(entry.frame))) fail(m, RUNG_FAULT_STACK, call.site, 0);
+  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(entry.frame)))
+    fail(m, fp, self, RUNG_FAULT_STACK, call.site, 0);
   *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
   RUNG_GO(ip - ip->d + entry.at, frame, object);
 }
@@ -48,6 +49,8 @@ void halt(RUNG_HANDLER_PARAMETERS) { m->ip = nullptr; }
 
 void native(RUNG_HANDLER_PARAMETERS) {
   m->ip = ip;  // for siteOfCrash
+  m->fp = fp;  // for siteOfCall
+  m->self = self;
   reinterpret_cast<NativeThunk>(ip->imm)(m->ctx, reinterpret_cast<uint64_t*>(fp + ip->a));
   RUNG_NEXT;
 }
@@ -79,10 +82,12 @@ void rethrow(RUNG_HANDLER_PARAMETERS) {
   }
   RUNG_NEXT;
 }
-void raise(RUNG_HANDLER_PARAMETERS) { fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b)); }
+void raise(RUNG_HANDLER_PARAMETERS) {
+  fail(m, fp, self, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b));
+}
 
 void step(RUNG_HANDLER_PARAMETERS) {
-  if (rung_step(m->ctx)) fail(m, RUNG_FAULT_STOP, m->site_of == nullptr ? 0 : m->site_of(m->ctx, ip), 0);
+  if (rung_step(m->ctx)) fail(m, fp, self, RUNG_FAULT_STOP, m->site_of == nullptr ? 0 : m->site_of(m->ctx, ip), 0);
   RUNG_NEXT;
 }
 
@@ -119,7 +124,9 @@ void assertion(RUNG_HANDLER_PARAMETERS) {
 
 }  // namespace
 
-void fail(Machine* m, rung_fault_kind kind, uint32_t site, int64_t value) {
+void fail(Machine* m, const uint8_t* fp, const uint8_t* self, rung_fault_kind kind, uint32_t site, int64_t value) {
+  m->fp = const_cast<uint8_t*>(fp);
+  m->self = const_cast<uint8_t*>(self);
   rung_raise(m->ctx, kind, site == 0 ? RUNG_NONE : site - 1, value);
 }
 
@@ -132,6 +139,11 @@ void execute(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
   m->self = self;
   while (m->ip != nullptr) m->ip->run(m->ip, m->fp, m->self, m);
 #endif
+}
+
+uint32_t siteOfCall(const Insn* call) {
+  return call->run == callVirtual ? reinterpret_cast<const VirtualCall*>(call->imm)->site
+                                  : static_cast<uint32_t>(call->imm);
 }
 
 Handler jumpHandler() { return jump; }

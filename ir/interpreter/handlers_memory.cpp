@@ -35,7 +35,7 @@ uint64_t position(const Insn* ip, const uint8_t* fp, const uint8_t* self, Machin
   const auto at = static_cast<uint64_t>(static_cast<int64_t>(index)) -
                   static_cast<uint64_t>(int64_t{static_cast<int32_t>(ip->imm)});
   if (RUNG_UNLIKELY(at >= static_cast<uint64_t>(ip->imm) >> 32) && ip->d != 0) {
-    fail(m, RUNG_FAULT_INDEX, ip->d, static_cast<int64_t>(index));
+    fail(m, fp, self, RUNG_FAULT_INDEX, ip->d, static_cast<int64_t>(index));
   }
   return at;
 }
@@ -66,7 +66,7 @@ void element(RUNG_HANDLER_PARAMETERS) {
   const I index = get<M, I>(ip, fp, self, ip->c);
   const uint64_t at = static_cast<uint64_t>(static_cast<int64_t>(index)) - static_cast<uint64_t>(ip[1].imm);
   if (RUNG_UNLIKELY(at >= static_cast<uint64_t>(ip->imm)) && ip->d != 0) {
-    fail(m, RUNG_FAULT_INDEX, ip->d, static_cast<int64_t>(index));
+    fail(m, fp, self, RUNG_FAULT_INDEX, ip->d, static_cast<int64_t>(index));
   }
   store<uint8_t*>(fp + ip->a, address<B>(ip, fp, self, ip->b) + at * ip[1].a + ip[1].b);
   RUNG_GO(ip + 2, fp, self);
@@ -80,7 +80,7 @@ void lea(RUNG_HANDLER_PARAMETERS) {
 
 void checkNull(RUNG_HANDLER_PARAMETERS) {
   if (RUNG_UNLIKELY(load<uint8_t*>(fp + ip->b) == nullptr)) {
-    fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, 0);
+    fail(m, fp, self, static_cast<rung_fault_kind>(ip->a), ip->d, 0);
   }
   RUNG_NEXT;
 }

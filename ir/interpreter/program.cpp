@@ -76,6 +76,22 @@ struct Program::Parts {
     return static_cast<uint32_t>(spare_site - code.sites.data());
   }
 
+  // The frames from that of the fault to the one that the task called; a frame begins with where it was called.
+  static void findCallers(rung_context* ctx) {
+    if (running == nullptr || running->ctx != ctx) return;
+    const uint8_t* const begin = stack.memory.get();
+    const uint8_t *fp = running->fp, *self = running->self;
+    while (fp != begin) {
+      const Linkage& caller = *reinterpret_cast<const Linkage*>(fp);
+      if (caller.fp == begin) return;
+      const uint32_t site = siteOfCall(caller.ip - 1);
+      if (ctx->caller_count < RUNG_CALLERS) ctx->callers[ctx->caller_count] = {site == 0 ? RUNG_NONE : site - 1, self};
+      ++ctx->caller_count;
+      fp = caller.fp;
+      self = caller.self;
+    }
+  }
+
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
   static void runExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).exit); }
   static void runSafe(rung_context* ctx) { of(ctx).run(ctx, of(ctx).safe); }
@@ -228,6 +244,7 @@ void Program::Parts::describe() {
   table(code.sites, is.sites, is.site_count);
   table(tests, is.tests, is.test_count);
   is.init = runInit;
+  is.find_callers = findCallers;
 }
 
 Program::Program(const Module& module, const ProgramOptions& options) : parts_(std::make_unique<Parts>()) {

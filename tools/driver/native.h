@@ -24,7 +24,8 @@ struct NativeRequest {
   uint32_t batches = 0;  // > 0: the number of translation units that include the parts' .cpp files
   int level = 1;         // -O of the C++ compiler, unless $CXXFLAGS has another
   uint32_t jobs = 0;
-  bool keep = false;  // keep the generated files and report their folder
+  bool keep = false;            // keep the generated files and report their folder
+  bool has_call_paths = false;  // a fault tells who called: rung/call_paths.h
 };
 
 // A message of g++ about a body that the user wrote in C++, with its original location; the path is a display path.

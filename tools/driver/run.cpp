@@ -27,6 +27,7 @@ int runRun(const Options& options, Sink& sink) {
   compiling.trace_calls = run_options.trace_calls;
   Compilation compilation(compiling, times, sink);
   NativeRequest request;
+  request.has_call_paths = true;
   request.parts.resize(1);
   std::unique_ptr<ir::interpreter::Program> program;
   std::string why;

@@ -242,6 +242,7 @@ class Tester {
     ModuleLibrary library;
     if (!request_.parts.empty()) {
       times_.begin("c++");
+      request_.has_call_paths = true;
       request_.level = options_.level;
       request_.jobs = options_.jobs;
       request_.keep = options_.keep;

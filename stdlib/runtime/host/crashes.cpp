@@ -83,8 +83,8 @@ void raiseCrash(int number, const siginfo_t* info, const void* details) {
   if ((number != SIGSEGV && number != SIGBUS) || context_of_thread == nullptr) return;
   const uintptr_t address = reinterpret_cast<uintptr_t>(info->si_addr), stack = stackPointer(details);
   const bool is_stack = address - (stack - kNearStack) < 2 * kNearStack;
-  rung_raise(context_of_thread, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL, currentSite(context_of_thread, details),
-             is_stack ? 0 : RUNG_BAD_ADDRESS);
+  rung_raise_crash(context_of_thread, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL,
+                   currentSite(context_of_thread, details), is_stack ? 0 : RUNG_BAD_ADDRESS);
 }
 
 void setFindSite(FindSite find) { find_site = find; }

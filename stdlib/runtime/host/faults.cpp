@@ -1,6 +1,11 @@
 // Formatting of faults: see faults.h.
 #include "faults.h"
 
+#include <strings.h>
+
+#include <algorithm>
+#include <string_view>
+
 namespace rung::host {
 
 std::string shownPath(const ShownPaths& paths, const std::string& path) {
@@ -9,6 +14,101 @@ std::string shownPath(const ShownPaths& paths, const std::string& path) {
 }
 
 namespace {
+
+// ---- who called
+
+bool isSame(std::string_view name, std::string_view other) {
+  return name.size() == other.size() && strncasecmp(name.data(), other.data(), name.size()) == 0;
+}
+
+// The instance of a POU at an address, from the variables that contain the address down: each may begin with another.
+class InstanceSearch {
+ public:
+  InstanceSearch(const rung_context& context, std::string_view pou)
+      : context_(context), module_(*context.module), pou_(pou.substr(0, pou.find('.'))) {}
+
+  // The path; '': there is none, such as for a variable of a function.
+  std::string find(const void* instance) {
+    for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+      const rung_symbol& symbol = module_.symbols[i];
+      if (symbol.storage != RUNG_IN_BLOCK || (symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) continue;
+      const uintptr_t at = reinterpret_cast<uintptr_t>(context_.blocks[symbol.index]) + symbol.offset;
+      const uintptr_t distance = reinterpret_cast<uintptr_t>(instance) - at;
+      if (distance >= module_.types[symbol.type].size) continue;
+      enter(symbol.type, static_cast<uint32_t>(distance), text(symbol.name));
+      if (!found_.empty()) break;
+    }
+    return found_.empty() ? first_ : found_;
+  }
+
+ private:
+  const char* text(uint32_t offset) const { return module_.strings + offset; }
+
+  void enter(uint32_t number, uint32_t distance, const std::string& path) {
+    const rung_type& type = module_.types[number];
+    if (type.kind == RUNG_ARRAY) return enterElement(type, distance, path);
+    if (type.kind != RUNG_RECORD) return;
+    if (distance == 0 && first_.empty()) first_ = path;
+    if (distance == 0 && isSame(text(type.name), pou_)) found_ = path;
+    for (uint32_t i = 0; i < type.count && found_.empty(); ++i) {
+      const rung_field& field = module_.fields[type.first + i];
+      if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0 || distance < field.offset ||
+          distance - field.offset >= module_.types[field.type].size)
+        continue;
+      const bool is_base = (field.flags & RUNG_FIELD_BASE) != 0;
+      enter(field.type, distance - field.offset, is_base ? path : path + '.' + text(field.name));
+    }
+  }
+
+  void enterElement(const rung_type& type, uint32_t distance, const std::string& path) {
+    const uint32_t size = module_.types[type.element].size;
+    if (size == 0) return;
+    int64_t number = distance / size;
+    std::string indices;
+    for (uint32_t i = type.count; i > 0; --i) {
+      const rung_dimension& dimension = module_.dimensions[type.first + i - 1];
+      const int64_t extent = dimension.high - dimension.low + 1;
+      indices = std::to_string(dimension.low + number % extent) + (indices.empty() ? "" : ",") + indices;
+      number /= extent;
+    }
+    enter(type.element, distance % size, path + '[' + indices + ']');
+  }
+
+  const rung_context& context_;
+  const rung_module& module_;
+  std::string_view pou_;
+  std::string found_, first_;
+};
+
+// `  Main.line[0] called in `Main` at line.st:20:3`, the innermost call first.
+std::string describeCallers(const rung_context& context, const rung_fault& fault, const ShownPaths& paths) {
+  const rung_module& module = *context.module;
+  const auto pouOf = [&](uint32_t site) {
+    return site < module.site_count ? module.strings + module.sites[site].pou : "";
+  };
+  const bool is_last = context.fault.kind == fault.kind && context.fault.site == fault.site;
+  const uint32_t count = is_last ? std::min<uint32_t>(context.caller_count, RUNG_CALLERS) : 0;
+  std::string text, callee = pouOf(fault.site);
+  for (uint32_t i = 0; i < count; ++i) {
+    const rung_caller& caller = context.callers[i];
+    if (caller.site >= module.site_count) continue;
+    const rung_site& site = module.sites[caller.site];
+    if (site.line == 0) continue;  // the host's call, not the program's
+    const std::string instance =
+        caller.instance == nullptr ? std::string() : InstanceSearch(context, callee).find(caller.instance);
+    text += "\n  ";
+    text += instance.empty() ? "`" + callee + '`' : "`" + instance + '`';
+    const std::string pou = pouOf(caller.site);
+    text += " called ";
+    if (pou.find('~') == std::string::npos) text += "in `" + pou + "` ";  // else Rung made it: a case of a test
+    text += "at " + shownPath(paths, module.strings + site.file) + ':' + std::to_string(site.line);
+    if (site.column != 0) text += ':' + std::to_string(site.column);
+    callee = pouOf(caller.site);
+  }
+  if (is_last && context.caller_count > RUNG_CALLERS)
+    text += "\n  and " + std::to_string(context.caller_count - RUNG_CALLERS) + " more calls";
+  return text;
+}
 
 // Where a body in C++ runs, of which there are no sites.
 struct CppBody {
@@ -99,7 +199,7 @@ std::string describeFault(const rung_context& context, const rung_fault& fault, 
   if (!known && context.cpp_body != nullptr) return describeCppBody(context, paths, text);
   if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))
     text += ", in compiled code; `rung run --engine=interp` shows the line";
-  return text;
+  return text + describeCallers(context, fault, paths);
 }
 
 }  // namespace rung::host

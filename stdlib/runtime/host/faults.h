@@ -10,7 +10,7 @@ namespace rung::host {
 // `what`, and which body in C++ runs.
 std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what);
 
-// `context`: of the activation that faulted.
+// `context`: of the activation that faulted. As long as it has the callers of this fault, they follow, a line each.
 std::string describeFault(const rung_context& context, const rung_fault& fault, const ShownPaths& paths);
 
 }  // namespace rung::host

@@ -152,7 +152,7 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
     goes_on = tasks_.end(*worker.task, worker.context, program_ns, now_ns - began_ns);
     if (!goes_on) stopBecause(RealtimeResult::Watchdog, tasks_.nameOf(*worker.task));
   } else if (options_.others_go_on && fault != RUNG_FAULT_STOP) {
-    tasks_.stopOne(*worker.task, worker.context.fault);
+    tasks_.stopOne(*worker.task, worker.context);
   } else {
     if (!waited) stopBecause(RealtimeResult::Faulted, "", &worker);
     goes_on = false;

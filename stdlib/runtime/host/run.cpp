@@ -455,8 +455,13 @@ void Run::reportStopped() {
   for (const Task& task : tasks.all()) {
     if (!task.stopped || is_reported[task.index]) continue;
     is_reported[task.index] = true;
-    fprintf(options.err, "%s; task `%s` is stopped\n", describe(memory.context(), task.fault).c_str(),
-            tasks.nameOf(task).c_str());
+    rung_context then = memory.context();  // others have run in it since
+    then.fault = task.fault;
+    then.caller_count = task.caller_count;
+    std::copy(task.callers.begin(), task.callers.end(), then.callers);
+    std::string text = describe(then, task.fault);
+    text.insert(std::min(text.find('\n'), text.size()), "; task `" + tasks.nameOf(task) + "` is stopped");
+    fprintf(options.err, "%s\n", text.c_str());
   }
 }
 

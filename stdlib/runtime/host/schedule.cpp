@@ -93,7 +93,7 @@ bool Schedule::begin(size_t job, int64_t now_ns, Ending& ending) {
     return true;
   }
   if (others_go_on_ && context_.fault.kind != RUNG_FAULT_STOP) {
-    tasks_.stopOne(task, context_.fault);
+    tasks_.stopOne(task, context_);
     jobs_.erase(jobs_.begin() + static_cast<ptrdiff_t>(job));
     return true;
   }

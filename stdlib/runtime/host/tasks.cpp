@@ -137,9 +137,11 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   return true;
 }
 
-void Tasks::stopOne(Task& task, const rung_fault& fault) {
+void Tasks::stopOne(Task& task, const rung_context& context) {
   task.stopped = true;
-  task.fault = fault;
+  task.fault = context.fault;
+  task.caller_count = context.caller_count;
+  task.callers.assign(context.callers, context.callers + std::min<uint32_t>(context.caller_count, RUNG_CALLERS));
   exchange_.makeSafe(task.index);
   const Exchange::Lock lock(exchange_);
   drivers_.write(task.index, states_[task.index].last_start_ns);

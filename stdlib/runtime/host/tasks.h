@@ -25,11 +25,13 @@ struct Task {
   uint32_t index = 0;
   int64_t interval_ns = 0;
   Variable trigger;
-  uint32_t activation = 0;   // that began
-  uint32_t too_long = 0;     // activations in a row that exceeded the watchdog time
-  bool is_first = true;      // the next activation has no period before it: after a start or a pause
-  bool stopped = false;      // by a fault of its own, where the others go on
-  rung_fault fault{};        // that stopped it
+  uint32_t activation = 0;           // that began
+  uint32_t too_long = 0;             // activations in a row that exceeded the watchdog time
+  bool is_first = true;              // the next activation has no period before it: after a start or a pause
+  bool stopped = false;              // by a fault of its own, where the others go on
+  rung_fault fault{};                // that stopped it
+  std::vector<rung_caller> callers;  // of that fault
+  uint32_t caller_count = 0;
   Histogram lateness;        // of its starts
   int64_t latest_start = 0;  // the greatest lateness
 };
@@ -61,7 +63,7 @@ class Tasks {
   // Its end: the outputs leave. False: the watchdog says stop.
   bool end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns);
   // After a fault, where the other tasks go on: the task stops, with safe values in what it writes.
-  void stopOne(Task& task, const rung_fault& fault);
+  void stopOne(Task& task, const rung_context& context);
   // All outputs get their safe values and leave.
   void makeOutputsSafe(int64_t now_ns);
   // The program goes on: they are again what it left.

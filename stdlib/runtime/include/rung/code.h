@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "rung/call_paths.h"
 #include "rung/module.h"
 
 /* The user may compare a USINT with 0 or never read a variable: rung has warned where it matters. */

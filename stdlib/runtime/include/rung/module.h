@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 13u
+#define RUNG_MODULE_ABI 14u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -247,6 +247,12 @@ typedef struct rung_fault {
   uint32_t site; /* index into module->sites */
   int64_t value; /* for example the index */
 } rung_fault;
+/* A call that led to a fault. */
+typedef struct rung_caller {
+  uint32_t site;        /* index into module->sites: the POU that calls, and where */
+  const void* instance; /* that it calls; null: a function, or it cannot be told any more */
+} rung_caller;
+#define RUNG_CALLERS 32 /* that are kept, the innermost */
 
 /* An assertion of a test: its location and the content of its report. Absent strings are null. */
 typedef struct rung_assertion {
@@ -439,8 +445,8 @@ typedef struct rung_host {
   /* Default (null): every axis has a simulated drive. */
   const rung_drives* drives;
   void* drives_data;
-  /* A fault is about to leave the program's code: the calls that led to it are still on the stack. Default (null):
-   * nothing. */
+  /* A fault is about to leave the program's code for the host (a __TRY handles others): ctx->fault says which, and the
+   * calls that led to it are still on the stack. Default (null): nothing. */
   void (*faulted)(void* data, const rung_context* ctx);
 } rung_host;
 
@@ -466,6 +472,10 @@ struct rung_context {
   volatile uint8_t stop;         /* a rung_stop, set by others, such as a signal handler, to end the activation */
   void* stop_target;             /* jmp_buf of the outermost rung_guarded */
   const char* volatile cpp_body; /* the body in C++ that runs: path, line and POU, a line each; or null */
+  /* How the last fault was reached, the innermost call first. Interpreted modules tell it, and compiled ones that were
+   * compiled with -DRUNG_CALL_PATHS; see rung/call_paths.h. */
+  rung_caller callers[RUNG_CALLERS];
+  uint32_t caller_count; /* may be more than RUNG_CALLERS */
 };
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;
@@ -519,6 +529,11 @@ typedef struct rung_module {
   /* Sets outputs that have safe values other than 0 (`[safe]` of rung.project); a host calls it through rung_guarded,
    * with areas that are 0 otherwise, when the program stops. May be null. */
   void (*safe)(rung_context*);
+  /* For rung_context::callers; each may be null. Of an interpreted module: finds them on the stack. Of a compiled one:
+   * runs code that may be left by the second (rung/call_paths.h). */
+  void (*find_callers)(rung_context*);
+  void (*run_catching)(rung_context*, void (*run)(void* frame), void* frame);
+  void (*throw_fault)(void);
 } rung_module;
 
 /* Every module exports one function, <name>_module, that returns its description. */
@@ -534,6 +549,11 @@ uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*));
 __attribute__((noreturn, cold))
 #endif
 void rung_raise(rung_context *ctx, uint8_t kind, uint32_t site, int64_t value);
+/* The same from the handler of a signal: rung_context::callers stays empty. */
+#if defined(__GNUC__)
+__attribute__((noreturn, cold))
+#endif
+void rung_raise_crash(rung_context *ctx, uint8_t kind, uint32_t site, int64_t value);
 
 #ifdef __cplusplus
 }
