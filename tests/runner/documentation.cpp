@@ -4,7 +4,7 @@
 //   ```st run [options]       `rung run` succeeds; an ```output block after it is its output
 //   ```st test [options]      the same for `rung test`
 //   ```st check [options]     no error
-//   ```xml broken, fixed      the same for a project in XML
+//   ```xml broken, fixed      the same for a project in XML, and ```nct for a ladder of that language
 //   ```ir broken, fixed       the same for IR text, which ir_golden reads; its comments begin with `; `
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
@@ -73,12 +73,12 @@ class Page {
       const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
       if (block.language == "console") {
         runConsole(block);
-      } else if ((block.language == "st" || block.language == "xml") &&
+      } else if ((block.language == "st" || block.language == "xml" || block.language == "nct") &&
                  (block.kind == "broken" || block.kind == "fixed" || block.kind == "check")) {
         runCheck(block);
       } else if (block.language == "ir" && (block.kind == "broken" || block.kind == "fixed")) {
         runIr(block);
-      } else if (block.language == "st" && (block.kind == "run" || block.kind == "test")) {
+      } else if ((block.language == "st" || block.language == "nct") && (block.kind == "run" || block.kind == "test")) {
         runProgram(block, after);
       } else if (block.kind.find('.') != std::string::npos) {
         const std::filesystem::path path = folder() + "/" + block.kind;

@@ -1,4 +1,4 @@
-// Golden tests, tests/golden/**.st: the expected output is at the end of the test file.
+// Golden tests, tests/golden/**.st and **.nct: the expected output is at the end of the test file.
 //   // args: --std=iec3                                    options of every command
 //   // expect: name.st:4:1: error[E0231]: ...              the output of `rung check`, heading by heading
 //   // expect tree:  (or ir:)                              the output of `rung emit --emit=tree`, on `// ` lines below
@@ -170,7 +170,10 @@ Result runIr(const Setting& setting, const std::string& file) {
 Result runDiagnosticsTest(const Setting& setting, const std::string& file) { return runGolden(setting, file); }
 
 void addGolden(const Setting& setting, std::vector<Job>& jobs) {
-  for (const std::string& file : filesBelow(setting, "tests/golden", ".st")) {
+  std::vector<std::string> files = filesBelow(setting, "tests/golden", ".st");
+  const std::vector<std::string> ladders = filesBelow(setting, "tests/golden", ".nct");
+  files.insert(files.end(), ladders.begin(), ladders.end());
+  for (const std::string& file : files) {
     jobs.push_back({file, 0, [&setting, file] { return runGolden(setting, file); }});
   }
   for (const std::string& file : filesBelow(setting, "tests/golden/ir", ".ir")) {

@@ -631,8 +631,10 @@ class Writer {
         return {power, true};
       }
       loc_ = element.word.loc;
-      last = &element;
-      const uint32_t next = nextOf(at);
+      uint32_t next = nextOf(at);
+      const bool takes_box = element.shape == Shape::PinsBegin && next < end && elements_[next].shape == Shape::Pinned;
+      if (takes_box) ++next;  // writePins writes it
+      last = takes_box ? &elements_[next - 1] : &element;
       const bool is_end = is_last && next >= end;
       closed = writeElement(at, power, is_end);
       at = next;
@@ -920,7 +922,7 @@ class Writer {
     if (!is_end) settle(power);
     beginIf(power);
     if (guard.empty()) {
-      put("  " + (clears ? clearError() : std::string()) + stored + "\n");
+      put("  " + stored + (clears ? " " + clearError() : std::string()) + "\n");  // an operand may be FLAGS
     } else {
       put("  " + errorFlag() + " := NOT (" + guard + ");\n");
       put("  IF NOT " + errorFlag() + " THEN " + stored + " END_IF\n");
