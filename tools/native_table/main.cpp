@@ -95,7 +95,8 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   rung::Diagnostics diagnostics(sources);
   rung::Tree tree;
   rung::sema::Options options;
-  for (const rung::types::MemoryArea& area : rung::types::nctAreas()) options.areas.push_back(area);  // of the library nct
+  for (const rung::types::MemoryArea& area : rung::types::nctAreas())
+    options.areas.push_back(area);  // of the library nct
   options.dialect = dialect;
   options.pointer_size = pointer_size;
   options.libraries = libraries.files;

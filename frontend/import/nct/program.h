@@ -64,6 +64,7 @@ struct Element {
   uint8_t operand_count = 0;
   Word pin;  // of PinsBegin and BranchBegin: the name of the pin that begins
   std::string_view remark;
+  bool is_broken = false;  // of Rung: one of its lines has been reported and is missing
   // GroupBegin, PinsBegin, BranchBegin: the next branch or end. PinsEnd: its beginning.
   uint32_t next = 0;
 };

@@ -27,16 +27,14 @@ struct Line {
   bool has_text = false;
 };
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-
 bool readNumber(std::string_view text, uint32_t most, uint32_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value <= most;
 }
 
-class Reader {
+class ProgramReader {
  public:
-  Reader(const Sources& sources, FileId file, Diagnostics& diagnostics)
+  ProgramReader(const Sources& sources, FileId file, Diagnostics& diagnostics)
       : diagnostics_(diagnostics), source_(sources.sourceText(file)), base_(sources.begin(file).offset) {}
 
   Program run() {
@@ -66,7 +64,7 @@ class Reader {
 
   void readLine() {
     while (at_ < source_.size() && source_[at_] != '\n') {
-      if (isBlank(source_[at_])) {
+      if (isBlankCharacter(source_[at_])) {
         ++at_;
       } else if (source_.substr(at_, 2) == "//") {
         at_ = std::min(source_.find('\n', at_), source_.size());
@@ -74,7 +72,7 @@ class Reader {
         readText();
       } else {
         const size_t begin = at_;
-        while (at_ < source_.size() && source_[at_] != '\n' && !isBlank(source_[at_]) && source_[at_] != '"' &&
+        while (at_ < source_.size() && source_[at_] != '\n' && !isBlankCharacter(source_[at_]) && source_[at_] != '"' &&
                source_.substr(at_, 2) != "//")
           ++at_;
         const Word word{source_.substr(begin, at_ - begin), loc(begin)};
@@ -264,6 +262,7 @@ class Reader {
       std::vector<std::string_view> words;
       for (const Instruction& row : kInstructions) words.push_back(row.word);
       report(diag::NctUnknownWord, word, {word.text}).didYouMean(nearest(word.text, words));
+      breakRung();
       return;
     }
     if (instruction->shape == Shape::Marker) {
@@ -278,6 +277,15 @@ class Reader {
     takeOperands(element);
   }
 
+  // What follows from a missing line is not reported.
+  void breakRung() {
+    for (size_t k = module_->elements.size(); k-- > 0;) {
+      if (module_->elements[k].shape != Shape::Rung) continue;
+      module_->elements[k].is_broken = true;
+      return;
+    }
+  }
+
   void takeOperands(Element& element) {
     const std::string_view kinds = element.instruction->operands;
     const size_t optional = std::min(kinds.find('?'), kinds.size());
@@ -287,6 +295,7 @@ class Reader {
       const std::string wanted =
           optional == most ? std::to_string(most) : std::to_string(optional) + " or " + std::to_string(most);
       report(diag::NctOperandCount, element.word, {element.word.text, wanted, std::to_string(given)});
+      breakRung();
     }
     element.operand_count = static_cast<uint8_t>(std::min(given, most));
     for (size_t k = 0; k < element.operand_count; ++k) element.operands[k] = line_.words[k + 1];
@@ -380,7 +389,7 @@ const Instruction* findInstruction(std::string_view word) {
 std::span<const Instruction> allInstructions() { return kInstructions; }
 
 Program read(const Sources& sources, FileId file, Diagnostics& diagnostics) {
-  return Reader(sources, file, diagnostics).run();
+  return ProgramReader(sources, file, diagnostics).run();
 }
 
 }  // namespace rung::importer::nct

@@ -463,7 +463,7 @@ class Writer {
           report(diag::NctAfterEnd, element.word, {"a second END"});
           continue;
         }
-        if (body.label >= 0) report(diag::NctAfterEnd, element.word, {"END behind a subroutine"});
+        if (body.label >= 0) report(diag::NctAfterEnd, element.word, {"END after a subroutine"});
         close(k);
         ended = true;
         in_body = false;
@@ -473,7 +473,7 @@ class Writer {
         ended = in_body = true;
         body = {k + 1, k + 1, labelOf(element), element.word.loc};
       } else if (!in_body && !(marker && sameIdentifier(element.word.text, "SEC"))) {
-        report(diag::NctAfterEnd, element.word, {"a rung behind END"});
+        report(diag::NctAfterEnd, element.word, {"a rung after END"});
         in_body = true;  // one report
         body = {k, k, static_cast<int32_t>(kMostLabel) + 1, element.word.loc};
       }
@@ -607,6 +607,7 @@ class Writer {
     nodes_.clear();
     in_subroutine_ = in_subroutine;
     loc_ = elements_[rung].word.loc;
+    if (elements_[rung].is_broken) return true;
     if (rung + 1 == end) {
       report(diag::NctRowOpen, elements_[rung].word, {"this rung is empty; write its elements or delete it"});
       return false;
@@ -618,7 +619,7 @@ class Writer {
     return returned_;
   }
 
-  // A series of elements. `is_last`: nothing reads the power behind it.
+  // A series of elements. `is_last`: nothing reads the power after it.
   Branch writeSeries(uint32_t begin, uint32_t end, Power power, bool is_last) {
     uint32_t at = begin;
     const Element* last = nullptr;
@@ -642,7 +643,7 @@ class Writer {
     if (is_last && !closed) checkEnd(last);
     return {power, closed};
   }
-  // The index behind an element with all of its branches.
+  // The index after an element with all of its branches.
   uint32_t nextOf(uint32_t at) const {
     uint32_t k = at;
     while (elements_[k].shape == Shape::GroupBegin || elements_[k].shape == Shape::PinsBegin ||
@@ -728,7 +729,14 @@ class Writer {
   bool writeElement(uint32_t at, Power& power, bool is_end) {
     const Element& element = elements_[at];
     if (asksControl(element)) {
-      report(diag::NctNeedsControl, element.word, {element.word.text});
+      const uint32_t errors = diagnostics_.errorCount();
+      std::vector<Operand> operands;
+      const bool good = take(element, operands);
+      if (good && element.shape == Shape::Message)
+        checkMessage(element, operands, upper(element.word.text).ends_with("F"));
+      if (diagnostics_.errorCount() == errors) report(diag::NctNeedsControl, element.word, {element.word.text});
+      power = {};
+      power.has_contact = true;
       return false;
     }
     switch (element.shape) {
@@ -1147,7 +1155,7 @@ class Writer {
       {"ROT", "EN BID DIR INC PRE", "current goal first last"},
   };
 
-  // [ CK … | U/D … ] and the box behind it.
+  // [ CK … | U/D … ] and the box after it.
   void writePins(uint32_t at, Power& power) {
     const uint32_t close = nextOf(at) - 1;
     const Element* const box = close + 1 < elements_.size() ? &elements_[close + 1] : nullptr;
@@ -1184,6 +1192,7 @@ class Writer {
     }
     loc_ = box->word.loc;
     std::vector<Operand> operands;
+    power.has_contact = true;
     if (!take(*box, operands) || !all) return;
     callInstance(*box, operands, pins, form->inputs, power);
   }
@@ -1192,7 +1201,7 @@ class Writer {
     if (element.operand_count == 0) return;
     Node& node = nodes_[upper(element.operands[0].text)];
     if (node.read) {
-      report(diag::NctNode, element.operands[0], {element.operands[0].text, "all TO stand before the AT of the node"});
+      report(diag::NctNode, element.operands[0], {element.operands[0].text, "all TO of a node are before its AT"});
       return;
     }
     const bool is_new = node.name.empty();
@@ -1210,7 +1219,7 @@ class Writer {
     const auto node = nodes_.find(upper(element.operands[0].text));
     if (node == nodes_.end() || node->second.read) {
       report(diag::NctNode, element.operands[0],
-             {element.operands[0].text, node == nodes_.end() ? "no TO stands before it" : "a node has one AT"});
+             {element.operands[0].text, node == nodes_.end() ? "no TO is before it" : "a node has one AT"});
       return;
     }
     node->second.read = true;

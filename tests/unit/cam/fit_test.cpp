@@ -132,7 +132,9 @@ TEST(Fit, LimitsHoldBetweenThePoints) {
         EXPECT_LE(std::fabs(curve.at(i / 1000.0, order)) * std::pow(2, order), limit * (1 + 1e-9));
       // Only the end derivatives are free: what is continuous is so.
       EXPECT_LT(curve.largestStep(2), 1e-8 * std::fabs(peaks[2].largest().value));
-      if (smoothness == Smoothness::C3) EXPECT_LT(curve.largestStep(3), 1e-6 * std::fabs(peaks[3].largest().value));
+      if (smoothness == Smoothness::C3) {
+        EXPECT_LT(curve.largestStep(3), 1e-6 * std::fabs(peaks[3].largest().value));
+      }
     }
   }
 }
@@ -172,7 +174,9 @@ TEST(Fit, WishesAreMetExactly) {
     }
     EXPECT_LT(curve.at(180, 0), -0.9);
     for (const int order : {0, 1, 2}) EXPECT_NEAR(curve.at(0, order), curve.at(360, order), 1e-15);
-    if (smoothness == Smoothness::C3) EXPECT_NEAR(curve.at(0, 3), curve.pieces().back().at(360, 3), 1e-9);
+    if (smoothness == Smoothness::C3) {
+      EXPECT_NEAR(curve.at(0, 3), curve.pieces().back().at(360, 3), 1e-9);
+    }
   }
 }
 

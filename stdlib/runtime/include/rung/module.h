@@ -127,7 +127,7 @@ enum rung_area_owner {
   RUNG_AREA_INPUT,  /* the host writes it before a cycle */
   RUNG_AREA_OUTPUT, /* the host takes it after a cycle, and sets it to safe values after a fault */
   RUNG_AREA_MEMORY, /* neither: memory of the program, or what the product defines */
-  RUNG_AREA_SHARED  /* as memory; tasks write different bits of a word: a host with copies takes the bits that changed */
+  RUNG_AREA_SHARED /* as memory; tasks write different bits of a word: a host with copies takes the bits that changed */
 };
 typedef struct rung_area {
   uint32_t name;   /* `I` */
