@@ -39,7 +39,10 @@ class ProgramReader {
 
   Program run() {
     at_ = source_.size() - withoutMark(source_).size();
-    while (nextLine()) readTopLevel();
+    while (begins_part_ || nextLine()) {
+      begins_part_ = false;
+      readTopLevel();
+    }
     program_.end = loc(source_.size());
     if (program_.name.empty() && !says_no_program_)
       diagnostics_.report(diag::NctMisplaced, program_.end, {"the file", "begin it with `PROGRAM name`"});
@@ -145,11 +148,11 @@ class ProgramReader {
     expectWords(1, "nothing may follow this word");
     while (nextLine()) {
       if (is(0, end)) return;
-      if (is(0, "MODULE") || is(0, "PROGRAM") || is(0, "SYMBOLS")) break;
+      begins_part_ = is(0, "MODULE") || is(0, "PROGRAM") || is(0, "SYMBOLS");
+      if (begins_part_) break;
       read();
     }
     report(diag::NctNotClosed, opener, {quoted(opener.text), end});
-    if (at_ < source_.size() || !line_.words.empty()) readTopLevel();
   }
 
   void readSymbol() {
@@ -211,12 +214,12 @@ class ProgramReader {
         closeRung();
         return;
       }
-      if (is(0, "MODULE") || is(0, "SYMBOLS") || is(0, "MESSAGES")) break;
+      begins_part_ = is(0, "MODULE") || is(0, "SYMBOLS") || is(0, "MESSAGES");
+      if (begins_part_) break;
       readElement();
     }
     closeRung();
     report(diag::NctNotClosed, opener, {"`MODULE`", "END_MODULE"});
-    if (at_ < source_.size() || !line_.words.empty()) readTopLevel();
   }
 
   Element& add(Shape shape, const Word& word) {
@@ -368,6 +371,7 @@ class ProgramReader {
   Module lost_;  // one of a name that another has
   Module* module_ = nullptr;
   bool in_rung_ = false, says_no_program_ = false;
+  bool begins_part_ = false;  // the line that ended a part without its END_ word
   std::vector<Open> open_;
 };
 
