@@ -114,7 +114,7 @@ Memory::Memory(const Program& program, const Limits& limits, Diagnostics& diagno
       limits_(limits),
       diagnostics_(diagnostics),
       user_(program.symbols.size()),
-      states_(program.symbols.size(), Line::New) {
+      states_(program.symbols.size(), kNew) {
   for (const Symbol& symbol : ownSymbols(limits)) nc_.emplace(upper(symbol.name), symbol);
   for (uint32_t k = 0; k < program.symbols.size(); ++k) {
     const Word& name = program.symbols[k].name;
@@ -130,16 +130,12 @@ Memory::Memory(const Program& program, const Limits& limits, Diagnostics& diagno
   for (size_t k = 0; k < user_.size(); ++k) resolve(k);
 }
 
-Report Memory::report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments) {
-  return diagnostics_.report(diag, at.loc, arguments).length(static_cast<uint32_t>(at.text.size()));
-}
-
 // NAME value: a constant, or a static address.
 void Memory::resolve(size_t line) {
   const SymbolLine& from = program_.symbols[line];
-  if (states_[line] == Line::Done) return;
-  if (states_[line] == Line::Busy) return void(report(diag::NctSymbolCycle, from.name, {from.name.text}));
-  states_[line] = Line::Busy;
+  if (states_[line] == kDone) return;
+  if (states_[line] == kBusy) return void(report(diag::NctSymbolCycle, from.name, {from.name.text}));
+  states_[line] = kBusy;
   Symbol symbol;
   symbol.name = from.name.text;
   symbol.loc = from.name.loc;
@@ -175,7 +171,7 @@ void Memory::resolve(size_t line) {
     }
   }
   if (good) user_[line] = symbol;
-  states_[line] = Line::Done;
+  states_[line] = kDone;
 }
 
 const Symbol* Memory::find(std::string_view name) {
@@ -279,10 +275,6 @@ bool Memory::readBase(const Word& word, Address& address, bool in_declaration) {
     address.bit = symbol->bit;
   }
   return true;
-}
-
-bool isAddressKind(SymbolKind kind) {
-  return kind == SymbolKind::Bit || kind == SymbolKind::Word || kind == SymbolKind::Double;
 }
 
 // .17 or :NAME after a word

@@ -23,6 +23,9 @@ struct Limits {
 };
 
 enum class SymbolKind : uint8_t { Bit, Word, Double, Integer, Pattern, Number };
+constexpr bool isAddressKind(SymbolKind kind) {
+  return kind == SymbolKind::Bit || kind == SymbolKind::Word || kind == SymbolKind::Double;
+}
 enum class Direction : uint8_t { None, In, Out };
 
 struct NcSymbol {
@@ -73,6 +76,8 @@ struct Operand {
   int64_t value = 0;
   std::string_view number;
   Word word;
+  // An address that is known when the program runs.
+  bool isDynamic() const { return kind == OperandKind::Address && !address.is_static(); }
 };
 
 class Memory {
@@ -89,10 +94,7 @@ class Memory {
   const Symbol* find(std::string_view name);
 
  private:
-  struct Line {
-    const SymbolLine* line;
-    enum { New, Busy, Done } state;
-  };
+  enum LineState : uint8_t { kNew, kBusy, kDone };
   void resolve(size_t line);
   bool readConstant(const Word& word, Operand& operand);
   bool readAddress(Word word, Address& address, bool in_declaration);
@@ -100,13 +102,15 @@ class Memory {
   bool readBit(const Word& word, Address& address);
   bool readOffset(const Word& word, Address& address, bool in_declaration);
   bool checkRange(const Word& word, const Address& address);
-  Report report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments);
+  Report report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments) {
+    return reportAt(diagnostics_, diag, at, arguments);
+  }
 
   const Program& program_;
   Limits limits_;
   Diagnostics& diagnostics_;
   std::vector<Symbol> user_;  // by line; those that are broken have no name
-  std::vector<uint8_t> states_;
+  std::vector<LineState> states_;
   std::unordered_map<std::string, uint32_t> lines_;  // by upper-case name
   std::unordered_map<std::string, Symbol> nc_;       // those asked for
 };

@@ -53,6 +53,12 @@ struct Word {  // of a line
   bool empty() const { return text.empty(); }
 };
 
+// Underlines the word.
+inline Report reportAt(Diagnostics& diagnostics, Diag diag, const Word& at,
+                       std::initializer_list<std::string_view> arguments) {
+  return diagnostics.report(diag, at.loc, arguments).length(static_cast<uint32_t>(at.text.size()));
+}
+
 inline constexpr size_t kMostOperands = 5;
 
 // A line of a module.

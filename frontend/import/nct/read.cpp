@@ -105,7 +105,7 @@ class ProgramReader {
 
   static std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
   Report report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments) {
-    return diagnostics_.report(diag, at.loc, arguments).length(static_cast<uint32_t>(at.text.size()));
+    return reportAt(diagnostics_, diag, at, arguments);
   }
   bool is(size_t word, std::string_view keyword) const {
     return word < line_.words.size() && sameIdentifier(line_.words[word].text, keyword);

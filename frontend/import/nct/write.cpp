@@ -6,56 +6,17 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 #include "frontend/import/diagnostics.h"
-#include "frontend/parse/parse.h"
+#include "frontend/import/nct/bodies.h"
+#include "frontend/import/nct/operands.h"
+#include "frontend/import/nct/places.h"
 #include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
 
 namespace rung::importer::nct {
 namespace {
-
-struct Scope {
-  std::string_view name;
-  int32_t last;  // of the first parameter; 0: without
-};
-#define NC_SCOPE(name, last) {#name, last},
-constexpr Scope kScopes[] = {
-#include "frontend/import/nct/nc_scopes.def"
-};
-#undef NC_SCOPE
-
-constexpr uint32_t kMostLabel = 99;
-
-// Text in pieces with the location of each.
-class Pieces {
- public:
-  void put(Loc loc, std::string_view text) {
-    starts_.push_back({static_cast<uint32_t>(text_.size()), loc});
-    text_ += text;
-  }
-  void add(const Pieces& other) {
-    for (const Start& start : other.starts_)
-      starts_.push_back({start.at + static_cast<uint32_t>(text_.size()), start.loc});
-    text_ += other.text_;
-  }
-  void addTo(xml::SourceMappedText& out) const {
-    for (size_t k = 0; k < starts_.size(); ++k) {
-      const size_t end = k + 1 < starts_.size() ? starts_[k + 1].at : text_.size();
-      out.put(starts_[k].loc, std::string_view(text_).substr(starts_[k].at, end - starts_[k].at));
-    }
-  }
-
- private:
-  struct Start {
-    uint32_t at;
-    Loc loc;
-  };
-  std::string text_;
-  std::vector<Start> starts_;
-};
 
 // The power at a place of a rung.
 struct Power {
@@ -70,42 +31,23 @@ struct Branch {
   bool closed = false;
 };
 
-enum class Part : uint8_t { Bit, Word, Double };
-enum class Space : uint8_t { Plc, TimeSlice };
-
-// What drives an output, a timer or a counter.
-struct Driver {
-  Loc loc;
-  bool immediate;
-  bool is_coil;  // not SET or RST
-};
-
-struct Body {
-  uint32_t begin, end;  // elements
-  int32_t label;        // of the subroutine; -1: the cyclic part
-  Loc loc;
-};
-
-bool isDynamic(const Operand& operand) { return operand.kind == OperandKind::Address && !operand.address.is_static(); }
-
-std::string hex(int64_t value) {
-  char text[24];
-  snprintf(text, sizeof text, "16#%X", static_cast<uint32_t>(value));
-  return text;
-}
-
 class Writer {
  public:
   Writer(const Program& program, Memory& memory, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : program_(program), memory_(memory), diagnostics_(diagnostics), out_(out) {}
+      : program_(program),
+        memory_(memory),
+        diagnostics_(diagnostics),
+        out_(out),
+        places_(program, memory),
+        operands_(program, memory, diagnostics) {}
 
   void run() {
     keeps_flags_ = readsFlags(program_.main) || readsFlags(program_.int0);
     // Int0 first: what it drives with `!` is known when Main is checked.
     if (program_.int0.given) writeModule(program_.int0, "Int0");
     writeModule(program_.main, "Main");
-    checkDrivers();
-    writeGlobals();
+    operands_.checkDrivers();
+    places_.writeTo(out_);
     writeTasks();
   }
 
@@ -130,264 +72,8 @@ class Writer {
     return name;
   }
 
-  static bool isName(std::string_view name) { return !text::isReservedWord(name); }
-
-  // The located variable of a place whose address is static.
-  std::string placeOf(const Address& address, Part part, Space space) {
-    const Symbol* const symbol = address.symbol;
-    const SymbolKind kind = part == Part::Bit    ? SymbolKind::Bit
-                            : part == Part::Word ? SymbolKind::Word
-                                                 : SymbolKind::Double;
-    if (space == Space::Plc && symbol != nullptr && symbol->kind == kind && isName(symbol->name)) {
-      if (!symbol->is_user) own_symbols_.insert({std::string(symbol->name), symbol});
-      return std::string(symbol->name);
-    }
-    const uint64_t key = (static_cast<uint64_t>(space) << 32) | (static_cast<uint64_t>(part) << 24) |
-                         (static_cast<uint64_t>(address.word) << 8) | (part == Part::Bit ? address.bit : 0);
-    const auto [found, is_new] = places_.emplace(key, std::string());
-    if (is_new) {
-      char name[32];
-      const char* const mark = space == Space::Plc ? "" : "t";
-      if (part == Part::Bit)
-        snprintf(name, sizeof name, "_%s%04d_%02d", mark, address.word, address.bit);
-      else
-        snprintf(name, sizeof name, "_%s%04d%s", mark, address.word, part == Part::Double ? "_d" : "");
-      found->second = name;
-      declare(name, loc_, part, address.word, address.bit, space);
-    }
-    return found->second;
-  }
-  void declare(std::string_view name, Loc loc, Part part, int32_t word, uint8_t bit, Space space) {
-    const std::string area = space == Space::Plc ? "%N" : "%T";
-    std::string text = "  ";
-    text += name;
-    if (part == Part::Bit)
-      text += " AT " + area + "X" + std::to_string(word * 4 + bit / 8) + "." + std::to_string(bit % 8) + " : BOOL;\n";
-    else
-      text += " AT " + area + "D" + std::to_string(word) + (part == Part::Word ? " : DWORD;\n" : " : LREAL;\n");
-    globals_.put(loc, text);
-  }
-
-  // ---- operands
-
-  // A DINT expression for the effective word.
-  std::string wordOf(const Address& address) {
-    std::string text = std::to_string(address.word);
-    if (address.offset >= 0) text += " + DWORD_TO_DINT(" + wordAt(address.offset) + ")";
-    return text;
-  }
-  std::string bitOf(const Address& address) {
-    return address.bit_from >= 0 ? "DWORD_TO_DINT(" + wordAt(address.bit_from) + ")" : std::to_string(address.bit);
-  }
-  std::string wordAt(int32_t word) {
-    Address address;
-    address.word = word;
-    return placeOf(address, Part::Word, Space::Plc);
-  }
-
-  std::string asWord(const Operand& operand) {
-    switch (operand.kind) {
-      case OperandKind::Address:
-        if (isDynamic(operand)) return "NCT_WORD(" + wordOf(operand.address) + ")";
-        return placeOf(operand.address, Part::Word, Space::Plc);
-      case OperandKind::Integer:
-      case OperandKind::Pattern: return "DWORD#" + hex(operand.value);
-      case OperandKind::Number:
-      case OperandKind::Broken: break;
-    }
-    return "DWORD#0";
-  }
-  std::string asInteger(const Operand& operand) {
-    if (operand.kind == OperandKind::Integer) return "DINT#" + std::to_string(operand.value);
-    if (operand.kind == OperandKind::Pattern)
-      return "DINT#" + std::to_string(static_cast<int32_t>(static_cast<uint32_t>(operand.value)));
-    return "DWORD_TO_DINT(" + asWord(operand) + ")";
-  }
-  std::string asDouble(const Operand& operand) {
-    if (operand.kind == OperandKind::Number) {
-      std::string text(operand.number);
-      const size_t sign = text.starts_with("-") ? 1 : 0;
-      if (text[sign] == '.') text.insert(sign, "0");
-      const size_t point = text.find('.');
-      if (point + 1 == text.size() || text[point + 1] == 'e' || text[point + 1] == 'E') text.insert(point + 1, "0");
-      return "LREAL#" + text;
-    }
-    if (operand.kind != OperandKind::Address) return "LREAL#0.0";
-    if (isDynamic(operand)) return "NCT_DOUBLE(" + wordOf(operand.address) + ")";
-    return placeOf(operand.address, Part::Double, Space::Plc);
-  }
-
-  // `{w1} AND {w2}`
-  std::string filled(std::string_view pattern, std::span<const Operand> operands) {
-    std::string text;
-    for (size_t k = 0; k < pattern.size(); ++k) {
-      if (pattern[k] != '{') {
-        text += pattern[k];
-        continue;
-      }
-      const char as = pattern[k + 1];
-      const size_t index = static_cast<size_t>(pattern[k + 2] - '0');
-      k += 3;
-      if (index >= operands.size()) continue;
-      const Operand& operand = operands[index];
-      text += as == 'w'   ? asWord(operand)
-              : as == 'd' ? asInteger(operand)
-              : as == 'f' ? asDouble(operand)
-              : as == 'a' ? wordOf(operand.address)
-                          : std::to_string(operand.value);
-    }
-    return text;
-  }
-
   Report report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments) {
-    return diagnostics_.report(diag, at.loc, arguments).length(static_cast<uint32_t>(at.text.size()));
-  }
-
-  // The operands of an instruction, each checked against its kind. False: one is wrong, which has been reported.
-  bool take(const Element& element, std::vector<Operand>& operands) {
-    const std::string_view kinds = element.instruction->operands;
-    bool good = true;
-    size_t at = 0;
-    for (const char kind : kinds) {
-      if (kind == '?') continue;
-      if (at >= element.operand_count) {
-        good = good && kinds.find('?') != std::string_view::npos;
-        break;
-      }
-      operands.push_back(takeOperand(element, element.operands[at++], kind));
-      good = good && operands.back().kind != OperandKind::Broken;
-    }
-    return good;
-  }
-
-  Operand takeOperand(const Element& element, const Word& word, char kind) {
-    if (kind == 'l') return takeLabel(word);
-    if (kind == 'n') return takeScope(word);
-    const bool coil = element.shape == Shape::Coil && !sameIdentifier(element.word.text, "DIFU") &&
-                      !sameIdentifier(element.word.text, "DIFD");
-    const bool takes_query = kind == 'c' || (coil && word.text.front() == '!');
-    Operand operand = memory_.operandOf(word, takes_query);
-    if (operand.kind == OperandKind::Broken) return operand;
-    const bool is_word = operand.kind == OperandKind::Address && !operand.address.is_bit;
-    const bool is_bit = operand.kind == OperandKind::Address && operand.address.is_bit;
-    const bool integer = operand.kind == OperandKind::Integer, pattern = operand.kind == OperandKind::Pattern;
-    const bool number = operand.kind == OperandKind::Number;
-    std::string_view wanted;
-    switch (kind) {
-      case 'b': wanted = is_bit ? "" : "a bit"; break;
-      case 'c': wanted = is_bit || is_word ? "" : "a bit or a word"; break;
-      case 'k': wanted = is_word || integer ? "" : "a word or a `#` constant"; break;
-      case 's': wanted = is_word || integer || pattern ? "" : "a word, a `#` or a `#$` constant"; break;
-      case 'h': wanted = is_word || pattern || isConstantName(word) ? "" : "a word or a `#$` constant"; break;
-      case 'f': wanted = is_word || number ? "" : "a double or a `*` constant"; break;
-      case 'i': wanted = integer ? "" : "a `#` constant"; break;
-      default: wanted = is_word ? "" : "a word"; break;  // w W t r R u
-    }
-    if (!wanted.empty()) {
-      report(diag::NctOperandKind, word,
-             {word.text, "here " + std::string(element.word.text) + " takes " + std::string(wanted)});
-      operand.kind = OperandKind::Broken;
-      return operand;
-    }
-    if (operand.kind == OperandKind::Address && !checkAddress(element, operand, kind))
-      operand.kind = OperandKind::Broken;
-    return operand;
-  }
-  static bool isConstantName(const Word& word) { return isIdentifier(word.text); }
-
-  bool checkAddress(const Element& element, Operand& operand, char kind) {
-    const Address& address = operand.address;
-    const bool is_double = kind == 'W' || kind == 'R' || kind == 'f';
-    if (is_double && address.is_static() && address.word > kWords - 2) {
-      report(diag::NctAddress, operand.word,
-             {operand.word.text, "a double needs two words, so its last address is 9998"});
-      return false;
-    }
-    if (operand.query == Query::Immediate) {
-      const char* const wrong = !in_int0_         ? "only Int0 reaches the TimeSlice memory"
-                                : !address.is_bit ? "words have no immediate form"
-                                : address.is_static() && (address.word < 2 || address.word >= memory_.limits().kept)
-                                    ? "the TimeSlice memory reaches from 0002 to PLCNVRAM - 1"
-                                    : nullptr;
-      if (wrong != nullptr) {
-        report(diag::NctOperandKind, operand.word, {operand.word.text, wrong});
-        return false;
-      }
-    }
-    const bool writes = kind == 'b' || kind == 'w' || kind == 'W' || kind == 't' || kind == 'u';
-    if (!writes) return true;
-    const int32_t last = address.word + (kind == 'W' ? 1 : 0);
-    if (address.is_static() && (address.word < 2 || isInputWord(address.word) || isInputWord(last))) {
-      report(diag::NctReadOnly, operand.word,
-             {operand.word.text, address.word < 2 ? "the status flags" : "an input of the numerical control"});
-      return false;
-    }
-    if (kind == 't' && address.is_static() && address.word < memory_.limits().kept)
-      report(diag::NctRegisterPlace, operand.word, {operand.word.text});
-    if (address.is_static() && (kind == 'b' || kind == 't')) noteDriver(element, operand, kind);
-    return true;
-  }
-
-  Operand takeLabel(const Word& word) {
-    Operand operand;
-    operand.word = word;
-    operand.value = -1;
-    const bool digits = std::all_of(word.text.begin(), word.text.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!digits || word.text.size() > 2) {
-      report(diag::NctConstant, word, {word.text, "a label is a number from 0 to 99, without `#`"});
-      return operand;
-    }
-    operand.kind = OperandKind::Integer;
-    operand.value = std::stoi(std::string(word.text));
-    return operand;
-  }
-
-  Operand takeScope(const Word& word) {
-    Operand operand;
-    operand.word = word;
-    std::vector<std::string_view> names;
-    for (const Scope& scope : kScopes) {
-      names.push_back(scope.name);
-      if (!sameIdentifier(scope.name, word.text)) continue;
-      operand.kind = OperandKind::Integer;
-      operand.value = &scope - kScopes;
-      return operand;
-    }
-    report(diag::NctUnknownSymbol, word, {word.text}).didYouMean(nearest(word.text, names));
-    return operand;
-  }
-
-  // ---- rules of the whole program
-
-  // Each output, timer and counter has one driver. NCT manual 1.
-  //   fails   OUT 6000.00 twice                                                   E1414
-  //   fails   OUT !P_HOLD0 in Int0 and OUT P_HOLD0 in Main                        E1415
-  void noteDriver(const Element& element, const Operand& operand, char kind) {
-    const bool repeats = sameIdentifier(element.word.text, "SET") || sameIdentifier(element.word.text, "RST");
-    const uint32_t key = static_cast<uint32_t>(operand.address.word) * 64 +
-                         (kind == 't' ? 63u : static_cast<uint32_t>(operand.address.bit));
-    const Driver driver{operand.word.loc, operand.query == Query::Immediate, !repeats};
-    std::vector<Driver>& others = drivers_[key];
-    for (const Driver& other : others) {
-      if (other.immediate != driver.immediate) {
-        report(diag::NctBothWays, operand.word, {operand.word.text}).declaredHere(other.loc);
-        return;
-      }
-      if (other.is_coil && driver.is_coil) {
-        report(diag::NctDrivenTwice, operand.word, {operand.word.text}).declaredHere(other.loc);
-        return;
-      }
-    }
-    others.push_back(driver);
-    if (driver.immediate) owned_.insert({operand.address.word, operand.address.bit});
-  }
-  void checkDrivers() {
-    for (const auto& [key, drivers] : drivers_) {
-      const auto coil = std::find_if(drivers.begin(), drivers.end(), [](const Driver& d) { return d.is_coil; });
-      const auto set = std::find_if(drivers.begin(), drivers.end(), [](const Driver& d) { return !d.is_coil; });
-      if (coil != drivers.end() && set != drivers.end())
-        diagnostics_.report(diag::NctCoilAndSet, set->loc, {}).declaredHere(coil->loc);
-    }
+    return reportAt(diagnostics_, diag, at, arguments);
   }
 
   // Whether anything may read word 0000. A symbol of a constant index counts as one of a register.
@@ -411,16 +97,15 @@ class Writer {
   // ---- modules
 
   void writeModule(const Module& module, std::string_view title) {
-    module_ = &module;
     in_int0_ = title == "Int0";
     elements_ = module.elements;
     state_ = {};
     hidden_count_.clear();
-    findBodies();
-    checkLabels();
+    operands_.enterModule(in_int0_);
+    bodies_ = findBodies(module, diagnostics_);
     Pieces bodies;
     std::swap(bodies, text_);
-    for (const Body& body : bodies_) writeBody(body);
+    for (const Body& body : bodies_.list) writeBody(body);
     std::swap(bodies, text_);
 
     const Loc loc = module.given ? module.loc : program_.end;
@@ -431,7 +116,7 @@ class Writer {
     out_.put(loc, "END_VAR\n");
     if (in_int0_) {
       out_.put(loc, "IF NOT _started THEN\n  _started := TRUE;\n");
-      for (const auto& [word, bit] : owned_)
+      for (const auto& [word, bit] : operands_.owned())
         out_.put(loc, "  NCT_OWN(" + std::to_string(word) + ", " + std::to_string(bit) + ");\n");
       out_.put(loc,
                "END_IF\nNCT_BEGIN_INT0();\n_flags_of_main := NCT_FLAGS;\nNCT_FLAGS := _flags;\n_cyclic();\n"
@@ -441,127 +126,6 @@ class Writer {
     }
     bodies.addTo(out_);
     out_.put(module.given ? module.loc : program_.end, "END_PROGRAM\n");
-  }
-
-  // The cyclic part, and the subroutines after END.
-  //   fails   a rung between END and SBN                                         E1418
-  //   fails   SBN before END                                                     E1418
-  void findBodies() {
-    bodies_.clear();
-    Body body{0, 0, -1, module_->loc};
-    bool ended = false, in_body = true;
-    const auto close = [&](uint32_t at) {
-      if (!in_body) return;
-      body.end = at;
-      bodies_.push_back(body);
-    };
-    for (uint32_t k = 0; k < elements_.size(); ++k) {
-      const Element& element = elements_[k];
-      const bool marker = element.shape == Shape::Marker;
-      if (marker && sameIdentifier(element.word.text, "END")) {
-        if (ended) {
-          report(diag::NctAfterEnd, element.word, {"a second END"});
-          continue;
-        }
-        if (body.label >= 0) report(diag::NctAfterEnd, element.word, {"END after a subroutine"});
-        close(k);
-        ended = true;
-        in_body = false;
-      } else if (marker && sameIdentifier(element.word.text, "SBN")) {
-        if (!ended) report(diag::NctAfterEnd, element.word, {"a subroutine before END"});
-        close(k);
-        ended = in_body = true;
-        body = {k + 1, k + 1, labelOf(element), element.word.loc};
-      } else if (!in_body && !(marker && sameIdentifier(element.word.text, "SEC"))) {
-        report(diag::NctAfterEnd, element.word, {"a rung after END"});
-        in_body = true;  // one report
-        body = {k, k, static_cast<int32_t>(kMostLabel) + 1, element.word.loc};
-      }
-    }
-    close(static_cast<uint32_t>(elements_.size()));
-  }
-
-  static int32_t labelOf(const Element& element) {
-    if (element.operand_count == 0) return -1;
-    const std::string_view text = element.operands[0].text;
-    const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-    return digits && text.size() <= 2 ? std::stoi(std::string(text)) : -1;
-  }
-
-  // Labels of JME and SBN, each once; targets in reach; no recursion. NCT manual 6.14.
-  void checkLabels() {
-    struct Target {
-      const Element* element = nullptr;
-      size_t body = 0;
-      uint32_t at = 0;
-      bool used = false;
-    };
-    std::array<Target, kMostLabel + 1> targets{};
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-      const auto take = [&](uint32_t k) {
-        const Element& element = elements_[k];
-        const int32_t label = labelOf(element);
-        if (label < 0) return;
-        Target& target = targets[static_cast<size_t>(label)];
-        if (target.element != nullptr)
-          report(diag::NctTwice, element.operands[0], {"label " + std::to_string(label)})
-              .declaredHere(target.element->operands[0].loc);
-        else
-          target = {&element, b, k, false};
-      };
-      if (bodies_[b].label >= 0 && bodies_[b].begin > 0 && isMarker(bodies_[b].begin - 1, "SBN"))
-        take(bodies_[b].begin - 1);
-      for (uint32_t k = bodies_[b].begin; k < bodies_[b].end; ++k)
-        if (isMarker(k, "JME")) take(k);
-    }
-    std::vector<std::vector<size_t>> calls(bodies_.size());
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-      for (uint32_t k = bodies_[b].begin; k < bodies_[b].end; ++k) {
-        const Element& element = elements_[k];
-        if (element.shape != Shape::Jump || element.operand_count == 0 || labelOf(element) < 0) continue;
-        const bool calls_sub = sameIdentifier(element.word.text, "SBS");
-        Target& target = targets[static_cast<size_t>(labelOf(element))];
-        const bool is_sub = target.element != nullptr && sameIdentifier(target.element->word.text, "SBN");
-        if (target.element == nullptr || is_sub != calls_sub || (!calls_sub && target.body != b)) {
-          const std::string_view wanted = calls_sub ? "a SBN with this number in this module"
-                                          : target.element != nullptr && !is_sub
-                                              ? "a JME with this number in the same part: a jump leaves neither "
-                                                "the cyclic part nor a subroutine"
-                                              : "a JME with this number in this module";
-          report(diag::NctNoLabel, element.operands[0], {element.word.text, element.operands[0].text, wanted});
-          broken_labels_.insert(&element);
-          continue;
-        }
-        target.used = true;
-        if (calls_sub) calls[b].push_back(target.body);
-        if (!calls_sub && target.at < k) report(diag::NctBackward, element.operands[0], {element.operands[0].text});
-      }
-    }
-    for (const Target& target : targets)
-      if (target.element != nullptr && !target.used)
-        report(diag::NctUnusedLabel, target.element->operands[0],
-               {target.element->word.text, target.element->operands[0].text});
-    checkRecursion(calls);
-  }
-  bool isMarker(uint32_t at, std::string_view word) const {
-    return elements_[at].shape == Shape::Marker && sameIdentifier(elements_[at].word.text, word);
-  }
-
-  void checkRecursion(const std::vector<std::vector<size_t>>& calls) {
-    std::vector<uint8_t> state(calls.size());
-    recursive_ = false;
-    for (size_t b = 0; b < calls.size() && !recursive_; ++b) follow(calls, b, state);
-  }
-  void follow(const std::vector<std::vector<size_t>>& calls, size_t body, std::vector<uint8_t>& state) {
-    if (state[body] == 2 || recursive_) return;
-    if (state[body] == 1) {
-      recursive_ = true;
-      diagnostics_.report(diag::NctRecursion, bodies_[body].loc, {std::to_string(bodies_[body].label)});
-      return;
-    }
-    state[body] = 1;
-    for (const size_t called : calls[body]) follow(calls, called, state);
-    state[body] = 2;
   }
 
   // ---- bodies
@@ -575,7 +139,7 @@ class Writer {
     for (uint32_t k = body.begin; k < body.end;) {
       const Element& element = elements_[k];
       if (element.shape != Shape::Rung) {
-        if (isMarker(k, "JME") && labelOf(element) >= 0)
+        if (isMarker(elements_[k], "JME") && labelOf(element) >= 0)
           text_.put(element.word.loc, "l" + std::to_string(labelOf(element)) + ": ;\n");
         ++k;
         continue;
@@ -717,28 +281,9 @@ class Writer {
     if (power.text != "TRUE") put("END_IF\n");
   }
 
-  // Instructions whose other side is in the numerical control, which this version does not simulate.
-  static bool asksControl(const Element& element) {
-    if (element.instruction == nullptr) return false;
-    for (const std::string_view word : {"MOVCMND", "MACR", "MACW", "SCP", "MR", "MW"})
-      if (element.instruction->word == word) return true;
-    return element.shape == Shape::Message;
-  }
-
   // True: the row is closed.
   bool writeElement(uint32_t at, Power& power, bool is_end) {
     const Element& element = elements_[at];
-    if (asksControl(element)) {
-      const uint32_t errors = diagnostics_.errorCount();
-      std::vector<Operand> operands;
-      const bool good = take(element, operands);
-      if (good && element.shape == Shape::Message)
-        checkMessage(element, operands, upper(element.word.text).ends_with("F"));
-      if (diagnostics_.errorCount() == errors) report(diag::NctNeedsControl, element.word, {element.word.text});
-      power = {};
-      power.has_contact = true;
-      return false;
-    }
     switch (element.shape) {
       case Shape::Contact: writeContact(element, power); return false;
       case Shape::CompareContact: writeCompareContact(element, power); return false;
@@ -747,8 +292,8 @@ class Writer {
       case Shape::Box: writeBox(element, power, is_end); return false;
       case Shape::Order: writeOrder(element, power); return false;
       case Shape::Timer: writeInstance(element, power); return false;
-      case Shape::Message: writeMessage(element, power); return false;
-      case Shape::Service: writeService(element, power); return false;
+      case Shape::Message:
+      case Shape::Service: refuse(element, power); return false;
       case Shape::Pinned:
         report(diag::NctPins, element.word, {element.word.text, "write its inputs before it: `[ CK` … `]`"});
         return false;
@@ -775,7 +320,7 @@ class Writer {
   void writeContact(const Element& element, Power& power) {
     power.has_contact = true;
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     const Operand& operand = operands[0];
     const Address& address = operand.address;
     const bool negated = sameIdentifier(element.word.text, "INN");
@@ -791,11 +336,11 @@ class Writer {
       const std::string what = !address.is_bit             ? "NCT_IS_SET("
                                : space == Space::TimeSlice ? "NCT_IMMEDIATE("
                                                            : "NCT_BIT(";
-      const std::string place = wordOf(address) + (address.is_bit ? ", " + bitOf(address) : "");
+      const std::string place = places_.wordOf(address) + (address.is_bit ? ", " + places_.bitOf(address) : "");
       if (edge) {
         const std::string shadow = hidden("edges", address.bit_from >= 0 ? "NCT_BIT_EDGES" : "NCT_WORD_EDGES");
-        const std::string bit = address.is_bit ? bitOf(address) : "-1";
-        put(shadow + "(address := " + wordOf(address) + ", bit := " + bit +
+        const std::string bit = address.is_bit ? places_.bitOf(address) : "-1";
+        put(shadow + "(address := " + places_.wordOf(address) + ", bit := " + bit +
             ", falling := " + (operand.query == Query::Falling ? "TRUE" : "FALSE") + ");\n");
         put(term + " := " + shadow + (negated ? ".reached AND NOT " + shadow + ".Q" : ".Q") + ";\n");
       } else if (negated) {
@@ -806,7 +351,7 @@ class Writer {
       join(power, term);
       return;
     }
-    const std::string place = placeOf(address, address.is_bit ? Part::Bit : Part::Word, space);
+    const std::string place = places_.of(address, address.is_bit ? Part::Bit : Part::Word, space);
     const std::string value = address.is_bit ? place : place + " <> 0";
     if (!edge) {
       if (!address.is_bit)
@@ -830,7 +375,7 @@ class Writer {
     const Symbol* const symbol = memory_.find("FL_ER");
     Address address;
     address.symbol = symbol;
-    return placeOf(address, Part::Bit, Space::Plc);
+    return places_.of(address, Part::Bit, Space::Plc);
   }
 
   // Whether all dynamic operands are in memory; empty: there are none. `result`: operand 0 is written.
@@ -842,13 +387,13 @@ class Writer {
       if (kind == '?') continue;
       if (at >= operands.size()) break;
       const Operand& operand = operands[at++];
-      if (!isDynamic(operand)) continue;
+      if (!operand.isDynamic()) continue;
       const bool is_double = kind == 'W' || kind == 'R' || kind == 'f';
       const bool writes = kind == 'w' || kind == 'W' || kind == 't' || kind == 'b' || kind == 'u';
       if (!text.empty()) text += " AND ";
-      text += std::string(writes ? "NCT_MAY_WRITE(" : "NCT_REACHES(") + wordOf(operand.address) + ", " +
+      text += std::string(writes ? "NCT_MAY_WRITE(" : "NCT_REACHES(") + places_.wordOf(operand.address) + ", " +
               (is_double                ? "-2"
-               : operand.address.is_bit ? bitOf(operand.address)
+               : operand.address.is_bit ? places_.bitOf(operand.address)
                                         : "-1") +
               ")";
     }
@@ -858,11 +403,11 @@ class Writer {
   void writeCompareContact(const Element& element, Power& power) {
     power.has_contact = true;
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     std::string_view pattern = element.instruction->flagged;
     const bool fails = pattern.starts_with("!");
     if (fails) pattern.remove_prefix(1);
-    const std::string guard = reaches(element, operands), term = filled(pattern, operands);
+    const std::string guard = reaches(element, operands), term = places_.filled(pattern, operands);
     if (!fails && guard.empty() && !keeps_flags_) return join(power, "(" + term + ")");
     settle(power);
     const std::string name = temporary();
@@ -881,7 +426,7 @@ class Writer {
   void writeCoil(const Element& element, Power& power) {
     needContact(element, power);
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     const Address& address = operands[0].address;
     const std::string word = upper(element.word.text);
     const bool immediate = operands[0].query == Query::Immediate;
@@ -900,10 +445,10 @@ class Writer {
     if (stores) beginIf(power);
     const std::string stored = stores ? (word == "SET" ? "TRUE" : "FALSE") : value;
     if (address.is_static())
-      put(placeOf(address, Part::Bit, immediate ? Space::TimeSlice : Space::Plc) + " := " + stored + ";");
+      put(places_.of(address, Part::Bit, immediate ? Space::TimeSlice : Space::Plc) + " := " + stored + ";");
     else
-      put((immediate ? "NCT_PUT_IMMEDIATE(" : "NCT_PUT_BIT(") + wordOf(address) + ", " + bitOf(address) + ", " +
-          stored + ");");
+      put((immediate ? "NCT_PUT_IMMEDIATE(" : "NCT_PUT_BIT(") + places_.wordOf(address) + ", " +
+          places_.bitOf(address) + ", " + stored + ");");
     put("\n");
     if (stores) endIf(power);
   }
@@ -911,7 +456,7 @@ class Writer {
   void writeBox(const Element& element, Power& power, bool is_end) {
     needContact(element, power);
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     std::string_view pattern =
         keeps_flags_ || element.instruction->plain.empty() ? element.instruction->flagged : element.instruction->plain;
     const bool fails = pattern.starts_with("!");
@@ -919,13 +464,13 @@ class Writer {
     // An instruction without flags of its own leaves FL_ER to the writer.
     const bool clears = !fails && pattern.find("NCT_") == std::string_view::npos;
     const bool is_double = element.instruction->operands[0] == 'W';
-    const std::string guard = reaches(element, operands), value = filled(pattern, operands);
+    const std::string guard = reaches(element, operands), value = places_.filled(pattern, operands);
     const Operand& result = operands[0];
     const std::string stored =
-        isDynamic(result)
-            ? std::string(is_double ? "NCT_PUT_DOUBLE(" : "NCT_PUT_WORD(") + wordOf(result.address) + ", " + value +
-                  ");"
-            : placeOf(result.address, is_double ? Part::Double : Part::Word, Space::Plc) + " := " + value + ";";
+        result.isDynamic()
+            ? std::string(is_double ? "NCT_PUT_DOUBLE(" : "NCT_PUT_WORD(") + places_.wordOf(result.address) + ", " +
+                  value + ");"
+            : places_.of(result.address, is_double ? Part::Double : Part::Word, Space::Plc) + " := " + value + ";";
     const bool may_fail = fails || !guard.empty();
     if (!is_end) settle(power);
     beginIf(power);
@@ -948,11 +493,11 @@ class Writer {
   void writeOrder(const Element& element, Power& power) {
     needContact(element, power);
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     std::string_view pattern = element.instruction->flagged;
     const bool fails = pattern.starts_with("!");
     if (fails) pattern.remove_prefix(1);
-    const std::string guard = reaches(element, operands), call = filled(pattern, operands) + ";";
+    const std::string guard = reaches(element, operands), call = places_.filled(pattern, operands) + ";";
     settle(power);
     beginIf(power);
     if (guard.empty()) {
@@ -973,19 +518,19 @@ class Writer {
     const std::string output = temporary();
     std::string call = instance + "(" + pins;
     std::string place =
-        isDynamic(operands[0]) ? hidden("word", "DWORD") : placeOf(operands[0].address, Part::Word, Space::Plc);
+        operands[0].isDynamic() ? hidden("word", "DWORD") : places_.of(operands[0].address, Part::Word, Space::Plc);
     std::string value;
-    if (isDynamic(operands[0])) value = place + " := NCT_WORD(" + wordOf(operands[0].address) + "); ";
+    if (operands[0].isDynamic()) value = place + " := NCT_WORD(" + places_.wordOf(operands[0].address) + "); ";
     call += ", value := " + place;
     size_t k = 1;
     for (size_t begin = 0; k < operands.size(); ++k) {
       const size_t end = std::min(inputs.find(' ', begin), inputs.size());
-      call += ", " + std::string(inputs.substr(begin, end - begin)) + " := " + asInteger(operands[k]);
+      call += ", " + std::string(inputs.substr(begin, end - begin)) + " := " + places_.asInteger(operands[k]);
       begin = end + 1;
     }
     call += ");";
     const std::string stored =
-        isDynamic(operands[0]) ? " NCT_PUT_WORD(" + wordOf(operands[0].address) + ", " + place + ");" : "";
+        operands[0].isDynamic() ? " NCT_PUT_WORD(" + places_.wordOf(operands[0].address) + ", " + place + ");" : "";
     if (guard.empty()) {
       put(call + "\n" + output + " := " + instance + ".Q;\n");
     } else {
@@ -1002,69 +547,21 @@ class Writer {
   void writeInstance(const Element& element, Power& power) {
     needContact(element, power);
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
+    if (!operands_.take(element, operands)) return;
     settle(power);
     callInstance(element, operands, "EN := " + power.text, "preset basis", power);
   }
 
-  void writeMessage(const Element& element, Power& power) {
-    needContact(element, power);
+  // Instructions whose other side is in the numerical control, which this version does not simulate.
+  //   fails   MSG #20 #0 #0                                                        E1432
+  void refuse(const Element& element, Power& power) {
+    const uint32_t errors = diagnostics_.errorCount();
     std::vector<Operand> operands;
-    if (!take(element, operands)) return;
-    settle(power);
-    const std::string instance = hidden("message", "NCT_MESSAGE"), output = temporary();
-    const std::string word = upper(element.word.text);
-    const bool is_double = word.ends_with("F");
-    const std::string_view base = std::string_view(word).substr(0, 3);
-    checkMessage(element, operands, is_double);
-    std::string call = instance + "(EN := " + power.text + ", shows := " + (base == "REM" ? "FALSE" : "TRUE") +
-                       ", logs := " + (base == "MSG" ? "FALSE" : "TRUE");
-    constexpr const char* kInputs[] = {"number", "channel", "index"};
-    for (size_t k = 0; k < 3; ++k) call += std::string(", ") + kInputs[k] + " := " + asInteger(operands[k]);
-    if (operands.size() > 3)
-      call += is_double ? ", double := " + asDouble(operands[3]) : ", integer := " + asInteger(operands[3]);
-    call += ");\n";
-    const std::string guard = reaches(element, operands);
-    if (guard.empty()) {
-      put(call);
-    } else {
-      put(errorFlag() + " := NOT (" + guard + ");\nIF NOT " + errorFlag() + " THEN " + call + "END_IF\n");
-    }
-    put(output + " := " + instance + ".Q;\n");
-    power.text = output;
-  }
-  // The text of a message with a constant number. NCT manual 6.13.
-  void checkMessage(const Element& element, std::span<const Operand> operands, bool is_double) {
-    if (operands[0].kind != OperandKind::Integer) return;
-    const auto number = operands[0].value;
-    const auto text = std::find_if(program_.messages.begin(), program_.messages.end(),
-                                   [&](const MessageLine& line) { return line.number == number; });
-    if (text == program_.messages.end()) {
-      report(diag::NctNoMessage, element.operands[0], {element.operands[0].text});
-      return;
-    }
-    const bool has_integer = text->text.text.find("{#") != std::string_view::npos;
-    const bool has_double = text->text.text.find("{*") != std::string_view::npos;
-    if ((has_integer && is_double) || (has_double && !is_double))
-      report(diag::NctMessageItem, element.word, {element.word.text, has_integer ? "an integer" : "a double"})
-          .declaredHere(text->text.loc);
-  }
-
-  void writeService(const Element& element, Power& power) {
-    needContact(element, power);
-    std::vector<Operand> operands;
-    if (!take(element, operands)) return;
-    settle(power);
-    const std::string instance = hidden("service", element.instruction->flagged), output = temporary();
-    const bool moves = element.instruction->word == "MOVCMND";
-    std::string call = instance + "(EN := " + power.text;
-    if (moves)
-      call += ", axis := " + asInteger(operands[0]) + ", code := " + asInteger(operands[1]) +
-              ", speed := " + asDouble(operands[2]) + ", distance := " + asDouble(operands[3]);
-    else
-      call += ", address := " + wordOf(operands[0].address) + ", service := " + asInteger(operands[1]);
-    put(call + ");\n" + output + " := " + instance + ".Q;\n");
-    power.text = output;
+    const bool good = operands_.take(element, operands);
+    if (good && element.shape == Shape::Message) operands_.checkMessage(element, operands);
+    if (diagnostics_.errorCount() == errors) report(diag::NctNeedsControl, element.word, {element.word.text});
+    power = {};
+    power.has_contact = true;
   }
 
   void writeJump(const Element& element, Power& power) {
@@ -1079,7 +576,7 @@ class Writer {
       return;
     }
     std::vector<Operand> operands;
-    if (!take(element, operands) || broken_labels_.count(&element) != 0) return;
+    if (!operands_.take(element, operands) || bodies_.broken_jumps.count(&element) != 0) return;
     const std::string label = std::to_string(operands[0].value);
     settle(power);
     beginIf(power);
@@ -1193,7 +690,7 @@ class Writer {
     loc_ = box->word.loc;
     std::vector<Operand> operands;
     power.has_contact = true;
-    if (!take(*box, operands) || !all) return;
+    if (!operands_.take(*box, operands) || !all) return;
     callInstance(*box, operands, pins, form->inputs, power);
   }
 
@@ -1229,33 +726,6 @@ class Writer {
     power.has_contact = power.has_contact && node->second.has_contact;
   }
 
-  // ---- declarations
-
-  void writeGlobals() {
-    out_.put(program_.name.loc, "VAR_GLOBAL\n");
-    for (const Symbol& symbol : memory_.userSymbols()) {
-      const bool is_bit = symbol.kind == SymbolKind::Bit, is_double = symbol.kind == SymbolKind::Double;
-      if (symbol.name.empty() || !isName(symbol.name) || !(is_bit || is_double || symbol.kind == SymbolKind::Word))
-        continue;
-      declare(symbol.name, symbol.loc,
-              is_bit      ? Part::Bit
-              : is_double ? Part::Double
-                          : Part::Word,
-              symbol.word, symbol.bit, Space::Plc);
-    }
-    for (const auto& [name, symbol] : own_symbols_)
-      declare(name, program_.name.loc,
-              symbol->kind == SymbolKind::Bit      ? Part::Bit
-              : symbol->kind == SymbolKind::Double ? Part::Double
-                                                   : Part::Word,
-              symbol->word, symbol->bit, Space::Plc);
-    globals_.addTo(out_);
-    const Limits& limits = memory_.limits();
-    out_.put(program_.name.loc, "END_VAR\nVAR_GLOBAL RETAIN\n  _kept AT %ND" + std::to_string(limits.kept) +
-                                    " : ARRAY[0.." + std::to_string(limits.volatile_ - limits.kept - 1) +
-                                    "] OF DWORD;\nEND_VAR\n");
-  }
-
   void writeTasks() {
     const std::string name(program_.name.text);
     std::string text = "CONFIGURATION _nct RESOURCE _control ON PLC\n";
@@ -1277,21 +747,15 @@ class Writer {
   Diagnostics& diagnostics_;
   xml::SourceMappedText& out_;
 
-  Pieces text_, state_, globals_;
+  Places places_;
+  Operands operands_;
+  Pieces text_, state_;
   Loc loc_;  // of the element that is being written
   bool keeps_flags_ = false;
 
-  std::unordered_map<uint64_t, std::string> places_;
-  std::map<std::string, const Symbol*> own_symbols_;
-  std::map<uint32_t, std::vector<Driver>> drivers_;
-  std::set<std::pair<int32_t, uint8_t>> owned_;
-
-  const Module* module_ = nullptr;
   std::span<const Element> elements_;
   bool in_int0_ = false;
-  std::vector<Body> bodies_;
-  std::set<const Element*> broken_labels_;
-  bool recursive_ = false;
+  Bodies bodies_;
   std::unordered_map<std::string, uint32_t> hidden_count_;
 
   bool in_subroutine_ = false, returned_ = false;

@@ -23,6 +23,17 @@ double targetOf(const SMC_ControlAxisByPos_type& block, const Axis& axis) {
   return target + turn * floor((startState(axis).position - target) / turn + 0.5);
 }
 
+Request wayTo(double target, double velocity, double acceleration, double deceleration, double jerk) {
+  Request request = {};
+  request.kind_ = static_cast<uint8_t>(Motion::Position);
+  request.target_ = target;
+  request.velocity_ = velocity;
+  request.acceleration_ = acceleration;
+  request.deceleration_ = deceleration;
+  request.jerk_ = jerk;
+  return request;
+}
+
 Error directError(const SMC_ControlAxisByPos_type& block) {
   const Error error = refusal(block.Axis_);
   if (error != SMC_NO_ERROR_) return error;
@@ -32,13 +43,8 @@ Error directError(const SMC_ControlAxisByPos_type& block) {
 }
 
 bool planGap(SMC_ControlAxisByPos_type& block, Axis& axis, double target) {
-  Request request = {};
-  request.kind_ = static_cast<uint8_t>(Motion::Position);
-  request.target_ = target;
-  request.velocity_ = block.fGapVelocity_;
-  request.acceleration_ = block.fGapAcceleration_;
-  request.deceleration_ = block.fGapDeceleration_;
-  request.jerk_ = block.fGapJerk_;
+  const Request request =
+      wayTo(target, block.fGapVelocity_, block.fGapAcceleration_, block.fGapDeceleration_, block.fGapJerk_);
   block.target_ = target;
   block.gap_cycle_ = axis.cycle_;
   return planUnscaled(axis, request, startState(axis), *reinterpret_cast<Profile*>(block.gap_)) == Result::Ok;
@@ -126,13 +132,8 @@ State compensation(const SMC_BacklashCompensation_type& block, const Axis& slave
 
 bool turnOver(SMC_BacklashCompensation_type& block, Axis& slave, int16_t side) {
   const State from = compensation(block, slave, slave.cycle_ - block.ramp_cycle_);
-  Request request = {};
-  request.kind_ = static_cast<uint8_t>(Motion::Position);
-  request.target_ = (side - block.first_side_) * block.fBacklash_;
-  request.velocity_ = block.fCompensationVel_;
-  request.acceleration_ = block.fCompensationAcc_;
-  request.deceleration_ = block.fCompensationDec_;
-  request.jerk_ = block.fCompensationJerk_;
+  const Request request = wayTo((side - block.first_side_) * block.fBacklash_, block.fCompensationVel_,
+                                block.fCompensationAcc_, block.fCompensationDec_, block.fCompensationJerk_);
   block.side_ = side;
   block.target_ = request.target_;
   block.is_ramping_ = 1;
