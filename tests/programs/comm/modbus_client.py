@@ -1,9 +1,11 @@
 """Reads and writes the program modbus_slave.iecst with pymodbus: modbus_client.py PORT|DEVICE. Prints what is wrong, then `done`."""
+import logging
 import sys
 import time
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 
 where = sys.argv[1]
+logging.getLogger('pymodbus').setLevel(logging.CRITICAL)  # it is refused until the slave listens
 client = ModbusTcpClient('127.0.0.1', port=int(where)) if where.isdigit() else ModbusSerialClient(
     port=where, baudrate=19200, parity='N', stopbits=1, bytesize=8, timeout=1)  # a pseudo-terminal has no parity
 for _ in range(250):
