@@ -62,8 +62,17 @@ class SymbolWriter {
       if (!isHidden(row.flags)) symbols.push_back(row);
     list(out, "symbols", symbols, [&](const rung_symbol& row) { return symbol(row); });
     list(out, "types", is_.types, [&](const rung_type& row) { return type(row); });
-    const auto range = [](const rung_range& row) {
-      return Object().number("block", row.block).number("offset", row.offset).number("size", row.size).end();
+    const auto range = [this](const rung_range& row) {
+      Object kept;
+      const uint32_t index = row.block & ~(RUNG_RANGE_AREA | RUNG_RANGE_BIT);
+      if ((row.block & RUNG_RANGE_AREA) == 0)
+        kept.number("block", index);
+      else
+        kept.text("area", name(is_.areas[index].name));
+      const bool is_bit = (row.block & RUNG_RANGE_BIT) != 0;
+      kept.number("offset", is_bit ? row.offset / 8 : row.offset);
+      if (is_bit) kept.number("bit", row.offset % 8);
+      return kept.number("size", row.size).end();
     };
     list(out, "retain", is_.retain, range);
     list(out, "persistent", is_.persistent, range);

@@ -195,6 +195,18 @@ class Describer {
     }
   }
 
+  // Inputs come from the process.
+  void keepLocated(const Located& located) {
+    const bool is_input = module_.areas[located.area].owner == types::AreaOwner::Input;
+    if (is_input || (!located.retain && !located.persistent)) return;
+    std::vector<rung_range>& ranges = located.persistent ? out_.persistent : out_.retain;
+    const uint32_t area = RUNG_RANGE_AREA | located.area;
+    if (located.bit != kNoBit)
+      ranges.push_back({area | RUNG_RANGE_BIT, located.byte * 8 + located.bit, 1});
+    else
+      add(ranges, area, located.byte, types_.info(types_.resolve(located.type)).size);
+  }
+
   void addBlock(uint32_t index) {
     const MemoryBlocks::Block& block = blocks_.blocks[index];
     const TypeInfo& info = types_.info(types_.resolve(block.record));
@@ -273,6 +285,9 @@ class Describer {
       row.index = located.area;
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
       row.flags = accessFlags(located.symbol_access);
+      if (located.retain) row.flags |= RUNG_FIELD_RETAIN;
+      if (located.persistent) row.flags |= RUNG_FIELD_PERSISTENT;
+      keepLocated(located);
       add(name, row, path);
     }
     for (const AccessPath& access : module_.access_paths) {

@@ -371,6 +371,7 @@ struct Located {
   uint32_t owner_program = 0;  /* index into programs + 1; 0: a global or unnamed */
   NameId list, configuration;  // of a global: its list; and the configuration where that is a resource's
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
+  bool retain = false, persistent = false;
 };
 
 // A name of VAR_ACCESS: a symbol for a part of a list, of a program instance or of the image.

@@ -368,6 +368,8 @@ types::SymbolAccess Reader::symbolAccess() {
 void Reader::located() {
   ++at_;
   Located created{};
+  created.retain = accept("retain");
+  created.persistent = accept("persistent");
   created.symbol_access = symbolAccess();
   if (!accept("_")) created.name = name();
   expect(":");

@@ -349,6 +349,8 @@ void Printer::instance(uint32_t index) {
 
 void Printer::located(const Located& located) {
   put("located ");
+  if (located.retain) put("retain ");
+  if (located.persistent) put("persistent ");
   put(symbolAccessWord(located.symbol_access));
   if (located.name)
     name(located.name);

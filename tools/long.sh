@@ -4,7 +4,7 @@
 #   tools/long.sh [PART...]      all parts without one
 # differential  20 000 random programs in three dialects: interpreter and, of every tenth, g++ and clang++ (COUNT, FIRST)
 # networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
-# mutants       30 000 corrupted programs and drawings: one error at the right place, and no crash (COUNT, FIRST)
+# mutants       40 000 corrupted programs, drawings and ladders: one error at the right place, and no crash (COUNT, FIRST)
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
@@ -43,7 +43,7 @@ networks() {
 mutants() {
   needs mutation_test
   local test
-  for test in mutation_test drawing_mutation_test network_mutation_test; do
+  for test in mutation_test drawing_mutation_test network_mutation_test ladder_mutation_test; do
     RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-10000} "$bin/$test"
   done
 }

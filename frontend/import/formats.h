@@ -37,10 +37,17 @@ struct Library {
   Loc loc;
 };
 
+// What an NCT control is set to: the periods of Main and Int0, and where user memory begins.
+struct LadderSettings {
+  int64_t plc_period_ns = 10'000'000, time_slice_ns = 2'000'000;
+  uint32_t kept = 4000, volatile_ = 5024;  // PLCNVRAM, PLCRAM
+};
+
 struct ReadContext {
   Sources& sources;
   Diagnostics& diagnostics;
   std::vector<Library>& libraries;  // those that the files ask for are added
+  LadderSettings ladder = {};
 };
 
 struct Format {

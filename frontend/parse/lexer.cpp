@@ -789,6 +789,10 @@ void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, ui
   Lexer(out, names, sources, file, dialect, diagnostics).run(begin, end);
 }
 
+bool isElementaryType(std::string_view word) {
+  return isTypeWord(findKeyword(word.data(), static_cast<uint32_t>(word.size())));
+}
+
 bool isReservedWord(std::string_view word) {
   if (word.empty()) return false;
   const Tok kind = findKeyword(word.data(), static_cast<uint32_t>(word.size()));

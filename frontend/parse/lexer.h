@@ -65,4 +65,7 @@ bool beginsIl(Tok kind, std::string_view text, const Token& next);
 // Turns object keywords that begin no declaration into names (objects.cpp).
 void resolveObjectKeywords(TokenStream& stream);
 
+// Whether a word is the keyword of an elementary type, such as INT, which no variable can have as its name.
+bool isElementaryType(std::string_view word);
+
 }  // namespace rung::text

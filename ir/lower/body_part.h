@@ -90,6 +90,7 @@ class BodyPart {
   // An operation that the program has written: with --checks=overflow its result must fit. Not in libraries.
   ExprId arithmetic(ExprId operation);
   bool checksOverflow() const;
+  bool wraps() const;
   bool isLibraryCode() const { return pou_ && project_.pou(pou_).library; }
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);

@@ -102,7 +102,9 @@ ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) 
              static_cast<uint8_t>(checked ? in_.options.checks & kCheckDiv : 0));
 }
 
-bool BodyPart::checksOverflow() const { return (in_.options.checks & kCheckOverflow) != 0 && !isLibraryCode(); }
+// Libraries and POUs with {attribute 'no_check'} wrap and cut values on purpose.
+bool BodyPart::wraps() const { return isLibraryCode() || (pou_ && project_.pou(pou_).pragmas.no_check); }
+bool BodyPart::checksOverflow() const { return (in_.options.checks & kCheckOverflow) != 0 && !wraps(); }
 
 ExprId BodyPart::arithmetic(ExprId operation) {
   Expr& e = body_.expr(operation);
@@ -121,7 +123,8 @@ ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rou
   bool integer_result = !TypeTable::isReal(to_kind) && TypeTable::isScalar(to_kind);
   // A long time or date converted to a short one is scaled: its number does not show whether it fits.
   const bool is_scaled = !TypeTable::isInteger(to_kind) && !TypeTable::isBits(to_kind) && to_kind != from_kind;
-  if (TypeTable::isScalar(from_kind) && integer_result && !is_scaled && !types::isLossless(types_, typeOf(operand), to))
+  if (!wraps() && TypeTable::isScalar(from_kind) && integer_result && !is_scaled &&
+      !types::isLossless(types_, typeOf(operand), to))
     checks |= in_.options.checks & kCheckConvert;
   return add(loc, to, ConvertExpr{.operand = operand, .rounding = rounding}, checks);
 }

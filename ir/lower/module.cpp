@@ -568,6 +568,8 @@ void ModuleLowering::addLocated() {
     created.byte = var.image.byte;
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
     created.symbol_access = var.symbol_access;
+    created.retain = var.retain;
+    created.persistent = var.persistent;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
     if (!var.pou && var.list) {
       const sema::GlobalList& list = project.global_lists[var.list.index];

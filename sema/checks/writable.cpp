@@ -1,5 +1,6 @@
 // Forbids a target that is not a variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
-// own POU (codesys: warning); the control variable of an enclosing FOR (codesys: warning); the state of a chart.
+// own POU (codesys: warning); the control variable of an enclosing FOR (codesys: warning); the state of a chart; a
+// global marked {test_only}, outside of tests.
 // IEC 61131-3 ed. 3, 6.5.2.2 and 7.3.3.4.2; docs/language.md "Dialects".
 //   passes  level := 5;  motors[2].speed := 1.0;
 //   fails   5 := level;  limit := 3 (VAR CONSTANT);  FOR i := 1 TO 3 DO i := 2; END_FOR
@@ -7,10 +8,25 @@
 #include "sema/checks/writable.h"
 
 #include "sema/checks/diagnostics.h"
+#include "sema/declarations/declarations.h"
 
 namespace rung::sema {
 
 namespace {
+
+// What comes from outside, such as an input of the numerical control, is set by tests only.
+//   fails   MB_START := TRUE;                                                     E1454
+bool checkOutside(Context& context, const Var& var, Loc loc) {
+  if (!var.list || !var.decl || context.library) return true;
+  const DeclHeader& header = context.tree().as<VarDecl>(var.decl).h;
+  if (findPragma(context, header, context.scopes.known_names.test_only) == nullptr) return true;
+  if (context.pou) {
+    const Pou& user = context.symbols.pou(context.pou);
+    if (user.pragmas.test || user.pragmas.test_only || user.pragmas.replaces) return true;
+  }
+  context.report(diag::AssignToOutside, loc, {string(context, var.name)});
+  return false;
+}
 
 bool checkVariable(Context& context, VarId id, Loc loc) {
   const Var& var = context.symbols.var(id);
@@ -27,6 +43,7 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
     context.report(context.iec() ? diag::AssignToInput : diag::InputWritten, loc, {name});
     return !context.iec();
   }
+  if (!checkOutside(context, var.external ? context.symbols.var(var.external) : var, loc)) return false;
   if (context.body == nullptr) return true;
   for (const BodyState::LoopControl& loop : context.body->loop_controls) {
     if (loop.var != id) continue;

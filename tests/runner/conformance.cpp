@@ -2,6 +2,7 @@
 // test shows; projects in **.xml use comments such as <!-- features: 54/2a -->
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
+//   // with: doubles.nct           files of its folder that belong to the project
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each as a separate project, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
 // golden file. A file with a body in C++ is only compiled. Sessions in **.test show what outlives a run: console.cpp.
@@ -23,7 +24,8 @@ constexpr size_t kMaxFeatures = 6;
 
 struct File {
   std::string path, features, covers;
-  bool is_native = false;  // has a body in C++, which cannot be interpreted
+  std::vector<std::string> others;  // of its project
+  bool is_native = false;           // has a body in C++, which cannot be interpreted
 };
 
 struct TestCase {
@@ -86,7 +88,10 @@ Command testCommand(const Setting& setting, const std::vector<File>& files, cons
   if (files.size() > 1) c.arguments.push_back("--separate");
   c.arguments.insert(c.arguments.end(), {"--root", "."});
   if (!junit.empty()) c.arguments.insert(c.arguments.end(), {"--junit", junit});
-  for (const File& file : files) c.arguments.push_back(file.path);
+  for (const File& file : files) {
+    c.arguments.push_back(file.path);
+    c.arguments.insert(c.arguments.end(), file.others.begin(), file.others.end());
+  }
   c.folder = setting.root;
   c.seconds = 600;
   return c;
@@ -166,7 +171,9 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
   paths.insert(paths.end(), projects.begin(), projects.end());
   for (const std::string& path : paths) {
     const std::vector<std::string> lines = splitLines(readContent(setting.root + "/" + path));
-    File file{path, valueOf(lines, "features"), valueOf(lines, "covers")};
+    File file{path, valueOf(lines, "features"), valueOf(lines, "covers"), {}};
+    for (const std::string& name : splitWords(valueOf(lines, "with")))
+      file.others.push_back(folderOf(path) + "/" + name);
     file.is_native = std::find(lines.begin(), lines.end(), "{C++}") != lines.end();
     if (const std::string problem = headProblem(lines, file); !problem.empty()) {
       jobs.push_back({path, 0, [path, problem] {
@@ -181,6 +188,13 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
                         result.rows.push_back({file.path, "", result.failed == 0, file.features, file.covers});
                         return result;
                       }});
+    } else if (!file.others.empty()) {
+      for (const std::string& way : setting.ways) {
+        const std::string options = trimmed(way + " " + valueOf(lines, "args"));
+        if (!setting.update)
+          jobs.push_back(
+              {path + " " + options, 1, [&setting, file, options] { return runBatch(setting, {file}, options); }});
+      }
     } else if (!setting.update) {
       by_options[valueOf(lines, "args")].push_back(std::move(file));
     }

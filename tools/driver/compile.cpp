@@ -100,6 +100,11 @@ bool Compilation::read() {
     times_.bytes += text.size();
   }
   if (usage_error_.empty() && !inputs.io_error) usage_error_ = natives.read(inputs, libraries, sources);
+  importer::LadderSettings& ladder = inputs.project.ladder;
+  if (options.plc_period_ns > 0) ladder.plc_period_ns = options.plc_period_ns;
+  if (options.time_slice_ns > 0) ladder.time_slice_ns = options.time_slice_ns;
+  if (ladder.plc_period_ns % ladder.time_slice_ns != 0 && usage_error_.empty())
+    usage_error_ = "the PLC period of an NCT program must be a multiple of its TimeSlice";
   const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
   if (ok) readPrograms(sources, diagnostics, inputs);
   noteLibraries();
@@ -174,7 +179,12 @@ bool Compilation::check() {
     sema::Options sema_options;
     sema_options.dialect = options.dialect;
     if (!options.name.empty()) sema_options.name = options.name;
-    sema_options.libraries = libraries.files();
+    std::vector<sema::LibraryFile> library_files = libraries.files();
+    // The variables of the numerical control are in the memory of its ladder.
+    if (!types::findArea(inputs.project.areas, 'N'))
+      std::erase_if(library_files,
+                    [](const auto& file) { return std::string_view(file.path).ends_with("nct/symbols.st"); });
+    sema_options.libraries = library_files;
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;
     for (const std::vector<std::string>& names : inputs.library_names)

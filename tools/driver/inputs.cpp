@@ -391,12 +391,20 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
     if (input.kind == FileKind::St) input.file = (half++)->file;
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 
-  importer::ReadContext context{sources, diagnostics, inputs.libraries};
+  importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder};
   const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
   if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct)) addNctAreas(inputs.project.areas);
+  FileId ladder;
   for (InputFile& input : inputs.files) {
     const importer::Format& format = importer::formatOf(input.kind);
     if (format.read == nullptr) continue;
+    if (is_nct(input) && ladder) {
+      diagnostics.report(diag::SecondLadder, sources.begin(input.file), {}).declaredHere(sources.begin(ladder));
+      input.file = {};
+      inputs.unread = true;
+      continue;
+    }
+    if (is_nct(input)) ladder = input.file;
     input.file = format.read(context, input.file);
     if (!input.file) inputs.unread = true;
   }

@@ -157,10 +157,11 @@ int runList(const Options& options, Sink& sink) {
   if (options.inputs[0] == "pous") return listPous(options, sink);
   if (options.inputs[0] == "tasks") return listTasks(options, sink);
   if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options, sink);
+  if (options.inputs[0] == "nct" && options.inputs.size() == 1) return listNct(options, sink);
   if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(options, sink);
   return usageError(sink, "unknown argument `" + options.inputs[0] +
-                              "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, "
-                              "`warnings` or `--signature NAME`");
+                              "` of `rung list`; it takes `libraries`, `nct`, `pous FILE|DIR ...`, `tasks FILE|DIR "
+                              "...`, `warnings` or `--signature NAME`");
 }
 
 }  // namespace rung::driver

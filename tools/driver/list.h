@@ -55,6 +55,8 @@ class List {
   std::string out_;
 };
 
+// The names of the NCT ladder: symbols, instructions, services, execution codes. (list_nct.cpp)
+int listNct(const Options& options, Sink& sink);
 // The tasks of a project, what they run, and in which order. (list_tasks.cpp)
 int listTasks(const Options& options, Sink& sink);
 

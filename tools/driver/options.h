@@ -85,8 +85,9 @@ struct Options {
   uint32_t pointer_size = 8;
   uint32_t native_width = 32;  // of intermediate results in codesys
   bool native_width_given = false;
-  bool counts_steps = false;                 // set by run.cpp and test.cpp
-  int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
+  bool counts_steps = false;                     // set by run.cpp and test.cpp
+  int64_t default_interval_ns = 10'000'000;      // set from --interval by run.cpp
+  int64_t plc_period_ns = 0, time_slice_ns = 0;  // of an NCT program; 0: as rung.project says
 
   // run, test
   Engine engine = Engine::Auto;

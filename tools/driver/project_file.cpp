@@ -29,6 +29,7 @@ constexpr Schema kSchemas[] = {
     {"area", true, "owner bytes"},
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
+    {"nct", false, "plc_period time_slice plcnvram plcram"},
     {"pool", true, nullptr},  // `new`: bytes
 };
 
@@ -257,6 +258,31 @@ void readDuration(const ProjectSection& section, Diagnostics& diagnostics, Proje
   project.task_durations.push_back({section.name, static_cast<int64_t>(time.value), section.loc});
 }
 
+// [nct]: what an NCT control is set to. The control's own variables end below 1312, and its TimeSlice memory has 4000
+// words.
+void readLadderSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  importer::LadderSettings& ladder = project.ladder;
+  for (const ProjectEntry& entry : section.entries) {
+    if (entry.key == "plcnvram" || entry.key == "plcram") {
+      const bool kept = entry.key == "plcnvram";
+      if (!readNumber(entry.value, kept ? 1312 : 1313, kept ? 4000 : 9999, kept ? ladder.kept : ladder.volatile_))
+        badValue(diagnostics, entry, kept ? "it takes an address from 1312 to 4000" : "it takes an address up to 9999");
+      continue;
+    }
+    const bool has_prefix = entry.value.find('#') != std::string::npos;
+    const Loc begin = has_prefix ? entry.value_loc : Loc{entry.value_loc.offset - 2};
+    text::TimeValue time;
+    if (!text::readDuration(duration(entry.value), begin, diagnostics, time)) continue;
+    if (time.is_negative || time.value == 0) {
+      badValue(diagnostics, entry, "it takes a time above 0");
+      continue;
+    }
+    (entry.key == "plc_period" ? ladder.plc_period_ns : ladder.time_slice_ns) = static_cast<int64_t>(time.value);
+  }
+  const ProjectEntry* const limit = section.find(section.find("plcram") != nullptr ? "plcram" : "plcnvram");
+  if (limit != nullptr && ladder.volatile_ <= ladder.kept) badValue(diagnostics, *limit, "PLCRAM is above PLCNVRAM");
+}
+
 // True for `[task NAME]` with nothing but a duration: NAME is a task of the program.
 bool isAboutDeclaredTask(const ProjectSection& section) {
   return section.entries.size() == 1 && section.entries[0].key == "duration";
@@ -378,6 +404,8 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
       readAreaSection(section, diagnostics, project);
     else if (section.kind == "task")
       readDuration(section, diagnostics, project);
+    else if (section.kind == "nct")
+      readLadderSection(section, diagnostics, project);
   readModules(sources, diagnostics, project);
   readAxes(sources, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/import/formats.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "sema/options.h"
@@ -40,6 +41,7 @@ struct ProjectFile {
   uint8_t checks = 0;
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
+  importer::LadderSettings ladder;
   types::MemoryAreas areas = types::standardAreas();
   bool aligned_globals = false;
   std::vector<sema::TaskDuration> task_durations;

@@ -51,6 +51,7 @@ enum class Key : uint8_t {
   Name,
   Dialect,
   NativeWidth,
+  Period,
   Checks,
   Level,
   Warning,
@@ -174,6 +175,8 @@ constexpr OptionRow kOptions[] = {
     {Key::CamNumber, "--slave-unit", "U", bit(Command::Cam), "the same"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
+    {Key::Period, "--plc-period", "T", kCompile, "period of Main of an NCT program (default: T#10ms)"},
+    {Key::Period, "--time-slice", "T", kCompile, "period of Int0 of an NCT program (default: T#2ms)"},
     {Key::Checks, "--checks", "LIST", kCompile,
      "run-time checks: div,index,null,cast (default),\n"
      "subrange,convert,overflow, or all, none"},
@@ -302,6 +305,9 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       if (options.command == Command::Run) options.host_arguments.push_back(row.name + ("=" + value));
       return std::string_view(row.name) == "--timeout" ? host::parseTimeout(value, options.timeout_ns)
                                                        : host::parseMaxSteps(value, options.max_steps);
+    case Key::Period:
+      return host::parseTimeout(
+          value, std::string_view(row.name) == "--plc-period" ? options.plc_period_ns : options.time_slice_ns);
     case Key::Junit: options.junit = value; return {};
     case Key::Coverage: options.coverage = true; return {};
     case Key::Lcov: options.lcov = value; return {};

@@ -11,8 +11,6 @@
 namespace rung::importer::nct {
 namespace {
 
-constexpr uint32_t kMostLabel = 99;
-
 class BodyFinder {
  public:
   BodyFinder(const Module& module, Diagnostics& diagnostics)
@@ -61,7 +59,7 @@ class BodyFinder {
       } else if (!in_body && !(marker && sameIdentifier(element.word.text, "SEC"))) {
         report(diag::NctAfterEnd, element.word, {"a rung after END"});
         in_body = true;  // one report
-        body = {k, k, static_cast<int32_t>(kMostLabel) + 1, element.word.loc};
+        body = {k, k, kMostLabel + 1, element.word.loc};
       }
     }
     close(static_cast<uint32_t>(elements_.size()));
@@ -75,7 +73,7 @@ class BodyFinder {
       uint32_t at = 0;
       bool used = false;
     };
-    std::array<Target, kMostLabel + 1> targets{};
+    std::array<Target, size_t{kMostLabel} + 1> targets{};
     for (size_t b = 0; b < bodies_.list.size(); ++b) {
       const auto take = [&](uint32_t k) {
         const Element& element = elements_[k];

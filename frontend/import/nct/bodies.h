@@ -9,6 +9,8 @@
 
 namespace rung::importer::nct {
 
+inline constexpr int32_t kMostLabel = 99;
+
 struct Body {
   uint32_t begin, end;  // elements
   int32_t label;        // of the subroutine; -1: the cyclic part

@@ -20,12 +20,9 @@ constexpr NcSymbol kNcSymbols[] = {
 #undef NC_SYMBOL
 #undef NC_SPELLING
 
-struct Spelling {
-  std::string_view name, of;
-};
 #define NC_SYMBOL(name, kind, direction, word, bit, units)
 #define NC_SPELLING(name, of) {#name, #of},
-constexpr Spelling kSpellings[] = {
+constexpr NcSpelling kSpellings[] = {
 #include "frontend/import/nct/nc_symbols.def"
 };
 #undef NC_SYMBOL
@@ -44,28 +41,8 @@ const std::bitset<kWords>& inputWords() {
   return *words;
 }
 
-// Symbols that every program has, besides those of the numerical control. NCT manual 2, 5; 6.4 for the time bases.
-std::vector<Symbol> ownSymbols(const Limits& limits) {
-  std::vector<Symbol> symbols;
-  const auto add = [&](std::string_view name, SymbolKind kind, int32_t word, uint8_t bit, int64_t value) {
-    Symbol symbol;
-    symbol.name = name;
-    symbol.kind = kind;
-    symbol.word = word;
-    symbol.bit = bit;
-    symbol.value = value;
-    symbols.push_back(symbol);
-  };
-  add("FLAGS", SymbolKind::Word, 0, 0, 0);
-  uint8_t bit = 0;
-  for (const std::string_view flag : {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"})
-    add(flag, SymbolKind::Bit, 0, bit++, 0);
-  add("PLCNVRAM", SymbolKind::Word, limits.kept, 0, 0);
-  add("PLCRAM", SymbolKind::Word, limits.volatile_, 0, 0);
-  int64_t basis = 0;
-  for (const std::string_view name : {"MSEC", "SEC", "MIN", "HOURS"}) add(name, SymbolKind::Integer, 0, 0, basis++);
-  return symbols;
-}
+// Symbols relative to one another, one after the other: more come from no drawing, and each is a call.
+constexpr uint32_t kMostSymbols = 200;
 
 bool isDigits(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -89,12 +66,35 @@ bool isDouble(std::string_view text) {
 }  // namespace
 
 std::span<const NcSymbol> ncSymbols() { return kNcSymbols; }
+std::span<const NcSpelling> ncSpellings() { return kSpellings; }
+
+std::vector<Symbol> ownSymbols(const Limits& limits) {
+  std::vector<Symbol> symbols;
+  const auto add = [&](std::string_view name, SymbolKind kind, int32_t word, uint8_t bit, int64_t value) {
+    Symbol symbol;
+    symbol.name = name;
+    symbol.kind = kind;
+    symbol.word = word;
+    symbol.bit = bit;
+    symbol.value = value;
+    symbols.push_back(symbol);
+  };
+  add("FLAGS", SymbolKind::Word, 0, 0, 0);
+  uint8_t bit = 0;
+  for (const std::string_view flag : {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"})
+    add(flag, SymbolKind::Bit, 0, bit++, 0);
+  add("PLCNVRAM", SymbolKind::Word, limits.kept, 0, 0);
+  add("PLCRAM", SymbolKind::Word, limits.volatile_, 0, 0);
+  int64_t basis = 0;
+  for (const std::string_view name : {"MSEC", "SEC", "MIN", "HOURS"}) add(name, SymbolKind::Integer, 0, 0, basis++);
+  return symbols;
+}
 
 const NcSymbol* findNcSymbol(std::string_view name) {
   static const auto* const by_name = [] {
     auto* const map = new std::unordered_map<std::string, const NcSymbol*>;
     for (const NcSymbol& symbol : kNcSymbols) map->emplace(upper(symbol.name), &symbol);
-    for (const Spelling& spelling : kSpellings) map->emplace(upper(spelling.name), map->at(upper(spelling.of)));
+    for (const NcSpelling& spelling : kSpellings) map->emplace(upper(spelling.name), map->at(upper(spelling.of)));
     return map;
   }();
   const auto found = by_name->find(upper(name));
@@ -135,6 +135,18 @@ void Memory::resolve(size_t line) {
   const SymbolLine& from = program_.symbols[line];
   if (states_[line] == kDone) return;
   if (states_[line] == kBusy) return void(report(diag::NctSymbolCycle, from.name, {from.name.text}));
+  if (depth_ >= kMostSymbols) {
+    report(diag::NctSymbolChain, from.name, {from.name.text, std::to_string(kMostSymbols)});
+    states_[line] = kDone;
+    return;
+  }
+  ++depth_;
+  resolveNew(line);
+  --depth_;
+}
+
+void Memory::resolveNew(size_t line) {
+  const SymbolLine& from = program_.symbols[line];
   states_[line] = kBusy;
   Symbol symbol;
   symbol.name = from.name.text;
@@ -157,7 +169,8 @@ void Memory::resolve(size_t line) {
       report(diag::NctOperandKind, from.value, {from.value.text, "a symbol has a fixed address"});
       good = false;
     }
-    const bool is_double = !from.marker.empty() && sameIdentifier(from.marker.text, "DOUBLE");
+    const bool is_double = from.marker.empty() ? !address.is_bit && beginsWithDouble(from.value.text)
+                                               : sameIdentifier(from.marker.text, "DOUBLE");
     if (good && is_double && address.is_bit) {
       report(diag::NctOperandKind, from.marker, {from.marker.text, "this symbol is a bit"});
       good = false;
@@ -172,6 +185,12 @@ void Memory::resolve(size_t line) {
   }
   if (good) user_[line] = symbol;
   states_[line] = kDone;
+}
+
+// CP_INC or CP_INC,#2: relative to a double, it is one too.
+bool Memory::beginsWithDouble(std::string_view text) {
+  const Symbol* const symbol = find(text.substr(0, text.find_first_of(",;.:")));
+  return symbol != nullptr && symbol->kind == SymbolKind::Double;
 }
 
 const Symbol* Memory::find(std::string_view name) {

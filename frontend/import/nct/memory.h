@@ -37,6 +37,10 @@ struct NcSymbol {
   uint8_t units;  // panels, axes, channels …: this many words or doubles, one after the other
 };
 std::span<const NcSymbol> ncSymbols();
+struct NcSpelling {
+  std::string_view name, of;
+};
+std::span<const NcSpelling> ncSpellings();
 // By name or another spelling of it, any case; null: none.
 const NcSymbol* findNcSymbol(std::string_view name);
 // Whether the numerical control writes this word.
@@ -55,6 +59,9 @@ struct Symbol {
   int64_t value = 0;          // Integer, Pattern
   std::string_view number{};  // Number: without the `*`
 };
+
+// Symbols that every program has, besides those of the numerical control. NCT manual 2, 5; 6.4 for the time bases.
+std::vector<Symbol> ownSymbols(const Limits& limits);
 
 // A place in memory. With `offset` or `bit_from`, the place is known when the program runs.
 struct Address {
@@ -96,6 +103,8 @@ class Memory {
  private:
   enum LineState : uint8_t { kNew, kBusy, kDone };
   void resolve(size_t line);
+  bool beginsWithDouble(std::string_view text);
+  void resolveNew(size_t line);
   bool readConstant(const Word& word, Operand& operand);
   bool readAddress(Word word, Address& address, bool in_declaration);
   bool readBase(const Word& word, Address& address, bool in_declaration);
@@ -111,6 +120,7 @@ class Memory {
   Diagnostics& diagnostics_;
   std::vector<Symbol> user_;  // by line; those that are broken have no name
   std::vector<LineState> states_;
+  uint32_t depth_ = 0;                               // of symbols relative to symbols
   std::unordered_map<std::string, uint32_t> lines_;  // by upper-case name
   std::unordered_map<std::string, Symbol> nc_;       // those asked for
 };

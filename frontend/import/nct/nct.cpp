@@ -8,9 +8,11 @@ namespace rung::importer::nct {
 FileId readProgram(ReadContext& context, FileId file) {
   const uint32_t errors = context.diagnostics.errorCount();
   const Program program = read(context.sources, file, context.diagnostics);
-  Memory memory(program, {}, context.diagnostics);
+  const LadderSettings& settings = context.ladder;
+  const Limits limits{static_cast<int32_t>(settings.kept), static_cast<int32_t>(settings.volatile_)};
+  Memory memory(program, limits, context.diagnostics);
   xml::SourceMappedText out(context.sources);
-  write(program, memory, context.diagnostics, out);
+  write(program, memory, settings, context.diagnostics, out);
   if (context.diagnostics.errorCount() != errors) return {};
   return out.finish(context.sources, file);
 }

@@ -4,16 +4,13 @@
 #include <algorithm>
 
 #include "frontend/import/diagnostics.h"
+#include "frontend/import/nct/services.h"
 #include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
 
 namespace rung::importer::nct {
 namespace {
 
-struct Scope {
-  std::string_view name;
-  int32_t last;  // of the first parameter; 0: without
-};
 #define NC_SCOPE(name, last) {#name, last},
 constexpr Scope kScopes[] = {
 #include "frontend/import/nct/nc_scopes.def"
@@ -21,6 +18,8 @@ constexpr Scope kScopes[] = {
 #undef NC_SCOPE
 
 }  // namespace
+
+std::span<const Scope> scopes() { return kScopes; }
 
 bool Operands::take(const Element& element, std::vector<Operand>& operands) {
   const std::string_view kinds = element.instruction->operands;
@@ -168,21 +167,51 @@ void Operands::checkDrivers() {
 // NCT manual 6.13.
 //   fails   MSG #5 #0 #0, without a row 5 in MESSAGES                             E1421
 //   fails   MSGF #5 …, whose text has {#0:F0}                                     E1422
-void Operands::checkMessage(const Element& element, std::span<const Operand> operands) {
-  if (operands[0].kind != OperandKind::Integer) return;
+//   fails   MSG #5 #100 #0                                                        E1433
+bool Operands::checkMessage(const Element& element, std::span<const Operand> operands) {
+  for (size_t k = 1; k < 3; ++k) {
+    if (operands[k].kind != OperandKind::Integer || (operands[k].value >= 0 && operands[k].value <= 99)) continue;
+    report(diag::NctMessageNumber, element.operands[k], {element.operands[k].text, k == 1 ? "channel" : "index"});
+    return false;
+  }
+  if (operands[0].kind != OperandKind::Integer) return true;
   const auto number = operands[0].value;
   const auto text = std::find_if(program_.messages.begin(), program_.messages.end(),
                                  [&](const MessageLine& line) { return line.number == number; });
   if (text == program_.messages.end()) {
     report(diag::NctNoMessage, element.operands[0], {element.operands[0].text});
-    return;
+    return false;
   }
   const bool is_double = upper(element.word.text).ends_with("F");
   const bool has_integer = text->text.text.find("{#") != std::string_view::npos;
   const bool has_double = text->text.text.find("{*") != std::string_view::npos;
-  if ((has_integer && is_double) || (has_double && !is_double))
+  if ((has_integer && is_double) || (has_double && !is_double)) {
     report(diag::NctMessageItem, element.word, {element.word.text, has_integer ? "an integer" : "a double"})
         .declaredHere(text->text.loc);
+    return false;
+  }
+  return true;
+}
+
+// A request ends with an execution code in its block, which belongs to it alone. NCT manual 6.18.
+//   warns   MR 6000 #9                                                            W1450
+//   warns   MR 6000 #34                                                           W1451
+//   warns   MR in Int0                                                            W1452
+//   warns   MR 6000 #10 and MW 6000 #11                                           W1453
+void Operands::checkService(const Element& element, std::span<const Operand> operands) {
+  const std::string word = upper(element.word.text);
+  const Operand &block = operands[0], &code = operands[1];
+  if (in_int0_) report(diag::NctServiceInInt0, element.word, {word});
+  if (code.kind == OperandKind::Integer) {
+    const Service* const service = findService(code.value);
+    if (service == nullptr)
+      report(diag::NctUnknownService, code.word, {word + std::to_string(code.value)});
+    else if (wordOf(service->direction) != word)
+      report(diag::NctServiceDirection, code.word, {std::to_string(code.value), word, wordOf(service->direction)});
+  }
+  if (!block.address.is_static()) return;
+  const auto [other, is_new] = blocks_.emplace(block.address.word, block.word);
+  if (!is_new) report(diag::NctSharedBlock, block.word, {block.word.text}).declaredHere(other->second.loc);
 }
 
 }  // namespace rung::importer::nct

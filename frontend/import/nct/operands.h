@@ -9,6 +9,13 @@
 
 namespace rung::importer::nct {
 
+// What SCP reads: a row of nc_scopes.def.
+struct Scope {
+  std::string_view name;
+  int32_t last;  // of the first parameter; 0: without
+};
+std::span<const Scope> scopes();
+
 class Operands {
  public:
   Operands(const Program& program, Memory& memory, Diagnostics& diagnostics)
@@ -19,7 +26,9 @@ class Operands {
   // The operands of an instruction, each checked against its kind. False: one is wrong, which has been reported.
   bool take(const Element& element, std::vector<Operand>& operands);
   // The text of a message with a constant number.
-  void checkMessage(const Element& element, std::span<const Operand> operands);
+  bool checkMessage(const Element& element, std::span<const Operand> operands);
+  // The service of MR or MW.
+  void checkService(const Element& element, std::span<const Operand> operands);
   // What is known when all modules have been taken.
   void checkDrivers();
   // Bits of the PLC memory that elements with `!` drive.
@@ -48,6 +57,7 @@ class Operands {
   bool in_int0_ = false;
   std::map<uint32_t, std::vector<Driver>> drivers_;
   std::set<std::pair<int32_t, uint8_t>> owned_;
+  std::map<int32_t, Word> blocks_;  // of MR and MW, by their address
 };
 
 }  // namespace rung::importer::nct

@@ -1,12 +1,25 @@
 // Located variables and operands of NCT programs in ST; see places.h.
 #include "frontend/import/nct/places.h"
 
+#include "frontend/parse/lexer.h"
 #include "frontend/parse/parse.h"
+#include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 
 namespace rung::importer::nct {
 namespace {
 
-bool isName(std::string_view name) { return !text::isReservedWord(name); }
+bool isNumbered(std::string_view name, std::string_view begin) {
+  return name.starts_with(begin) && name.size() > begin.size() && name[begin.size()] >= '0' &&
+         name[begin.size()] <= '9';
+}
+// Whether the generated ST has another use for the name, so that the symbol is reached by its address only.
+bool isTaken(const std::string& name, const std::string& program) {
+  return text::isReservedWord(name) || text::isElementaryType(name) || name.starts_with("NCT_") ||
+         name.find("_TO_") != std::string::npos || name == program + "_MAIN" || name == program + "_INT0" ||
+         name == "_CYCLIC" || name == "_MESSAGE" || name == "_KEPT" || name == "_STARTED" ||
+         name.starts_with("_FLAGS") || isNumbered(name, "_") || isNumbered(name, "_T") || isNumbered(name, "_SUB");
+}
 
 // Of a symbol that is an address.
 Part partOf(SymbolKind kind) {
@@ -20,6 +33,8 @@ std::string hex(int64_t value) {
 }
 
 }  // namespace
+
+bool Places::isName(std::string_view name) const { return !isTaken(upper(name), upper(program_.name.text)); }
 
 std::string Places::of(const Address& address, Part part, Space space) {
   const Symbol* const symbol = address.symbol;
@@ -46,7 +61,8 @@ std::string Places::of(const Address& address, Part part, Space space) {
 
 void Places::declare(std::string_view name, Loc loc, Part part, int32_t word, uint8_t bit, Space space) {
   const std::string area = space == Space::Plc ? "%N" : "%T";
-  std::string text = "  ";
+  const bool has_symbol = !name.starts_with('_');
+  std::string text = has_symbol && (word == 0 || isInputWord(word)) ? "  {test_only} " : "  ";
   text += name;
   if (part == Part::Bit)
     text += " AT " + area + "X" + std::to_string(word * 4 + bit / 8) + "." + std::to_string(bit % 8) + " : BOOL;\n";

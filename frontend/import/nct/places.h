@@ -35,6 +35,7 @@ class Places {
   void writeTo(xml::SourceMappedText& out);
 
  private:
+  bool isName(std::string_view name) const;
   std::string wordAt(int32_t word);
   void declare(std::string_view name, Loc loc, Part part, int32_t word, uint8_t bit, Space space);
 

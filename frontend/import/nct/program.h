@@ -41,7 +41,9 @@ enum class Shape : uint8_t {
 struct Instruction {
   std::string_view word;
   Shape shape;
-  std::string_view operands, flagged, plain;
+  std::string_view operands;
+  uint8_t flags;
+  std::string_view flagged, plain;
 };
 // The rows of instructions.def; null: no such word. Any case.
 const Instruction* findInstruction(std::string_view word);

@@ -11,7 +11,8 @@
 namespace rung::importer::nct {
 namespace {
 
-#define NCT_INSTRUCTION(word, shape, operands, flagged, plain) {word, Shape::shape, operands, flagged, plain},
+#define NCT_INSTRUCTION(word, shape, operands, flags, flagged, plain) \
+  {word, Shape::shape, operands, flags, flagged, plain},
 constexpr Instruction kInstructions[] = {
 #include "frontend/import/nct/instructions.def"
 };
@@ -20,6 +21,8 @@ constexpr Instruction kInstructions[] = {
 constexpr std::string_view kPins[] = {"CK", "U/D", "R", "L/R", "D", "EN", "BID", "DIR", "INC", "PRE"};
 constexpr uint32_t kMostNesting = 200;
 constexpr uint32_t kMostMessage = 999, kMostButton = 32;
+constexpr uint32_t kMostDigits = 15;
+constexpr size_t kLongestMessage = 255;  // bytes: a STRING(255) holds it
 
 struct Line {
   std::vector<Word> words;  // without strings
@@ -182,7 +185,26 @@ class ProgramReader {
       if (other.number == number)
         return void(
             report(diag::NctTwice, first(), {"message " + std::to_string(number)}).declaredHere(other.text.loc));
+    checkMessageText(line_.text);
     program_.messages.push_back({number, line_.text});
+  }
+  // One item at most, {#0:F0} or {*0:F0} to {*0:F15}. NCT manual 6.13.
+  void checkMessageText(const Word& text) {
+    const auto refuse = [&](std::string_view why) { report(diag::NctMessageText, text, {why}); };
+    if (text.text.size() > kLongestMessage) return refuse("255 bytes is the longest");
+    if (text.empty()) return refuse("an empty text shows nothing");
+    uint32_t items = 0;
+    for (size_t at = text.text.find('{'); at != std::string_view::npos; at = text.text.find('{', at + 1)) {
+      const std::string_view rest = text.text.substr(at + 1);
+      if (!rest.starts_with("#") && !rest.starts_with("*")) continue;
+      const size_t close = rest.find('}');
+      uint32_t digits = 0;
+      if (close == std::string_view::npos || rest.substr(1, 3) != "0:F" ||
+          !readNumber(rest.substr(4, close - 4), kMostDigits, digits) || (rest[0] == '#' && digits != 0))
+        return refuse("an item is `{#0:F0}`, or `{*0:F0}` to `{*0:F15}`");
+      ++items;
+    }
+    if (items > 1) refuse("it prints one number at most");
   }
   void readButton() {
     uint32_t number = 0;

@@ -26,6 +26,9 @@ struct Power {
   bool has_contact = false;  // on every way from the left rail
 };
 
+// Sums and addresses are cut to 32 bits, whatever --checks says.
+constexpr std::string_view kWraps = "{attribute 'no_check'}\n";
+
 struct Branch {
   Power power;
   bool closed = false;
@@ -33,9 +36,11 @@ struct Branch {
 
 class Writer {
  public:
-  Writer(const Program& program, Memory& memory, Diagnostics& diagnostics, xml::SourceMappedText& out)
+  Writer(const Program& program, Memory& memory, const LadderSettings& settings, Diagnostics& diagnostics,
+         xml::SourceMappedText& out)
       : program_(program),
         memory_(memory),
+        settings_(settings),
         diagnostics_(diagnostics),
         out_(out),
         places_(program, memory),
@@ -83,8 +88,8 @@ class Writer {
       if (comma != std::string_view::npos && text.substr(comma + 1, 1) != "#") return true;
       const std::string upper_case = upper(text);
       return upper_case.find("FL_") != std::string::npos || upper_case.find("FLAGS") != std::string::npos ||
-             upper_case.find("0000") != std::string::npos || upper_case == "PLCBIT" || upper_case == "PLCINT" ||
-             upper_case == "PLCDOUBLE";
+             text.find("#-") != std::string_view::npos || upper_case.find("0000") != std::string::npos ||
+             upper_case == "PLCBIT" || upper_case == "PLCINT" || upper_case == "PLCDOUBLE";
     };
     for (const SymbolLine& line : program_.symbols)
       if (may(line.value.text)) return true;
@@ -101,6 +106,7 @@ class Writer {
     elements_ = module.elements;
     state_ = {};
     hidden_count_.clear();
+    finds_messages_ = false;
     operands_.enterModule(in_int0_);
     bodies_ = findBodies(module, diagnostics_);
     Pieces bodies;
@@ -110,7 +116,7 @@ class Writer {
 
     const Loc loc = module.given ? module.loc : program_.end;
     const std::string name = std::string(program_.name.text) + "_" + std::string(title);
-    out_.put(program_.name.loc, "PROGRAM " + name + "\n");
+    out_.put(program_.name.loc, std::string(kWraps) + "PROGRAM " + name + "\n");
     out_.put(loc, in_int0_ ? "VAR\n  _flags, _flags_of_main : DWORD;\n  _started : BOOL;\n" : "VAR\n");
     state_.addTo(out_);
     out_.put(loc, "END_VAR\n");
@@ -122,10 +128,20 @@ class Writer {
                "END_IF\nNCT_BEGIN_INT0();\n_flags_of_main := NCT_FLAGS;\nNCT_FLAGS := _flags;\n_cyclic();\n"
                "_flags := NCT_FLAGS;\nNCT_FLAGS := _flags_of_main;\n");
     } else {
+      writeTitles(loc);
       out_.put(loc, "NCT_BEGIN_MAIN();\n_cyclic();\nNCT_END_MAIN();\n");
     }
     bodies.addTo(out_);
+    writeMessageFinder(loc);
     out_.put(module.given ? module.loc : program_.end, "END_PROGRAM\n");
+  }
+
+  void writeTitles(Loc loc) {
+    if (program_.buttons.empty()) return;
+    std::string text = "IF NCT_CYCLES = 0 THEN\n";
+    for (const ButtonLine& button : program_.buttons)
+      text += "  NCT_CONTROL_TITLE(" + std::to_string(button.number) + ", " + stringLiteral(button.title) + ");\n";
+    out_.put(loc, text + "END_IF\n");
   }
 
   // ---- bodies
@@ -150,9 +166,10 @@ class Writer {
       k = end;
     }
     std::swap(statements, text_);
-    if (body.label >= 0 && !returns) diagnostics_.report(diag::NctNoReturn, body.loc, {std::to_string(body.label)});
+    if (body.label >= 0 && body.label <= kMostLabel && !returns)
+      diagnostics_.report(diag::NctNoReturn, body.loc, {std::to_string(body.label)});
 
-    text_.put(body.loc, "METHOD PRIVATE " + nameOf(body) + "\n");
+    text_.put(body.loc, std::string(kWraps) + "METHOD PRIVATE " + nameOf(body) + "\n");
     if (!powers_.empty()) {
       std::string section = "VAR\n ";
       for (const std::string& name : powers_) section += (&name == powers_.data() ? " " : ", ") + name;
@@ -292,8 +309,8 @@ class Writer {
       case Shape::Box: writeBox(element, power, is_end); return false;
       case Shape::Order: writeOrder(element, power); return false;
       case Shape::Timer: writeInstance(element, power); return false;
-      case Shape::Message:
-      case Shape::Service: refuse(element, power); return false;
+      case Shape::Message: writeMessage(element, power); return false;
+      case Shape::Service: writeService(element, power); return false;
       case Shape::Pinned:
         report(diag::NctPins, element.word, {element.word.text, "write its inputs before it: `[ CK` … `]`"});
         return false;
@@ -343,10 +360,8 @@ class Writer {
         put(shadow + "(address := " + places_.wordOf(address) + ", bit := " + bit +
             ", falling := " + (operand.query == Query::Falling ? "TRUE" : "FALSE") + ");\n");
         put(term + " := " + shadow + (negated ? ".reached AND NOT " + shadow + ".Q" : ".Q") + ";\n");
-      } else if (negated) {
-        put(term + " := NOT " + what + place + ") AND NCT_REACHES(" + place + ");\n");
       } else {
-        put(term + " := " + what + place + ");\n");
+        put(term + " := " + what + place + (negated ? ", negated := TRUE" : "") + ");\n");
       }
       join(power, term);
       return;
@@ -371,12 +386,8 @@ class Writer {
 
   // `FL_ER := FALSE` of an instruction that cannot fail.
   std::string clearError() { return keeps_flags_ ? errorFlag() + " := FALSE; " : ""; }
-  std::string errorFlag() {
-    const Symbol* const symbol = memory_.find("FL_ER");
-    Address address;
-    address.symbol = symbol;
-    return places_.of(address, Part::Bit, Space::Plc);
-  }
+  // FL_ER, which has this name where the ladder writes it.
+  static std::string errorFlag() { return "NCT_ERROR"; }
 
   // Whether all dynamic operands are in memory; empty: there are none. `result`: operand 0 is written.
   std::string reaches(const Element& element, std::span<const Operand> operands) {
@@ -414,10 +425,9 @@ class Writer {
     put(name + " := FALSE;\n");
     beginIf(power);
     if (guard.empty()) {
-      put("  " + clearError() + name + " := " + term + ";\n");
+      put("  " + name + " := " + term + "; " + (fails ? "" : clearError()) + "\n");
     } else {
-      put("  " + errorFlag() + " := NOT (" + guard + ");\n");
-      put("  IF NOT " + errorFlag() + " THEN " + name + " := " + term + "; END_IF\n");
+      putGuarded(element, guard, name + " := " + term + ";" + (fails ? "" : " " + errorFlag() + " := FALSE;"));
     }
     endIf(power);
     power.text = name;
@@ -453,6 +463,12 @@ class Writer {
     if (stores) endIf(power);
   }
 
+  // Runs a statement if `guard` holds; else FL_ER, and no other flag of the instruction.
+  void putGuarded(const Element& element, const std::string& guard, const std::string& statement) {
+    put("  IF " + guard + " THEN " + statement + "\n  ELSE NCT_REFUSE(" + std::to_string(element.instruction->flags) +
+        "); END_IF\n");
+  }
+
   void writeBox(const Element& element, Power& power, bool is_end) {
     needContact(element, power);
     std::vector<Operand> operands;
@@ -477,8 +493,7 @@ class Writer {
     if (guard.empty()) {
       put("  " + stored + (clears ? " " + clearError() : std::string()) + "\n");  // an operand may be FLAGS
     } else {
-      put("  " + errorFlag() + " := NOT (" + guard + ");\n");
-      put("  IF NOT " + errorFlag() + " THEN " + stored + " END_IF\n");
+      putGuarded(element, guard, stored + (clears ? " " + errorFlag() + " := FALSE;" : std::string()));
     }
     endIf(power);
     if (!is_end && may_fail) outputUnlessError(power);
@@ -503,8 +518,7 @@ class Writer {
     if (guard.empty()) {
       put("  " + call + "\n");
     } else {
-      put("  " + errorFlag() + " := NOT (" + guard + ");\n");
-      put("  IF NOT " + errorFlag() + " THEN " + call + " END_IF\n");
+      putGuarded(element, guard, call);
     }
     endIf(power);
     if (element.shape == Shape::Order) outputUnlessError(power);
@@ -516,28 +530,19 @@ class Writer {
     const std::string instance = hidden("box", element.instruction->flagged);
     const std::string guard = reaches(element, operands);
     const std::string output = temporary();
-    std::string call = instance + "(" + pins;
-    std::string place =
-        operands[0].isDynamic() ? hidden("word", "DWORD") : places_.of(operands[0].address, Part::Word, Space::Plc);
-    std::string value;
-    if (operands[0].isDynamic()) value = place + " := NCT_WORD(" + places_.wordOf(operands[0].address) + "); ";
-    call += ", value := " + place;
-    size_t k = 1;
-    for (size_t begin = 0; k < operands.size(); ++k) {
+    const bool is_dynamic = operands[0].isDynamic();
+    const std::string place =
+        is_dynamic ? hidden("word", "DWORD") : places_.of(operands[0].address, Part::Word, Space::Plc);
+    std::string call = instance + "(" + pins + (guard.empty() ? "" : ", reached := " + guard) + ", value := " + place;
+    for (size_t k = 1, begin = 0; k < operands.size(); ++k) {
       const size_t end = std::min(inputs.find(' ', begin), inputs.size());
       call += ", " + std::string(inputs.substr(begin, end - begin)) + " := " + places_.asInteger(operands[k]);
       begin = end + 1;
     }
-    call += ");";
-    const std::string stored =
-        operands[0].isDynamic() ? " NCT_PUT_WORD(" + places_.wordOf(operands[0].address) + ", " + place + ");" : "";
-    if (guard.empty()) {
-      put(call + "\n" + output + " := " + instance + ".Q;\n");
-    } else {
-      put(output + " := FALSE;\n" + errorFlag() + " := NOT (" + guard + ");\n");
-      put("IF NOT " + errorFlag() + " THEN " + value + call + stored + " " + output + " := " + instance +
-          ".Q; END_IF\n");
-    }
+    // Outside of memory a word reads as 0 and is not written.
+    if (is_dynamic) put(place + " := NCT_WORD(" + places_.wordOf(operands[0].address) + ");\n");
+    put(call + ");\n" + output + " := " + instance + ".Q;\n");
+    if (is_dynamic) put("NCT_PUT_WORD(" + places_.wordOf(operands[0].address) + ", " + place + ");\n");
     power.text = output;
     power.is_atom = true;
     power.is_or = false;
@@ -552,16 +557,95 @@ class Writer {
     callInstance(element, operands, "EN := " + power.text, "preset basis", power);
   }
 
-  // Instructions whose other side is in the numerical control, which this version does not simulate.
-  //   fails   MSG #20 #0 #0                                                        E1432
-  void refuse(const Element& element, Power& power) {
-    const uint32_t errors = diagnostics_.errorCount();
-    std::vector<Operand> operands;
-    const bool good = operands_.take(element, operands);
-    if (good && element.shape == Shape::Message) operands_.checkMessage(element, operands);
-    if (diagnostics_.errorCount() == errors) report(diag::NctNeedsControl, element.word, {element.word.text});
-    power = {};
+  // An instance of the library that asks the numerical control; `inputs` are those after EN. It is called in each
+  // cycle, because it does something when the power falls, too.
+  void askControl(const Element& element, std::span<const Operand> operands, std::string_view type,
+                  const std::string& inputs, Power& power) {
+    settle(power);
+    const std::string guard = reaches(element, operands), instance = hidden("request", type), output = temporary();
+    std::string enable = power.text;
+    if (!guard.empty()) {
+      enable = temporary();
+      put(enable + " := " + power.text + " AND_THEN (" + guard + ");\n");
+    }
+    put(instance + "(EN := " + enable + inputs + ");\n");
+    if (keeps_flags_ || !guard.empty()) {
+      beginIf(power);
+      put("  " + errorFlag() + " := " + (guard.empty() ? "" : "NOT " + enable + " OR ") + instance + ".ER;\n");
+      endIf(power);
+    }
+    put(output + " := " + instance + ".Q;\n");
+    power.text = output;
+    power.is_atom = true;
+    power.is_or = false;
     power.has_contact = true;
+  }
+
+  // MSG, ALR, REM and their forms with F. NCT manual 6.13.
+  void writeMessage(const Element& element, Power& power) {
+    needContact(element, power);
+    std::vector<Operand> operands;
+    if (!operands_.take(element, operands) || !operands_.checkMessage(element, operands)) return;
+    const std::string word = upper(element.word.text);
+    const bool is_double = word.ends_with("F");
+    const int kind = (word.starts_with("REM") ? 2 : word.starts_with("ALR") ? 3 : 1) + (is_double ? 4 : 0);
+    std::string text;
+    if (operands[0].kind == OperandKind::Integer) {
+      text = textOf(operands[0].value);
+    } else {
+      text = "_message(number := " + places_.asInteger(operands[0]) + ")";
+      finds_messages_ = true;
+    }
+    std::string inputs = ", kind := " + std::to_string(kind) + ", number := " + places_.asInteger(operands[0]) +
+                         ", channel := " + places_.asInteger(operands[1]) +
+                         ", index := " + places_.asInteger(operands[2]) + ", text := " + text;
+    if (operands.size() > 3)
+      inputs +=
+          is_double ? ", double := " + places_.asDouble(operands[3]) : ", integer := " + places_.asInteger(operands[3]);
+    askControl(element, operands, "NCT_MESSAGE", inputs, power);
+  }
+  std::string textOf(int64_t number) const {
+    for (const MessageLine& line : program_.messages)
+      if (line.number == number) return stringLiteral(line.text.text);
+    return "''";
+  }
+  // In ST: `$` and quotes are escaped there, and a quote of the ladder is doubled.
+  static std::string stringLiteral(std::string_view text) {
+    std::string literal = "'";
+    for (size_t k = 0; k < text.size(); ++k) {
+      if (text[k] == '\'' || text[k] == '$') literal += '$';
+      literal += text[k];
+      if (text[k] == '"') ++k;
+    }
+    return literal + "'";
+  }
+  // The text of a message whose number is in a word.
+  void writeMessageFinder(Loc loc) {
+    if (!finds_messages_) return;
+    std::string text = "METHOD PRIVATE _message : STRING(255)\nVAR_INPUT number : DINT; END_VAR\nCASE number OF\n";
+    for (const MessageLine& line : program_.messages)
+      text += "  " + std::to_string(line.number) + ": _message := " + stringLiteral(line.text.text) + ";\n";
+    out_.put(loc, text + "END_CASE\nEND_METHOD\n");
+  }
+
+  // MOVCMND, MR, MW. NCT manual 6.15, 6.18.
+  void writeService(const Element& element, Power& power) {
+    needContact(element, power);
+    std::vector<Operand> operands;
+    if (!operands_.take(element, operands)) return;
+    if (element.instruction->word == "MOVCMND") {
+      askControl(element, operands, "NCT_MOVCMND",
+                 ", axis := " + places_.asInteger(operands[0]) + ", code := " + places_.asInteger(operands[1]) +
+                     ", speed := " + places_.asDouble(operands[2]) + ", distance := " + places_.asDouble(operands[3]),
+                 power);
+      return;
+    }
+    operands_.checkService(element, operands);
+    const bool writes = element.instruction->word == "MW";
+    askControl(element, operands, "NCT_SERVICE",
+               std::string(", writes := ") + (writes ? "TRUE" : "FALSE") + ", address := " +
+                   places_.wordOf(operands[0].address) + ", service := " + places_.asInteger(operands[1]),
+               power);
   }
 
   void writeJump(const Element& element, Power& power) {
@@ -729,8 +813,9 @@ class Writer {
   void writeTasks() {
     const std::string name(program_.name.text);
     std::string text = "CONFIGURATION _nct RESOURCE _control ON PLC\n";
-    if (program_.int0.given) text += "TASK Int0(INTERVAL := T#2ms, PRIORITY := 0);\n";
-    text += "TASK Main(INTERVAL := T#10ms, PRIORITY := 1);\n";
+    const auto time = [](int64_t ns) { return "LTIME#" + std::to_string(ns) + "ns"; };
+    if (program_.int0.given) text += "TASK Int0(INTERVAL := " + time(settings_.time_slice_ns) + ", PRIORITY := 0);\n";
+    text += "TASK Main(INTERVAL := " + time(settings_.plc_period_ns) + ", PRIORITY := 1);\n";
     if (program_.int0.given) text += "PROGRAM Int0 WITH Int0 : " + name + "_Int0;\n";
     text += "PROGRAM Main WITH Main : " + name + "_Main;\nEND_RESOURCE END_CONFIGURATION\n";
     out_.put(program_.name.loc, text);
@@ -744,6 +829,7 @@ class Writer {
 
   const Program& program_;
   Memory& memory_;
+  const LadderSettings& settings_;
   Diagnostics& diagnostics_;
   xml::SourceMappedText& out_;
 
@@ -752,6 +838,7 @@ class Writer {
   Pieces text_, state_;
   Loc loc_;  // of the element that is being written
   bool keeps_flags_ = false;
+  bool finds_messages_ = false;  // in the module
 
   std::span<const Element> elements_;
   bool in_int0_ = false;
@@ -767,8 +854,9 @@ class Writer {
 
 }  // namespace
 
-void write(const Program& program, Memory& memory, Diagnostics& diagnostics, xml::SourceMappedText& out) {
-  Writer(program, memory, diagnostics, out).run();
+void write(const Program& program, Memory& memory, const LadderSettings& settings, Diagnostics& diagnostics,
+           xml::SourceMappedText& out) {
+  Writer(program, memory, settings, diagnostics, out).run();
 }
 
 }  // namespace rung::importer::nct

@@ -3,11 +3,13 @@
 // program. Called by readProgram (nct.h).
 #pragma once
 
+#include "frontend/import/formats.h"
 #include "frontend/import/nct/memory.h"
 #include "frontend/import/source_mapped_text.h"
 
 namespace rung::importer::nct {
 
-void write(const Program& program, Memory& memory, Diagnostics& diagnostics, xml::SourceMappedText& out);
+void write(const Program& program, Memory& memory, const LadderSettings& settings, Diagnostics& diagnostics,
+           xml::SourceMappedText& out);
 
 }  // namespace rung::importer::nct

@@ -26,14 +26,19 @@ bool Drivers::load(const std::string& spec, std::string& error) {
   using Drivers = const rung_driver* (*)(const char*, uint32_t*);
   using Drives = const rung_drives* (*)(const char*, void**);
   const auto drivers = reinterpret_cast<Drivers>(dlsym(library, "rung_drivers"));
+  using Control = const rung_nc* (*)(const char*, void**);
   const auto drives = reinterpret_cast<Drives>(dlsym(library, "rung_axis_drives"));
-  if (drivers == nullptr && drives == nullptr)
-    return error = path + ": it has no function `rung_drivers` or `rung_axis_drives`", false;
+  const auto control = reinterpret_cast<Control>(dlsym(library, "rung_numerical_control"));
+  if (drivers == nullptr && drives == nullptr && control == nullptr)
+    return error = path + ": it has no function `rung_drivers`, `rung_axis_drives` or `rung_numerical_control`", false;
   if (drives != nullptr && drives_ != nullptr) return error = path + ": another library has drives", false;
+  if (control != nullptr && control_ != nullptr) return error = path + ": another library has a control", false;
   if (drives != nullptr) drives_ = drives(argument, &drives_data_);
+  if (control != nullptr) control_ = control(argument, &control_data_);
   uint32_t count = 0;
   const rung_driver* const all = drivers == nullptr ? nullptr : drivers(argument, &count);
-  if ((drivers != nullptr && all == nullptr) || (drives != nullptr && drives_ == nullptr))
+  if ((drivers != nullptr && all == nullptr) || (drives != nullptr && drives_ == nullptr) ||
+      (control != nullptr && control_ == nullptr))
     return error = path + ": it refuses `" + spec + "`", false;
   for (uint32_t i = 0; i < count; ++i) drivers_.push_back({all + i, RUNG_NONE});
   return true;
@@ -42,6 +47,8 @@ bool Drivers::load(const std::string& spec, std::string& error) {
 void Drivers::serve(rung_host& host) const {
   host.drives = drives_;
   host.drives_data = drives_data_;
+  host.nc = control_;
+  host.nc_data = control_data_;
 }
 
 void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis) {

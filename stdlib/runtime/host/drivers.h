@@ -18,10 +18,11 @@ class Drivers {
   Drivers(const rung_module& module, Memory& memory) : module_(module), memory_(memory) {}
 
   // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`,
-  // or that of drives. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
+  // that of drives, or that of a control. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
   bool load(const std::string& spec, std::string& error);
   // Drives of axes that a library serves, by its function `const rung_drives* rung_axis_drives(const char* argument,
-  // void** data)`.
+  // void** data)`, and a numerical control, by `const rung_nc* rung_numerical_control(const char* argument, void**
+  // data)`.
   void serve(rung_host& host) const;
   // Simulates the project's modules, but those for which there is a driver of their name. Their terminals become
   // variables, `ad.V0`.
@@ -49,6 +50,8 @@ class Drivers {
   std::vector<Bound> drivers_;
   const rung_drives* drives_ = nullptr;
   void* drives_data_ = nullptr;
+  const rung_nc* control_ = nullptr;
+  void* control_data_ = nullptr;
   std::vector<std::unique_ptr<SimulatedModule>> modules_;
   std::deque<rung_driver> of_modules_;
 };

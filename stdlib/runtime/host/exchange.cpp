@@ -7,6 +7,8 @@
 namespace rung::host {
 namespace {
 
+constexpr uint32_t kChunk = 64;  // bytes
+
 size_t words(size_t bytes) { return bytes / 8 + 2; }  // a 64-bit view at the end stays inside
 
 void copyBits(uint8_t* to, const uint8_t* from, const rung_write& part) {
@@ -124,16 +126,21 @@ void Exchange::give(uint32_t task, rung_context& context) {
   drop(context);
 }
 
-// The bits that the task has changed, whatever other tasks did meanwhile.
+// The bits that the task has changed, whatever other tasks did meanwhile. Most chunks of a large area have none.
 void Exchange::giveShared(const Copy& copy) {
   for (uint32_t i = 0; i < module_.area_count; ++i) {
     if (copy.taken[i].empty()) continue;
     uint8_t* const common = memory_.area(i);
     const uint8_t* const mine = copy.areas[i];
     const auto* const before = reinterpret_cast<const uint8_t*>(copy.taken[i].data());
-    for (uint32_t at = 0; at < module_.areas[i].size; ++at) {
-      const auto changed = static_cast<uint8_t>(mine[at] ^ before[at]);
-      common[at] = static_cast<uint8_t>((common[at] & ~changed) | (mine[at] & changed));
+    const uint32_t size = module_.areas[i].size;
+    for (uint32_t begin = 0; begin < size; begin += kChunk) {
+      const uint32_t end = std::min(begin + kChunk, size);
+      if (memcmp(mine + begin, before + begin, end - begin) == 0) continue;
+      for (uint32_t at = begin; at < end; ++at) {
+        const auto changed = static_cast<uint8_t>(mine[at] ^ before[at]);
+        common[at] = static_cast<uint8_t>((common[at] & ~changed) | (mine[at] & changed));
+      }
     }
   }
 }

@@ -57,25 +57,44 @@ std::string Retain::directory() const {
   struct Range {
     const uint8_t* begin;
     uint32_t size, offset;
+    uint8_t bit;  // of `bits`
   };
-  std::vector<Range> ranges;
+  std::vector<Range> ranges, bits;
   uint32_t offset = 0;
   const auto add = [&](const rung_range* list, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
-      ranges.push_back({memory_.block(list[i].block) + list[i].offset, list[i].size, offset});
-      offset += list[i].size;
+      const rung_range& range = list[i];
+      const uint32_t index = range.block & ~(RUNG_RANGE_AREA | RUNG_RANGE_BIT);
+      const uint8_t* const memory = (range.block & RUNG_RANGE_AREA) != 0 ? memory_.area(index) : memory_.block(index);
+      const bool is_bit = (range.block & RUNG_RANGE_BIT) != 0;
+      if (is_bit)
+        bits.push_back({memory + range.offset / 8, range.size, offset, static_cast<uint8_t>(range.offset % 8)});
+      else
+        ranges.push_back({memory + range.offset, range.size, offset, 0});
+      offset += range.size;
     }
   };
   add(module_.retain, module_.retain_count);
   add(module_.persistent, module_.persistent_count);
-  if (ranges.empty()) return "";
+  if (ranges.empty() && bits.empty()) return "";
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
 
   std::string text;
   std::vector<Variable> leaves;
-  for (const Variable& root : symbols_.roots()) symbols_.expand(root, leaves);
+  for (const Variable& root : symbols_.roots()) {
+    // Others may see a part of an area that a located variable keeps.
+    const bool is_kept = (root.flags & (RUNG_FIELD_RETAIN | RUNG_FIELD_PERSISTENT)) != 0;
+    if (is_kept || !isInArea(root.address())) symbols_.expand(root, leaves);
+  }
   for (const Variable& leaf : leaves) {
     const uint8_t* const at = leaf.address();
+    if (leaf.bit != 255 && isInArea(at)) {
+      for (const Range& range : bits)
+        if (range.begin == at && range.bit == leaf.bit)
+          text += leaf.path + '\t' + std::to_string(leaf.type->kind) + '\t' + std::to_string(range.offset) + "\t1\t" +
+                  (module_.strings + leaf.type->name) + '\n';
+      continue;
+    }
     auto range = std::upper_bound(ranges.begin(), ranges.end(), at,
                                   [](const uint8_t* p, const Range& r) { return p < r.begin; });
     if (range == ranges.begin()) continue;
@@ -86,6 +105,12 @@ std::string Retain::directory() const {
             std::to_string(leaf.type->size) + '\t' + (module_.strings + leaf.type->name) + '\n';
   }
   return text;
+}
+
+bool Retain::isInArea(const uint8_t* at) const {
+  for (uint32_t i = 0; i < module_.area_count; ++i)
+    if (at >= memory_.area(i) && at < memory_.area(i) + module_.areas[i].size) return true;
+  return false;
 }
 
 bool Retain::readEntry(const std::string& line, std::string& path, Entry& entry) {
@@ -159,7 +184,14 @@ void Retain::restoreVariable(const std::string& path, const Entry& before, const
   Variable variable;
   std::string ignored;
   if (!symbols_.find(path, variable, ignored)) return;
-  memcpy(variable.address(), found_.data() + sizeof(rung_slot) + before.offset, now.size);
+  const uint8_t* const value = found_.data() + sizeof(rung_slot) + before.offset;
+  if (variable.bit != 255) {
+    const auto mask = static_cast<uint8_t>(1u << variable.bit % 8);
+    uint8_t& byte = *variable.address();
+    byte = static_cast<uint8_t>(*value != 0 ? byte | mask : byte & ~mask);
+  } else {
+    memcpy(variable.address(), value, now.size);
+  }
   memory_.context().now_ns = headerOf(found_).time_ns;  // its timers go on
 }
 

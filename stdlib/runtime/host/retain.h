@@ -38,6 +38,7 @@ class Retain {
     std::string type;
   };
   std::string directory() const;
+  bool isInArea(const uint8_t* at) const;
   static bool readEntry(const std::string& line, std::string& path, Entry& entry);
   template <class F>
   static void forEachEntry(const std::string& directory, F use);

@@ -19,6 +19,7 @@
 #include "faults.h"
 #include "files.h"
 #include "inputs.h"
+#include "numerical_control.h"
 #include "output_file.h"
 #include "plot.h"
 #include "realtime.h"
@@ -62,16 +63,6 @@ int64_t processorNs() {
   timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
-}
-
-// The ladder of NCT has two memories of its own, and a cycle is one of its main program: T_PLC.
-bool isNct(const rung_module& module) {
-  const auto has = [&](char letter) {
-    return std::any_of(module.areas, module.areas + module.area_count, [&](const rung_area& area) {
-      return module.strings[area.name] == letter && module.strings[area.name + 1] == '\0';
-    });
-  };
-  return has('N') && has('T');
 }
 
 struct Run;
@@ -151,6 +142,7 @@ struct Run {
   Controller controller;
   ServedImage served;
   Channels channels;
+  NumericalControl control;
   Commands commands;
   std::optional<Retain> retain;
   std::optional<Stopper> stopper;  // in virtual time
@@ -323,6 +315,7 @@ int Run::prepare() {
   files.serve(host);
   hsio.serve(host);
   channels.serve(host);
+  control.serve(module, host, [this](const std::string& text) { onMessage(this, RUNG_MESSAGE_NOTE, text.c_str()); });
   host.assertion = onAssertion;
   context.host = &host;
   context.host_data = this;
@@ -339,6 +332,7 @@ int Run::prepare() {
   if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
     return refuse(options, error);
 
+  // A cycle of an NCT program is one of its main program: T_PLC.
   if (isNct(module)) {
     for (const Task& task : tasks.all())
       if (std::string_view(tasks.nameOf(task)) == "Main")

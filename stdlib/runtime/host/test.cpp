@@ -13,6 +13,7 @@
 #include "hsio.h"
 #include "junit.h"
 #include "memory.h"
+#include "numerical_control.h"
 #include "output_file.h"
 #include "plot.h"
 #include "rung/host.h"
@@ -161,6 +162,7 @@ class TestRunner {
     memory_.context().host_data = &one;
     host_.diagnosis = &one.controller.diagnosis();
     one.hsio.serve(host_);
+    control_.serve(module_, host_, nullptr);
     paths_of_test = &options_.paths;
     result_of_test = &one.result;
     where_of_test = where;
@@ -238,6 +240,7 @@ class TestRunner {
   Plot plot_;
   ServedImage served_;
   SimulatedChannels channels_;
+  NumericalControl control_;
   rung_host host_{};
   bool interrupted_ = false;
 };

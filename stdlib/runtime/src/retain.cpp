@@ -18,9 +18,23 @@ uint32_t sizeOf(const rung_range* ranges, uint32_t count) {
   return total;
 }
 
+bool isBit(const rung_range& range) { return (range.block & RUNG_RANGE_BIT) != 0; }
+
+// Where a range begins; of a bit: its byte.
+uint8_t* beginOf(const rung_context* context, const rung_range& range) {
+  const uint32_t index = range.block & ~(RUNG_RANGE_AREA | RUNG_RANGE_BIT);
+  uint8_t* const memory =
+      (range.block & RUNG_RANGE_AREA) != 0 ? context->areas[index] : static_cast<uint8_t*>(context->blocks[index]);
+  return memory + (isBit(range) ? range.offset / 8 : range.offset);
+}
+
 uint8_t* pack(const rung_context* context, const rung_range* ranges, uint32_t count, uint8_t* to) {
   for (uint32_t i = 0; i < count; ++i) {
-    memcpy(to, static_cast<const uint8_t*>(context->blocks[ranges[i].block]) + ranges[i].offset, ranges[i].size);
+    const uint8_t* const from = beginOf(context, ranges[i]);
+    if (isBit(ranges[i]))
+      *to = *from >> ranges[i].offset % 8 & 1;
+    else
+      memcpy(to, from, ranges[i].size);
     to += ranges[i].size;
   }
   return to;
@@ -28,7 +42,12 @@ uint8_t* pack(const rung_context* context, const rung_range* ranges, uint32_t co
 
 const uint8_t* unpack(rung_context* context, const rung_range* ranges, uint32_t count, const uint8_t* from) {
   for (uint32_t i = 0; i < count; ++i) {
-    memcpy(static_cast<uint8_t*>(context->blocks[ranges[i].block]) + ranges[i].offset, from, ranges[i].size);
+    uint8_t* const to = beginOf(context, ranges[i]);
+    const auto mask = static_cast<uint8_t>(1u << ranges[i].offset % 8);
+    if (isBit(ranges[i]))
+      *to = static_cast<uint8_t>(*from != 0 ? *to | mask : *to & ~mask);
+    else
+      memcpy(to, from, ranges[i].size);
     from += ranges[i].size;
   }
   return from;

@@ -187,25 +187,52 @@ static inline double rung_max_f64(double a, double b) { return b > a ? b : a; }
 static inline int32_t rung_abs_i32(int32_t a) { return a < 0 ? (int32_t)(0u - (uint32_t)a) : a; }
 static inline int64_t rung_abs_i64(int64_t a) { return a < 0 ? (int64_t)(0u - (uint64_t)a) : a; }
 
-/* ---- process image: little-endian at any address, on any machine. */
-static inline uint16_t rung_get16(const uint8_t* p) { return (uint16_t)(p[0] | p[1] << 8); }
-static inline uint32_t rung_get32(const uint8_t* p) {
+/* ---- process image: little-endian at any address, on any machine. Inlined where the quick passes inline nothing, too:
+ * a body may be thousands of accesses to the image. */
+#if defined(__GNUC__)
+#define RUNG_IMAGE static inline __attribute__((always_inline))
+#else
+#define RUNG_IMAGE static inline
+#endif
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ /* one instruction in the quick passes */
+RUNG_IMAGE uint16_t rung_get16(const uint8_t* p) {
+  uint16_t v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+RUNG_IMAGE uint32_t rung_get32(const uint8_t* p) {
+  uint32_t v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+RUNG_IMAGE uint64_t rung_get64(const uint8_t* p) {
+  uint64_t v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+RUNG_IMAGE void rung_put16(uint8_t* p, uint16_t v) { memcpy(p, &v, sizeof v); }
+RUNG_IMAGE void rung_put32(uint8_t* p, uint32_t v) { memcpy(p, &v, sizeof v); }
+RUNG_IMAGE void rung_put64(uint8_t* p, uint64_t v) { memcpy(p, &v, sizeof v); }
+#else
+RUNG_IMAGE uint16_t rung_get16(const uint8_t* p) { return (uint16_t)(p[0] | p[1] << 8); }
+RUNG_IMAGE uint32_t rung_get32(const uint8_t* p) {
   return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
-static inline uint64_t rung_get64(const uint8_t* p) { return rung_get32(p) | (uint64_t)rung_get32(p + 4) << 32; }
-static inline void rung_put16(uint8_t* p, uint16_t v) {
+RUNG_IMAGE uint64_t rung_get64(const uint8_t* p) { return rung_get32(p) | (uint64_t)rung_get32(p + 4) << 32; }
+RUNG_IMAGE void rung_put16(uint8_t* p, uint16_t v) {
   p[0] = (uint8_t)v;
   p[1] = (uint8_t)(v >> 8);
 }
-static inline void rung_put32(uint8_t* p, uint32_t v) {
+RUNG_IMAGE void rung_put32(uint8_t* p, uint32_t v) {
   rung_put16(p, (uint16_t)v);
   rung_put16(p + 2, (uint16_t)(v >> 16));
 }
-static inline void rung_put64(uint8_t* p, uint64_t v) {
+RUNG_IMAGE void rung_put64(uint8_t* p, uint64_t v) {
   rung_put32(p, (uint32_t)v);
   rung_put32(p + 4, (uint32_t)(v >> 32));
 }
-static inline void rung_put_bit(uint8_t* p, uint32_t bit, bool v) {
+#endif
+RUNG_IMAGE void rung_put_bit(uint8_t* p, uint32_t bit, bool v) {
   *p = (uint8_t)((*p & ~(1u << bit)) | (uint32_t)v << bit);
 }
 static inline float rung_f32_of(uint32_t bits) {

@@ -19,7 +19,7 @@ extern "C" {
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
  * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 14u
+#define RUNG_MODULE_ABI 15u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
@@ -112,7 +112,11 @@ typedef struct rung_symbol {
   uint32_t path;   /* `Config.Resource.` or '' that may precede it: offset in strings */
 } rung_symbol;
 
-/* A range that warm starts keep (retain) or that downloads keep too (persistent). */
+/* A range that warm starts keep (retain) or that downloads keep too (persistent). `block` is the index of a block, or
+ * RUNG_RANGE_AREA + that of an area. With RUNG_RANGE_BIT too, the range is one bit: `offset` counts bits, and it is
+ * kept as a byte of 0 or 1. */
+#define RUNG_RANGE_AREA 0x80000000u
+#define RUNG_RANGE_BIT 0x40000000u
 typedef struct rung_range {
   uint32_t block, offset, size;
 } rung_range;
@@ -351,6 +355,9 @@ typedef struct rung_hsio {
 /* Drives of axes: rung/motion.h. */
 typedef struct rung_drives rung_drives;
 
+/* The numerical control of an NCT program: rung/nc.h. */
+typedef struct rung_nc rung_nc;
+
 /* Current faults of the controller, its modules and its links: rung/diagnosis.h. */
 typedef struct rung_diagnosis rung_diagnosis;
 /* Serial lines, TCP and UDP. A channel is a number > 0. No function waits: what takes time goes on between the calls,
@@ -448,6 +455,9 @@ typedef struct rung_host {
   /* A fault is about to leave the program's code for the host (a __TRY handles others): ctx->fault says which, and the
    * calls that led to it are still on the stack. Default (null): nothing. */
   void (*faulted)(void* data, const rung_context* ctx);
+  /* Default (null): instructions that ask the control set FL_ER. */
+  const rung_nc* nc;
+  void* nc_data;
 } rung_host;
 
 struct rung_context {

@@ -1,0 +1,376 @@
+// The simulated control: see control.h.
+#include "control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace rung::nct {
+namespace {
+
+constexpr int32_t kFirstMacro = 100, kLastMacro = 999;
+// Places of names in nc_scopes.def.
+constexpr uint32_t kFirstAxisScope = 6, kFirstSpindleScope = 21, kMeasured = 35, kBufferCount = 44, kDriveMessage = 45;
+
+}  // namespace
+
+Control::Control()
+    : channels_(words_, parameters_),
+      spindles_(words_, parameters_),
+      axes_(words_, parameters_, channels_, spindles_),
+      tools_(words_, parameters_, channels_, spindles_),
+      pallets_(parameters_),
+      macros_(static_cast<size_t>(kLastMacro - kFirstMacro + 1) * kChannels) {
+  channels_.findToolsBy([](void* data, uint32_t type) { return static_cast<Tools*>(data)->find(type); }, &tools_);
+}
+
+#define CONTROL                                    \
+  Control& control = *static_cast<Control*>(data); \
+  const std::lock_guard<std::mutex> lock(control.mutex_)
+
+const rung_nc Control::kFunctions = {
+    // exchange
+    [](void* data, uint32_t* slice, uint32_t* nonvolatile, bool is_cycle, int64_t now_ns) {
+      CONTROL;
+      control.exchange(slice, nonvolatile, is_cycle, now_ns);
+    },
+    // title
+    [](void* data, uint32_t button, const char* text) {
+      CONTROL;
+      control.titles_.emplace_back(button, text);
+    },
+    // message
+    [](void* data, const rung_nc_message* message, bool is_new) {
+      CONTROL;
+      if (is_new && control.on_message) control.on_message({message->code, message->text});
+      return control.messages_.send(*message, is_new);
+    },
+    // withdraw
+    [](void* data, const rung_nc_message* message) {
+      CONTROL;
+      control.messages_.withdraw(*message);
+    },
+    // move
+    [](void* data, int32_t axis, int32_t code, double speed, double distance) {
+      CONTROL;
+      return control.axes_.command(axis, code, speed, distance);
+    },
+    // read_macro
+    [](void* data, int32_t channel, int32_t number, double* value) -> int32_t {
+      CONTROL;
+      const double* const at = control.macro(channel, number);
+      if (at == nullptr) return RUNG_NC_REFUSED;
+      *value = *at;
+      return RUNG_NC_DONE;
+    },
+    // write_macro
+    [](void* data, int32_t channel, int32_t number, double value) -> int32_t {
+      CONTROL;
+      double* const at = control.macro(channel, number);
+      if (at == nullptr) return RUNG_NC_REFUSED;
+      *at = value;
+      return RUNG_NC_DONE;
+    },
+    // scope
+    [](void* data, int32_t scope, int32_t first, int32_t second, double* value) -> int32_t {
+      CONTROL;
+      return control.readScope(static_cast<uint32_t>(scope), first, second, *value) ? RUNG_NC_DONE : RUNG_NC_REFUSED;
+    },
+    // submit
+    [](void* data, const rung_nc_request* request) -> uint32_t {
+      CONTROL;
+      control.requests_.push_back({++control.last_request_, request->is_write != 0, request->function, request->address,
+                                   Block({request->block, request->block + request->count}),
+                                   control.cycles_ + control.latency_});
+      return control.last_request_;
+    },
+    // poll
+    [](void* data, uint32_t number, uint32_t* memory) {
+      CONTROL;
+      return control.poll(number, memory);
+    },
+    // cancel
+    [](void* data, uint32_t number) {
+      CONTROL;
+      auto& requests = control.requests_;
+      requests.erase(std::remove_if(requests.begin(), requests.end(),
+                                    [&](const Request& request) { return request.number == number; }),
+                     requests.end());
+    },
+    // simulate
+    [](void* data, int32_t what, const double* values, uint32_t, double* result) -> int32_t {
+      CONTROL;
+      return control.simulate(what, values, *result) ? RUNG_NC_DONE : RUNG_NC_REFUSED;
+    },
+    // text
+    [](void* data, int32_t place, int32_t row, char* text) -> uint32_t {
+      CONTROL;
+      return control.text(place, row, text);
+    },
+};
+#undef CONTROL
+
+void Control::serve(rung_host& host) {
+  host.nc = &kFunctions;
+  host.nc_data = this;
+}
+
+// ---- what goes to the program and comes from it
+
+void Control::exchange(uint32_t* slice, uint32_t* nonvolatile, bool is_cycle, int64_t now_ns) {
+  words_.beginExchange(slice);
+  nonvolatile_ = nonvolatile;
+  if (!has_begun_) begin();
+  has_slices_ = has_slices_ || !is_cycle;
+  const double seconds = static_cast<double>(now_ns - last_ns_) / 1e9;
+  last_ns_ = now_ns;
+  if (!is_cycle || !has_slices_) takeHandwheels();
+  tellInputs();
+  if (is_cycle) {
+    ++cycles_;
+    channels_.beginCycle();
+    network_.beginCycle();
+  }
+  spindles_.move(seconds);
+  axes_.move(seconds);
+  if (!is_cycle) return;
+  tools_.beginCycle(static_cast<double>(now_ns - last_cycle_ns_) / 1e9);
+  last_cycle_ns_ = now_ns;
+  spindles_.answer();
+  axes_.answer();
+  tellCommon();
+  tellConstants();
+  tellDrives();
+}
+
+uint32_t checksumOf(const uint32_t* words) {
+  uint32_t sum = 0;
+  for (uint32_t k = 0; k < RUNG_NC_NONVOLATILE_WORDS; ++k) sum = (sum << 5 | sum >> 27) + words[k] * (2 * k + 1);
+  return sum;
+}
+
+void Control::begin() {
+  has_begun_ = true;
+  words_.set(nc::N_NVRAMOK, 0, checksumOf(nonvolatile_) == nonvolatile_[RUNG_NC_NONVOLATILE_WORDS]);
+  words_.set(nc::N_NCREADY, 0, true);
+  words_.set(nc::N_SIMU, 0, true);
+  // Probes are active at 0.
+  for (const Symbol& probe :
+       {nc::TN_TS1, nc::TN_TS2, nc::TN_TS3, nc::TN_TS4, nc::TN_TS5, nc::TN_TS6, nc::TN_TS7, nc::TN_TS8})
+    words_.set(probe, 0, true);
+}
+
+// NCT manual 7.12.
+void Control::tellCommon() {
+  const std::vector<Message>& screen = messages_.screen();
+  words_.set(nc::N_MONDIS, 0, machine_forbidden_);
+  const bool forbidden = machine_forbidden_;
+  if (forbidden) machine_on_ = {};
+  machine_on_.follow(words_.isSet(nc::P_MONREQ), !forbidden);
+  words_.set(nc::N_MONST, 0, machine_on_.is());
+  words_.set(nc::N_CLRMSG, 0, messages_.takeCleared());
+  words_.set(nc::N_PTEDT, 0, pallets_.isEdited());
+  words_.set(nc::N_MSGA, 0, !screen.empty());
+  words_.set(nc::N_MSG0, 0, !screen.empty());  // all are of the PLC
+  words_.put(nc::N_ACTMSG, 0, screen.empty() ? 0 : screen.front().code);
+}
+
+// NCT manual 7.11.
+void Control::tellConstants() {
+  for (uint32_t k = 0; k < 8; ++k) words_.put(nc::N_P00, k, parameters_.word(1201 + k));
+  for (uint32_t k = 0; k < 32; ++k) {
+    words_.put(nc::N_PDW1, k, parameters_.word(1209 + k));
+    words_.putReal(nc::N_PDB1, k, parameters_.real(1241 + k));
+  }
+}
+
+// NCT manual 7.7.
+void Control::tellDrives() {
+  for (uint32_t k = 0; k < kDrives; ++k) {
+    if (words_.isSet(nc::DP_ERRCLR, k)) drive_errors_[k] = 0;
+    const bool ready = drive_errors_[k] == 0;
+    if (!ready) drive_enabled_[k] = {};
+    drive_enabled_[k].follow(words_.isSet(nc::DP_ENA2, k) && !words_.isSet(nc::DP_ENA1, k), ready);
+    words_.set(nc::DN_RDY, k, ready);
+    words_.set(nc::DN_ENA, k, drive_enabled_[k].is());
+    words_.set(nc::DN_PRM1, k, words_.isSet(nc::DP_PRM1, k));
+    words_.set(nc::DN_PRM2, k, words_.isSet(nc::DP_PRM2, k));
+    words_.put(nc::DN_ERR, k, drive_errors_[k] | (ready ? 0u : 1u));
+  }
+}
+
+void Control::takeHandwheels() {
+  for (uint32_t k = 0; k < 4; ++k) {
+    words_.put(nc::HWMOVE, k, static_cast<uint32_t>(handwheels_[k]));
+    axes_.turnHandwheel(k, handwheels_[k]);
+    handwheels_[k] = 0;
+  }
+}
+
+// Byte addresses 1 to 64 are the words INP000 to INP071. NCT manual 7.3.
+void Control::tellInputs() {
+  for (uint32_t k = 0; k < 16; ++k) {
+    uint32_t word = 0;
+    for (uint32_t byte = 0; byte < 4; ++byte) word |= uint32_t{inputs_[4 * k + byte]} << 8 * byte;
+    words_.put(nc::INP000, k, word);
+  }
+}
+
+double* Control::macro(int32_t channel, int32_t number) {
+  if (channel < 0 || channel >= static_cast<int32_t>(kChannels) || number < kFirstMacro || number > kLastMacro)
+    return nullptr;
+  return &macros_[static_cast<size_t>(channel) * (kLastMacro - kFirstMacro + 1) +
+                  static_cast<size_t>(number - kFirstMacro)];
+}
+
+// NCT manual 6.17.
+bool Control::readScope(uint32_t scope, int32_t first, int32_t second, double& value) const {
+  value = 0;
+  if (first < 0 || second < 0) return false;
+  const auto unit = static_cast<uint32_t>(first);
+  if (scope >= kFirstAxisScope && scope < kFirstSpindleScope) return axes_.read(scope - kFirstAxisScope, unit, value);
+  if (scope >= kFirstSpindleScope && scope < kMeasured) return spindles_.read(scope - kFirstSpindleScope, unit, value);
+  if (scope == kBufferCount) {
+    if (unit < 1 || unit > kChannels) return false;
+    value = channels_.blockCount(unit - 1);
+    return true;
+  }
+  if (scope == kDriveMessage) {
+    if (unit < 1 || unit > kDrives || second > 5) return false;
+    value = drive_values_[unit - 1][second];
+    return true;
+  }
+  return scope >= kMeasured && scope < kBufferCount;  // times of a control that needs none
+}
+
+// ---- what a test sets up
+
+bool Control::simulate(int32_t what, const double* values, double& result) {
+  result = 0;
+  const auto whole = [&](int k) { return static_cast<int32_t>(values[k]); };
+  const auto word = [&](int k) { return static_cast<uint32_t>(whole(k)); };
+  const auto unit = [&](int k, uint32_t from, uint32_t count, uint32_t& index) {
+    index = static_cast<uint32_t>(whole(k)) - from;
+    return index < count;
+  };
+  uint32_t index = 0;
+  switch (what) {
+    case 1: return parameters_.write(static_cast<uint32_t>(whole(0)), static_cast<uint32_t>(whole(1)), values[2]);
+    case 2: return parameters_.read(static_cast<uint32_t>(whole(0)), static_cast<uint32_t>(whole(1)), result);
+    case 3:
+      parameters_.setChecksumWrong(values[0] != 0);
+      if (values[1] != 0 && nonvolatile_ != nullptr) ++nonvolatile_[RUNG_NC_NONVOLATILE_WORDS];
+      return true;
+    case 4:
+      if (values[1] != 0)
+        programs_.insert(static_cast<uint32_t>(whole(0)));
+      else
+        programs_.erase(static_cast<uint32_t>(whole(0)));
+      return true;
+    case 5:
+      if (!unit(0, 1, kChannels, index)) return false;
+      result = assigned_[index];
+      return true;
+    case 7: return display_ready_ = values[0] != 0, true;
+    case 8: return result = window_, true;
+    case 9: return latency_ = static_cast<uint32_t>(std::max(whole(0), 1)), true;
+    case 10: {
+      if (!unit(0, 1, kChannels, index)) return false;
+      PartBlock block;
+      block.m[0] = whole(1);
+      block.s = whole(2);
+      block.t = whole(3);
+      block.m[1] = whole(4);
+      block.m[2] = whole(5);
+      channels_.append(index, block);
+      return true;
+    }
+    case 11: return messages_.cancel(), true;
+    case 12: return messages_.clear(), true;
+    case 13: return messages_.setRows(static_cast<uint32_t>(std::max(whole(0), 1))), true;
+    case 14:
+      if (!unit(0, 0, kAxes, index)) return false;
+      axes_.setPosition(index, values[1]);
+      return true;
+    case 15:
+      if (!unit(0, 0, kAxes, index)) return false;
+      axes_.setAlarm(index, values[1] != 0);
+      return true;
+    case 16:
+      if (!unit(0, 0, kSpindles, index)) return false;
+      spindles_.setAlarm(index, values[1] != 0);
+      return true;
+    case 17:
+      if (!unit(0, 0, kDrives, index)) return false;
+      drive_errors_[index] = static_cast<uint32_t>(static_cast<int64_t>(values[1]));
+      return true;
+    case 18: return machine_forbidden_ = values[0] != 0, true;
+    case 19:
+      if (!unit(0, 1, 4, index)) return false;
+      handwheels_[index] += whole(1);
+      return true;
+    case 20: {
+      double* const at = macro(whole(0), whole(1));
+      if (at == nullptr) return false;
+      *at = values[2];
+      return true;
+    }
+    case 21: {
+      const double* const at = macro(whole(0), whole(1));
+      if (at == nullptr) return false;
+      result = *at;
+      return true;
+    }
+    case 22:
+      tools_.setUse({values[0] != 0, values[1] != 0, values[2] != 0});
+      pallets_.setEdited(values[3] != 0);
+      return true;
+    case 23: return tools_.setCartridge(word(0), word(1), word(2), word(3));
+    case 24: return tools_.setPattern(word(0), {word(1), word(2), word(3), word(4)}, values[5] != 0);
+    case 25: return tools_.setPot(word(0), word(1), word(2));
+    case 26: {
+      uint32_t data_number = 0;
+      if (!tools_.pot(word(0), word(1), data_number)) return false;
+      result = data_number;
+      return true;
+    }
+    case 27: {
+      const double bits = (values[0] != 0 ? 1 : 0) + (values[1] != 0 ? 2 : 0) + (values[2] != 0 ? 8 : 0);
+      return parameters_.write(3300, 0, bits) && parameters_.write(3301, 0, values[3]) &&
+             parameters_.write(3302, 0, values[4]);
+    }
+    case 28: return mailbox_.setDevice(word(0), word(1), values[2] != 0);
+    case 29: return mailbox_.setError(word(0), static_cast<uint32_t>(static_cast<int64_t>(values[1])), values[2] != 0);
+    case 30:
+      return mailbox_.setObject(word(0), word(1), word(2), static_cast<uint64_t>(static_cast<int64_t>(values[3])),
+                                word(4), word(5));
+    case 31: return tools_.item(word(0), word(1), result);
+    case 33: return tools_.resetLife(word(0));
+    case 34: return tools_.setItem(word(0), word(1), values[2]);
+    case 35:
+      if (!unit(0, 1, 64, index)) return false;
+      inputs_[index] = static_cast<uint8_t>(whole(1));
+      return true;
+    case 32:
+      if (!unit(0, 1, kChannels, index)) return false;
+      channels_.setPartTarget(index, static_cast<uint32_t>(whole(1)));
+      return true;
+    default: return false;
+  }
+}
+
+uint32_t Control::text(int32_t place, int32_t row, char* to) const {
+  to[0] = '\0';
+  const auto give = [&](uint32_t code, const std::string& text) {
+    std::snprintf(to, 256, "%s", text.c_str());
+    return code;
+  };
+  const auto at = static_cast<size_t>(row);
+  if (row < 0) return 0;
+  if (place == 2) return at < titles_.size() ? give(titles_[at].first, titles_[at].second) : 0;
+  if (place != 0 && place != 1) return 0;
+  const std::vector<Message>& messages = place == 0 ? messages_.screen() : messages_.log();
+  return at < messages.size() ? give(messages[at].code, messages[at].text) : 0;
+}
+
+}  // namespace rung::nct

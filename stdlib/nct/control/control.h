@@ -1,0 +1,112 @@
+// A simulated numerical control: what `rung run` and `rung test` give an NCT program instead of a machine. In: the
+// calls of rung/nc.h, and set-ups by NCT_SIMULATE. Out: inputs of the program, results of its instructions. Used by the
+// bundled host. docs/nct.md.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "axes.h"
+#include "channels.h"
+#include "mailbox.h"
+#include "messages.h"
+#include "network.h"
+#include "pallets.h"
+#include "parameters.h"
+#include "rung/nc.h"
+#include "spindles.h"
+#include "tools.h"
+#include "words.h"
+
+namespace rung::nct {
+
+class Control {
+ public:
+  Control();
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+
+  // Lets a host's program use this control.
+  void serve(rung_host& host);
+  // Called with each message that appears.
+  std::function<void(const Message&)> on_message;
+
+ private:
+  static const rung_nc kFunctions;
+
+  void exchange(uint32_t* slice, uint32_t* nonvolatile, bool is_cycle, int64_t now_ns);
+  void begin();
+  void tellCommon();
+  void tellConstants();
+  void tellDrives();
+  void takeHandwheels();
+  void tellInputs();
+
+  // ---- services
+  struct Request {
+    uint32_t number;
+    bool is_write;
+    int32_t function;
+    uint32_t address;
+    Block block;
+    uint64_t due;  // the cycle in which it is served
+    Code code = kBusy;
+  };
+  bool poll(uint32_t number, uint32_t* memory);
+  Code serve(Request& request, uint32_t* memory);
+  Code serveRead(Request& request, uint32_t* memory);
+  Code serveWrite(Request& request, const uint32_t* memory);
+  Code readNonvolatile(const Block& block, uint32_t* memory) const;
+  Code writeNonvolatile(const Block& block, const uint32_t* memory);
+  Code assignProgram(Block& block);
+  Code assignPalletProgram(const Block& block);
+  Code openWindow(const Block& block);
+  Code dumpDrive(const Block& block);
+
+  bool readScope(uint32_t scope, int32_t first, int32_t second, double& value) const;
+  double* macro(int32_t channel, int32_t number);
+  bool simulate(int32_t what, const double* values, double& result);
+  uint32_t text(int32_t place, int32_t row, char* to) const;
+
+  mutable std::mutex mutex_;  // tasks may be threads
+  Words words_;
+  Parameters parameters_;
+  Channels channels_;
+  Spindles spindles_;
+  Axes axes_;
+  Tools tools_;
+  Pallets pallets_;
+  Mailbox mailbox_;
+  Network network_;
+  Messages messages_;
+
+  bool has_begun_ = false;
+  int64_t last_ns_ = 0, last_cycle_ns_ = 0;
+  uint64_t cycles_ = 0;
+  uint32_t* nonvolatile_ = nullptr;
+
+  std::deque<Request> requests_;
+  uint32_t last_request_ = 0;
+  uint32_t latency_ = 2;  // cycles
+
+  std::vector<double> macros_;
+  std::set<uint32_t> programs_;
+  uint32_t assigned_[kChannels] = {};
+  bool display_ready_ = true;
+  uint32_t window_ = 0;
+  double drive_values_[kDrives][6] = {};
+  uint32_t drive_errors_[kDrives] = {};
+  Answer drive_enabled_[kDrives];
+  Answer machine_on_;
+  bool machine_forbidden_ = false;
+  int32_t handwheels_[4] = {};
+  uint8_t inputs_[64] = {};  // of interface cards
+  bool has_slices_ = false;
+  std::vector<std::pair<uint32_t, std::string>> titles_;
+};
+
+}  // namespace rung::nct

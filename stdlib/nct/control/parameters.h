@@ -1,0 +1,49 @@
+// The parameters of the simulated control and their services. In: number and index, or the block of a service. Out:
+// values, codes of execution. NCT manual 6.20.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "block.h"
+
+namespace rung::nct {
+
+class Parameters {
+ public:
+  Parameters();
+
+  // Of a parameter that exists; `index` counts from 0, also that of a global one.
+  double real(uint32_t number, uint32_t index = 0) const;
+  uint32_t word(uint32_t number, uint32_t index = 0) const { return static_cast<uint32_t>(real(number, index)); }
+  bool bit(uint32_t number, uint32_t bit, uint32_t index = 0) const { return (word(number, index) >> bit & 1) != 0; }
+  // False: there is no such parameter, or index.
+  bool read(uint32_t number, uint32_t index, double& value) const;
+  bool write(uint32_t number, uint32_t index, double value);
+  void setChecksumWrong(bool wrong) { checksum_wrong_ = wrong; }
+
+  Code readWords(Block& block) const;   // MR31
+  Code readReals(Block& block) const;   // MR32
+  Code writeWords(const Block& block);  // MW34
+  Code writeReals(const Block& block);  // MW35
+
+ private:
+  enum class Format : uint8_t { Bits, Word, Real };
+  enum class Basis : uint8_t { Global, Channel, Axis, Spindle };
+  struct Parameter {
+    Format format;
+    Basis basis;
+    std::vector<double> values;  // a word without a sign
+  };
+  struct Range {
+    Parameter* parameter = nullptr;
+    uint32_t first = 0, count = 0;
+  };
+  Code find(const Block& block, bool reals, Range& range) const;
+
+  mutable std::map<uint32_t, Parameter> all_;
+  bool checksum_wrong_ = false;
+};
+
+}  // namespace rung::nct
