@@ -12,6 +12,8 @@ TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)")
 FUNCTION = re.compile(r"(?:[\w:<>,*&\[\]]+ )+?[*&]*(\w+)\((.*)\)")
 VARIABLE = re.compile(r"(?:(?:constexpr|const|static|inline|thread_local|[\w:<>,*&]+) )+[*&]*([A-Za-z_]\w*)(?:\[[^\]]*\])* ?(?:=|\{|$)")
 
+HOST = ("stdlib/runtime/host/", "stdlib/nct/control/")  # one target
+
 
 def target_of(path):
     """The folder whose sources are compiled into one target."""
@@ -56,12 +58,14 @@ def declaration(head):
         yield match.group(1), re.sub(r" ?\w+(?= ?(?:,|$))", "", match.group(2))
     elif match := VARIABLE.match(head):
         yield match.group(1), None
+        for further in re.finditer(r", (\w+) = ", head):
+            yield further.group(1), None
 
 
 def main():
     names = collections.defaultdict(set)
     for path in tracked(".cpp"):
-        if path.startswith(("tests/", "stdlib/")) and not path.startswith("stdlib/runtime/host/"):
+        if path.startswith(("tests/", "stdlib/")) and not path.startswith(HOST):
             continue  # programs of their own, and a library of which products link single files
         for name, parameters in private_declarations(read(path)):
             names[target_of(path), name].add((path, parameters))

@@ -20,7 +20,7 @@ using cam::Kind;
 using cam::Piece;
 using cam::Repeat;
 
-constexpr double kJump = 1e-9;  // of the stroke: more than rounding
+constexpr double kSmallestJump = 1e-9;  // of the stroke: more than rounding
 
 struct NumberRange {
   double low, high;
@@ -165,7 +165,7 @@ class Checker {
   void checkJumps(const Curve& curve) {
     const cam::Extremes slave = curve.extremes(0);
     const double stroke = slave.high.value - slave.low.value;
-    const double margin = kJump * std::max(stroke, std::fabs(slave.peak().value) * 1e-3);
+    const double margin = kSmallestJump * std::max(stroke, std::fabs(slave.peak().value) * 1e-3);
     const std::span<const Piece> pieces = curve.pieces();
     for (size_t i = 1; i < pieces.size(); ++i) {
       const double x = pieces[i].from, jump = pieces[i].at(x, 0) - pieces[i - 1].at(x, 0);

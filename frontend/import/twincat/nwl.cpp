@@ -23,7 +23,7 @@ namespace {
 constexpr std::string_view kMissing = "???";  // the editor's placeholder
 
 // The bits of an object `Flags`. For a coil, Negation and Set together mean reset.
-constexpr uint64_t kNegation = 1, kSet = 2, kJump = 4, kReturn = 8, kRising = 16, kFalling = 32;
+constexpr uint64_t kNegation = 1, kSet = 2, kJumps = 4, kReturns = 8, kRising = 16, kFalling = 32;
 
 struct Wire {
   uint64_t from;            // element of the notation
@@ -143,7 +143,7 @@ bool TreeReader::checkTree(const Element& tree) {
   if (type == "BoxTreeAssign") {
     inner(archive_.member(tree, "RValue"));
     for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems")))
-      ok = checkOperand(target, ((flagsOf(*target) | flagsOf(tree)) & kReturn) != 0) && ok;
+      ok = checkOperand(target, ((flagsOf(*target) | flagsOf(tree)) & kReturns) != 0) && ok;
   } else if (type == "BoxTreeBox") {
     const Element* called = archive_.member(tree, "BoxType");
     if (quiet_ && (archive_.isTrue(tree, "ProvidesSTSnippet") || !isPlainOrNothing(called))) return false;
@@ -258,7 +258,7 @@ Wires TreeReader::value(const Element& tree) {
   const Element* source = archive_.member(tree, "RValue");
   Wires wires = source == nullptr ? Wires{} : value(*source);
   for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems")))
-    assign(*target, flagsOf(*target) | (flagsOf(tree) & (kJump | kReturn)), wires);
+    assign(*target, flagsOf(*target) | (flagsOf(tree) & (kJumps | kReturns)), wires);
   return wires;
 }
 
@@ -279,7 +279,7 @@ void TreeReader::assign(const Element& target, uint64_t flags, const Wires& wire
   const Element* text = archive_.member(target, "Operand");
   if (Archive::isNothing(target) || text == nullptr) return;
   const std::string spelling = archive_.text(*text);
-  const bool jump = (flags & kJump) != 0, leaves = (flags & kReturn) != 0;
+  const bool jump = (flags & kJumps) != 0, leaves = (flags & kReturns) != 0;
   if (spelling.empty() && !leaves) return;
   const bool stores = (flags & kSet) != 0;
   const bool coil = ladder_ && !of_box && sameIdentifier(archive_.text(target, "Type"), "BOOL");

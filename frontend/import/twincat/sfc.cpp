@@ -17,7 +17,7 @@ namespace {
 // The attributes of elements, by the first digits of their GUID.
 constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = "{700a583f", kEntry = "{a6b08bd8",
                            kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d",
-                           kMinimum = "{cacf1a68", kMaximum = "{b693554c";
+                           kMinimumTime = "{cacf1a68", kMaximumTime = "{b693554c";
 constexpr size_t kMaxPaths = 10'000;  // sets of steps before one transition
 
 using Steps = std::vector<const Element*>;
@@ -228,8 +228,8 @@ void ChartReader::writeStep(const Element& element) {
   step.end = element.end;
   step.initial = isSet(archive_, element, kInitial);
   step.name = archive_.excerptOf(*attributeOf(archive_, element, kName));
-  if (const Element* time = attributeOf(archive_, element, kMinimum)) step.minimum = archive_.excerptOf(*time);
-  if (const Element* time = attributeOf(archive_, element, kMaximum)) step.maximum = archive_.excerptOf(*time);
+  if (const Element* time = attributeOf(archive_, element, kMinimumTime)) step.minimum = archive_.excerptOf(*time);
+  if (const Element* time = attributeOf(archive_, element, kMaximumTime)) step.maximum = archive_.excerptOf(*time);
   static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
       {kEntry, "entry"}, {kMain, "active"}, {kExit, "exit"}};
   for (const auto& [guid, pragma] : kOwn)

@@ -14,6 +14,7 @@ namespace rung::nct {
 using Code = int32_t;
 constexpr Code kBusy = -1;  // the service has not finished
 constexpr Code kDone = 0, kUnknownFunction = 1, kWrongAmount = 2, kProtected = 3, kWrongChecksum = 4;
+constexpr uint32_t kFirstKept = 4000, kFirstSent = 2;  // the first word that a service may fill, and that it may send
 
 class Block {
  public:
@@ -42,6 +43,15 @@ class Block {
     std::memcpy(&bits, &value, sizeof bits);
     put(at, static_cast<uint32_t>(bits));
     put(at + 1, static_cast<uint32_t>(bits >> 32));
+  }
+
+  // An item of a table: a real of two words or an unsigned word.
+  double item(uint32_t at, bool is_real) const { return is_real ? real(at) : static_cast<double>(word(at)); }
+  void putItem(uint32_t at, bool is_real, double value) {
+    if (is_real)
+      putReal(at, value);
+    else
+      put(at, static_cast<uint32_t>(value));
   }
   bool isWritten(uint32_t at) const { return written_[at]; }
 

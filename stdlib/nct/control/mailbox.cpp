@@ -8,10 +8,9 @@
 namespace rung::nct {
 namespace {
 
-constexpr Code kNoDevice = 200, kNoProtocol = 201, kLength = 202, kReadTimeout = 203, kWriteTimeout = 204,
+constexpr Code kNoDevice = 200, kNoProtocol = 201, kMailLength = 202, kReadTimeout = 203, kWriteTimeout = 204,
                kDeviceError = 205;
 constexpr uint32_t kCoe = 3, kSoe = 5, kVoe = 15, kElements = 8;
-constexpr uint32_t kFirstKept = 4000, kFirstSent = 2;
 constexpr uint64_t kTimeoutCycles = 10;
 // Abort codes of CoE, error codes of SoE.
 constexpr uint32_t kNoAccess = 0x06010000, kNoObject = 0x06020000, kNoSubIndex = 0x06090011, kWrongSize = 0x06070010,
@@ -49,8 +48,8 @@ Code Mailbox::check(const Block& block, uint32_t first_address) const {
   if (device == devices_.end()) return kNoDevice;
   if (device->second.protocols.count(protocol) == 0) return kNoProtocol;
   const uint32_t length = block.word(4), address = block.word(5);
-  if (length < 1 || length > 4 * RUNG_NC_WORDS) return kLength;
-  return address < first_address || address > RUNG_NC_WORDS - (length + 3) / 4 ? kLength : kDone;
+  if (length < 1 || length > 4 * RUNG_NC_WORDS) return kMailLength;
+  return address < first_address || address > RUNG_NC_WORDS - (length + 3) / 4 ? kMailLength : kDone;
 }
 
 // The objects of a device that the block names, in the order of their bytes; returns the device's error.
@@ -90,7 +89,7 @@ Code Mailbox::read(Block& block, uint32_t* memory, uint64_t waited) const {
   const uint32_t error = device.error != 0 ? device.error : select(block, device, selected);
   if (error != 0) return fail(block, error);
   const uint32_t length = block.word(4);
-  if (sizeOf(selected) > length) return kLength;
+  if (sizeOf(selected) > length) return kMailLength;
   std::fill_n(memory + block.word(5), (length + 3) / 4, 0u);
   uint32_t at = 0;
   for (const Bytes* bytes : selected)

@@ -16,9 +16,9 @@
 namespace rung::nct {
 namespace {
 
-constexpr Code kIdentifier = 60, kNotConnected = 61, kTransfer = 62, kNotOpen = 63, kLength = 64, kNothing = 65,
-               kInputs = 66;
-constexpr uint32_t kFirstKept = 4000, kFirstSent = 2, kRegisters = 350;
+constexpr Code kWrongSocket = 60, kNotConnected = 61, kTransfer = 62, kSocketClosed = 63, kPacketLength = 64,
+               kNothing = 65, kInputs = 66;
+constexpr uint32_t kRegisters = 350;
 constexpr uint64_t kConnectCycles = 500;
 
 // Windows Sockets Error Codes.
@@ -126,7 +126,7 @@ int Network::start(Connecting& connecting) {
 
 Code Network::open(Block& block, uint32_t request, uint64_t waited) {
   if (block.amount() != 5) return kWrongAmount;
-  if (block.word(2) != 1) return kIdentifier;
+  if (block.word(2) != 1) return kWrongSocket;
   if (block.word(4) < 1 || block.word(4) > 3 || !isTarget(block.word(5), block.word(6))) return kInputs;
   int error = 0;
   if (connecting_request_ == request && socket_ >= 0) {
@@ -160,7 +160,7 @@ Code Network::open(Block& block, uint32_t request, uint64_t waited) {
 // The manual names the amounts 1 and 2.
 Code Network::close(const Block& block) {
   if (block.amount() != 1 && block.amount() != 2) return kWrongAmount;
-  if (block.word(2) != 1) return kIdentifier;
+  if (block.word(2) != 1) return kWrongSocket;
   close();
   return kDone;
 }
@@ -168,10 +168,10 @@ Code Network::close(const Block& block) {
 // MR62 and MW63: connection, address, length.
 Code Network::check(const Block& block, uint32_t first_address) const {
   if (block.amount() < 3 || block.amount() > 6) return kWrongAmount;
-  if (block.word(2) != 1) return kIdentifier;
-  if (!isOpen()) return kNotOpen;
+  if (block.word(2) != 1) return kWrongSocket;
+  if (!isOpen()) return kSocketClosed;
   const uint32_t address = block.word(3), length = block.word(4);
-  if (length < 1 || length > kRegisters) return kLength;
+  if (length < 1 || length > kRegisters) return kPacketLength;
   return address < first_address || address > RUNG_NC_WORDS - length ? kInputs : kDone;
 }
 

@@ -7,24 +7,13 @@
 namespace rung::nct {
 namespace {
 
-constexpr Code kNoItem = 12, kNoFile = 45, kNoProgram = 47, kNoMagazine = 300, kNoPlace = 301, kNoOtherMagazine = 302,
-               kIdentifier = 305, kStatus = 306, kPriority = 307, kExecuted = 308, kAssigned = 309, kEmptyPlace = 339,
-               kNotFound = 341, kEmptySpace = 342;
+constexpr Code kNoPalletItem = 12, kNoPalletFile = 45, kNoPalletProgram = 47, kNoMagazine = 300, kNoPlace = 301,
+               kNoOtherMagazine = 302, kPalletIdentifier = 305, kStatus = 306, kPriority = 307, kExecuted = 308,
+               kAssigned = 309, kEmptyPlace = 339, kNotFound = 341, kEmptySpace = 342;
 constexpr uint32_t kVirtual = 0, kMagazine = 1, kWorkingSpace = 10, kLoadingPoint = 11;
 constexpr uint32_t kReady = 4;  // for exchange
 
-bool isReal(uint32_t item) { return item >= static_cast<uint32_t>(PalletItem::FirstCustom); }
-
-double value(const Block& block, uint32_t at, uint32_t item) {
-  return isReal(item) ? block.real(at) : static_cast<double>(block.word(at));
-}
-
-void putValue(Block& block, uint32_t at, uint32_t item, double value) {
-  if (isReal(item))
-    block.putReal(at, value);
-  else
-    block.put(at, static_cast<uint32_t>(value));
-}
+bool isRealPalletItem(uint32_t item) { return item >= static_cast<uint32_t>(PalletItem::FirstCustom); }
 
 }  // namespace
 
@@ -56,7 +45,7 @@ uint32_t Pallets::columnsOf(uint32_t amount) const {
   uint32_t words = 2, item = 0;
   while (words < amount && item < kLastItem) {
     if (++item == static_cast<uint32_t>(PalletItem::Programs)) continue;
-    words += isReal(item) ? 2 : 1;
+    words += isRealPalletItem(item) ? 2 : 1;
   }
   return words == amount && hasItem(item) ? item : 0;
 }
@@ -72,7 +61,7 @@ Code Pallets::findRow(const Block& block, uint32_t& row) const {
 Code Pallets::check(const Pallet& pallet, uint32_t item) {
   const double value = pallet.items[item - 1];
   switch (static_cast<PalletItem>(item)) {
-    case PalletItem::Identifier: return value >= 1 && value <= 99999999 ? kDone : kIdentifier;
+    case PalletItem::Identifier: return value >= 1 && value <= 99999999 ? kDone : kPalletIdentifier;
     case PalletItem::Status: return value <= 9 ? kDone : kStatus;
     case PalletItem::Priority: return value <= 128 ? kDone : kPriority;
     case PalletItem::Executed: return value <= of(pallet, PalletItem::Assigned) ? kDone : kExecuted;
@@ -132,8 +121,8 @@ Code Pallets::writePallet(const Block& block) {
   Pallet& pallet = pallets_[row];
   for (uint32_t item = 1, at = 4; item <= last; ++item) {
     if (item == static_cast<uint32_t>(PalletItem::Programs)) continue;
-    pallet.items[item - 1] = value(block, at, item);
-    at += isReal(item) ? 2 : 1;
+    pallet.items[item - 1] = block.item(at, isRealPalletItem(item));
+    at += isRealPalletItem(item) ? 2 : 1;
   }
   for (uint32_t item = 1; item <= last; ++item)
     if (const Code code = check(pallet, item); code != kDone) {
@@ -152,8 +141,8 @@ Code Pallets::readPallet(Block& block) const {
   if (isEmpty(pallets_[row])) return kEmptyPlace;
   for (uint32_t item = 1, at = 4; item <= last; ++item) {
     if (item == static_cast<uint32_t>(PalletItem::Programs)) continue;
-    putValue(block, at, item, pallets_[row].items[item - 1]);
-    at += isReal(item) ? 2 : 1;
+    block.putItem(at, isRealPalletItem(item), pallets_[row].items[item - 1]);
+    at += isRealPalletItem(item) ? 2 : 1;
   }
   return kDone;
 }
@@ -164,8 +153,8 @@ static Code checkItemAmount(const Block& block, bool has_item) {
   if (amount < 4) return kWrongAmount;
   const uint32_t item = block.word(4);
   if (item == static_cast<uint32_t>(PalletItem::Programs)) return amount <= 3 + 64 ? kDone : kWrongAmount;
-  if (!has_item) return amount <= 5 ? kNoItem : kWrongAmount;
-  return amount == (isReal(item) ? 5u : 4u) ? kDone : kWrongAmount;
+  if (!has_item) return amount <= 5 ? kNoPalletItem : kWrongAmount;
+  return amount == (isRealPalletItem(item) ? 5u : 4u) ? kDone : kWrongAmount;
 }
 
 Code Pallets::writeItem(const Block& block) {
@@ -185,7 +174,7 @@ Code Pallets::writeItem(const Block& block) {
     return kDone;
   }
   Pallet changed = pallets_[row];
-  changed.items[item - 1] = value(block, 5, item);
+  changed.items[item - 1] = block.item(5, isRealPalletItem(item));
   if (const Code code = check(changed, item); code != kDone) return code;
   if (item == static_cast<uint32_t>(PalletItem::Identifier)) recall(row, changed.items[0]);
   pallets_[row].items[item - 1] = changed.items[item - 1];
@@ -201,7 +190,7 @@ Code Pallets::readItem(Block& block) const {
   if (const Code code = findRow(block, row); code != kDone) return code;
   if (item != static_cast<uint32_t>(PalletItem::Status) && isEmpty(pallets_[row])) return kEmptyPlace;
   if (!are_programs) {
-    putValue(block, 5, item, pallets_[row].items[item - 1]);
+    block.putItem(5, isRealPalletItem(item), pallets_[row].items[item - 1]);
     return kDone;
   }
   const uint32_t count = block.amount() - 3;
@@ -223,7 +212,7 @@ Code Pallets::findPallet(Block& block) const {
   if (block.amount() != 6) return kWrongAmount;
   const uint32_t item = block.word(2), wanted = block.word(3), start = block.word(4) - 1, direction = block.word(5);
   if (!hasItem(item) || (item == static_cast<uint32_t>(PalletItem::Programs) && parameters_.bit(3300, 3)))
-    return kNoItem;
+    return kNoPalletItem;
   const Rows rows = rowsOf(kMagazine);
   if (start >= rows.count) return kNoPlace;
   const bool by_priority = item == static_cast<uint32_t>(PalletItem::Status) && wanted == kReady;
@@ -249,9 +238,9 @@ Code Pallets::findPallet(Block& block) const {
 // After the last place of the magazine its first one comes.
 Code Pallets::readColumn(Block& block) const {
   if (block.amount() < 4) return kWrongAmount;
-  const uint32_t item = block.word(2), place = block.word(4) - 1, words = isReal(item) ? 2 : 1;
+  const uint32_t item = block.word(2), place = block.word(4) - 1, words = isRealPalletItem(item) ? 2 : 1;
   if (!hasItem(item) || (item == static_cast<uint32_t>(PalletItem::Programs) && parameters_.bit(3300, 3)))
-    return kNoItem;
+    return kNoPalletItem;
   if ((block.amount() - 3) % words != 0) return kWrongAmount;
   const Rows rows = rowsOf(block.word(3));
   if (rows.count == 0) return kNoMagazine;
@@ -259,7 +248,7 @@ Code Pallets::readColumn(Block& block) const {
   for (uint32_t k = 0; k < (block.amount() - 3) / words; ++k) {
     const Pallet& pallet = pallets_[rows.first + (place + k) % rows.count];
     const bool is_program = item == static_cast<uint32_t>(PalletItem::Programs);
-    putValue(block, 5 + k * words, item, is_program ? pallet.programs[0] : pallet.items[item - 1]);
+    block.putItem(5 + k * words, isRealPalletItem(item), is_program ? pallet.programs[0] : pallet.items[item - 1]);
   }
   return kDone;
 }
@@ -270,9 +259,9 @@ Code Pallets::nextProgram(uint32_t identifier, uint32_t& program) const {
   if (rows.count == 0 || isEmpty(pallet)) return kEmptySpace;
   const double executed = of(pallet, PalletItem::Executed);
   if (of(pallet, PalletItem::Identifier) != identifier || executed >= of(pallet, PalletItem::Assigned))
-    return kNoProgram;
+    return kNoPalletProgram;
   program = pallet.programs[static_cast<uint32_t>(executed)];
-  return program == 0 || parameters_.bit(3300, 3) ? kNoFile : kDone;
+  return program == 0 || parameters_.bit(3300, 3) ? kNoPalletFile : kDone;
 }
 
 }  // namespace rung::nct

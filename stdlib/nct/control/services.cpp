@@ -6,7 +6,6 @@
 namespace rung::nct {
 namespace {
 
-constexpr uint32_t kFirstKept = 4000;  // PLCNVRAM
 constexpr Code kFirstIdentifier = 10, kPlcAddress = 11, kIdentifiers = 12, kNoProgram = 40, kNoChannel = 41,
                kNoFile = 45, kChannelRuns = 46, kWindowChannel = 6, kNoWindow = 70, kDisplay = 71, kDriveAddress = 80,
                kDriveData = 81;

@@ -7,7 +7,7 @@
 namespace rung::nct {
 namespace {
 
-constexpr uint32_t kExists = 607, kLeast = 642, kGreatest = 650, kOther = 658, kRampUp = 666, kRampDown = 674,
+constexpr uint32_t kExists = 607, kLeastSpeed = 642, kGreatestSpeed = 650, kOther = 658, kRampUp = 666, kRampDown = 674,
                    kOrientation = 801;
 constexpr double kSynchronousError = 0.5;  // revolutions a minute
 
@@ -38,7 +38,7 @@ double Spindles::programmed(uint32_t k) const {
   const double sign = words_.isSet(nc::SP_NEG, k) ? -1 : 1;
   if (words_.isSet(nc::SP_PAR, k)) return sign * parameters_.real(kOther + range, k);
   const double wanted = words_.word(nc::SP_PRG, k) * words_.real(nc::SP_SOVER, k);
-  const double least = parameters_.real(kLeast + range, k), greatest = parameters_.real(kGreatest + range, k);
+  const double least = parameters_.real(kLeastSpeed + range, k), greatest = parameters_.real(kGreatestSpeed + range, k);
   double speed = std::isfinite(wanted) ? std::max(wanted, least) : least;
   if (greatest > 0) speed = std::min(speed, greatest);
   return sign * speed;

@@ -11,13 +11,13 @@ constexpr Code kNoCartridge = 100, kNoPot = 101, kNoOtherCartridge = 102, kNoOth
                kFirstItemCode = 104,  // code of an item: this and its data number
     kTableFull = 138, kNoTool = 139, kNoItem = 140, kNoMatch = 141;
 constexpr uint32_t kWords = 12, kCompensations = 400, kFigures = 20;
-constexpr double kGreatest = 99999999;  // 8 digits
+constexpr double kGreatestFigure = 99999999;  // 8 digits
 constexpr double kMillimetre = 0.001, kInch = 0.0001;
 enum Status : uint32_t { kUnmanaged, kUnused, kUsed, kExpired, kBroken };
 constexpr uint32_t kTimed = 1, kLarge = 2, kDisabled = 3, kSearchable = 4;  // bits of the tool info
 constexpr int32_t kToolChange = 6;
 
-bool isReal(uint32_t item) {
+bool isRealToolItem(uint32_t item) {
   return item == static_cast<uint32_t>(ToolItem::Feed) || item >= static_cast<uint32_t>(ToolItem::FirstUser);
 }
 
@@ -26,19 +26,8 @@ bool bit(double word, uint32_t number) { return (static_cast<uint32_t>(word) >> 
 // Items of a block with all columns, whose amount has two words for the pot; 0: a column is not whole.
 uint32_t columnsOf(uint32_t amount) {
   uint32_t words = 2, items = 0;
-  while (words < amount && items < static_cast<uint32_t>(ToolItem::LastUser)) words += isReal(++items) ? 2 : 1;
+  while (words < amount && items < static_cast<uint32_t>(ToolItem::LastUser)) words += isRealToolItem(++items) ? 2 : 1;
   return words == amount ? items : 0;
-}
-
-double value(const Block& block, uint32_t at, uint32_t item) {
-  return isReal(item) ? block.real(at) : static_cast<double>(block.word(at));
-}
-
-void putValue(Block& block, uint32_t at, uint32_t item, double value) {
-  if (isReal(item))
-    block.putReal(at, value);
-  else
-    block.put(at, static_cast<uint32_t>(value));
 }
 
 }  // namespace
@@ -68,12 +57,12 @@ Code Tools::checkItem(uint32_t item, double value) {
   const auto within = [&](double least, double greatest) {
     return value >= least && value <= greatest ? kDone : wrong;
   };
-  if (isReal(item)) {
+  if (isRealToolItem(item)) {
     const bool is_feed = item == static_cast<uint32_t>(ToolItem::Feed);
     return std::isfinite(value) && (!is_feed || value >= 0) ? kDone : wrong;
   }
   switch (static_cast<ToolItem>(item)) {
-    case ToolItem::Type: return within(1, kGreatest);
+    case ToolItem::Type: return within(1, kGreatestFigure);
     case ToolItem::Info: return within(0, 31);
     case ToolItem::Figure: return within(0, kFigures);
     case ToolItem::Status: return within(0, kBroken);
@@ -90,7 +79,7 @@ Code Tools::checkItem(uint32_t item, double value) {
     case ToolItem::FirstUser:
     case ToolItem::LastUser: break;
   }
-  return within(0, kGreatest);
+  return within(0, kGreatestFigure);
 }
 
 bool Tools::hasCartridge(uint32_t cartridge) const {
@@ -267,8 +256,8 @@ Code Tools::registerTool(const Block& block) {
   if (isLocked()) return kProtected;
   if (const Code code = checkPot(block, 2, kNoCartridge, kNoPot); code != kDone) return code;
   Tool tool{};
-  for (uint32_t item = 1, at = 4; item <= items; at += isReal(item) ? 2 : 1, ++item) {
-    tool[item - 1] = value(block, at, item);
+  for (uint32_t item = 1, at = 4; item <= items; at += isRealToolItem(item) ? 2 : 1, ++item) {
+    tool[item - 1] = block.item(at, isRealToolItem(item));
     if (const Code code = checkItem(item, tool[item - 1]); code != kDone) return code;
   }
   Place place{};
@@ -287,8 +276,8 @@ Code Tools::writeTool(const Block& block) {
   uint32_t row = 0;
   if (const Code code = findRow(block, Access::Write, row); code != kDone) return code;
   Tool tool = tools_[row];
-  for (uint32_t item = 1, at = 4; item <= items; at += isReal(item) ? 2 : 1, ++item) {
-    tool[item - 1] = value(block, at, item);
+  for (uint32_t item = 1, at = 4; item <= items; at += isRealToolItem(item) ? 2 : 1, ++item) {
+    tool[item - 1] = block.item(at, isRealToolItem(item));
     if (const Code code = checkItem(item, tool[item - 1]); code != kDone) return code;
   }
   tools_[row] = tool;
@@ -302,8 +291,8 @@ Code Tools::readTool(Block& block) const {
   if (mustWait()) return kBusy;
   uint32_t row = 0;
   if (const Code code = findRow(block, Access::Read, row); code != kDone) return code;
-  for (uint32_t item = 1, at = 4; item <= items; at += isReal(item) ? 2 : 1, ++item)
-    putValue(block, at, item, tools_[row][item - 1]);
+  for (uint32_t item = 1, at = 4; item <= items; at += isRealToolItem(item) ? 2 : 1, ++item)
+    block.putItem(at, isRealToolItem(item), tools_[row][item - 1]);
   return kDone;
 }
 
@@ -322,7 +311,7 @@ static Code checkItemAmount(const Block& block, uint32_t first) {
   if (block.amount() != 4 && block.amount() != 5) return kWrongAmount;
   const uint32_t item = block.word(4);
   if (item < first || item > static_cast<uint32_t>(ToolItem::LastUser)) return kNoItem;
-  return block.amount() == (isReal(item) ? 5u : 4u) ? kDone : kWrongAmount;
+  return block.amount() == (isRealToolItem(item) ? 5u : 4u) ? kDone : kWrongAmount;
 }
 
 Code Tools::writeItem(const Block& block) {
@@ -332,7 +321,7 @@ Code Tools::writeItem(const Block& block) {
   if (const Code code = findRow(block, Access::Write, row); code != kDone) return code;
   if (amount != kDone) return amount;
   const uint32_t item = block.word(4);
-  const double wanted = value(block, 5, item);
+  const double wanted = block.item(5, isRealToolItem(item));
   if (const Code code = checkItem(item, wanted); code != kDone) return code;
   tools_[row][item - 1] = wanted;
   is_modified_ = true;
@@ -346,7 +335,7 @@ Code Tools::readItem(Block& block) const {
   uint32_t row = 0;
   if (const Code code = findRow(block, Access::Read, row); code != kDone) return code;
   if (amount != kDone) return amount;
-  putValue(block, 5, block.word(4), tools_[row][block.word(4) - 1]);
+  block.putItem(5, isRealToolItem(block.word(4)), tools_[row][block.word(4) - 1]);
   return kDone;
 }
 
@@ -354,12 +343,12 @@ Code Tools::readItem(Block& block) const {
 Code Tools::findByUserData(Block& block) const {
   if (const Code code = checkItemAmount(block, static_cast<uint32_t>(ToolItem::UserBits)); code != kDone) return code;
   const uint32_t item = block.word(4);
-  const double wanted = value(block, 5, item), increment = parameters_.bit(104, 0) ? kInch : kMillimetre;
+  const double wanted = block.item(5, isRealToolItem(item)), increment = parameters_.bit(104, 0) ? kInch : kMillimetre;
   for (uint32_t row = 0; row < kRows; ++row) {
     if (!isValid(tools_[row])) continue;
     const double has = tools_[row][item - 1];
     Place place{};
-    const bool matches = isReal(item) ? std::fabs(has - wanted) < increment : has == wanted;
+    const bool matches = isRealToolItem(item) ? std::fabs(has - wanted) < increment : has == wanted;
     if (!matches || !findPlace(row + 1, place)) continue;
     block.put(2, place.cartridge);
     block.put(3, place.pot);
@@ -408,7 +397,7 @@ void Tools::count(uint32_t k, uint32_t units, bool are_seconds) {
   if (!isValid(tool) || (status != kUnused && status != kUsed)) return;
   if (bit(of(tool, ToolItem::Info), kTimed) != are_seconds) return;
   const double life = of(tool, ToolItem::Life), notice = of(tool, ToolItem::Notice);
-  const double before = of(tool, ToolItem::Counter), after = std::min(before + units, kGreatest);
+  const double before = of(tool, ToolItem::Counter), after = std::min(before + units, kGreatestFigure);
   set(tool, ToolItem::Counter, after);
   set(tool, ToolItem::Status, after >= life ? kExpired : kUsed);
   lives_[k].notice = lives_[k].notice || (life - before > notice && life - after <= notice);
@@ -483,7 +472,7 @@ bool Tools::pot(uint32_t cartridge, uint32_t pot, uint32_t& data_number) const {
 
 bool Tools::setItem(uint32_t data_number, uint32_t item, double value) {
   if (data_number < 1 || data_number > kRows || item < 1 || item > kItems) return false;
-  if (!isReal(item)) value = std::floor(value);
+  if (!isRealToolItem(item)) value = std::floor(value);
   if (checkItem(item, value) != kDone) return false;
   tools_[data_number - 1][item - 1] = value;
   return true;

@@ -7,7 +7,7 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kChunk = 64;  // bytes
+constexpr uint32_t kScanned = 64;  // bytes
 
 size_t words(size_t bytes) { return bytes / 8 + 2; }  // a 64-bit view at the end stays inside
 
@@ -134,8 +134,8 @@ void Exchange::giveShared(const Copy& copy) {
     const uint8_t* const mine = copy.areas[i];
     const auto* const before = reinterpret_cast<const uint8_t*>(copy.taken[i].data());
     const uint32_t size = module_.areas[i].size;
-    for (uint32_t begin = 0; begin < size; begin += kChunk) {
-      const uint32_t end = std::min(begin + kChunk, size);
+    for (uint32_t begin = 0; begin < size; begin += kScanned) {
+      const uint32_t end = std::min(begin + kScanned, size);
       if (memcmp(mine + begin, before + begin, end - begin) == 0) continue;
       for (uint32_t at = begin; at < end; ++at) {
         const auto changed = static_cast<uint8_t>(mine[at] ^ before[at]);

@@ -16,7 +16,7 @@ namespace {
 constexpr int64_t kLeastSilenceNs = 1'750'000;  // above 19200 bit/s
 constexpr int64_t kDiscardNs = 50'000'000;      // parts of a frame that arrive later do not belong to it
 constexpr uint32_t kFastRate = 19200;
-constexpr int kAcceptsPerEvent = 64, kReadsPerEvent = 8;
+constexpr int kAcceptsPerEvent = 64, kReadsPerTurn = 8;
 
 }  // namespace
 
@@ -167,7 +167,7 @@ bool TcpMasters::answer(Connection& connection, uint32_t received) {
 
 bool TcpMasters::receive(Connection& connection) {
   TcpMaster& master = connection.master;
-  for (int i = 0; i < kReadsPerEvent && !connection.waits_to_send; ++i) {
+  for (int i = 0; i < kReadsPerTurn && !connection.waits_to_send; ++i) {
     const uint32_t room = master.room();
     const ssize_t count = recv(connection.fd, master.free(), room, MSG_DONTWAIT);
     if (count < 0 && errno == EINTR) continue;

@@ -12,7 +12,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kSecond = 1'000'000'000, kMillisecond = 1'000'000;
+constexpr int64_t kSecond = 1'000'000'000, kMillisecondNs = 1'000'000;
 constexpr size_t kPrefaulted = 64 * 1024;  // of each stack
 
 int64_t monotonicNs() {
@@ -67,7 +67,7 @@ Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& o
   pthread_mutexattr_destroy(&attributes);
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
-  tick_ns_ = std::min(tasks.rowNs(), kMillisecond);
+  tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
   resources_ = std::max(1u, context.module->resource_count);
   processors_ = std::make_unique<Processor[]>(resources_);
 }
@@ -307,7 +307,7 @@ void Realtime::startThreads() {
   for (uint32_t i = 0; has_triggers && i < resources_; ++i) samplers_.emplace_back([this, i] { sample(i); });
   processors_[0].join(0, true);
   const std::lock_guard<std::mutex> lock(start_mutex_);
-  start_ns_ = monotonicNs() + kMillisecond + static_cast<int64_t>(workers_.size()) * 50'000;
+  start_ns_ = monotonicNs() + kMillisecondNs + static_cast<int64_t>(workers_.size()) * 50'000;
   for (const std::unique_ptr<Worker>& worker : workers_) worker->next_ns = start_ns_;
   started_ = true;
   start_condition_.notify_all();
@@ -322,7 +322,7 @@ bool Realtime::endActivations(uint8_t reason) {
     if (now - begin > 2 * kSecond) return false;
     if (now - begin >= kSecond || reason == RUNG_STOP_TIME)
       for (const std::unique_ptr<Worker>& worker : workers_) worker->context.stop = reason;
-    sleepUntil(now + 2 * kMillisecond);
+    sleepUntil(now + 2 * kMillisecondNs);
   }
   return true;
 }
@@ -374,7 +374,7 @@ int64_t Realtime::pollNs() const {
   int64_t poll = options_.poll_ns;
   for (const std::unique_ptr<Worker>& worker : workers_)
     if (const int64_t watchdog = worker->task->row->watchdog_ns; watchdog > 0) poll = std::min(poll, watchdog / 2);
-  return std::max(poll, kMillisecond);
+  return std::max(poll, kMillisecondNs);
 }
 
 // Makes the rows when no cyclic task does, and waits for signals.
@@ -413,7 +413,7 @@ bool Realtime::pause() {
       if (active_ == 0) return true;
     }
     if (monotonicNs() - begin > kSecond) return false;
-    sleepUntil(monotonicNs() + kMillisecond);
+    sleepUntil(monotonicNs() + kMillisecondNs);
   }
 }
 

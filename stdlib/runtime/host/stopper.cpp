@@ -9,7 +9,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kTickNs = 20'000'000;
+constexpr int64_t kRepeatNs = 20'000'000;
 constexpr int kTicksUntilHung = 50;
 
 rung_context* volatile context_to_stop = nullptr;
@@ -35,7 +35,7 @@ void onStopSignal(int number, siginfo_t*, void* details) {
     stop_reason = number == SIGINT ? RUNG_STOP_INTERRUPT : RUNG_STOP_TIME;
     ticks = 0;
     if (runningContext() == context) stop_site = currentSite(context, details);
-    setTimer(kTickNs, kTickNs);
+    setTimer(kRepeatNs, kRepeatNs);
   }
   context->stop = static_cast<uint8_t>(stop_reason);
   if (number == SIGALRM) ticks = ticks + 1;
@@ -73,7 +73,7 @@ void Stopper::limitTime(int64_t ns) {
   stop_reason = RUNG_STOP_NONE;
   stop_site = RUNG_NONE;
   context_to_stop->stop = RUNG_STOP_NONE;
-  if (ns > 0) setTimer(ns < 1000 ? 1000 : ns, kTickNs);
+  if (ns > 0) setTimer(ns < 1000 ? 1000 : ns, kRepeatNs);
 }
 
 uint8_t Stopper::reason() const { return static_cast<uint8_t>(stop_reason); }
