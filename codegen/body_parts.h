@@ -26,6 +26,11 @@ class ExpressionWriter : public BodyPart {
   void differs(const ir::BinaryExpr& node, Prec context);
   void loadBits(const ir::BitsExpr& node, TypeKind kind);
   void logical(const ir::BinaryExpr& node, Prec context);
+  struct Contacts {
+    uint32_t bits = 0, steps = 0;  // bits of the image, expressions looked at
+  };
+  bool isPlainRead(ExprId id) const;
+  bool isBranchless(ExprId id, Contacts& seen) const;
   void comparison(const ir::BinaryExpr& node, Prec context);
   void leftOfEquality(ExprId id);
   void arithmetic(ExprId id, Prec context);  // + - * and negation of integers

@@ -287,7 +287,39 @@ void ExpressionWriter::differs(const ir::BinaryExpr& node, Prec context) {
   closeParenthesis(Prec::Equality, context);
 }
 
+// A constant or a variable that is where the code says, without a check.
+bool ExpressionWriter::isPlainRead(ExprId id) const {
+  if (ir::mayFault(*body_, id)) return false;
+  while (const auto* field = expr(id).tryAs<ir::FieldExpr>()) id = field->base;
+  const ExprKind root = expr(id).kind;
+  return root == ExprKind::Const || root == ExprKind::Local || root == ExprKind::Self || root == ExprKind::Image;
+}
+
+// Whether to evaluate all of a condition costs less than to jump around its operands: a ladder has a contact every few
+// bytes of code. The operands only read and compare; in a long condition the jumps pay.
+bool ExpressionWriter::isBranchless(ExprId id, Contacts& seen) const {
+  constexpr uint32_t kLongest = 40;
+  const Expr& e = expr(id);
+  if (++seen.steps > kLongest) return false;
+  if (ir::isNot(e)) return isBranchless(e.as<ir::UnaryExpr>().operand, seen);
+  const auto* node = e.tryAs<ir::BinaryExpr>();
+  if (node == nullptr) {
+    seen.bits += ir::isImageBit(e) ? 1 : 0;
+    return isPlainRead(id);
+  }
+  if (node->op == Op::And || node->op == Op::Or)
+    return isBranchless(node->left, seen) && isBranchless(node->right, seen);
+  const TypeKind kind = kindOf(node->left);
+  return types::isComparison(node->op) && !TypeTable::isReal(kind) && !TypeTable::isString(kind) &&
+         isPlainRead(node->left) && isPlainRead(node->right);
+}
+
 void ExpressionWriter::logical(const ir::BinaryExpr& node, Prec context) {
+  Contacts seen;
+  if (isBranchless(node.left, seen) && isBranchless(node.right, seen) && seen.bits != 0) {
+    bitwise(node, context);
+    return;
+  }
   const Prec own = node.op == Op::And ? Prec::And : Prec::Or;
   parenthesis(own, context);
   auto operand = [&](ExprId id) {
