@@ -48,6 +48,7 @@ struct ReadContext {
   Diagnostics& diagnostics;
   std::vector<Library>& libraries;  // those that the files ask for are added
   LadderSettings ladder = {};
+  bool for_pictures = false;  // `rung graph` draws what is read: a ladder becomes networks, not statements
 };
 
 struct Format {

@@ -7,6 +7,7 @@
 //                          | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
+//   name    = identifier | keyword | string, for a name with other characters: of a connector, or in a picture
 //   pin     = name {NOT | RISING | FALLING | SET | RESET} (":=" [wires] ["=>"] | "=>")
 //   wires   = number ["(" pin ")"] {OR number ["(" pin ")"]}
 //   statements = "{network ST}" statements "{end_network}"
@@ -49,8 +50,13 @@ std::string plainText(std::string_view quoted) {
 
 }  // namespace
 
-// Takes a keyword of any kind as a name: pins and boxes are called AND, MOD, DO.
+// Takes a keyword of any kind as a name: pins and boxes are called AND, MOD, DO. A string has any characters.
 bool NetworkParser::takeWord(Ident& out) {
+  if (at(Tok::StringLiteral)) {
+    out = {names_.intern(plainText(textOf(t_))), here()};
+    advance();
+    return true;
+  }
   const bool word = isName(kind()) || nameReserved(t_);
   if (!word) {
     fail(diag::MissingName, t_, {describe(t_)});
@@ -165,12 +171,8 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
   const Token* named = t_;
   std::vector<DiagramPin> pins;
   const bool attribute = is(t_, "AT") || is(t_, "ORDER");
-  if (isNamed(e.kind) && (isName(kind()) || nameReserved(t_)) && !(attribute && peek() == Tok::Number))
-    e.path = parseElementPath(e.name);
-  if ((e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation) && at(Tok::StringLiteral)) {
-    e.name = {names_.intern(plainText(textOf(t_))), here()};  // the names of connectors are arbitrary
-    advance();
-  }
+  const bool begins_name = isName(kind()) || nameReserved(t_) || at(Tok::StringLiteral);
+  if (isNamed(e.kind) && begins_name && !(attribute && peek() == Tok::Number)) e.path = parseElementPath(e.name);
   while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
     if (takeModifier(e)) continue;
     if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
@@ -209,6 +211,9 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
       --stmt_depth_;
       panic_ = false;
       expect(Tok::EndNetwork);
+    } else if (at(Tok::StringLiteral) && needsOperand(e.kind) && !e.operand) {
+      Ident name;
+      if (takeWord(name)) e.operand = ended(build_.name(name));
     } else if (at(Tok::StringLiteral)) {
       const StringId text = tree_.addString(plainText(textOf(t_)));
       e.comment = text.first;

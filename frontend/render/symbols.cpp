@@ -33,6 +33,11 @@ std::vector<std::string> textOf(const Body& body, const DiagramElement& e) {
   return wrapped(body.string(e.comment, e.comment_length), kCommentWidth);
 }
 
+// Lines in a box, below its pins.
+bool hasText(const DiagramElement& e) {
+  return e.kind == ElementKind::Execute || (e.kind == ElementKind::Box && e.comment_length != 0);
+}
+
 int32_t widthOf(const std::vector<std::string>& lines) {
   int32_t width = 0;
   for (const std::string& line : lines) width = std::max(width, textWidth(line));
@@ -89,7 +94,7 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
   }
   const auto pins = static_cast<int32_t>(count);
   int32_t height = std::max(kFirstPin + pins * kPitch - kGrid, 40);
-  if (e.kind == ElementKind::Execute) {
+  if (hasText(e)) {
     const std::vector<std::string> text = textOf(body, e);
     width = std::max(width, widthOf(text) + 20);
     height += static_cast<int32_t>(text.size()) * kLine + 6;
@@ -172,7 +177,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     if (pin != nullptr) drawModifiers(svg, *pin, border, left);
     below = std::max(below, end.y + kGrid);
   }
-  if (e.kind == ElementKind::Execute) svg.lines({frame.x + 10, below}, textOf(body, e));
+  if (hasText(e)) svg.lines({frame.x + 10, below}, textOf(body, e));
   const int32_t behind_name = e.operand ? middle + textWidth(operandText(body, e)) / 2 + 30 : 0;
   drawOrder(svg, e, {std::max(frame.right(), behind_name), frame.y});
 }

@@ -106,7 +106,7 @@ bool Compilation::read() {
   if (ladder.plc_period_ns % ladder.time_slice_ns != 0 && usage_error_.empty())
     usage_error_ = "the PLC period of an NCT program must be a multiple of its TimeSlice";
   const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
-  if (ok) readPrograms(sources, diagnostics, inputs);
+  if (ok) readPrograms(sources, diagnostics, inputs, for_pictures);
   noteLibraries();
   times_.end();
   return ok;

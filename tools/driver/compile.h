@@ -71,6 +71,7 @@ class Compilation {
   std::string diagnosticsText();
   int exitCode() const;
 
+  bool for_pictures = false;     // set before parse() by `rung graph`
   sema::Scheduled scheduled;     // set before check() by `rung convert`
   std::function<void()> parsed;  // likewise: called while the tree is as parsed, and has no errors
   Options options;

@@ -99,6 +99,7 @@ int runGraph(const Options& options, Sink& sink) {
   PhaseTimes times;
   Compilation compilation(options, times, sink);
   std::vector<TextFile> pictures;
+  compilation.for_pictures = true;
   const bool parsed = compilation.parse() && !compilation.diagnostics.hasErrors();
   if (parsed) pictures = Grapher(compilation, options.page_width).pictures();
   const int exit = compilation.finish();

@@ -381,7 +381,7 @@ static void addNctAreas(types::MemoryAreas& areas) {
     if (!types::findArea(areas, area.letter)) areas.push_back(area);
 }
 
-void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bool for_pictures) {
   std::vector<importer::PairCandidate> halves;
   for (const InputFile& input : inputs.files)
     if (input.kind == FileKind::St) halves.push_back({input.below, input.file});
@@ -391,7 +391,7 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
     if (input.kind == FileKind::St) input.file = (half++)->file;
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 
-  importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder};
+  importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder, for_pictures};
   const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
   if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct)) addNctAreas(inputs.project.areas);
   FileId ladder;

@@ -44,6 +44,6 @@ struct Inputs {
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
 
 // Replaces each vendor's file by its program in ST, and the two files of one POU by one source.
-void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bool for_pictures);
 
 }  // namespace rung::driver

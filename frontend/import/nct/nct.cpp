@@ -1,6 +1,7 @@
 // Reads an NCT program; see nct.h.
 #include "frontend/import/nct/nct.h"
 
+#include "frontend/import/nct/drawing.h"
 #include "frontend/import/nct/write.h"
 
 namespace rung::importer::nct {
@@ -8,11 +9,15 @@ namespace rung::importer::nct {
 FileId readProgram(ReadContext& context, FileId file) {
   const uint32_t errors = context.diagnostics.errorCount();
   const Program program = read(context.sources, file, context.diagnostics);
-  const LadderSettings& settings = context.ladder;
-  const Limits limits{static_cast<int32_t>(settings.kept), static_cast<int32_t>(settings.volatile_)};
-  Memory memory(program, limits, context.diagnostics);
   xml::SourceMappedText out(context.sources);
-  write(program, memory, settings, context.diagnostics, out);
+  if (context.for_pictures) {
+    writeDrawing(program, out);
+  } else {
+    const LadderSettings& settings = context.ladder;
+    const Limits limits{static_cast<int32_t>(settings.kept), static_cast<int32_t>(settings.volatile_)};
+    Memory memory(program, limits, context.diagnostics);
+    write(program, memory, settings, context.diagnostics, out);
+  }
   if (context.diagnostics.errorCount() != errors) return {};
   return out.finish(context.sources, file);
 }

@@ -13,6 +13,7 @@
 
 #include "frontend/import/nct/nct.h"
 #include "frontend/parse/parse.h"
+#include "frontend/render/picture.h"
 #include "frontend/source/dialect.h"
 #include "sema/project.h"
 
@@ -81,6 +82,24 @@ Outcome check(const std::string& program) {
           "    " + std::to_string(sources.lineNumber(diagnostic.loc)) + " " + code + " " + diagnostic.message + "\n";
   }
   return out;
+}
+
+// Of a program whose lines can be read, a picture can be made, whatever its operands mean.
+void checkDrawing(const std::string& program) {
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics(sources);
+  Tree tree;
+  std::vector<importer::Library> libraries;
+  importer::ReadContext context{sources, diagnostics, libraries, {}, true};
+  const FileId file = importer::nct::readProgram(context, sources.add("mutant.nct", program));
+  if (!file) return;
+  text::parseFile(tree, names, sources, file, Dialect{}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.all().front().message << "\n" << program;
+  for (const DeclId id : tree.list(tree.files.front().decls)) {
+    const auto& pou = tree.as<PouDecl>(id);
+    EXPECT_NE(std::string::npos, picture::drawNetworks(tree, names, pou.diagram, "mutant").find("</svg>"));
+  }
 }
 
 uint32_t numberFrom(const char* variable, uint32_t otherwise) {
@@ -210,6 +229,7 @@ TEST(LadderMutation, what_is_wrong_is_said_about_the_ladder) {
     const Outcome out = check(program);
     ASSERT_EQ(0u, out.errors) << program.substr(0, 100) << "\n" << out.foreign;
     EXPECT_EQ("", out.foreign) << program.substr(0, 100);
+    checkDrawing(program);
   }
   Mutator mutator(numberFrom("RUNG_MUTATION_SEED", 1440), all);
   const uint32_t count = numberFrom("RUNG_MUTATION_COUNT", 400);
@@ -221,6 +241,7 @@ TEST(LadderMutation, what_is_wrong_is_said_about_the_ladder) {
     const Outcome out = check(mutant);
     EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 5.0);
     wrong += out.errors > 0;
+    if (k % 4 == 0) checkDrawing(mutant);
     EXPECT_EQ("", out.foreign) << "mutant " << k << (shows ? "\n" + mutant : std::string());
     if (HasFailure()) return;
   }

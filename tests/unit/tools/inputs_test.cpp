@@ -186,7 +186,7 @@ TEST_F(InputsTest, PairsOfFilesAreOnePou) {
   folder.write("p/two.pou", "PROGRAM two\n");
   folder.write("p/two.impl", ";");  // it is not clear of which POU
   read({folder.path() + "/p"});
-  readPrograms(sources, diagnostics, inputs);
+  readPrograms(sources, diagnostics, inputs, false);
   EXPECT_EQ(paths(), (std::vector<std::string>{"a.pou", "b.st", "c_body.st", "two.decl", "two.impl", "two.pou"}));
   EXPECT_EQ(sources.sourceText(inputs.files[0].file), "PROGRAM a\nVAR x : INT; END_VAR\n\nx := 1;\nEND_PROGRAM");
 }
