@@ -14,7 +14,7 @@
 namespace rung::importer::nct {
 namespace {
 
-using Power = std::vector<WireSource>;
+using Feed = std::vector<WireSource>;
 
 // A name that may have any characters.
 std::string drawnName(std::string_view text) {
@@ -90,7 +90,7 @@ class Drawer {
   }
 
   // The power after the elements; empty: the row is closed.
-  Power drawSeries(uint32_t begin, uint32_t end, Power power) {
+  Feed drawSeries(uint32_t begin, uint32_t end, Feed power) {
     for (uint32_t at = begin; at < end && !power.empty();) {
       uint32_t next = nextOf(at);
       const bool takes_box = elements_[at].shape == Shape::PinsBegin && next < end;
@@ -100,7 +100,7 @@ class Drawer {
     return power;
   }
 
-  Power drawElement(uint32_t at, Power power) {
+  Feed drawElement(uint32_t at, Feed power) {
     const Element& element = elements_[at];
     switch (element.shape) {
       case Shape::Contact: return {drawContact(element, power)};
@@ -117,12 +117,12 @@ class Drawer {
       case Shape::GroupBegin: return drawGroup(at, power);
       case Shape::PinsBegin: return power;
       case Shape::To: {
-        Power& node = nodes_[nodeOf(element)];
+        Feed& node = nodes_[nodeOf(element)];
         node.insert(node.end(), power.begin(), power.end());
         return {};
       }
       case Shape::At: {
-        const Power& node = nodes_[nodeOf(element)];
+        const Feed& node = nodes_[nodeOf(element)];
         power.insert(power.end(), node.begin(), node.end());
         return power;
       }
@@ -135,18 +135,18 @@ class Drawer {
     return power;
   }
 
-  Power drawGroup(uint32_t at, const Power& power) {
+  Feed drawGroup(uint32_t at, const Feed& power) {
     const uint32_t end = nextOf(at) - 1;
-    Power joined;
+    Feed joined;
     for (uint32_t branch = at; branch != end; branch = elements_[branch].next) {
-      const Power after = drawSeries(branch + 1, elements_[branch].next, power);
+      const Feed after = drawSeries(branch + 1, elements_[branch].next, power);
       joined.insert(joined.end(), after.begin(), after.end());
     }
     return joined;
   }
 
   // [ CK … | R … ] and the box after it.
-  Power drawPinned(uint32_t at, const Element& box, const Power& power) {
+  Feed drawPinned(uint32_t at, const Element& box, const Feed& power) {
     const uint32_t close = nextOf(at) - 1;
     std::vector<NetworkPin> pins;
     for (uint32_t branch = at; branch != close; branch = elements_[branch].next)
@@ -154,7 +154,7 @@ class Drawer {
     return {drawBox(box, std::move(pins), "Q")};
   }
 
-  static NetworkPin pinOf(std::string_view name, Power power) {
+  static NetworkPin pinOf(std::string_view name, Feed power) {
     return {xml::Excerpt(drawnName(name)), PinDirection::Input, {}, std::move(power)};
   }
   static std::string nodeOf(const Element& element) {
@@ -172,13 +172,13 @@ class Drawer {
     writer_.write(std::move(element));
     return source;
   }
-  WireSource write(ElementKind kind, Loc loc, Power power) {
+  WireSource write(ElementKind kind, Loc loc, Feed power) {
     NetworkElement element = elementOf(kind, loc);
     element.input = std::move(power);
     return write(std::move(element));
   }
 
-  WireSource drawContact(const Element& element, const Power& power) {
+  WireSource drawContact(const Element& element, const Feed& power) {
     NetworkElement contact = elementOf(ElementKind::Contact, element.word.loc);
     const std::string_view operand = operandOf(element, 0);
     contact.comment = withoutQuery(operand);
@@ -188,7 +188,7 @@ class Drawer {
     return write(std::move(contact));
   }
 
-  WireSource drawComparison(const Element& element, const Power& power) {
+  WireSource drawComparison(const Element& element, const Feed& power) {
     NetworkElement contact = elementOf(ElementKind::Contact, element.word.loc);
     contact.comment = std::string(operandOf(element, 0)) + std::string(relationOf(element.word.text)) +
                       std::string(operandOf(element, 1));
@@ -196,7 +196,7 @@ class Drawer {
     return write(std::move(contact));
   }
 
-  void drawCoil(const Element& element, const Power& power) {
+  void drawCoil(const Element& element, const Feed& power) {
     NetworkElement coil = elementOf(ElementKind::Coil, element.word.loc);
     const std::string_view word = element.word.text;
     coil.comment = operandOf(element, 0);
@@ -210,7 +210,7 @@ class Drawer {
   }
 
   // A call of a subroutine is a box.
-  void drawJump(const Element& element, const Power& power) {
+  void drawJump(const Element& element, const Feed& power) {
     if (sameIdentifier(element.word.text, "SBS")) {
       drawBox(element, {pinOf("EN", power)}, {});
       return;
@@ -237,7 +237,7 @@ class Drawer {
   xml::SourceMappedText& out_;
   NetworkWriter writer_;
   std::span<const Element> elements_;
-  std::map<std::string, Power> nodes_;  // TO and AT, of the rung
+  std::map<std::string, Feed> nodes_;  // TO and AT, of the rung
   WireSource rail_;
   uint64_t next_number_ = 1;
 };

@@ -1,6 +1,6 @@
 // Writes the modules of an NCT program as networks for pictures (docs/networks.md): each instruction as it is written,
 // without regard to what its operands mean, so that a program that does not compile yet can be drawn. In: the lines of
-// the program. Out: source-mapped text that `rung graph` draws and nobody compiles. Called by readProgram (nct.h).
+// the program. Out: source-mapped text for `rung graph` alone. Called by readProgram (nct.h).
 #pragma once
 
 #include "frontend/import/nct/program.h"
