@@ -26,6 +26,8 @@ int runTest(const Options& options, Sink& sink);
 int runConvert(const Options& options, Sink& sink);
 // Writes pictures of networks and charts below options.output.
 int runGraph(const Options& options, Sink& sink);
+// Formats files in place; or tells what it would change.
+int runFormat(const Options& options, Sink& sink);
 // Libraries, POUs, warnings, or the declaration of options.signature.
 int runList(const Options& options, Sink& sink);
 // The page of the code options.inputs[0].

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/format/format.h"
 #include "frontend/parse/conditions.h"
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
@@ -71,6 +72,10 @@ struct Options {
 
   // convert
   ConvertTo to = ConvertTo::None;
+
+  // fmt
+  bool only_checks = false, shows_changes = false;  // --check, --diff
+  format::LineRange lines;
 
   // graph
   uint32_t page_width = 1200;  // 0: unlimited

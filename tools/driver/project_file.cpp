@@ -29,6 +29,7 @@ constexpr Schema kSchemas[] = {
     {"area", true, "owner bytes"},
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
+    {"fmt", false, "keywords align width indent blank_lines"},
     {"nct", false, "plc_period time_slice plcnvram plcram"},
     {"pool", true, nullptr},  // `new`: bytes
 };
@@ -283,6 +284,32 @@ void readLadderSection(const ProjectSection& section, Diagnostics& diagnostics, 
   if (limit != nullptr && ladder.volatile_ <= ladder.kept) badValue(diagnostics, *limit, "PLCRAM is above PLCNVRAM");
 }
 
+// [fmt]: how `rung fmt` writes.
+void readStyle(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  format::Style& style = project.style;
+  for (const ProjectEntry& entry : section.entries) {
+    uint32_t choice = 0;
+    if (entry.key == "keywords") {
+      if (parseChoice("keywords", entry.value, "upper|lower|keep", choice).empty())
+        style.keywords = static_cast<format::KeywordCase>(choice);
+      else
+        badValue(diagnostics, entry, "it takes upper, lower or keep");
+    } else if (entry.key == "align") {
+      if (parseChoice("align", entry.value, "no|yes", choice).empty())
+        style.align = choice == 1;
+      else
+        badValue(diagnostics, entry, "it takes yes or no");
+    } else if (entry.key == "width") {
+      if (!readNumber(entry.value, 0, 1000, style.width))
+        badValue(diagnostics, entry, "it takes 0 to 1000 columns; 0: no limit");
+    } else if (entry.key == "indent") {
+      if (!readNumber(entry.value, 0, 16, style.indent)) badValue(diagnostics, entry, "it takes 0 to 16 blanks");
+    } else if (!readNumber(entry.value, 0, 100, style.blank_lines)) {
+      badValue(diagnostics, entry, "it takes 0 to 100 lines");
+    }
+  }
+}
+
 // True for `[task NAME]` with nothing but a duration: NAME is a task of the program.
 bool isAboutDeclaredTask(const ProjectSection& section) {
   return section.entries.size() == 1 && section.entries[0].key == "duration";
@@ -406,6 +433,8 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
       readDuration(section, diagnostics, project);
     else if (section.kind == "nct")
       readLadderSection(section, diagnostics, project);
+    else if (section.kind == "fmt")
+      readStyle(section, diagnostics, project);
   readModules(sources, diagnostics, project);
   readAxes(sources, diagnostics, project);
   project.configuration = writeTasks(sources, diagnostics, project);

@@ -42,6 +42,7 @@ struct ProjectFile {
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
   importer::LadderSettings ladder;
+  format::Style style;
   types::MemoryAreas areas = types::standardAreas();
   bool aligned_globals = false;
   std::vector<sema::TaskDuration> task_durations;

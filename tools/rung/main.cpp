@@ -23,6 +23,7 @@ int runCommand(const rung::tool::Options& options, Console& console) {
     case Command::Test: return rung::driver::runTest(options, console);
     case Command::Convert: return rung::driver::runConvert(options, console);
     case Command::Graph: return rung::driver::runGraph(options, console);
+    case Command::Fmt: return rung::driver::runFormat(options, console);
     case Command::List: return rung::driver::runList(options, console);
     case Command::Cam: return rung::driver::runCam(options.inputs, options.cam, options.output, console);
     case Command::Explain: return rung::driver::runExplain(options, console);

@@ -15,7 +15,8 @@ namespace {
 constexpr uint32_t bit(Command command) { return 1u << static_cast<uint32_t>(command); }
 constexpr uint32_t kCompile =
     bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
-constexpr uint32_t kReads = kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph);
+constexpr uint32_t kReads =
+    kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Fmt);
 constexpr uint32_t kAll = ~0u;
 
 struct CommandRow {
@@ -33,6 +34,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
+    {Command::Fmt, "fmt", "FILE|DIR|- ...", "format ST, IL, SFC and NCT, also in XML files, in place"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
@@ -41,7 +43,7 @@ constexpr CommandRow kCommands[] = {
 };
 
 // Commands announced in the project's documentation.
-constexpr std::string_view kLaterCommands[] = {"fmt", "lint", "lsp", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"lint", "lsp", "monitor"};
 
 enum class Key : uint8_t {
   Output,
@@ -66,6 +68,9 @@ enum class Key : uint8_t {
   Emit,
   To,
   PageWidth,
+  FmtCheck,
+  FmtDiff,
+  FmtLines,
   Depfile,
   DepfileTarget,
   ListOutputs,
@@ -104,6 +109,9 @@ constexpr OptionRow kOptions[] = {
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
     {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
+    {Key::FmtCheck, "--check", nullptr, bit(Command::Fmt), "write nothing; list the files that would change, exit 1"},
+    {Key::FmtDiff, "--diff", nullptr, bit(Command::Fmt), "write nothing; print what would change"},
+    {Key::FmtLines, "--lines", "A:B", bit(Command::Fmt), "change only lines A to B, of one file"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write a make rule that lists every file read"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit),
      "the rule's target (default: DIR/rung.manifest)"},
@@ -220,6 +228,15 @@ std::string parseNumber(std::string_view option, std::string_view value, uint32_
          backquoted(value);
 }
 
+// A:B
+std::string parseLines(const std::string& value, format::LineRange& lines) {
+  const size_t colon = value.find(':');
+  if (colon == std::string::npos) return "`--lines` takes the first and the last line, as in `--lines=10:20`";
+  std::string error = parseNumber("--lines", value.substr(0, colon), 1, 1'000'000'000, lines.first);
+  if (error.empty()) error = parseNumber("--lines", value.substr(colon + 1), lines.first, 1'000'000'000, lines.last);
+  return error;
+}
+
 std::string apply(const OptionRow& row, const std::string& value, Options& options) {
   uint32_t choice = 0;
   std::string error;
@@ -265,6 +282,9 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return error;
     case Key::Diagnostics: options.diagnostics_path = value; return {};
     case Key::PageWidth: return parseNumber(row.name, value, 0, 1'000'000, options.page_width);
+    case Key::FmtCheck: options.only_checks = true; return {};
+    case Key::FmtDiff: options.shows_changes = true; return {};
+    case Key::FmtLines: return parseLines(value, options.lines);
     case Key::Jobs: return parseNumber(row.name, value, 1, 1024, options.jobs);
     case Key::Color:
       error = parseChoice(row.name, value, row.value, choice);
@@ -377,6 +397,7 @@ std::string checkCombination(const Options& options) {
     case Command::Build:
     case Command::Convert:
     case Command::Graph:
+    case Command::Fmt:
       if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
       break;
     case Command::Explain:
@@ -422,6 +443,8 @@ std::string checkCombination(const Options& options) {
     return "`rung convert` needs a target and a folder: add `--to st -o DIR` or `--to xml -o DIR`";
   if (options.command == Command::Graph && options.output.empty())
     return "`rung graph` needs a folder for the pictures: add `-o DIR`";
+  if (options.command == Command::Fmt && options.lines.last != UINT32_MAX && options.inputs.size() != 1)
+    return "`--lines` takes one file";
   if (options.command == Command::Build && options.output.empty())
     return "`rung build` needs a name for its output: add `-o FILE`";
   return {};

@@ -13,7 +13,22 @@ namespace rung::tool {
 
 using namespace driver;
 
-enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Graph, List, Cam, Explain, Version, Help };
+enum class Command : uint8_t {
+  None,
+  Check,
+  Emit,
+  Build,
+  Run,
+  Test,
+  Convert,
+  Graph,
+  Fmt,
+  List,
+  Cam,
+  Explain,
+  Version,
+  Help
+};
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
 enum class Color : uint8_t { Auto, Always, Never };

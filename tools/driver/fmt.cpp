@@ -1,0 +1,195 @@
+// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL and networks are known by
+// their POU only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "frontend/format/format.h"
+#include "frontend/syntax/sfc.h"
+#include "tools/driver/changes.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/output_files.h"
+
+namespace rung::driver {
+namespace {
+
+namespace fs = std::filesystem;
+using importer::FileKind;
+
+constexpr const char* kStandardInput = "stdin.st";
+constexpr std::string_view kMark = "\xef\xbb\xbf";
+
+// The bodies in IL and networks of each file.
+class BodyFinder {
+ public:
+  BodyFinder(const Compilation& compilation) : tree_(compilation.tree), sources_(compilation.sources) {
+    for (const FileUnit& unit : tree_.files) visit(unit.decls);
+    for (auto& [file, bodies] : found_)
+      for (std::vector<format::Span>* spans : {&bodies.il, &bodies.kept})
+        std::sort(spans->begin(), spans->end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  }
+  const format::Bodies& of(FileId file) { return found_[file.index]; }
+
+ private:
+  void visit(Slice<DeclId> decls) {
+    for (const DeclId id : tree_.list(decls)) visit(id);
+  }
+  void visit(DeclId id) {
+    if (tree_.kind(id) == DeclKind::Namespace) visit(tree_.as<NamespaceDecl>(id).decls);
+    if (tree_.kind(id) == DeclKind::Property) {
+      const auto& property = tree_.as<PropertyDecl>(id);
+      if (property.get) visit(property.get);
+      if (property.set) visit(property.set);
+    }
+    if (tree_.kind(id) != DeclKind::Pou) return;
+    const auto& pou = tree_.as<PouDecl>(id);
+    visit(pou.members);
+    for (const SfcTransition& transition : tree_.list(pou.transitions))
+      if (transition.body) visit(transition.body);
+    if (pou.body_kind != BodyKind::Il && pou.body_kind != BodyKind::Network) return;
+    const FileId file = sources_.fileOf(pou.body_begin);
+    const uint32_t base = sources_.begin(file).offset;
+    format::Bodies& bodies = found_[file.index];
+    (pou.body_kind == BodyKind::Il ? bodies.il : bodies.kept)
+        .push_back({pou.body_begin.offset - base, pou.body_end.offset - base});
+  }
+
+  const Tree& tree_;
+  const Sources& sources_;
+  std::map<uint32_t, format::Bodies> found_;
+};
+
+class FileFormatter {
+ public:
+  FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
+    const Sources& sources = compilation.sources;
+    for (const Diagnostic& diagnostic : compilation.diagnostics.all())
+      if (diagnostic.severity == Severity::Error && diagnostic.loc)
+        broken_.insert(std::string(sources.path(sources.fileOf(sources.originalLocation(diagnostic.loc)))));
+  }
+
+  // The exit code.
+  int run() {
+    for (const InputFile& input : compilation_.inputs.files)
+      if (!input.is_library && broken_.count(input.below) == 0 && !format(input)) return kUsage;
+    if (compilation_.options.only_checks && !compilation_.options.shows_changes) {
+      const std::string error = sink_.output(listed_);
+      if (!error.empty()) return usageError(sink_, error);
+    }
+    return compilation_.options.only_checks && changed_ > 0 ? kInputErrors : kSuccess;
+  }
+
+  std::string text(const InputFile& input, std::string_view source) {
+    const Options& options = compilation_.options;
+    const format::Style& style = compilation_.inputs.project.style;
+    switch (input.kind) {
+      case FileKind::St:
+      case FileKind::Il: {
+        // The halves of a pair of files were joined: what the parser saw is not this file.
+        const bool is_parsed = compilation_.sources.original(input.file) == source;
+        static const format::Bodies kNone;
+        return format::formatted(source, is_parsed ? bodies_.of(input.file) : kNone, style, options.dialect,
+                                 options.lines);
+      }
+      case FileKind::Nct: return format::formattedLadder(source, style, options.lines);
+      case FileKind::TwinCat:
+      case FileKind::Plcopen: return format::formattedXml(source, style, options.dialect);
+      case FileKind::Unknown:
+      case FileKind::Xml:
+      case FileKind::Cam:
+      case FileKind::PlcProject:
+      case FileKind::Iec10:
+      case FileKind::Beremiz:
+      case FileKind::Codesys2:
+      case FileKind::Multiprog:
+      case FileKind::Project:
+      case FileKind::Binary: return std::string(source);
+    }
+    return std::string(source);
+  }
+
+ private:
+  // False: an error has been printed.
+  bool format(const InputFile& input) {
+    const ReadResult read = readFile(input.path);
+    if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
+    std::string_view source = read.content;
+    const bool has_mark = source.starts_with(kMark);
+    if (has_mark) source.remove_prefix(kMark.size());
+    if (source.find('\0') != std::string_view::npos) return true;  // UTF-16 is read, but not written
+    const std::string result = text(input, source);
+    if (result == source) return true;
+    ++changed_;
+    listed_ += input.shown + "\n";
+    const Options& options = compilation_.options;
+    if (options.shows_changes) {
+      const std::string error = sink_.output(changesOf(source, result, input.shown));
+      return error.empty() || fail(error);
+    }
+    return options.only_checks || write(input.path, (has_mark ? std::string(kMark) : std::string()) + result);
+  }
+
+  // Keeps the permissions of the file, and a link to it.
+  bool write(const std::string& path, const std::string& text) {
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    struct stat info;
+    if (error || stat(real.c_str(), &info) != 0) return fail("cannot write `" + path + "`: it is gone");
+    const std::string problem = writeFile(real.string(), text);
+    if (!problem.empty()) return fail(problem);
+    chmod(real.c_str(), info.st_mode & 07777);
+    return true;
+  }
+  bool fail(const std::string& what) {
+    sink_.error(what);
+    return false;
+  }
+
+  Compilation& compilation_;
+  Sink& sink_;
+  BodyFinder bodies_;
+  std::set<std::string> broken_;  // files with errors
+  std::string listed_;
+  uint32_t changed_ = 0;
+};
+
+int formatStandardInput(Options options, Sink& sink) {
+  const std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  options.inputs = {kStandardInput};
+  options.unsaved = {{kStandardInput, text}};
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  compilation.parse();
+  const int exit = compilation.finish();
+  if (exit != kSuccess || compilation.inputs.files.empty()) return exit;
+  FileFormatter formatter(compilation, sink);
+  const std::string result = formatter.text(compilation.inputs.files.front(), text);
+  if (options.only_checks) return result == text ? kSuccess : kInputErrors;
+  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : result);
+}
+
+}  // namespace
+
+int runFormat(const Options& given, Sink& sink) {
+  Options options = given;
+  options.warnings.push_back({"all", false});
+  const bool reads_input = std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
+  if (reads_input && options.inputs.size() > 1)
+    return usageError(sink, "`-` is standard input; name no file beside it");
+  if (reads_input) return formatStandardInput(std::move(options), sink);
+  PhaseTimes times;
+  Compilation compilation(options, times, sink);
+  compilation.parse();
+  const int exit = compilation.finish();
+  if (exit == kUsage || exit == kInternal) return exit;
+  const int result = FileFormatter(compilation, sink).run();
+  return exit != kSuccess ? exit : result;
+}
+
+}  // namespace rung::driver
