@@ -33,6 +33,20 @@ uint32_t widthOf(std::string_view text) {
   return static_cast<uint32_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
+// Text that is appended to, and the column it has reached.
+struct Code {
+  std::string text;
+  uint32_t column = 0;
+
+  void put(std::string_view more) {
+    text += more;
+    column = widthOf(more) + (more.find('\n') == std::string_view::npos ? column : 0);
+  }
+  void padTo(uint32_t wanted) {
+    if (column < wanted) put(std::string(wanted - column, ' '));
+  }
+};
+
 char inCase(char c, KeywordCase wanted) {
   if (wanted == KeywordCase::Upper && c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
   if (wanted == KeywordCase::Lower && c >= 'A' && c <= 'Z') return static_cast<char>(c - 'A' + 'a');
@@ -254,23 +268,20 @@ class Formatter {
     uint32_t first = line.first;
     bool continues = line.continues;
     for (;;) {
-      std::string code(columnOf(pieces_[first], continues, line), ' ');
       const std::vector<Bracket> brackets = brackets_;
       const uint32_t value_column = value_column_;
       std::vector<Break> breaks;
-      write(code, line, first, last, continues ? 0 : colon_column, breaks);
+      const Code code = written(line, first, last, continues, colon_column, &breaks);
       const std::optional<uint32_t> at = breakOf(code, breaks);
       if (!at) {
-        row.code += code;
+        row.code = code.text;
         rows_.push_back(std::move(row));
         return;
       }
       brackets_ = brackets;
       value_column_ = value_column;
-      std::string part(columnOf(pieces_[first], continues, line), ' ');
-      write(part, line, first, *at, continues ? 0 : colon_column, breaks);
       Row before = row;
-      before.code += part;
+      before.code = written(line, first, *at, continues, colon_column, nullptr).text;
       before.comment.clear();
       rows_.push_back(std::move(before));
       row.blank_lines = 0;
@@ -279,47 +290,50 @@ class Formatter {
     }
   }
 
+  bool isTooLong(const Code& code) const { return style_.width != 0 && code.column > style_.width; }
+
   // The outermost break within the width, and of these the last; else the first one at all.
-  std::optional<uint32_t> breakOf(const std::string& code, const std::vector<Break>& breaks) const {
-    if (style_.width == 0 || widthOf(code) <= style_.width || breaks.empty() || code.find('\n') != std::string::npos)
-      return {};
+  std::optional<uint32_t> breakOf(const Code& code, const std::vector<Break>& breaks) const {
+    if (!isTooLong(code) || breaks.empty() || code.text.find('\n') != std::string::npos) return {};
     const Break* best = nullptr;
     for (const Break& one : breaks)
       if (one.end <= style_.width && (best == nullptr || one.depth <= best->depth)) best = &one;
     return best == nullptr ? breaks.front().piece : best->piece;
   }
 
-  // Appends the pieces [first, last) and follows the brackets.
-  void write(std::string& out, const Line& line, uint32_t first, uint32_t last, uint32_t colon_column,
-             std::vector<Break>& breaks) {
-    Colons colons =
-        line.kind == LineKind::Declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
-    bool colon_seen = false;
+  // The pieces [first, last) in a row; follows the brackets. With `breaks`, which are noted, it stops where the row is
+  // too long and has one.
+  Code written(const Line& line, uint32_t first, uint32_t last, bool continues, uint32_t colon_column,
+               std::vector<Break>* breaks) {
+    const bool is_declaration = line.kind == LineKind::Declaration;
+    const bool may_break = breaks != nullptr && line.kind != LineKind::Header && line.kind != LineKind::Il;
+    const Colons colons = is_declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
+    bool colon_seen = continues || colon_column == 0;
+    Code out;
+    out.padTo(columnOf(pieces_[first], continues, line));
     for (uint32_t k = first; k < last; ++k) {
       const Piece& piece = pieces_[k];
-      const bool is_declaration = line.kind == LineKind::Declaration;
       if (k > first) {
-        if (isBreak(pieces_[k - 1], piece) && (!is_declaration || !brackets_.empty()) &&
-            line.kind != LineKind::Header && line.kind != LineKind::Il)
-          breaks.push_back({k, static_cast<uint32_t>(brackets_.size()), widthOf(out)});
-        if (isSeparated(source_, pieces_[k - 1], piece, colons)) out += ' ';
+        if (may_break && isBreak(pieces_[k - 1], piece) && (!is_declaration || !brackets_.empty()))
+          breaks->push_back({k, static_cast<uint32_t>(brackets_.size()), out.column});
+        if (may_break && !breaks->empty() && isTooLong(out)) return out;
+        if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
       }
       if (piece.kind == PieceKind::Token && piece.token == Tok::Colon && !colon_seen) {
         colon_seen = true;
-        if (colon_column != 0)
-          while (widthOf(out) < colon_column) out += ' ';
+        out.padTo(colon_column);
       }
-      out += spelled(piece);
-      if (piece.kind == PieceKind::Token) follow(piece, out, line, k, last);
+      out.put(spelled(piece));
+      if (piece.kind == PieceKind::Token) follow(piece, out.column, line, k + 1 >= last);
     }
+    return out;
   }
 
-  void follow(const Piece& piece, const std::string& out, const Line& line, uint32_t k, uint32_t last) {
+  // `column`: the end of the piece.
+  void follow(const Piece& piece, uint32_t column, const Line& line, bool ends_line) {
     static constexpr TokSet kConditions = {Tok::If, Tok::Elsif, Tok::While, Tok::Until, Tok::Case};
-    const bool ends_line = k + 1 >= last;
     if (piece.token == Tok::LeftParen || piece.token == Tok::LeftBracket) {
       const uint32_t outer = brackets_.empty() ? base_ : brackets_.back().closer;
-      const uint32_t column = widthOf(out);
       brackets_.push_back(ends_line ? Bracket{outer + style_.indent, outer} : Bracket{column, column - 1});
       return;
     }
@@ -329,7 +343,7 @@ class Formatter {
     }
     if (piece.token == Tok::Semicolon && brackets_.empty()) value_column_ = 0;
     if (!brackets_.empty() || value_column_ != 0 || line.kind == LineKind::Declaration) return;
-    if ((piece.token == Tok::Assign && !ends_line) || kConditions.has(piece.token)) value_column_ = widthOf(out) + 1;
+    if ((piece.token == Tok::Assign && !ends_line) || kConditions.has(piece.token)) value_column_ = column + 1;
   }
 
   // ---- columns of comments

@@ -21,6 +21,16 @@ struct LadderLine {
   std::array<size_t, kColumns + 1> columns{};  // where its words begin
 };
 
+// After the quote that closes the text; two quotes are one character of it.
+size_t endOfText(std::string_view line, size_t at) {
+  for (size_t k = at + 1; k < line.size(); ++k) {
+    if (line[k] != '"') continue;
+    if (k + 1 >= line.size() || line[k + 1] != '"') return k + 1;
+    ++k;
+  }
+  return line.size();
+}
+
 LadderLine split(std::string_view line) {
   LadderLine out;
   out.source = line;
@@ -38,7 +48,7 @@ LadderLine split(std::string_view line) {
     }
     size_t end = at;
     if (line[at] == '"') {
-      end = std::min(line.find('"', at + 1), line.size() - 1) + 1;
+      end = endOfText(line, at);
     } else {
       while (end < line.size() && line[end] != ' ' && line[end] != '\t' && line[end] != '\r' && line[end] != '"' &&
              line.substr(end, 2) != "//")

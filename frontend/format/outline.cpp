@@ -78,7 +78,9 @@ class Outliner {
   };
 
   bool holds(const std::vector<Span>& spans, uint32_t at) const {
-    return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return at >= s.begin && at < s.end; });
+    const auto after =
+        std::upper_bound(spans.begin(), spans.end(), at, [](uint32_t k, const Span& s) { return k < s.begin; });
+    return after != spans.begin() && at < std::prev(after)->end;
   }
   std::string_view textOf(const Piece& piece) const { return source_.substr(piece.begin, piece.end - piece.begin); }
   bool is(uint32_t piece, std::string_view word) const { return sameIdentifier(textOf(pieces_[piece]), word); }
@@ -295,11 +297,10 @@ class Outliner {
   Tok openKind() const { return open_.empty() ? Tok::End : open_.back().begin; }
   // CONSTANT, RETAIN, … after VAR.
   bool isModifier(uint32_t k) const {
-    const Tok token = pieces_[k].token;
-    const bool word =
-        token == Tok::Constant || token == Tok::Retain || token == Tok::NonRetain || token == Tok::Persistent;
-    if (!word || k == 0) return false;
-    return kSections.has(pieces_[k - 1].token) || isModifier(k - 1);
+    static constexpr TokSet kModifiers = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
+    if (!kModifiers.has(pieces_[k].token)) return false;
+    while (k > 0 && kModifiers.has(pieces_[k].token)) --k;
+    return kSections.has(pieces_[k].token);
   }
 
   std::string_view source_;
