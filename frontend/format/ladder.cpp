@@ -97,34 +97,42 @@ class LadderFormatter {
     return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
   }
 
-  // Its indentation, which follows the rungs and their branches.
+  static bool opensSection(std::string_view word) {
+    return isOneOf(word, {"SYMBOLS", "MODULE", "MESSAGES", "BUTTONS"});
+  }
+  static bool closesSection(std::string_view word) {
+    return isOneOf(word, {"END_SYMBOLS", "END_MODULE", "END_MESSAGES", "END_BUTTONS"});
+  }
+  static bool isAtMargin(std::string_view word) { return isOneOf(word, {"RUNG", "SEC", "END", "JME", "SBN"}); }
+
+  // Its indentation: rungs and markers are at the margin, elements a level deeper, those of branches one more for each.
   void place(LadderLine& line) {
     if (line.words.empty()) return;
     const std::string_view first = line.words[0];
-    if (isOneOf(first, {"END_SYMBOLS", "END_MODULE", "END_MESSAGES", "END_BUTTONS"})) depth_ = 0;
-    const bool is_rung = depth_ > 0 && isOneOf(first, {"RUNG", "SEC", "END", "JME", "SBN"});
-    if (is_rung) depth_ = 1;
-    if (first == ")" || first == "]") depth_ -= depth_ > 2 ? 1 : 0;
-    const size_t levels = is_rung || depth_ == 0 ? 0 : in_module_ ? depth_ - (first == "|" && depth_ > 2 ? 2 : 1) : 1;
-    line.indent = levels * style_.indent;
-    line.is_symbol = depth_ > 0 && !in_module_;
-    if (isOneOf(first, {"SYMBOLS", "MODULE", "MESSAGES", "BUTTONS"})) {
-      depth_ = 1;
-      in_module_ = isOneOf(first, {"MODULE"});
+    if (opensSection(first) || closesSection(first)) {
+      section_ = !opensSection(first) ? Section::None : isOneOf(first, {"MODULE"}) ? Section::Module : Section::Table;
+      branches_ = 0;
+      return;
     }
-    if (is_rung) depth_ = 2;
-    if (first == "(" || first == "[") ++depth_;
+    line.is_symbol = section_ == Section::Table;
+    if (line.is_symbol) line.indent = style_.indent;
+    if (section_ != Section::Module) return;
+    if (isAtMargin(first)) {
+      branches_ = 0;
+      return;
+    }
+    if ((first == ")" || first == "]") && branches_ > 0) --branches_;
+    line.indent = (branches_ + (first == "|" && branches_ > 0 ? 0 : 1)) * style_.indent;
+    if (first == "(" || first == "[") ++branches_;
   }
   // A comment on its own line has the indentation of what follows.
   void placeComments() {
     size_t indent = 0;
     for (size_t k = lines_.size(); k-- > 0;) {
-      if (!lines_[k].words.empty())
-        indent = isOneOf(lines_[k].words[0], {"END_SYMBOLS", "END_MODULE", "END_MESSAGES", "END_BUTTONS"})
-                     ? style_.indent
-                     : lines_[k].indent;
-      else
+      if (lines_[k].words.empty())
         lines_[k].indent = indent;
+      else
+        indent = closesSection(lines_[k].words[0]) ? style_.indent : lines_[k].indent;
     }
   }
 
@@ -164,8 +172,9 @@ class LadderFormatter {
   const Style& style_;
   LineRange range_;
   std::vector<LadderLine> lines_;
-  size_t depth_ = 0;  // 1: in a section, 2: in a rung, more: in its branches
-  bool in_module_ = false;
+  enum class Section : uint8_t { None, Table, Module };
+  Section section_ = Section::None;
+  size_t branches_ = 0;  // open in the rung
 };
 
 }  // namespace

@@ -117,6 +117,9 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
+    const bool is_xml = input.kind == FileKind::TwinCat || input.kind == FileKind::Plcopen;
+    if (is_xml && compilation_.options.lines.last != UINT32_MAX)
+      return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     const ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
     std::string_view source = read.content;
@@ -141,10 +144,8 @@ class FileFormatter {
     const fs::path real = fs::canonical(path, error);
     struct stat info;
     if (error || stat(real.c_str(), &info) != 0) return fail("cannot write `" + path + "`: it is gone");
-    const std::string problem = writeFile(real.string(), text);
-    if (!problem.empty()) return fail(problem);
-    chmod(real.c_str(), info.st_mode & 07777);
-    return true;
+    const std::string problem = writeFile(real.string(), text, info.st_mode & 07777);
+    return problem.empty() || fail(problem);
   }
   bool fail(const std::string& what) {
     sink_.error(what);
@@ -160,7 +161,9 @@ class FileFormatter {
 };
 
 int formatStandardInput(Options options, Sink& sink) {
-  const std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  const std::string read{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  const std::string mark(read.starts_with(kMark) ? kMark : std::string_view());
+  const std::string text = read.substr(mark.size());
   options.inputs = {kStandardInput};
   options.unsaved = {{kStandardInput, text}};
   PhaseTimes times;
@@ -171,7 +174,7 @@ int formatStandardInput(Options options, Sink& sink) {
   FileFormatter formatter(compilation, sink);
   const std::string result = formatter.text(compilation.inputs.files.front(), text);
   if (options.only_checks) return result == text ? kSuccess : kInputErrors;
-  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : result);
+  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : mark + result);
 }
 
 }  // namespace

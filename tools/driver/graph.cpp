@@ -1,5 +1,6 @@
-// `rung graph`: each body in LD, FBD, CFC or SFC as an SVG file named after its POU: Pump.svg, Pump.Start.svg.
-// Pictures show the source: the program need not compile, only parse. Nothing is written when there are errors.
+// `rung graph`: each body in LD, FBD, CFC or SFC, and each module of an NCT ladder, as an SVG file named after its POU:
+// Pump.svg, Pump.Start.svg. Pictures show the source: the program need not compile, only parse. Nothing is written when
+// there are errors.
 #include <algorithm>
 #include <unordered_set>
 

@@ -1,5 +1,6 @@
 #include "tools/driver/output_files.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -14,13 +15,14 @@
 
 namespace rung::driver {
 
-std::string writeFile(const std::string& path, const std::string& text) {
+std::string writeFile(const std::string& path, const std::string& text, uint32_t permissions) {
   // Several threads may write, too.
   static std::atomic<uint32_t> count = 0;
   const std::string part = path + ".part" + std::to_string(getpid()) + "_" + std::to_string(++count);
   FILE* file = fopen(part.c_str(), "wb");
   if (file == nullptr) return "cannot write `" + path + "`: " + strerror(errno);
   bool ok = fwrite(text.data(), 1, text.size(), file) == text.size();
+  ok = ok && (permissions == 0 || fchmod(fileno(file), permissions) == 0);
   ok = fclose(file) == 0 && ok;
   if (ok && rename(part.c_str(), path.c_str()) == 0) return {};
   std::string error = "cannot write `" + path + "`: " + strerror(errno);

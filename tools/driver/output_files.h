@@ -1,6 +1,7 @@
 // Writes files whole or not at all. Called by all commands that write to disk.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ struct TextFile {
   std::string path, text;
 };
 
-// Returns an error message, or an empty string.
-[[nodiscard]] std::string writeFile(const std::string& path, const std::string& text);
+// Returns an error message, or an empty string. `permissions`: those of the file; 0: as usual for a new one.
+[[nodiscard]] std::string writeFile(const std::string& path, const std::string& text, uint32_t permissions = 0);
 // Writes files below a folder; returns the exit code.
 int writeFiles(const std::string& folder, const std::vector<TextFile>& files, Sink& sink);
 

@@ -33,7 +33,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
-    {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
+    {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
     {Command::Fmt, "fmt", "FILE|DIR|- ...", "format ST, IL, SFC and NCT, also in XML files, in place"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",

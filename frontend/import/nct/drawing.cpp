@@ -81,18 +81,10 @@ class Drawer {
     return title + std::string(element.remark);
   }
 
-  uint32_t nextOf(uint32_t at) const {
-    uint32_t k = at;
-    while (elements_[k].shape == Shape::GroupBegin || elements_[k].shape == Shape::PinsBegin ||
-           elements_[k].shape == Shape::BranchBegin)
-      k = elements_[k].next;
-    return k + 1;
-  }
-
   // The power after the elements; empty: the row is closed.
   Feed drawSeries(uint32_t begin, uint32_t end, Feed power) {
     for (uint32_t at = begin; at < end && !power.empty();) {
-      uint32_t next = nextOf(at);
+      uint32_t next = afterElement(elements_, at);
       const bool takes_box = elements_[at].shape == Shape::PinsBegin && next < end;
       power = takes_box ? drawPinned(at, elements_[next], power) : drawElement(at, std::move(power));
       at = takes_box ? next + 1 : next;
@@ -136,7 +128,7 @@ class Drawer {
   }
 
   Feed drawGroup(uint32_t at, const Feed& power) {
-    const uint32_t end = nextOf(at) - 1;
+    const uint32_t end = afterElement(elements_, at) - 1;
     Feed joined;
     for (uint32_t branch = at; branch != end; branch = elements_[branch].next) {
       const Feed after = drawSeries(branch + 1, elements_[branch].next, power);
@@ -147,7 +139,7 @@ class Drawer {
 
   // [ CK … | R … ] and the box after it.
   Feed drawPinned(uint32_t at, const Element& box, const Feed& power) {
-    const uint32_t close = nextOf(at) - 1;
+    const uint32_t close = afterElement(elements_, at) - 1;
     std::vector<NetworkPin> pins;
     for (uint32_t branch = at; branch != close; branch = elements_[branch].next)
       pins.push_back(pinOf(elements_[branch].pin.text, drawSeries(branch + 1, elements_[branch].next, power)));

@@ -77,6 +77,14 @@ struct Element {
   uint32_t next = 0;
 };
 
+// The index after the element at `at` with all of its branches.
+inline uint32_t afterElement(std::span<const Element> elements, uint32_t at) {
+  while (elements[at].shape == Shape::GroupBegin || elements[at].shape == Shape::PinsBegin ||
+         elements[at].shape == Shape::BranchBegin)
+    at = elements[at].next;
+  return at + 1;
+}
+
 struct SymbolLine {
   Word name, value, marker;
 };

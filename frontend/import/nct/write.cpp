@@ -213,7 +213,7 @@ class Writer {
         return {power, true};
       }
       loc_ = element.word.loc;
-      uint32_t next = nextOf(at);
+      uint32_t next = afterElement(elements_, at);
       const bool takes_box = element.shape == Shape::PinsBegin && next < end && elements_[next].shape == Shape::Pinned;
       if (takes_box) ++next;  // writePins writes it
       last = takes_box ? &elements_[next - 1] : &element;
@@ -223,14 +223,6 @@ class Writer {
     }
     if (is_last && !closed) checkEnd(last);
     return {power, closed};
-  }
-  // The index after an element with all of its branches.
-  uint32_t nextOf(uint32_t at) const {
-    uint32_t k = at;
-    while (elements_[k].shape == Shape::GroupBegin || elements_[k].shape == Shape::PinsBegin ||
-           elements_[k].shape == Shape::BranchBegin)
-      k = elements_[k].next;
-    return k + 1;
   }
 
   // What is at the end of a row.
@@ -686,7 +678,7 @@ class Writer {
   }
 
   bool writeGroup(uint32_t at, Power& power, bool is_end) {
-    const uint32_t end = nextOf(at) - 1;
+    const uint32_t end = afterElement(elements_, at) - 1;
     const bool pure = !is_end && onlyReads(at + 1, end);
     const bool had_contact = power.has_contact;
     if (!pure) settle(power);
@@ -738,7 +730,7 @@ class Writer {
 
   // [ CK … | U/D … ] and the box after it.
   void writePins(uint32_t at, Power& power) {
-    const uint32_t close = nextOf(at) - 1;
+    const uint32_t close = afterElement(elements_, at) - 1;
     const Element* const box = close + 1 < elements_.size() ? &elements_[close + 1] : nullptr;
     if (box == nullptr || box->shape != Shape::Pinned) {
       report(diag::NctPins, elements_[at].word, {"`[`", "CNT, CNTR, SHTR or ROT follows the `]`"});

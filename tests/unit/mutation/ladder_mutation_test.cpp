@@ -47,6 +47,21 @@ const std::vector<sema::LibraryFile>& libraryFiles() {
   return files;
 }
 
+// A ladder as the parser gets it; no file: its reader reported errors.
+struct Reading {
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics{sources};
+  Tree tree;
+  FileId file;
+
+  Reading(const std::string& program, bool for_pictures) {
+    std::vector<importer::Library> libraries;
+    importer::ReadContext context{sources, diagnostics, libraries, {}, for_pictures};
+    file = importer::nct::readProgram(context, sources.add("mutant.nct", program));
+  }
+};
+
 struct Outcome {
   uint32_t errors = 0;
   std::string foreign;  // messages that are not about the ladder
@@ -56,14 +71,8 @@ struct Outcome {
 bool isAboutLadder(std::string_view code) { return code.substr(1).starts_with("14"); }
 
 Outcome check(const std::string& program) {
-  Sources sources;
-  Names names;
-  Diagnostics diagnostics(sources);
-  Tree tree;
-  std::vector<importer::Library> libraries;
-  importer::ReadContext context{sources, diagnostics, libraries};
-  const FileId ladder = sources.add("mutant.nct", program);
-  const FileId file = importer::nct::readProgram(context, ladder);
+  Reading reading(program, false);
+  auto& [sources, names, diagnostics, tree, file] = reading;
   EXPECT_EQ(diagnostics.errorCount() == 0, static_cast<bool>(file));
   if (file) {
     sema::Options options;
@@ -86,13 +95,8 @@ Outcome check(const std::string& program) {
 
 // Of a program whose lines can be read, a picture can be made, whatever its operands mean.
 void checkDrawing(const std::string& program) {
-  Sources sources;
-  Names names;
-  Diagnostics diagnostics(sources);
-  Tree tree;
-  std::vector<importer::Library> libraries;
-  importer::ReadContext context{sources, diagnostics, libraries, {}, true};
-  const FileId file = importer::nct::readProgram(context, sources.add("mutant.nct", program));
+  Reading reading(program, true);
+  auto& [sources, names, diagnostics, tree, file] = reading;
   if (!file) return;
   text::parseFile(tree, names, sources, file, Dialect{}, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.all().front().message << "\n" << program;
