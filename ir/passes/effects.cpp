@@ -19,6 +19,21 @@ bool bindsOwn(const Body& body, const Stmt& stmt) {
   return field != nullptr && body.expr(field->base).kind == ExprKind::Self;
 }
 
+bool callReachesSelf(const Module& module, const Exposure& exposure, const Body& body, const CallStmt& call) {
+  const Body& callee = module.body(call.callee);
+  if (!body.self || callee.pure) return false;
+  ExprId object = call.self;
+  while (object) {
+    const auto* field = body.expr(object).tryAs<FieldExpr>();
+    if (field == nullptr) break;
+    const TypeInfo& record = module.types.info(module.types.resolve(body.expr(field->base).type));
+    if (record.fields[field->field].role != types::FieldRole::Base) break;
+    object = field->base;
+  }
+  if (object && body.expr(object).kind == ExprKind::Self) return true;
+  return !callee.library && exposure.isSeen(module.types.resolve(body.self));
+}
+
 Effect effectOfWrite(const Module& module, const Body& body, const std::vector<bool>& private_locals, ExprId place) {
   const types::TypeTable& types = module.types;
   const Expr* e = &body.expr(place);

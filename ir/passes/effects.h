@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "ir/exposure.h"
 #include "ir/walk.h"
 
 namespace rung::ir {
@@ -23,6 +24,10 @@ Effect effectOfWrite(const Module& module, const Body& body, const std::vector<b
 
 // Whether a statement binds a reference in self: a pointer there has another value.
 bool bindsOwn(const Body& body, const Stmt& stmt);
+
+// Whether a call may write any field of self: it runs for self, or its code reaches the instance through globals. Else
+// it reaches the fields whose address is taken.
+bool callReachesSelf(const Module& module, const Exposure& exposure, const Body& body, const CallStmt& call);
 
 // FUNCTION_BLOCK, PROGRAM or an interface: such a variable may be self.
 bool isObject(const types::TypeTable& types, TypeId type);

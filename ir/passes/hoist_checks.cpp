@@ -64,7 +64,9 @@ class Hoister {
   void noteWrites(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { note(effectOfWrite(module_, body_, private_, place)); });
     const auto* call = s.tryAs<CallStmt>();
-    if (bindsOwn(body_, s) || (call != nullptr && !module_.body(call->callee).pure)) written_.all_fields = true;
+    if (bindsOwn(body_, s)) written_.all_fields = true;
+    if (call == nullptr || module_.body(call->callee).pure) return;
+    (callReachesSelf(module_, exposure_, body_, *call) ? written_.all_fields : written_.exposed) = true;
   }
   void findWrites(StmtId loop) {
     written_ = {};
@@ -138,10 +140,14 @@ class Hoister {
     forEachOperand(body_, body_.expr(id), [&](ExprId operand) { goes_on = goes_on && collect(operand); });
     const Expr& e = body_.expr(id);
     if (!goes_on || e.checks == 0) return goes_on;
-    if ((e.checks & ~kHoisted) != 0 || !isFixedCheck(e)) return false;
-    if (e.proven == 0) found_.resize(before);  // those below are in it
-    found_.push_back(id);
-    return true;
+    if ((e.checks & ~kHoisted) != 0) return false;
+    if (isFixedCheck(e)) {
+      if (e.proven == 0) found_.resize(before);  // those below are in it
+      found_.push_back({id});
+      return true;
+    }
+    if (const uint16_t some = fixedDimensions(e); some != 0) found_.push_back({id, some});
+    return false;
   }
   bool isFixedCheck(const Expr& e) const {
     if (const auto* deref = e.tryAs<DerefExpr>()) return isFixedValue(deref->pointer);
@@ -152,6 +158,20 @@ class Hoister {
     for (uint32_t i = 0; i < index->indices.count; ++i)
       if (!e.isProven(i) && !isFixedValue(body_.list(index->indices)[i])) return false;
     return true;
+  }
+
+  // Of an index whose other dimensions change: those that come first and stay, by bit. Their part of the check comes
+  // first.
+  uint16_t fixedDimensions(const Expr& e) const {
+    const auto* index = e.tryAs<IndexExpr>();
+    if (index == nullptr || !isFixedPlace(index->base)) return 0;
+    uint16_t some = 0;
+    for (uint32_t i = 0; i < index->indices.count && i < kMostProven; ++i) {
+      if (e.isProven(i)) continue;
+      if (!isFixedValue(body_.list(index->indices)[i])) break;
+      some |= static_cast<uint16_t>(1u << i);
+    }
+    return some;
   }
 
   void collectFrom(StmtId first) {
@@ -178,16 +198,16 @@ class Hoister {
     e.proven = 0;
     forEachOperand(body_, e, [&](ExprId operand) { clearChecks(operand); });
   }
-  // Of an index with dimensions that need no check, only the others matter.
-  ExprId withoutProven(ExprId id) {
+  // Of an index with dimensions that need no check, or whose check stays in the loop, only the others matter.
+  ExprId onlyHoisted(ExprId id, uint16_t some) {
     const Expr e = body_.expr(id);
     const IndexExpr& node = e.as<IndexExpr>();
     const TypeInfo& array = types_.info(types_.resolve(body_.expr(node.base).type));
     std::vector<ExprId> indices;
     for (uint32_t i = 0; i < node.indices.count; ++i) {
       const ExprId one = body_.list(node.indices)[i];
-      indices.push_back(e.isProven(i) ? build_.integer(body_.expr(one).type, array.dimensions[i].low)
-                                      : build_.copy(one));
+      const bool is_left_out = e.isProven(i) || (some != 0 && (some >> i & 1) == 0);
+      indices.push_back(is_left_out ? build_.integer(body_.expr(one).type, array.dimensions[i].low) : build_.copy(one));
     }
     const ExprId base = build_.copy(node.base);
     clearChecks(base);
@@ -196,9 +216,12 @@ class Hoister {
     return created;
   }
   void evaluateFound() {
-    for (const ExprId id : found_) {
-      if (body_.expr(id).proven != 0) {
-        build_.evaluate(withoutProven(id));
+    for (const auto& [id, some] : found_) {
+      if (some != 0) {
+        build_.evaluate(onlyHoisted(id, some));
+        body_.expr(id).proven |= some;
+      } else if (body_.expr(id).proven != 0) {
+        build_.evaluate(onlyHoisted(id, 0));
         body_.expr(id).checks = 0;
         body_.expr(id).proven = 0;
       } else {
@@ -295,8 +318,12 @@ class Hoister {
   Body& body_;
   Builder build_;
   std::vector<bool> private_;
-  Written written_;            // by the current loop
-  std::vector<ExprId> found_;  // in the order of evaluation
+  Written written_;  // by the current loop
+  struct Found {
+    ExprId id;
+    uint16_t some = 0;  // only the check of these dimensions leaves the loop; 0: all of it
+  };
+  std::vector<Found> found_;  // in the order of evaluation
   bool has_try_ = false, changed_ = false;
 };
 

@@ -6,7 +6,8 @@
 //   needs  verified IR, checks removed: what is left cannot be proved
 //   keeps  which fault comes first, and all values at that time; loops with labels, and bounds that may fault or that
 //          depend on the control variable
-//   gives  loops without null checks of pointers and in-outs, and without checks of indices that do not change
+//   gives  loops without null checks of pointers and in-outs, and without checks of indices that do not change; of
+//          `a[k, i]!` in a loop over i, the check of k
 //   cost   one walk over the statements, each loop's body scanned once more per nesting depth
 #pragma once
 

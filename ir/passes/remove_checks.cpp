@@ -3,7 +3,9 @@
 #include "ir/passes/remove_checks.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "ir/passes/counters.h"
 #include "ir/passes/effects.h"
 #include "ir/passes/interval.h"
 #include "ir/passes/support.h"
@@ -193,7 +195,10 @@ class Analysis {
   void effectsOf(const Stmt& s) {
     forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
     if (bindsOwn(body_, s)) forgetFields();
-    if (const auto* call = s.tryAs<CallStmt>(); call != nullptr && !module_.body(call->callee).pure) forgetFields();
+    const auto* call = s.tryAs<CallStmt>();
+    if (call == nullptr || module_.body(call->callee).pure) return;
+    ++exposed_epoch_;
+    if (callReachesSelf(module_, exposure_, body_, *call)) ++epoch_;
   }
   void effectsIn(StmtId first) {
     forEachStmt(body_, first, [&](StmtId id) { effectsOf(body_.stmt(id)); });
@@ -356,7 +361,8 @@ class Analysis {
   struct Watch {
     uint32_t variable;
     Interval before, head;
-    Interval agreed = {};            // the last guess that held
+    Interval most = {-kWide, kWide}, most_after = {-kWide, kWide};  // of a counter: at the head, after the loop
+    Interval agreed = {};                                           // the last guess that held
     Fact at_end = {}, at_exit = {};  // joined over all ends of an iteration, over all breaks
     bool is_narrowed = false;
   };
@@ -426,7 +432,9 @@ class Analysis {
   // that a test stops at 7 fails, since the largest value plus one wraps; then the test's bound is tried.
   bool guess(Watch& one) {
     if (!one.at_end.known) return false;
-    const Interval left = join(one.before, one.at_end.interval), last = one.head;
+    const Interval end = meet(one.at_end.interval, one.most);
+    if (end.isEmpty()) return false;  // there is no next iteration
+    const Interval left = join(one.before, end), last = one.head;
     if (left == last || (one.is_narrowed && left.within(last))) return false;
     const bool below = left.low<last.low, above = left.high> last.high;
     if (!one.is_narrowed && !(below && above) && (left.low > last.low || left.high < last.high)) {
@@ -436,7 +444,7 @@ class Analysis {
     }
     const Interval any = all(one.variable);
     const Int128 least = left.low >= 0 ? std::max<Int128>(any.low, 0) : any.low;
-    one.head = {below ? least : last.low, above ? any.high : last.high};
+    one.head = meet({below ? least : last.low, above ? any.high : last.high}, one.most);
     return true;
   }
   template <class Before>
@@ -448,8 +456,10 @@ class Analysis {
     for (int round = 0; !loop.watches.empty(); ++round) {
       if (round < kMaxRounds) iterateOnce(loop, before);
       bool holds = round < kMaxRounds, changed = false;
-      for (const Watch& one : loop.watches)
-        holds = holds && (!one.at_end.known || one.at_end.interval.within(one.head));
+      for (const Watch& one : loop.watches) {
+        const Interval end = meet(one.at_end.interval, one.most);
+        holds = holds && (!one.at_end.known || end.isEmpty() || end.within(one.head));
+      }
       if (!holds && has_agreed) {
         for (Watch& one : loop.watches) one.head = one.agreed;
         break;
@@ -503,6 +513,7 @@ class Analysis {
     const bool is_kept = control != kNone && holds(control, facts_[control]);
     LoopState loop{s.body_block, {}, {}};
     watch(loop, mark, control);
+    boundCounters(loop, s, from, to);
     written(s.control);
     const Expr& step = body_.expr(s.step);
     const bool up = static_cast<int64_t>(bitsOf(step)) > 0 || !types_.isSigned(types_.plainKind(step.type));
@@ -510,9 +521,43 @@ class Analysis {
     iterate(loop, [&] {
       if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
     });
-    for (const Watch& one : loop.watches)
-      setInterval(one.variable, one.at_exit.known ? join(one.head, one.at_exit.interval) : one.head);
+    for (const Watch& one : loop.watches) {
+      Interval after = one.head;
+      const Interval end = meet(one.at_end.interval, one.most_after);
+      if (one.at_end.known && !end.isEmpty()) after = join(after, end);
+      setInterval(one.variable, one.at_exit.known ? join(after, one.at_exit.interval) : after);
+    }
     return true;
+  }
+
+  // How far the loop can move what its body only counts: `most` of the watches.
+  void boundCounters(LoopState& loop, const ForStmt& s, const Interval& from, const Interval& to) {
+    if (loop.watches.empty()) return;
+    const Counters counters(module_, exposure_, body_, private_);
+    std::optional<Int128> times = counters.mostIterations(s);
+    if (!times) {
+      const std::optional<Int128> step = constant(s.step);
+      if (!step || *step == 0 || from.isEmpty() || to.isEmpty()) return;
+      const Int128 distance = *step > 0 ? to.high - from.low : from.high - to.low;
+      times = distance < 0 ? 0 : distance / (*step > 0 ? *step : -*step) + 1;
+    }
+    if (*times <= 0 || *times >= kWide >> 70) return;
+    std::vector<uint32_t> variables;
+    for (const Watch& one : loop.watches) variables.push_back(one.variable);
+    const std::vector<Growth> growths = counters.growthIn(loop.body, variables);
+    for (size_t i = 0; i < growths.size(); ++i) {
+      Watch& one = loop.watches[i];
+      const auto after = [&](Int128 n) {
+        return Interval{one.before.low - growths[i].down * n, one.before.high + growths[i].up * n};
+      };
+      if (!growths[i].is_counted || !after(*times).within(meet(growths[i].limit, all(one.variable)))) continue;
+      one.most = after(*times - 1);
+      one.most_after = after(*times);
+    }
+  }
+  std::optional<Int128> constant(ExprId id) {
+    const Expr& e = body_.expr(id);
+    return isConst(e) ? std::optional<Int128>(value(id).low) : std::nullopt;
   }
 
   // ---- comparisons

@@ -1,12 +1,14 @@
 // `rung convert`: the program as Structured Text. Bodies in ST and all declarations stay as written; bodies that a
 // scheduler turned into statements are printed, with their comments and the temporaries that they need. Files of other
-// tools become the ST that Rung reads from them. `--to xml`: the whole program as one PLCopen XML file. Printing
-// happens between scheduling and checking (sema::Options::scheduled), because sema inserts nodes that ST cannot
-// express; only the types of temporaries are asked for afterwards. Nothing is written when there are errors.
+// tools become the ST that Rung reads from them, one file for each of their POUs. `--to xml`: the whole program as one
+// PLCopen XML file. Printing happens between scheduling and checking (sema::Options::scheduled), because sema inserts
+// nodes that ST cannot express; only the types of temporaries are asked for afterwards. Nothing is written when there
+// are errors.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -17,6 +19,7 @@
 #include "sema/project.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/declaration_files.h"
 #include "tools/driver/output_files.h"
 
 namespace rung::driver {
@@ -64,8 +67,11 @@ class Converter {
   }
 
   std::vector<TextFile> outputs();
+  std::string taskOfPrograms() const;  // after outputs()
 
  private:
+  bool becomesFolder(const InputFile& input) const;
+  bool split(const InputFile& input, const std::string& folder, std::vector<TextFile>& out) const;
   void print(sema::PouId pou);
   void printChart(sema::PouId id, const PouDecl& decl);
   void printConditions(const PouDecl& decl);
@@ -82,6 +88,7 @@ class Converter {
   std::vector<Body> bodies_;
   std::vector<Edit> hidden_;                      // the variables that networks need
   std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
+  bool is_split_ = false;                         // some file became a folder
 };
 
 // Called while sema is running, before it changes the statements of the scheduler.
@@ -324,22 +331,102 @@ std::string projectContent(std::string_view text) {
   return out;
 }
 
+// Whether a file becomes a folder: that of a tool which keeps a project in one file, or any other on request.
+bool Converter::becomesFolder(const InputFile& input) const {
+  switch (input.kind) {
+    case FileKind::Plcopen:
+    case FileKind::Iec10:
+    case FileKind::Codesys2:
+    case FileKind::Multiprog: return true;
+    case FileKind::Unknown:
+    case FileKind::St:
+    case FileKind::Il:
+    case FileKind::Xml:
+    case FileKind::Nct:
+    case FileKind::Cam:
+    case FileKind::TwinCat:
+    case FileKind::PlcProject:
+    case FileKind::Beremiz:
+    case FileKind::Project:
+    case FileKind::Binary: return compilation_.options.splits;
+  }
+  return false;
+}
+
+// One file for each declaration, below `folder`; false: the file stays whole.
+bool Converter::split(const InputFile& input, const std::string& folder, std::vector<TextFile>& out) const {
+  if (!becomesFolder(input)) return false;
+  const std::vector<FileUnit>& units = compilation_.tree.files;
+  const auto unit = std::find_if(units.begin(), units.end(), [&](const FileUnit& u) { return u.file == input.file; });
+  if (unit == units.end()) return false;
+  const std::vector<FilePart> parts =
+      declarationFiles(compilation_.tree, compilation_.names, sources_, *unit, listNameOf(input.below));
+  if (parts.size() < 2) return false;
+  std::unordered_map<std::string, size_t> made;  // by name: names differ by more than their case
+  for (const FilePart& part : parts) {
+    std::string text = convert(part.begin, part.end);
+    text.erase(0, std::min(text.find_first_not_of("\r\n"), text.size()));
+    if (!text.ends_with('\n')) text += '\n';
+    const auto [at, is_new] = made.emplace(upper(part.name), out.size());
+    if (is_new)
+      out.push_back({folder + part.name + ".st", std::move(text)});
+    else
+      out[at->second].text += '\n' + text;
+  }
+  return true;
+}
+
 std::vector<TextFile> Converter::outputs() {
   std::vector<TextFile> out;
   std::unordered_set<std::string> taken;
-  for (const InputFile& input : compilation_.inputs.files)
+  size_t count = 0;
+  for (const InputFile& input : compilation_.inputs.files) {
     if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
+    if (!input.is_library) ++count;
+  }
   for (const InputFile& input : compilation_.inputs.files) {
     if (input.is_library) continue;
     std::string path = input.below;
+    const std::string stem = fs::path(path).replace_extension().generic_string();
+    if (split(input, count == 1 ? "" : stem + "/", out)) {
+      is_split_ = true;
+      continue;
+    }
     if (fs::path(path).extension() != ".st") {
-      const std::string stem = fs::path(path).replace_extension().generic_string();
       path = stem + ".st";
       for (uint32_t n = 2; !taken.insert(path).second; ++n) path = stem + "_" + std::to_string(n) + ".st";
     }
     out.push_back({path, convert(input.file)});
   }
   return out;
+}
+
+// What a folder of ST needs besides its files, as sections of rung.project: the memory of an NCT control, which a
+// ladder brings with it.
+std::string settingsOf(const Compilation& compilation) {
+  const ProjectFile& project = compilation.inputs.project;
+  std::string settings;
+  if (project.file) settings = projectContent(compilation.sources.original(project.file));
+  const std::vector<InputFile>& files = compilation.inputs.files;
+  const bool has_ladder =
+      std::any_of(files.begin(), files.end(), [](const InputFile& input) { return input.kind == FileKind::Nct; });
+  const bool has_section = std::any_of(project.sections.begin(), project.sections.end(),
+                                       [](const ProjectSection& section) { return section.kind == "nct"; });
+  if (has_ladder && !has_section) settings += "\n[nct]\n";
+  return settings;
+}
+
+// Without a configuration programs run in the order of their files, which splitting changes: a task that keeps it.
+std::string Converter::taskOfPrograms() const {
+  const sema::Project& project = *compilation_.project;
+  if (!is_split_ || project.instances.size() < 2 || compilation_.inputs.project.configuration) return {};
+  for (const FileUnit& unit : compilation_.tree.files)
+    for (const DeclId decl : compilation_.tree.list(unit.decls))
+      if (compilation_.tree.kind(decl) == DeclKind::Configuration) return {};
+  std::string programs;
+  for (const sema::ProgramInstance& instance : project.instances)
+    programs += (programs.empty() ? "" : ", ") + std::string(compilation_.names.string(instance.name));
+  return "\n[task MainTask]\ninterval = 10ms\npriority = 1\nprograms = " + programs + "\n";
 }
 
 // The name of the single file: that of the project's folder, or of its only file.
@@ -388,8 +475,10 @@ int runConvert(const Options& options, Sink& sink) {
   if (compilation.check()) {
     times.begin("print");
     if (converter) outputs = converter->outputs();
-    if (const ProjectFile& project = compilation.inputs.project; project.file)
-      outputs.push_back({"rung.project", projectContent(compilation.sources.original(project.file))});
+    std::string settings = settingsOf(compilation);
+    if (converter) settings += converter->taskOfPrograms();
+    settings.erase(0, std::min(settings.find_first_not_of('\n'), settings.size()));
+    if (compilation.inputs.project.file || !settings.empty()) outputs.push_back({"rung.project", std::move(settings)});
     times.end();
   }
   int exit = compilation.finish();

@@ -393,7 +393,11 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bo
 
   importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder, for_pictures};
   const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
-  if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct)) addNctAreas(inputs.project.areas);
+  const std::vector<ProjectSection>& sections = inputs.project.sections;
+  const auto is_about_control = [](const ProjectSection& section) { return section.kind == "nct"; };
+  if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct) ||
+      std::any_of(sections.begin(), sections.end(), is_about_control))
+    addNctAreas(inputs.project.areas);
   FileId ladder;
   for (InputFile& input : inputs.files) {
     const importer::Format& format = importer::formatOf(input.kind);

@@ -72,6 +72,7 @@ struct Options {
 
   // convert
   ConvertTo to = ConvertTo::None;
+  bool splits = false;  // --split: one file for each declaration, also of files in ST
 
   // fmt
   bool only_checks = false, shows_changes = false;  // --check, --diff

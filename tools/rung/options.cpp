@@ -67,6 +67,7 @@ enum class Key : uint8_t {
   TimePhases,
   Emit,
   To,
+  Split,
   PageWidth,
   FmtCheck,
   FmtDiff,
@@ -108,6 +109,7 @@ constexpr OptionRow kOptions[] = {
      "output file or folder"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
+    {Key::Split, "--split", nullptr, bit(Command::Convert), "to ST: one file for each POU, also of files in ST"},
     {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
     {Key::FmtCheck, "--check", nullptr, bit(Command::Fmt), "write nothing; list the files that would change, exit 1"},
     {Key::FmtDiff, "--diff", nullptr, bit(Command::Fmt), "write nothing; print what would change"},
@@ -300,6 +302,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       error = parseChoice(row.name, value, row.value, choice);
       options.to = choice == 0 ? ConvertTo::St : ConvertTo::Xml;
       return error;
+    case Key::Split: options.splits = true; return {};
     case Key::Depfile: options.depfile = value; return {};
     case Key::DepfileTarget: options.depfile_target = value; return {};
     case Key::Symbols: options.symbols = value; return {};
@@ -441,6 +444,7 @@ std::string checkCombination(const Options& options) {
              (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Convert && (options.output.empty() || options.to == ConvertTo::None))
     return "`rung convert` needs a target and a folder: add `--to st -o DIR` or `--to xml -o DIR`";
+  if (options.splits && options.to == ConvertTo::Xml) return "`--split` goes with `--to st`: PLCopen XML is one file";
   if (options.command == Command::Graph && options.output.empty())
     return "`rung graph` needs a folder for the pictures: add `-o DIR`";
   if (options.command == Command::Fmt && options.lines.last != UINT32_MAX && options.inputs.size() != 1)
