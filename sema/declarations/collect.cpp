@@ -57,6 +57,7 @@ void internKnownNames(Context& context) {
       {&Known::attribute_no_check, "no_check"},
       {&Known::attribute_obsolete, "obsolete"},
       {&Known::attribute_to_string, "to_string"},
+      {&Known::attribute_unique_name, "unique_name"},
       {&Known::attribute_call_after_init, "call_after_init"},
       {&Known::attribute_pack_mode, "pack_mode"},
       {&Known::attribute_global_init_slot, "global_init_slot"},
@@ -323,6 +324,14 @@ static bool addToResourceGlobals(Context& context, NameId key, VarId first, VarI
   return true;
 }
 
+// {attribute 'unique_name'}: the variables that Rung makes of a `.cam` file, whose name a program cannot qualify.
+static bool hasUniqueName(const Context& context, const Var& var) {
+  if (!var.decl) return false;
+  const DeclHeader& header = context.tree().decl(var.decl);
+  return !header.pragmas.empty() &&
+         findPragma(context, header, context.scopes.known_names.attribute_unique_name) != nullptr;
+}
+
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -350,6 +359,10 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     if (bare.insert(key, entity(list.vars[i]))) continue;
     const Entity other = bare.find(key);
     if (other.entityKind() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    if (hasUniqueName(context, var) || hasUniqueName(context, project.vars[other.index])) {
+      reportTwice(context, var.name, var.loc, project.vars[other.index].loc);
+      continue;
+    }
     if (&bare == &scopes.globals && addToResourceGlobals(context, key, VarId{other.index}, list.vars[i])) continue;
     const std::string_view here = context.names().string(list.name);
     const std::string_view there =
