@@ -192,7 +192,8 @@ void stopWithoutRelease(Axis& a) {
 // What CiA 402 wants next on the way to where the axis should be.
 uint16_t controlword(const Axis& a) {
   const uint16_t status = a.drive_.statusword_;
-  const bool wants = a.bRegulatorOn_ != 0 && a.eConfiguration_ == complete_;
+  const bool is_prepared = a.eConfiguration_ == complete_ || a.eConfiguration_ == unknown_;
+  const bool wants = a.bRegulatorOn_ != 0 && is_prepared;
   if ((status & kFaultBit) != 0) return a.reset_request_ != 0 ? 0x80 : 0;
   if ((status & 0x4F) == 0x40) return wants ? 0x06 : 0;
   switch (status & kStateMask) {
