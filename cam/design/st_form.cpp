@@ -1,6 +1,9 @@
 // Cams in ST; see st_form.h.
 #include "cam/design/st_form.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include "cam/design/text_form.h"
 #include "cam/design/words.h"
 
@@ -17,9 +20,66 @@ std::string real(double value) {
   return text;
 }
 
+// Attributes end at a quote, and their lines at a semicolon.
+constexpr std::string_view kEscaped = "%;'\"{}";
+
+std::string escaped(std::string_view text) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : text) {
+    if (kEscaped.find(c) == std::string_view::npos) {
+      out += c;
+      continue;
+    }
+    out += '%';
+    out += kDigits[static_cast<unsigned char>(c) >> 4];
+    out += kDigits[static_cast<unsigned char>(c) & 15];
+  }
+  return out;
+}
+
+std::string unescaped(std::string_view text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    uint8_t code = 0;
+    const auto end = text.data() + std::min(i + 3, text.size());
+    if (text[i] == '%' && std::from_chars(text.data() + i + 1, end, code, 16).ptr == text.data() + i + 3) {
+      out += static_cast<char>(code);
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+constexpr std::string_view kOfDesign[] = {"repeat", "slave", "speed", "limit", "capacity"};
+constexpr std::string_view kMaster = "master ";
+
+// The lines of the `.cam` text that the declarations do not hold.
+std::string designOf(const Cam& cam) {
+  std::string out;
+  const auto add = [&](std::string_view line) { out += (out.empty() ? "" : "; ") + escaped(line); };
+  Cam head = cam;
+  head.points.clear();
+  head.polynomials.clear();
+  head.numbers.clear();
+  head.tappets.clear();
+  const std::string text = textOf(head);
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = text.find('\n', begin);
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    for (const std::string_view key : kOfDesign)
+      if (line.substr(0, line.find(' ')) == key) add(line);
+    begin = end + 1;
+  }
+  if (!cam.master_unit.empty()) add(std::string(kMaster) + cam.master_unit);
+  return out;
+}
+
 class DeclarationWriter {
  public:
-  explicit DeclarationWriter(const Cam& cam) : cam_(cam) {}
+  DeclarationWriter(const Cam& cam, Duplicates duplicates) : cam_(cam), duplicates_(duplicates) {}
 
   std::string write() {
     out_ = "VAR_GLOBAL\n";
@@ -31,7 +91,11 @@ class DeclarationWriter {
   }
 
  private:
+  void mark() {
+    if (duplicates_ == Duplicates::AreErrors) out_ += "  {attribute '" + std::string(kUniqueAttribute) + "'}\n";
+  }
   void open(const char* suffix, size_t room, std::string_view type) {
+    mark();
     out_ +=
         "  " + cam_.name + suffix + " : ARRAY[0.." + std::to_string(room - 1) + "] OF " + std::string(type) + " := [";
     is_first_ = true;
@@ -102,6 +166,9 @@ class DeclarationWriter {
 
   void writeReference() {
     constexpr const char* kTypes[] = {"POLY", "X", "XY", "XYVA"};
+    mark();
+    const std::string design = designOf(cam_);
+    if (!design.empty()) out_ += "  {attribute '" + std::string(kDesignAttribute) + "' := '" + design + "'}\n";
     out_ += "  " + cam_.name + " : MC_CAM_REF := (byType := SMC_CAM_TYPE." + kTypes[static_cast<size_t>(cam_.kind)];
     const auto member = [&](const char* name, const std::string& value) {
       out_ += std::string(",\n    ") + name + " := " + value;
@@ -131,12 +198,29 @@ class DeclarationWriter {
   }
 
   const Cam& cam_;
+  const Duplicates duplicates_;
   std::string out_;
   bool is_first_ = true;
 };
 
 }  // namespace
 
-std::string globalsOf(const Cam& cam) { return DeclarationWriter(cam).write(); }
+std::string globalsOf(const Cam& cam, Duplicates duplicates) { return DeclarationWriter(cam, duplicates).write(); }
+
+std::string withDesign(Cam table, std::string_view attribute) {
+  std::string lines;
+  // The room of a cam that says none: the attribute has the line of one that does.
+  if (table.capacity == std::max(table.rowCount(), kLeastCapacity) || !attribute.empty()) table.capacity = 0;
+  while (!attribute.empty()) {
+    const std::string line = unescaped(attribute.substr(0, attribute.find(';')));
+    attribute.remove_prefix(std::min(attribute.find(';'), attribute.size() - 1) + 1);
+    while (attribute.starts_with(' ')) attribute.remove_prefix(1);
+    if (line.starts_with(kMaster))
+      table.master_unit = line.substr(kMaster.size());
+    else
+      lines += line + "\n";
+  }
+  return textOf(table) + lines;
+}
 
 }  // namespace rung::cam

@@ -9,6 +9,7 @@
 #include "sema/bodies/signatures.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/charts.h"
+#include "sema/checks/cam_tables.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/dangling_address.h"
@@ -498,6 +499,7 @@ void checkAfterBodies(Context& context) {
   checkRepeatedTimerCalls(context);
   checkUncalledInstances(context);
   checkUnsetTemporaries(context);
+  checkCamTables(context);
 }
 
 }  // namespace rung::sema

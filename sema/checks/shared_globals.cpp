@@ -1,10 +1,12 @@
 // Warns of a variable outside of the program that the programs of two tasks write: one task may interrupt the other
 // between its read and its write. Globals are shared without a copy per task (docs/language.md "Tasks").
 //   passes  one task writes `level`, the other reads it
-//   fails   both tasks have `count := count + 1;`
+//   fails   both tasks have `count := count + 1;`                                                    W0829
+//   fails   both tasks have `move(Axis := X);`                                                       W1530
 // Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
 #include "sema/checks/shared_globals.h"
 
+#include "sema/bodies/bodies.h"
 #include "sema/checks/diagnostics.h"
 #include "sema/checks/uncopied.h"
 #include "sema/project.h"
@@ -16,6 +18,24 @@ static VarId ofResource(const Context& context, VarId global, NameId resource) {
   for (const ResourceGlobals& globals : context.project.resource_globals)
     if (resource && globals.all.front().var == global) return globals.of(context.names().key(resource));
   return global;
+}
+
+// An instance that a task serves, by {before_task} and {after_task}: an axis.
+static bool isServed(Context& context, TypeId type) {
+  while (context.types().kind(type) == types::TypeKind::Array)
+    type = context.types().info(context.types().resolve(type)).base;
+  if (context.types().kind(type) != types::TypeKind::Record) return false;
+  for (PouId block = pouOf(context, type); block; block = context.symbols.pou(block).base)
+    for (const PouId member : context.symbols.pou(block).members) {
+      const Pou::Pragmas& pragmas = context.symbols.pou(member).pragmas;
+      if (pragmas.before_task || pragmas.after_task) return true;
+    }
+  return false;
+}
+
+// Of two tasks, the one that serves an instance which both name: the one with the higher priority.
+static const Task& serving(const Task& first, const Task& second) {
+  return second.priority < first.priority ? second : first;
 }
 
 void checkSharedGlobals(Context& context) {
@@ -49,9 +69,16 @@ void checkSharedGlobals(Context& context) {
       if (by == task || by == ~0u) continue;
       const Var& var = project.var(written);
       if (uncopiedIn(context, var.type)) continue;  // a lock, or an object that contains one
-      context.report(diag::TwoTasksWrite, var.loc,
-                     {string(context, var.name), string(context, project.tasks[by - 1].name),
-                      string(context, project.tasks[task - 1].name)});
+      const Task &one = project.tasks[by - 1], &other = project.tasks[task - 1];
+      if (isServed(context, var.type)) {
+        const Task& server = serving(one, other);
+        context.report(diag::TwoTasksMove, var.loc,
+                       {string(context, var.name), string(context, one.name), string(context, other.name),
+                        string(context, server.name)});
+      } else {
+        context.report(diag::TwoTasksWrite, var.loc,
+                       {string(context, var.name), string(context, one.name), string(context, other.name)});
+      }
       by = ~0u;
     }
   }

@@ -57,6 +57,7 @@ void internKnownNames(Context& context) {
       {&Known::attribute_no_check, "no_check"},
       {&Known::attribute_obsolete, "obsolete"},
       {&Known::attribute_to_string, "to_string"},
+      {&Known::attribute_unique_name, "unique_name"},
       {&Known::attribute_call_after_init, "call_after_init"},
       {&Known::attribute_pack_mode, "pack_mode"},
       {&Known::attribute_global_init_slot, "global_init_slot"},
@@ -289,7 +290,9 @@ ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc
   const ListId list_id{static_cast<uint32_t>(project.global_lists.size())};
   qualifiers.insert(keyOf(context, id), Entity::of(EntityKind::GlobalList, list_id.index));
   // The list's record shares a name space with POUs and types in generated code.
-  if (scopes.pous_and_types.find(keyOf(context, id))) id = context.names().intern(name + "_globals");
+  const NameId key = keyOf(context, id);
+  if (scopes.pous_and_types.find(key) || scopes.libraries.index.find(key))
+    id = context.names().intern(name + "_globals");
   project.global_lists.emplace_back();
   scopes.lists.emplace_back();
   GlobalList& list = project.global_lists.back();
@@ -323,6 +326,14 @@ static bool addToResourceGlobals(Context& context, NameId key, VarId first, VarI
   return true;
 }
 
+// {attribute 'unique_name'}: the variables that Rung makes of a `.cam` file, whose name a program cannot qualify.
+static bool hasUniqueName(const Context& context, const Var& var) {
+  if (!var.decl) return false;
+  const DeclHeader& header = context.tree().decl(var.decl);
+  return !header.pragmas.empty() &&
+         findPragma(context, header, context.scopes.known_names.attribute_unique_name) != nullptr;
+}
+
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -350,6 +361,10 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     if (bare.insert(key, entity(list.vars[i]))) continue;
     const Entity other = bare.find(key);
     if (other.entityKind() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    if (hasUniqueName(context, var) || hasUniqueName(context, project.vars[other.index])) {
+      reportTwice(context, var.name, var.loc, project.vars[other.index].loc);
+      continue;
+    }
     if (&bare == &scopes.globals && addToResourceGlobals(context, key, VarId{other.index}, list.vars[i])) continue;
     const std::string_view here = context.names().string(list.name);
     const std::string_view there =

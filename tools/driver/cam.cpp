@@ -35,10 +35,11 @@ struct Subcommand {
   int (*run)(const CamRun& run, Sink& sink);
 };
 constexpr Subcommand kSubcommands[] = {
-    {"law", "--stroke --length --v0 --v1 --a0 --a1 --j0 --j1 --turn --points", runCamLaw},
+    {"law", "--stroke --length --v0 --v1 --a0 --a1 --j0 --j1 --turn --points --name --master-unit --slave-unit --speed",
+     runCamLaw},
     {"check", "--speed", runCamCheck},
     {"show", "--speed", runCamShow},
-    {"convert", "", runCamConvert},
+    {"convert", "--name", runCamConvert},
     {"fit",
      "--name --segments --tolerance --smooth --repeat --range --exact --dwell --v0 --a0 --v1 --a1 --speed "
      "--max-velocity --max-acceleration --max-jerk --position --loss --loss-scale --master-unit --slave-unit",
@@ -194,6 +195,11 @@ void readCamInput(const std::string& path, CamInput& input) {
     std::replace(blanks.begin(), blanks.end(), ',', ' ');
     input.sources.activate(file, std::move(blanks));
   }
+  input.is_read = importer::cams::readCam(input.sources, file, input.diagnostics, input.cam, &input.places);
+}
+
+void readCamText(const std::string& path, std::string text, CamInput& input) {
+  const FileId file = input.sources.add(path, std::move(text));
   input.is_read = importer::cams::readCam(input.sources, file, input.diagnostics, input.cam, &input.places);
 }
 

@@ -48,6 +48,8 @@ struct CamInput {
 FileId readCamSource(const std::string& path, CamInput& input);
 // Of a `.csv`, commas separate words as blanks do.
 void readCamInput(const std::string& path, CamInput& input);
+// The `.cam` text of a cam that was read from the file `path` in another form.
+void readCamText(const std::string& path, std::string text, CamInput& input);
 // Passes the diagnostics to the sink; returns the exit code.
 int finishCamInput(CamInput& input, Sink& sink);
 

@@ -2,6 +2,7 @@
 #include "tools/driver/project_axes.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "frontend/import/source_mapped_text.h"
 #include "frontend/parse/parse.h"
@@ -12,7 +13,7 @@
 namespace rung::driver {
 namespace {
 
-enum class KeyKind : uint8_t { Number, Positive, Switch, Ramp, Objects, Scale };
+enum class KeyKind : uint8_t { Number, Positive, Switch, Ramp, Objects, Startup, Scale };
 
 // A key and the member of AXIS_REF_SM3 that it sets; members of its drive begin with `simulation.`.
 struct Key {
@@ -48,8 +49,26 @@ constexpr Key kKeys[] = {
     {"homing-acceleration", KeyKind::Positive, "simulation.homing_acceleration"},
     {"homing-offset", KeyKind::Number, "simulation.home_offset"},
     {"pdo", KeyKind::Objects, ""},
+    {"startup", KeyKind::Startup, "startup"},
 };
 constexpr std::string_view kOfDrive = "simulation.";
+
+// A write of an object by the service channel.
+struct StartupObject {
+  uint32_t index, subindex, bytes;
+  int64_t value;
+  bool of_host;  // the simulated drive has the value from its inputs
+};
+constexpr size_t kMostStartup = 16;  // AXIS_REF_SM3.startup
+// The objects that keys of the simulated drive set.
+struct KeyObject {
+  std::string_view key;
+  uint32_t index, subindex, bytes;
+};
+constexpr KeyObject kKeyObjects[] = {
+    {"homing-method", 0x6098, 0, 1},       {"homing-search-speed", 0x6099, 1, 4}, {"homing-zero-speed", 0x6099, 2, 4},
+    {"homing-acceleration", 0x609A, 0, 4}, {"homing-offset", 0x607C, 0, 4},
+};
 
 // An object of the process data: its number, the member of RUNG_DRIVE, and its bit there (rung/motion.h).
 struct Object {
@@ -153,6 +172,7 @@ class AxisReader {
     if (!isNameFree(section)) return;
     drive_.clear();
     bound_.clear();
+    startup_.clear();
     communication_ = nullptr;
     has_wrong_address_ = false;
     separator_ = "";
@@ -162,6 +182,7 @@ class AxisReader {
     putSoftwareLimits(section);
     if (section.find("max-lag") != nullptr) set(section.loc, "bPosLagMonitoring", section.loc, "TRUE");
     if (!bound_.empty()) set(section.loc, "bBoundDrive", section.loc, "TRUE");
+    putStartup(section);
     putDrive(section);
     text_.put(section.loc, "); END_VAR\n");
     if (communication_ != nullptr && bound_.empty())
@@ -219,6 +240,7 @@ class AxisReader {
       case KeyKind::Switch: return readSwitch(*key, entry);
       case KeyKind::Ramp: return readRamp(*key, entry);
       case KeyKind::Objects: return readObjects(section, entry);
+      case KeyKind::Startup: return readStartup(entry);
       case KeyKind::Scale: return;  // putScale
     }
   }
@@ -244,6 +266,11 @@ class AxisReader {
     if (number.empty() || (key.kind == KeyKind::Positive && !isAboveZero(number)))
       return badValue(diagnostics_, entry,
                       key.kind == KeyKind::Positive ? "it takes a number above 0" : "it takes a number");
+    for (const KeyObject& object : kKeyObjects) {
+      int64_t value = 0;
+      if (object.key == key.name && readInteger(entry.value, value))
+        startup_.push_back({object.index, object.subindex, object.bytes, value, true});
+    }
     // Members of the drive are integers: their range is checked where they are declared.
     setMember(entry, key.member, key.member.starts_with(kOfDrive) ? entry.value : number);
   }
@@ -286,7 +313,72 @@ class AxisReader {
     drive_.push_back({"mapped", std::to_string(mapped), &entry});
   }
 
-  // TM/TP manual 1.7.1: without its objects a drive does not move, and nothing reports it.
+  // `35`, `-1`, `16#23`
+  static bool readInteger(std::string_view text, int64_t& value) {
+    const bool is_based = text.starts_with("16#");
+    if (is_based) text.remove_prefix(3);
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, is_based ? 16 : 10);
+    return code == std::errc() && end == text.data() + text.size() && !text.empty();
+  }
+
+  // `6099:01/4=20000`
+  static bool readStartupObject(std::string_view text, StartupObject& object) {
+    const auto part = [&](char end, std::string_view& of) {
+      const size_t at = text.find(end);
+      if (at == std::string_view::npos) return false;
+      of = text.substr(0, at);
+      text.remove_prefix(at + 1);
+      return true;
+    };
+    const auto hex = [](std::string_view of, size_t digits, uint32_t& value) {
+      const auto [end, code] = std::from_chars(of.data(), of.data() + of.size(), value, 16);
+      return of.size() == digits && code == std::errc() && end == of.data() + of.size();
+    };
+    std::string_view number, subindex, bytes;
+    if (!part('/', number) || !part('=', bytes)) return false;
+    if (const size_t colon = number.find(':'); colon != std::string_view::npos) {
+      subindex = number.substr(colon + 1);
+      number = number.substr(0, colon);
+    }
+    if (!hex(number, 4, object.index) || (!subindex.empty() && !hex(subindex, 2, object.subindex))) return false;
+    if (bytes != "1" && bytes != "2" && bytes != "4") return false;
+    object.bytes = static_cast<uint32_t>(bytes[0] - '0');
+    if (!readInteger(text, object.value)) return false;
+    const int64_t high = (int64_t{1} << 8 * object.bytes) - 1;
+    return object.value <= high && object.value >= -(high + 1) / 2;
+  }
+
+  // `startup = 6098/1=35 6099:01/4=20000`: what is written before the axis gets power.
+  void readStartup(const ProjectEntry& entry) {
+    for (size_t at = 0; at < entry.value.size();) {
+      const size_t end = std::min(entry.value.find_first_of(" \t,", at), entry.value.size());
+      const std::string_view text = std::string_view(entry.value).substr(at, end - at);
+      at = end + 1;
+      StartupObject object{};
+      if (text.empty()) continue;
+      if (!readStartupObject(text, object))
+        return badValue(
+            diagnostics_, entry,
+            "`" + std::string(text) + "` is not an object with its bytes and value, such as 6099:01/4=20000");
+      startup_.push_back(object);
+    }
+    if (startup_.size() > kMostStartup)
+      badValue(diagnostics_, entry, "an axis has at most 16 start-up objects, those of the homing included");
+  }
+
+  void putStartup(const ProjectSection& section) {
+    if (startup_.empty()) return;
+    std::string list;
+    for (const StartupObject& object : startup_) {
+      const uint64_t value = static_cast<uint64_t>(object.value) & ((uint64_t{1} << 8 * object.bytes) - 1);
+      list += (list.empty() ? "" : ", ") + std::string("(index := ") + std::to_string(object.index) +
+              ", subindex := " + std::to_string(object.subindex) + ", length := " + std::to_string(object.bytes) +
+              ", value := " + std::to_string(value) + (object.of_host ? ", of_host := TRUE)" : ")");
+    }
+    set(section.loc, "startup", section.loc, "[" + list + "]");
+  }
+
+  // TM/TP manual 1.7.1: without its objects a drive does not move.
   void warnOfMissing(const ProjectSection& section, Loc loc, uint32_t mapped) {
     std::string missing;
     for (const Object& object : kObjects)
@@ -418,6 +510,7 @@ class AxisReader {
   std::vector<const ProjectSection*> sections_;
   std::vector<Member> drive_;  // of the axis that is being read
   std::vector<Bound> bound_;
+  std::vector<StartupObject> startup_;
   const ProjectEntry* communication_ = nullptr;
   bool has_wrong_address_ = false;
   const char* separator_ = "";

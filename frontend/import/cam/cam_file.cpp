@@ -453,7 +453,7 @@ FileId readProgram(ReadContext& context, FileId file) {
   CamSource places;
   if (!readCam(context.sources, file, context.diagnostics, cam, &places)) return {};
   xml::SourceMappedText program(context.sources);
-  program.put(places.name, globalsOf(cam));
+  program.put(places.name, globalsOf(cam, cam::Duplicates::AreErrors));
   return program.finish(context.sources, file);
 }
 

@@ -137,7 +137,8 @@ void startCam(MC_CamIn_type& block, Call& call) {
   error = placeMaster(next, master, switches, switches ? tableX(block, master) : 0);
   const bool keeps_zero = switches && !isAbsolute(block) && !isAbsolute(next);
   if (error == SMC_NO_ERROR_)
-    error = placeSlave(next, slave, master, keeps_zero ? block.slave_zero_ : startState(slave).position);
+    error = placeSlave(next, slave, master,
+                       keeps_zero ? block.slave_zero_ + slave.extra_.base_position_ : startState(slave).position);
   if (error != SMC_NO_ERROR_) return call.refuse(error);
   next.tappet_state_.hysteresis_ = block.TappetHysteresis_ > 0 ? block.TappetHysteresis_ * next.master_scale_ : 0;
   next.was_inside_ = next.is_over_ = 0;
@@ -145,7 +146,8 @@ void startCam(MC_CamIn_type& block, Call& call) {
   next.tappet_state_.is_fresh_ = 1;
   block = next;
   tappetsOfBlock(block).reset(slave);
-  if (is_owner) return;
+  // A new start takes what is superimposed into the position, as a new command does.
+  if (is_owner) return mergeExtra(slave);
   call.start(followRequest(block.Deceleration_), SMC_AXIS_NOT_READY_FOR_MOTION_);
   couple(slave, *block.Master_, kCam);
 }

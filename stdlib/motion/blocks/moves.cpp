@@ -43,10 +43,17 @@ void showMove(Block& block, Call& call) {
   call.show(block.Busy_, block.Error_, block.ErrorID_);
 }
 
-Request absoluteRequest(const MC_MoveAbsolute_type& block) {
+Request absoluteRequest(const MC_MoveAbsolute_type& block, int16_t mode) {
   Request request = requestOf(block, Motion::Position, discrete_motion_);
-  request.buffer_mode_ = block.BufferMode_;
-  if (isAxis(block.Axis_)) request.target_ = turned(*block.Axis_, request, block.Position_, block.Direction_);
+  request.buffer_mode_ = mode;
+  if (isAxis(block.Axis_)) aim(*block.Axis_, request, block.Position_, block.Direction_);
+  return request;
+}
+
+// With ContinuousUpdate. One that waits may have new commands after it, so its target is found when it begins.
+Request updateOf(const MC_MoveAbsolute_type& block, const Call& call) {
+  Request request = absoluteRequest(block, Aborting_);
+  request.turns_ = !call.isOwner() && period(*block.Axis_) != 0 ? 1 : 0;
   return request;
 }
 
@@ -84,10 +91,9 @@ Request velocityRequest(const MC_MoveVelocity_type& block) {
   return request;
 }
 
-// Where a move that goes on begins: the end velocity with the sign of its direction.
+// A move over `way` that goes on: the end velocity with the sign of its direction.
 template <class Block>
-void continueWith(Request& request, const Block& block, const Axis& axis) {
-  const double way = request.target_ - startState(axis).position;
+void continueWith(Request& request, const Block& block, const Axis& axis, double way) {
   const int current = way < 0 ? -1 : way > 0 ? 1 : axis.last_direction_;
   const int sign = block.EndVelocityDirection_ == negative_   ? -1
                    : block.EndVelocityDirection_ == positive_ ? 1
@@ -139,9 +145,9 @@ void rung_sm3_basic_MC_MoveAbsolute(rung_context*, MC_MoveAbsolute_type* self) {
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
   if (call.rises())
     startMove(call, self->Axis_, absoluteError(*self),
-              absoluteError(*self) == SMC_NO_ERROR_ ? absoluteRequest(*self) : Request{});
+              absoluteError(*self) == SMC_NO_ERROR_ ? absoluteRequest(*self, self->BufferMode_) : Request{});
   else if (self->ContinuousUpdate_ != 0 && call.isRunning() && absoluteError(*self) == SMC_NO_ERROR_)
-    renew(call.axis(), self->command_, absoluteRequest(*self));
+    renew(call.axis(), self->command_, updateOf(*self, call));
   call.run();
   showMove(*self, call);
 }
@@ -216,7 +222,7 @@ void rung_sm3_basic_SMC_MoveContinuousAbsolute(rung_context*, SMC_MoveContinuous
     request.buffer_mode_ = self->BufferMode_;
     if (error == SMC_NO_ERROR_) {
       request.target_ = turned(call.axis(), request, self->Position_, self->Direction_);
-      continueWith(request, *self, call.axis());
+      continueWith(request, *self, call.axis(), request.target_ - beginState(call.axis(), request).position);
     }
     startMove(call, self->Axis_, error, request);
   }
@@ -235,8 +241,9 @@ void rung_sm3_basic_SMC_MoveContinuousRelative(rung_context*, SMC_MoveContinuous
       error = SMC_MCR_INVALID_DIRECTION_;
     Request request = requestOf(*self, Motion::Continuous, discrete_motion_);
     request.buffer_mode_ = self->BufferMode_;
-    request.target_ = startState(call.axis()).position + self->Distance_;
-    if (error == SMC_NO_ERROR_) continueWith(request, *self, call.axis());
+    request.target_ = self->Distance_;
+    request.is_relative_ = 1;
+    if (error == SMC_NO_ERROR_) continueWith(request, *self, call.axis(), self->Distance_);
     startMove(call, self->Axis_, error, request);
   }
   call.run();

@@ -1,6 +1,5 @@
 // Native bodies of parameters.st: parameters of the axis by the numbers of PLCopen part 1 and CODESYS, and objects of
 // the drive through its service channel, which one block uses at a time.
-#include "drive/drive.h"
 #include "kernel/axis.h"
 
 using namespace rung_sm3_basic;
@@ -116,35 +115,6 @@ bool prepare(AXIS_OBJECT_ACCESS_type& access, int32_t number, Access kind, doubl
   return true;
 }
 
-// One cycle of an access: a rung_object_result.
-int64_t run(const rung_context* ctx, Axis& a, AXIS_OBJECT_ACCESS_type& access) {
-  const rung_object_access wanted = {access.index_, access.subindex_, access.length_, access.is_write_, access.value_};
-  rung_drive& drive = reinterpret_cast<rung_drive&>(a.drive_);
-  uint32_t value = access.value_;
-  if (a.host_drive_ != 0) {
-    const rung_drives* const host = ctx->host->drives;
-    if (access.number_ == 0) access.number_ = host->begin(ctx->host->drives_data, &drive, &wanted);
-    const int64_t result =
-        access.number_ < 0 ? access.number_ : host->result(ctx->host->drives_data, access.number_, &value);
-    if (result == RUNG_OBJECT_DONE) access.value_ = value;
-    return result;
-  }
-  if (a.bBoundDrive_ != 0) return RUNG_OBJECT_FAILED;  // the process image has no service channel
-  const uint64_t self = reinterpret_cast<uintptr_t>(&access);
-  const bool is_free = a.access_owner_ == 0 || a.access_owner_ == self || a.access_called_ + 1 < a.cycle_;
-  if (!is_free) return RUNG_OBJECT_BUSY;
-  a.access_owner_ = self;
-  if (a.access_called_ == a.cycle_ && access.busy_ != 0) return RUNG_OBJECT_BUSY;  // called twice in a cycle
-  a.access_called_ = a.cycle_;
-  access.busy_ = 1;
-  const int64_t result = accessObject(a.simulation_, wanted, &value);
-  if (result == RUNG_OBJECT_BUSY) return result;
-  access.busy_ = 0;
-  a.access_owner_ = 0;
-  if (result == RUNG_OBJECT_DONE) access.value_ = value;
-  return result;
-}
-
 template <class Block>
 void fail(Block& block, Error error) {
   block.Error_ = 1;
@@ -176,7 +146,7 @@ void read(const rung_context* ctx, Block& block, double& value) {
     if (!prepare(block.access_, block.ParameterNumber_, Access::Read, 0)) return fail(block, SMC_RP_PARAM_UNKNOWN_);
     block.access_.was_ = 1;
   }
-  const int64_t result = run(ctx, *block.Axis_, block.access_);
+  const int64_t result = accessObject(ctx, *block.Axis_, block.access_);
   if (result == RUNG_OBJECT_BUSY) return;
   block.access_.was_ = 0;
   if (result == RUNG_OBJECT_UNKNOWN) return fail(block, SMC_RP_PARAM_UNKNOWN_);
@@ -208,7 +178,7 @@ void write(const rung_context* ctx, Block& block, double value) {
     }
   }
   if (call.isRunning()) {
-    const int64_t result = run(ctx, call.axis(), block.access_);
+    const int64_t result = accessObject(ctx, call.axis(), block.access_);
     if (result == RUNG_OBJECT_DONE)
       call.done();
     else if (result == RUNG_OBJECT_FAILED)

@@ -36,6 +36,7 @@ void rung_sm3_basic_MC_Power(rung_context*, MC_Power_type* self) {
 
 void rung_sm3_basic_MC_Reset(rung_context*, MC_Reset_type* self) {
   constexpr uint32_t kPatience = 1000;  // cycles for the drive's answer
+  constexpr uint32_t kRepetition = 8;   // cycles with and without the request
   Call call(self->Axis_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
     Axis& axis = call.axis();
@@ -53,6 +54,8 @@ void rung_sm3_basic_MC_Reset(rung_context*, MC_Reset_type* self) {
   if (call.isRunning()) {
     Axis& axis = call.axis();
     const bool has_fault = axis.bVirtual_ == 0 && (axis.drive_.statusword_ & 0x08) != 0;
+    // The drive acts on the edge of bit 7, so one that came while its fault was there has no effect: it is repeated.
+    axis.reset_request_ = self->cycles_ / kRepetition % 2 == 0 ? 1 : 0;
     ++self->cycles_;
     if (axis.fSetVelocity_ == 0 && !has_fault && axis.bCommunication_ != 0) {
       axis.reset_request_ = 0;

@@ -94,13 +94,6 @@ struct Text {
 };
 constexpr Text kTexts[] = {{0x1008, "Rung simulated drive"}, {0x1009, "1.0"}, {0x100A, "1.0"}};
 
-// What the process data can have, by the bits of rung_drive_object.
-struct Mappable {
-  uint32_t bit;
-  uint16_t index;
-  uint8_t subindex, bits;
-  bool to_drive;
-};
 constexpr Mappable kMappable[] = {
     {RUNG_DRIVE_CONTROLWORD, 0x6040, 0, 16, true},
     {RUNG_DRIVE_MODE, 0x6060, 0, 8, true},
@@ -337,6 +330,22 @@ void mapDefault(SimulatedDrive& drive, uint32_t mapped) {
   memset(drive.tx_assignment_, 0, sizeof drive.tx_assignment_);
   map(drive, mapped, true);
   map(drive, mapped, false);
+}
+
+const Mappable& mappable(unsigned row) { return kMappable[row]; }
+
+void listMapped(const SimulatedDrive& drive, bool to_drive, uint8_t (&rows)[kMostMapped + 1]) {
+  static_assert(kMostMapped == kPdos * kEntries, "room for each entry of each PDO");
+  const uint16_t* const assigned = to_drive ? drive.rx_assignment_ : drive.tx_assignment_;
+  rows[0] = 0;
+  for (unsigned i = 1; i <= assigned[0] && i <= kPdos; ++i) {
+    const int at = pdoAt(assigned[i]);
+    if (at < 0) continue;
+    const uint32_t* const pdo = drive.pdo_ + at;
+    for (unsigned j = 1; j <= pdo[0] && j <= kEntries; ++j)
+      if (const Mappable* const row = findMappable(fieldbus::mappedObject(pdo[j]), to_drive))
+        rows[++rows[0]] = static_cast<uint8_t>(row - kMappable);
+  }
 }
 
 uint32_t mappedObjects(const SimulatedDrive& drive) {

@@ -17,4 +17,16 @@ void mapDefault(SimulatedDrive& drive, uint32_t mapped);
 // The bits of rung_drive_object that the assigned PDOs have.
 uint32_t mappedObjects(const SimulatedDrive& drive);
 
+// What the process data can have: an object, and its bit of rung_drive_object, or 0.
+struct Mappable {
+  uint32_t bit;
+  uint16_t index;
+  uint8_t subindex, bits;
+  bool to_drive;
+};
+constexpr unsigned kMostMapped = 32;  // in each direction
+const Mappable& mappable(unsigned row);
+// The objects of the assigned PDOs in their order: the number of objects, and their rows of `mappable`.
+void listMapped(const SimulatedDrive& drive, bool to_drive, uint8_t (&rows)[kMostMapped + 1]);
+
 }  // namespace rung::motion

@@ -7,7 +7,7 @@
 #include "drive/modes.h"
 #include "drive/objects.h"
 #include "drive/probes.h"
-#include "drive/rounding.h"
+#include "drive/process_data.h"
 #include "drive/state_machine.h"
 #include "fieldbus/coe.h"
 
@@ -28,6 +28,7 @@ void start(SimulatedDrive& drive) {
 void enterBusState(SimulatedDrive& drive, EcatState state) {
   drive.bus_state_ = static_cast<uint8_t>(state);
   drive.exchanged_ = fieldbus::sendsInputs(state) ? mappedObjects(drive) : 0;
+  if (fieldbus::sendsInputs(state)) layOut(drive);
 }
 
 // The master brings the slave to the state asked for, step by step.
@@ -53,34 +54,6 @@ void runFieldbus(SimulatedDrive& drive) {
     if (status.error) return;
   }
   drive.bus_wait_ = 0;
-}
-
-void receive(SimulatedDrive& drive, const rung_drive& data) {
-  const uint32_t mapped = data.mapped;
-  if ((mapped & RUNG_DRIVE_CONTROLWORD) != 0) drive.controlword_ = data.controlword;
-  if ((mapped & RUNG_DRIVE_MODE) != 0) drive.mode_ = data.mode;
-  if ((mapped & RUNG_DRIVE_TARGET_POSITION) != 0) drive.target_position_ = data.target_position;
-  if ((mapped & RUNG_DRIVE_TARGET_VELOCITY) != 0) drive.target_velocity_ = data.target_velocity;
-  if ((mapped & RUNG_DRIVE_TARGET_TORQUE) != 0) drive.target_torque_ = data.target_torque;
-  if ((mapped & RUNG_DRIVE_PROBE_FUNCTION) != 0) drive.probe_function_ = data.probe_function;
-  if ((mapped & RUNG_DRIVE_DIGITAL_OUTPUTS) != 0) drive.digital_outputs_ = data.digital_outputs;
-}
-
-void send(const SimulatedDrive& drive, rung_drive& data) {
-  const uint32_t mapped = data.mapped;
-  if ((mapped & RUNG_DRIVE_STATUSWORD) != 0) data.statusword = drive.statusword_;
-  if ((mapped & RUNG_DRIVE_MODE_DISPLAY) != 0) data.mode_display = drive.mode_display_;
-  if ((mapped & RUNG_DRIVE_POSITION) != 0) data.position = countedPosition(drive, drive.machine_position_);
-  if ((mapped & RUNG_DRIVE_VELOCITY) != 0) data.velocity = countedVelocity(drive.machine_velocity_);
-  if ((mapped & RUNG_DRIVE_TORQUE) != 0) data.torque = static_cast<int16_t>(rounded(drive.torque_));
-  if ((mapped & RUNG_DRIVE_ERROR_CODE) != 0) data.error_code = drive.error_;
-  if ((mapped & RUNG_DRIVE_PROBE_STATUS) != 0) data.probe_status = drive.probe_status_;
-  if ((mapped & RUNG_DRIVE_DIGITAL_INPUTS) != 0) data.digital_inputs = drive.inputs_;
-  if ((mapped & RUNG_DRIVE_PROBE_POSITIONS) == 0) return;
-  data.probe_1_rising = drive.probe_positions_[0];
-  data.probe_1_falling = drive.probe_positions_[1];
-  data.probe_2_rising = drive.probe_positions_[2];
-  data.probe_2_falling = drive.probe_positions_[3];
 }
 
 void noteErrors(SimulatedDrive& drive) {
@@ -176,9 +149,10 @@ void stepDrive(SimulatedDrive& drive, rung_drive& data, double seconds) {
   ++drive.steps_;
   runFieldbus(drive);
   const auto bus_state = static_cast<EcatState>(drive.bus_state_);
-  data.communication = fieldbus::takesOutputs(bus_state) ? 1 : 0;
+  bool is_exchanged = fieldbus::takesOutputs(bus_state);
   data.mapped = drive.exchanged_;
-  if (data.communication != 0) receive(drive, data);
+  drive.working_counter_ = 0;
+  if (is_exchanged) is_exchanged = exchangeOutputs(drive, data);
   takeMode(drive);
   runStateMachine(drive);
 
@@ -197,7 +171,8 @@ void stepDrive(SimulatedDrive& drive, rung_drive& data, double seconds) {
   unsigned status = statusBits(stateOf(drive)) | (drive.power_lost_ ? 0 : kVoltage) | kRemote;
   if (isPowered(stateOf(drive))) status |= modeStatus(drive, is_braking);
   drive.statusword_ = static_cast<uint16_t>(status);
-  send(drive, data);
+  if (fieldbus::sendsInputs(bus_state) && !exchangeInputs(drive, data)) is_exchanged = false;
+  data.communication = is_exchanged ? 1 : 0;
 }
 
 namespace {

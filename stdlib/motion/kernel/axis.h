@@ -33,6 +33,9 @@ enum class Motion : uint8_t {
   Brake,       // to rest, without an owner: after an error, or without release
 };
 
+// Commands that wait for others: AXIS_REF_SM3.waiting.
+constexpr size_t kMostWaiting = 8;
+
 enum class Outcome : uint8_t { Idle, Running, Done, Aborted, Failed };
 
 // ---- cycle (cycle.cpp)
@@ -44,6 +47,13 @@ void afterTask(const rung_context* ctx, Axis& axis);
 void fail(Axis& axis, Error error);
 bool isPowered(const Axis& axis);
 bool isMoving(const Axis& axis);
+
+// ---- the drive before it gets power, and its objects (configuration.cpp)
+
+// One cycle: writes start-up objects, then checks the process data. The axis has no power before it is complete.
+void configure(const rung_context* ctx, Axis& axis);
+// One cycle of an access by the service channel: a rung_object_result.
+int64_t accessObject(const rung_context* ctx, Axis& axis, rung_sm3_basic::AXIS_OBJECT_ACCESS_type& access);
 
 // ---- motion (motion.cpp)
 
@@ -59,26 +69,36 @@ bool isFinite(double value);
 // The set values at the begin of the cycle, with what is superimposed; where the last command ended in this cycle,
 // those of its end.
 State startState(const Axis& axis);
+// The state in which a request begins: that at the end of the buffer where it has a target, if the request waits.
+State beginState(const Axis& axis, const Request& request);
 // The period of positions, 0: linear. A position as the program sees it.
 double period(const Axis& axis);
 double shown(const Axis& axis, double position);
 // The kernel's position for one that the program gives.
 double inner(const Axis& axis, double position);
-// The target on a modulo axis for a direction; `direction` is an MC_Direction.
+// The target on a modulo axis for a direction, from where the request will begin; `direction` is an MC_Direction.
 double turned(const Axis& axis, const Request& request, double position, int16_t direction);
+// Sets the target for a position of a modulo axis. That of a command that waits for one without a target is found when
+// it begins.
+void aim(const Axis& axis, Request& request, double position, int16_t direction);
 
 // The plan of a request from a state, with the factors of the override.
 Result plan(const Axis& axis, const Request& request, const State& from, Profile& profile);
 // The same without the velocity factor, for a block whose velocity comes from elsewhere; the ramps are scaled.
 Result planUnscaled(Axis& axis, const Request& request, const State& from, Profile& profile);
 
-// Makes a new command the owner, or the one that follows it. Returns false when the request cannot be planned.
+// Whether the command with this serial is in the buffer.
+bool isWaiting(const Axis& axis, uint32_t serial);
+// Makes a new command the owner, or puts it into the buffer. Returns false when the request cannot be planned, when the
+// buffer is full, and when a command would wait for itself.
 bool begin(Axis& axis, Command& command, const Request& request);
 // The owner with new parameters.
 bool renew(Axis& axis, const Command& command, const Request& request);
 // A superimposed motion; a shift of the master.
 bool beginExtra(Axis& axis, Command& command, const Request& request);
 bool beginPhase(Axis& axis, Command& command, const Request& request);
+// What is superimposed becomes part of the motion, and its command is aborted.
+void mergeExtra(Axis& axis);
 
 // Computes the set values of this cycle, once.
 void advance(Axis& axis);

@@ -39,7 +39,7 @@ void Call::update() {
   }
   const uint32_t serial = command_.serial_;
   if (serial == 0) return;  // launched
-  if (serial == axis_->owner_ || serial == axis_->next_owner_ || serial == axis_->extra_.owner_ ||
+  if (serial == axis_->owner_ || isWaiting(*axis_, serial) || serial == axis_->extra_.owner_ ||
       serial == axis_->phase_.owner_)
     return;
   command_.shown_ = 0;

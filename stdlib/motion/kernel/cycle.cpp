@@ -99,7 +99,7 @@ void takePower(Axis& a) {
   const bool was = a.bRegulatorRealState_ != 0;
   if (hasDrive(a)) {
     const uint16_t status = driveOf(a).statusword;
-    const bool enabled = a.bCommunication_ != 0 && (status & kStateMask) == kEnabled;
+    const bool enabled = a.bCommunication_ != 0 && (status & kStateMask) == kEnabled && a.eConfiguration_ == complete_;
     a.bRegulatorRealState_ = enabled ? 1 : 0;
     a.bDriveStartRealState_ = enabled && a.bDriveStart_ != 0 ? 1 : 0;
     if (was && a.bCommunication_ == 0 && a.nAxisState_ != errorstop_) fail(a, SMC_DI_GENERAL_COMMUNICATION_ERROR_);
@@ -167,11 +167,12 @@ void brake(Axis& a, double deceleration) {
 
 void endCommands(Axis& a, Error error) {
   a.failed_[0] = a.owner_;
-  a.failed_[1] = a.next_owner_;
-  a.failed_[2] = a.extra_.owner_;
-  a.failed_[3] = a.phase_.owner_;
+  a.failed_[1] = a.extra_.owner_;
+  a.failed_[2] = a.phase_.owner_;
+  for (size_t i = 0; i < kMostWaiting; ++i) a.failed_[3 + i] = i < a.waiting_count_ ? a.waiting_[i].owner_ : 0;
   a.failed_error_ = error;
-  a.owner_ = a.next_owner_ = a.extra_.owner_ = a.phase_.owner_ = 0;
+  a.owner_ = a.extra_.owner_ = a.phase_.owner_ = 0;
+  a.waiting_count_ = 0;
   a.coupled_ = 0;
   a.coupled_master_ = 0;
   a.homing_ = 0;
@@ -191,7 +192,8 @@ void stopWithoutRelease(Axis& a) {
 // What CiA 402 wants next on the way to where the axis should be.
 uint16_t controlword(const Axis& a) {
   const uint16_t status = a.drive_.statusword_;
-  const bool wants = a.bRegulatorOn_ != 0;
+  const bool is_prepared = a.eConfiguration_ == complete_ || a.eConfiguration_ == unknown_;
+  const bool wants = a.bRegulatorOn_ != 0 && is_prepared;
   if ((status & kFaultBit) != 0) return a.reset_request_ != 0 ? 0x80 : 0;
   if ((status & 0x4F) == 0x40) return wants ? 0x06 : 0;
   switch (status & kStateMask) {
@@ -245,6 +247,7 @@ void beforeTask(const rung_context* ctx, Axis& a) {
   takeTaskCycle(ctx, a);
   if (hasDrive(a)) receive(ctx, a);
   takeActualValues(a);
+  configure(ctx, a);
   takePower(a);
   watchDrive(a);
   stopWithoutRelease(a);

@@ -8,7 +8,8 @@ namespace {
 
 using namespace rung_sm3_basic;
 
-constexpr double kTolerance = 1e-9;  // of a cycle: a profile that ends so shortly after it ends with it
+constexpr double kTolerance = 1e-9;      // of a cycle: a profile that ends so shortly after it ends with it
+constexpr double kSamePosition = 1e-12;  // of a turn: rounding must not cost a whole turn
 
 Profile& profileOf(double (&words)[50]) { return *reinterpret_cast<Profile*>(words); }
 const Profile& profileOf(const double (&words)[50]) { return *reinterpret_cast<const Profile*>(words); }
@@ -27,15 +28,6 @@ void setMotion(Axis& a, const State& state) {
   a.acceleration_ = state.acceleration;
 }
 
-// What was superimposed becomes part of the motion.
-void mergeExtra(Axis& a) {
-  setBase(a, {a.base_position_ + a.extra_.base_position_, a.base_velocity_ + a.extra_.base_velocity_,
-              a.base_acceleration_ + a.extra_.base_acceleration_});
-  setMotion(a, {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_,
-                a.acceleration_ + a.extra_.acceleration_});
-  a.extra_ = {};
-}
-
 Ramp rampOf(const Axis& a, const Request& request) {
   if (a.eRampType_ == sin2_) return Ramp::Sin2;
   if (a.eRampType_ == quadratic_smooth_) return Ramp::QuadraticSmooth;
@@ -51,7 +43,7 @@ bool replan(Axis& a, const State& from) {
 }
 
 void noteDone(Axis& a, uint32_t serial) {
-  for (size_t i = 3; i > 0; --i) a.ended_[i] = a.ended_[i - 1];
+  for (size_t i = sizeof a.ended_ / sizeof a.ended_[0] - 1; i > 0; --i) a.ended_[i] = a.ended_[i - 1];
   a.ended_[0] = serial;
 }
 
@@ -73,16 +65,20 @@ uint32_t adopt(Axis& a, Command& command) {
 }
 
 void moveOwner(Axis& a);
+double turnedFrom(const Axis& a, const Request& request, double position, int16_t direction, const State& from);
 
-// The buffered command takes over from a state, `rest` seconds before the end of the cycle.
+void removeWaiting(Axis& a, size_t index);
+
+// The first buffered command takes over from a state, `rest` seconds before the end of the cycle.
 void beginNext(Axis& a, State from, double rest) {
-  if (a.next_request_.is_relative_ != 0) {
-    a.next_request_.target_ += from.position;
-    a.next_request_.is_relative_ = 0;
-  }
-  a.request_ = a.next_request_;
-  a.owner_ = a.next_owner_;
-  a.next_owner_ = 0;
+  a.request_ = a.waiting_[0].request_;
+  a.owner_ = a.waiting_[0].owner_;
+  removeWaiting(a, 0);
+  if (a.request_.is_relative_ != 0) a.request_.target_ += from.position;
+  a.request_.is_relative_ = 0;
+  if (a.request_.turns_ != 0)
+    a.request_.target_ = turnedFrom(a, a.request_, a.request_.position_, a.request_.direction_, from);
+  a.request_.turns_ = 0;
   a.nAxisState_ = a.request_.state_;
   a.supervised_ = a.cycle_;
   if (motionOf(a.request_) == Motion::Follow) {  // it begins with the next cycle
@@ -122,7 +118,7 @@ void endProfile(Axis& a, double over) {
   }
   const bool goes_on = motionOf(a.request_) != Motion::Position && motionOf(a.request_) != Motion::Brake;
   if (motionOf(a.request_) == Motion::Continuous) a.nAxisState_ = continuous_motion_;
-  if (a.next_owner_ != 0 && motionOf(a.request_) != Motion::Brake) {
+  if (a.waiting_count_ != 0 && motionOf(a.request_) != Motion::Brake) {
     const bool is_halt = a.request_.end_velocity_ == 0 && a.nAxisState_ == discrete_motion_;
     if (motionOf(a.request_) == Motion::Position || is_halt) noteEnd(a, at_end);
     beginNext(a, {profile.end_position, profile.end_velocity, 0}, at_end);
@@ -227,9 +223,25 @@ void watch(Axis& a) {
   if (!grows && exceeds(fabs(acceleration), a.fMaxDeceleration_)) return fail(a, SMC_VD_MAX_DECELERATION_EXCEEDED_);
 }
 
-// The velocity at which one command hands over to the next without a stop; signed.
-double blendVelocity(const Axis& a, const Request& next) {
-  const double first = a.request_.velocity_, second = next.velocity_;
+// Where the owner and the first `count` commands of the buffer end; false: one of them has no target, or not yet.
+bool endOf(const Axis& a, size_t count, double& position) {
+  const auto hasTarget = [](const Request& request) {
+    return motionOf(request) == Motion::Position || motionOf(request) == Motion::Continuous;
+  };
+  position = a.request_.target_;
+  bool is_known = hasTarget(a.request_);
+  for (size_t i = 0; i < count; ++i) {
+    const Request& request = a.waiting_[i].request_;
+    const bool is_relative = request.is_relative_ != 0;
+    is_known = hasTarget(request) && request.turns_ == 0 && (is_known || !is_relative);
+    position = is_relative ? position + request.target_ : request.target_;
+  }
+  return is_known;
+}
+
+// The velocity, signed, at which `before`, a motion over `way` to `end`, hands over to the next one without a stop.
+double blendVelocity(const Request& before, double way, double end, const Request& next) {
+  const double first = before.velocity_, second = next.velocity_;
   double velocity = 0;
   switch (static_cast<MC_BUFFER_MODE_type>(next.buffer_mode_)) {
     case Aborting_:
@@ -239,13 +251,34 @@ double blendVelocity(const Axis& a, const Request& next) {
     case BlendingNext_: velocity = second; break;
     case BlendingHigh_: velocity = first > second ? first : second; break;
   }
-  const double way = a.request_.target_ - a.base_position_;
-  if (next.kind_ == static_cast<uint8_t>(Motion::Follow)) return way > 0 ? velocity : -velocity;
-  const double on = next.kind_ == static_cast<uint8_t>(Motion::Velocity)
-                        ? next.end_velocity_
-                        : (next.is_relative_ != 0 ? next.target_ : next.target_ - a.request_.target_);
+  if (motionOf(next) == Motion::Follow) return way > 0 ? velocity : -velocity;
+  const double on = motionOf(next) == Motion::Velocity ? next.end_velocity_
+                                                       : (next.is_relative_ != 0 ? next.target_ : next.target_ - end);
   if (way == 0 || on == 0 || (way > 0) != (on > 0)) return 0;  // it turns there
   return way > 0 ? velocity : -velocity;
+}
+
+// Lets the command before this one of the buffer arrive with the velocity that both agree on; before none, with 0.
+void blend(Axis& a, size_t index) {
+  Request& before = index == 0 ? a.request_ : a.waiting_[index - 1].request_;
+  if (motionOf(before) != Motion::Position) return;
+  double begin = a.base_position_, end = 0, velocity = 0;
+  const bool is_known = endOf(a, index, end) && (index == 0 || endOf(a, index - 1, begin));
+  if (is_known && index < a.waiting_count_)
+    velocity = blendVelocity(before, end - begin, end, a.waiting_[index].request_);
+  const bool is_faster = fabs(velocity) > before.velocity_;
+  const double last = is_faster ? velocity : 0, at_end = is_faster ? 0 : velocity;
+  if (before.last_velocity_ == last && before.end_velocity_ == at_end) return;
+  before.last_velocity_ = last;
+  before.end_velocity_ = at_end;
+  if (index != 0) return;
+  ++a.override_changes_;
+  a.advanced_ = a.cycle_ - 1;
+}
+
+void removeWaiting(Axis& a, size_t index) {
+  --a.waiting_count_;
+  for (size_t i = index; i < a.waiting_count_; ++i) a.waiting_[i] = a.waiting_[i + 1];
 }
 
 // To where the speed begins to rise to the last velocity; where the way is too short for that, as fast as it goes.
@@ -259,6 +292,33 @@ Result planLastVelocity(const Request& request, const State& from, const Limits&
   if ((way > 0) == (own > 0) && planPosition(profile, from, begin, own, limits, ramp) == Result::Ok) return Result::Ok;
   const Limits faster = {fabs(request.last_velocity_), limits.acceleration, limits.deceleration, limits.jerk};
   return planPosition(profile, from, request.target_, request.last_velocity_, faster, ramp);
+}
+
+double turnedFrom(const Axis& a, const Request& request, double position, int16_t direction, const State& from) {
+  const double turn = period(a);
+  if (turn == 0) return inner(a, position);
+  const double target = position - turn * floor(position / turn);
+  double way = target - shown(a, from.position);  // above -turn, below turn
+  if (way < -kSamePosition * turn) way += turn;
+  const double back = way <= kSamePosition * turn ? way : way - turn;
+  const auto direct = static_cast<MC_Direction_type>(direction);
+  bool goes_back = false;
+  switch (direct) {
+    case positive_: break;
+    case negative_: goes_back = true; break;
+    case current_: goes_back = a.last_direction_ < 0; break;
+    case shortest_: goes_back = way > turn / 2; break;
+    case fastest_: {
+      Profile there, other;
+      Request forward = request, backward = request;
+      forward.target_ = from.position + way;
+      backward.target_ = from.position + back;
+      goes_back = plan(a, forward, from, there) == Result::Ok && plan(a, backward, from, other) == Result::Ok &&
+                  duration(other) < duration(there);
+      break;
+    }
+  }
+  return from.position + (goes_back ? back : way);
 }
 
 }  // namespace
@@ -343,36 +403,44 @@ Result planUnscaled(Axis& a, const Request& request, const State& from, Profile&
   return result;
 }
 
+State beginState(const Axis& a, const Request& request) {
+  double end = 0;
+  if (request.buffer_mode_ != Aborting_ && a.owner_ != 0 && endOf(a, a.waiting_count_, end)) return {end, 0, 0};
+  return startState(a);
+}
+
+void mergeExtra(Axis& a) {
+  setBase(a, {a.base_position_ + a.extra_.base_position_, a.base_velocity_ + a.extra_.base_velocity_,
+              a.base_acceleration_ + a.extra_.base_acceleration_});
+  setMotion(a, {a.position_ + a.extra_.position_, a.velocity_ + a.extra_.velocity_,
+                a.acceleration_ + a.extra_.acceleration_});
+  a.extra_ = {};
+}
+
 double turned(const Axis& a, const Request& request, double position, int16_t direction) {
-  const double turn = period(a);
-  const State from = startState(a);
-  if (turn == 0) return inner(a, position);
-  const double target = position - turn * floor(position / turn);
-  double way = target - shown(a, from.position);  // above -turn, below turn
-  if (way < 0) way += turn;
-  const double back = way == 0 ? 0 : way - turn;
-  const auto direct = static_cast<MC_Direction_type>(direction);
-  bool goes_back = false;
-  switch (direct) {
-    case positive_: break;
-    case negative_: goes_back = true; break;
-    case current_: goes_back = a.last_direction_ < 0; break;
-    case shortest_: goes_back = way > turn / 2; break;
-    case fastest_: {
-      Profile there, other;
-      Request forward = request, backward = request;
-      forward.target_ = from.position + way;
-      backward.target_ = from.position + back;
-      goes_back = plan(a, forward, from, there) == Result::Ok && plan(a, backward, from, other) == Result::Ok &&
-                  duration(other) < duration(there);
-      break;
-    }
-  }
-  return from.position + (goes_back ? back : way);
+  return turnedFrom(a, request, position, direction, beginState(a, request));
+}
+
+void aim(const Axis& a, Request& request, double position, int16_t direction) {
+  double end = 0;
+  const bool waits = request.buffer_mode_ != Aborting_ && a.owner_ != 0;
+  request.target_ = turned(a, request, position, direction);
+  request.turns_ = waits && period(a) != 0 && !endOf(a, a.waiting_count_, end) ? 1 : 0;
+  request.position_ = position;
+  request.direction_ = direction;
+}
+
+bool isWaiting(const Axis& a, uint32_t serial) {
+  for (size_t i = 0; i < a.waiting_count_; ++i)
+    if (a.waiting_[i].owner_ == serial) return true;
+  return false;
 }
 
 bool begin(Axis& a, Command& command, const Request& request) {
   const bool waits = request.buffer_mode_ != Aborting_ && a.owner_ != 0;
+  // A block has one command: a new edge takes the one that waits out of the buffer, but cannot wait for its own motion.
+  const bool is_own = command.axis_ == reinterpret_cast<uintptr_t>(&a) && command.serial_ != 0;
+  if (waits && is_own && command.serial_ == a.owner_) return false;
   Request wanted = request;
   const State from = startState(a);
   const bool after_end = a.ended_cycle_ == a.cycle_ && a.owner_ == 0 && a.advanced_ == a.cycle_;
@@ -386,24 +454,23 @@ bool begin(Axis& a, Command& command, const Request& request) {
     if (waits && probe.is_relative_ != 0) probe.target_ += from.position;
     if (plan(a, probe, from, profile) != Result::Ok) return false;
   }
-  adopt(a, command);
   if (waits) {
-    a.next_request_ = wanted;
-    a.next_owner_ = command.serial_;
-    const double blend = motionOf(a.request_) == Motion::Position ? blendVelocity(a, wanted) : 0;
-    if (blend != 0) {
-      if (fabs(blend) > a.request_.velocity_)
-        a.request_.last_velocity_ = blend;
-      else
-        a.request_.end_velocity_ = blend;
-      ++a.override_changes_;
-      a.advanced_ = a.cycle_ - 1;
+    for (size_t i = 0; is_own && i < a.waiting_count_; ++i) {
+      if (a.waiting_[i].owner_ != command.serial_) continue;
+      removeWaiting(a, i);
+      blend(a, i);
     }
+    if (a.waiting_count_ == kMostWaiting) return false;
+    a.waiting_[a.waiting_count_].request_ = wanted;
+    a.waiting_[a.waiting_count_].owner_ = adopt(a, command);
+    ++a.waiting_count_;
+    blend(a, a.waiting_count_ - 1u);
     return true;
   }
+  adopt(a, command);
   mergeExtra(a);
   a.owner_ = command.serial_;
-  a.next_owner_ = 0;
+  a.waiting_count_ = 0;
   a.coupled_ = 0;
   a.coupled_master_ = 0;
   a.request_ = wanted;
@@ -424,20 +491,29 @@ bool begin(Axis& a, Command& command, const Request& request) {
 }
 
 bool renew(Axis& a, const Command& command, const Request& request) {
-  Request& renewed = a.owner_ == command.serial_ ? a.request_ : a.next_request_;
-  if (renewed.target_ == request.target_ && renewed.end_velocity_ == request.end_velocity_ &&
-      renewed.velocity_ == request.velocity_ && renewed.acceleration_ == request.acceleration_ &&
-      renewed.deceleration_ == request.deceleration_ && renewed.jerk_ == request.jerk_)
+  size_t index = 0;
+  while (index < a.waiting_count_ && a.waiting_[index].owner_ != command.serial_) ++index;
+  const bool waits = index < a.waiting_count_;
+  Request& renewed = waits ? a.waiting_[index].request_ : a.request_;
+  // That of a motion to a position is 0, or what the next one asks for.
+  const bool same_end = motionOf(request) == Motion::Position || renewed.end_velocity_ == request.end_velocity_;
+  if (renewed.target_ == request.target_ && same_end && renewed.velocity_ == request.velocity_ &&
+      renewed.acceleration_ == request.acceleration_ && renewed.deceleration_ == request.deceleration_ &&
+      renewed.jerk_ == request.jerk_)
     return true;
   Profile profile;
   if (plan(a, request, startState(a), profile) != Result::Ok) return false;
   const int16_t mode = renewed.buffer_mode_;
   renewed = request;
   renewed.buffer_mode_ = mode;
-  if (a.owner_ != command.serial_) return true;
-  a.nAxisState_ = request.state_;
-  ++a.override_changes_;
-  a.advanced_ = a.cycle_ - 1;
+  if (!waits) {
+    a.nAxisState_ = request.state_;
+    ++a.override_changes_;
+    a.advanced_ = a.cycle_ - 1;
+  }
+  const size_t next = waits ? index + 1 : 0;
+  if (waits) blend(a, index);
+  if (next < a.waiting_count_) blend(a, next);
   return true;
 }
 
@@ -492,7 +568,7 @@ State phaseState(Axis& a) {
 }
 
 bool handOver(Axis& a, Outcome outcome) {
-  if (a.next_owner_ == 0) return false;
+  if (a.waiting_count_ == 0) return false;
   if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.coupled_ = 0;
   a.coupled_master_ = 0;

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
 #include <vector>
@@ -255,26 +256,37 @@ TEST(CamTable, NoticesPointsThatBecameBad) {
   EXPECT_FALSE(at(table, 300, segment = 2, value));
 }
 
-// The bound is generous, for a loaded machine: what it takes is printed.
+// 20 ns is what tests/bench/cams.sh asks for; here, on a loaded machine and in any build, a multiple of it.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+constexpr double kMostNanoseconds = 60;
+#else
+constexpr double kMostNanoseconds = 2000;
+#endif
+
+double cpuNanoseconds() {
+  timespec now = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
+}
+
 TEST(CamTable, IsFastWithACachedSegment) {
   const std::vector<Point> points = randomPoints(1001, 6);
   const Table table = tableOf(points);
-  constexpr int count = 200000;
+  constexpr int count = 100000;
   const double step = (table.end - table.start) / count;
   double best = 1e9, sum = 0;
-  for (int run = 0; run < 5; ++run) {
+  for (int run = 0; run < 20; ++run) {
     int32_t segment = 0;
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = cpuNanoseconds();
     for (int i = 0; i < count; ++i) {
       Value value = {};
       if (at(table, table.start + i * step, segment, value)) sum += value.position + value.slope + value.curvature;
     }
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-    best = std::min(best, taken.count() / count);
+    best = std::min(best, (cpuNanoseconds() - begin) / count);
   }
   RecordProperty("nanoseconds", std::to_string(best));
   std::printf("%.1f ns, %g\n", best, sum);
-  EXPECT_LT(best, 200);
+  EXPECT_LT(best, kMostNanoseconds);
 }
 
 double nanosecondsOfAJump(const Table& table) {
