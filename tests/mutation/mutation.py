@@ -158,14 +158,29 @@ class Tree:
             subprocess.run(["cmake", "-G", "Ninja", "-S", self.root, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
                             f"-DCMAKE_CXX_FLAGS_RELEASE={flags}", f"-DCMAKE_C_FLAGS_RELEASE={flags}"],
                            check=True, stdout=subprocess.DEVNULL)
-        result = subprocess.run(["ninja", "-C", build, "-k", "0", "-j", str(jobs), *targets], capture_output=True, text=True,
+        result = subprocess.run(["ninja", "-C", build, "-k", "30", "-j", str(jobs), *targets], capture_output=True, text=True,
                                 errors="replace")
         (self.folder / "build.log").write_text(result.stdout + result.stderr)
         return result.returncode == 0, result.stdout
 
-    def blamed(self, output, chosen):
+    def tryHeaders(self, chosen, jobs):
+        """A header that does not compile keeps every file from it: each is tried alone first. Out: what keeps it."""
+        headers = sorted({site.file for site in chosen if site.file.endswith(".h")})
+
+        def one(name):
+            standard = "c++17" if name.startswith(("stdlib/", "cam/table/")) else "c++20"
+            command = ["g++", f"-std={standard}", "-w", "-fsyntax-only", "-I", self.root, "-I",
+                       self.root / "stdlib/runtime/include", "-x", "c++", "-"]
+            result = subprocess.run(command, input=f'#include "{self.root / name}"\n', cwd=self.root, capture_output=True,
+                                    text=True, errors="replace")
+            return f"FAILED: {name}\n\n{result.stderr}" if result.returncode else ""
+
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            return self.blamed("\n".join(pool.map(one, headers)), chosen, only_errors=True)
+
+    def blamed(self, output, chosen, only_errors=False):
         """The keys of places that keep a file from compiling: those in the lines of its errors, or of its notes, or all in
-        the file."""
+        the file. With only_errors, an error elsewhere is the fault of none."""
         places = {}
         for site in chosen:
             places.setdefault(site.file, []).append(site)
@@ -178,8 +193,11 @@ class Tree:
                     name = os.path.relpath(os.path.join(self.root / "build", path), self.root)
                     if words is None or word in words:
                         hits |= {key(site) for site in places.get(name, []) if covers(site, int(line))}
-                if hits:
+                if hits or only_errors:
                     break
+            if only_errors:
+                blamed |= hits
+                continue
             if not hits:
                 for name, some in places.items():
                     if name in block.split("\n")[1] or name + ".o" in block.split("\n")[0]:
@@ -221,10 +239,12 @@ def prepare(tree, draw, names, jobs, targets):
     while True:
         crossing = tree.write(names, chosen)
         rejected.update({name: "crosses another" for name in crossing})
-        good, output = (False, "") if crossing else tree.build(jobs, targets)
+        blamed = set() if crossing else tree.tryHeaders(chosen, jobs)
+        good, output = (False, "") if crossing or blamed else tree.build(jobs, targets)
         if good:
             break
-        blamed = set() if crossing else tree.blamed(output, chosen)
+        if output:
+            blamed = tree.blamed(output, chosen)
         rejected.update({name: "does not compile" for name in blamed})
         tree.save()
         if not crossing:
