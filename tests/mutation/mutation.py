@@ -5,6 +5,8 @@ environment variable chooses the active one (mutant.h). The tests that evaluate 
 one fails; one that needs 30 s of a processor has noticed it too.
   tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--survivors | --list | --sample] [NUMBER...]
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
+--units      unit tests that are built and run as well, separated by commas, or all
+--native     so many conformance programs are compiled as well (160)
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
@@ -39,7 +41,6 @@ TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
 WALL_SECONDS = 400       # of one command
 FIRST, BATCH = 6, 40     # tests of a command: the first one small, since most mutants end there
-NATIVE = 160             # programs that are compiled as well
 
 
 def files():
@@ -237,7 +238,7 @@ def prepare(tree, draw, names, jobs, targets):
     rejected = tree.state["rejected"]
     chosen = draw.take(rejected, surplus=0.25)
     while True:
-        crossing = tree.write(names, chosen)
+        crossing = tree.write([name for name in names if (ROOT / name).is_file()], chosen)
         rejected.update({name: "crosses another" for name in crossing})
         blamed = set() if crossing else tree.tryHeaders(chosen, jobs)
         good, output = (False, "") if crossing or blamed else tree.build(jobs, targets)
@@ -259,7 +260,7 @@ def prepare(tree, draw, names, jobs, targets):
 # ---- the tests
 
 class Suite:
-    def __init__(self, tree, names):
+    def __init__(self, tree, names, native):
         self.tree = tree
         self.bin = tree.root / "build/bin"
         self.tests = []
@@ -275,7 +276,7 @@ class Suite:
         if listed.exists():
             self.tests += [f"unit/{name}" for name in listed.read_text().split() if (self.bin / name).exists()]
         programs = [name for name in self.tests if name.startswith("tests/conformance/") and name.endswith(".st")]
-        self.native = [f"native {name}" for name in sorted(random.Random(1).sample(programs, min(NATIVE, len(programs))))]
+        self.native = [f"native {name}" for name in sorted(random.Random(1).sample(programs, min(native, len(programs))))]
         self.records = {}  # test -> [stamp, passes, seconds, reached numbers]
         self.records_file = tree.folder / "tests.json"
         if self.records_file.exists():
@@ -491,7 +492,8 @@ def main():
     parser.add_argument("--count", type=int, default=int(os.environ.get("COUNT", "300")))
     parser.add_argument("--folder", default=os.path.join(tempfile.gettempdir(), "rung-mutation"))
     parser.add_argument("-j", type=int, default=os.cpu_count())
-    parser.add_argument("--units", default="", help="unit tests to build as well, or all")
+    parser.add_argument("--units", default="")
+    parser.add_argument("--native", type=int, default=160)
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
@@ -515,7 +517,7 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
-    suite = Suite(tree, names)
+    suite = Suite(tree, files(), options.native)
     suite.record(options.j)
 
     results_file = folder / f"results-{options.seed}.json"

@@ -48,7 +48,7 @@ class Site:
     def __init__(self, kind, begin, end, mutated, line, original):
         self.kind, self.begin, self.end, self.mutated, self.line, self.original = kind, begin, end, mutated, line, original
         self.in_constexpr = False   # inside of a constexpr function
-        self.constant = None        # (begin, end) of the word constexpr that has to become const
+        self.constant = None        # (begin, end) of a word constexpr that has to become const
         self.file = None
 
     def __str__(self):
@@ -281,7 +281,7 @@ class Reader:
         while k >= 0:
             token = self.tokens[k]
             if token.text == "}" and token.match >= 0:
-                if self.tokens[token.match].blank_before and self.tokens[token.match - 1].text != "=":
+                if self.tokens[token.match].blank_before and self.tokens[token.match - 1].text not in ("=", ",", "{", "("):
                     break
                 k = token.match - 1
                 continue
@@ -367,7 +367,8 @@ def built(text, numbered, include):
     edits = {}
     for _, site in inside:
         if site.constant:
-            edits[site.constant[0]] = (site.constant[1], "const")
+            has_const = re.match(r"\s+const\b", text[site.constant[1]:])
+            edits[site.constant[0]] = (site.constant[1], "" if has_const else "const")
 
     def render(begin, end, sites):
         out, at = [], begin
