@@ -8,6 +8,7 @@
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
+# mutation      300 mistakes in the compiler and the runtime, drawn at random: 95 % of them are noticed (COUNT, SEED)
 # profiles      five million motion profiles: limits, continuity, arrival, and no rival faster (COUNT, FIRST)
 # cams          200 random cams, 100 s of four slaves each: no set position further than 1e-9 of the stroke from the exact curve (COUNT, FIRST)
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
@@ -64,6 +65,8 @@ bodies() {
   tests/bodies/bodies.py
 }
 
+mutation() { tests/mutation/mutation.py; }
+
 profiles() {
   needs motion_profile_test
   RUNG_PROFILE_SEED=$first RUNG_PROFILE_COUNT=${COUNT:-1000000} "$bin/motion_profile_test"
@@ -113,11 +116,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies profiles cams kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan lateness asan debug tidy compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|profiles|cams|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
-    *) sed -n '2,19s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
+    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

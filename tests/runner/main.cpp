@@ -38,7 +38,7 @@ const char kHelp[] =
   docs/**.md, README.md     ```st broken, fixed, check, run, test; ```console
   samples/library/**.st     the diagrams in docs/library/diagrams are what these programs draw
   unit/NAME, tools/house    GoogleTest programs, differential; the checks of tools/precommit.sh
-  A run of everything writes build/test-results.tsv and compares docs/compliance.md with it.
+  A run of everything writes build/test-results.tsv and compares docs/compliance*.md with it.
 )";
 
 struct Arguments {
@@ -138,14 +138,15 @@ void writeRows(const Setting& setting, std::vector<Row> rows) {
   writeContent(setting.bin + "/../test-results.tsv", text);
 }
 
-// True when docs/compliance.md agrees with the results of this run.
+// True when docs/compliance*.md agree with the results of this run.
 bool complianceIsTrue(const Setting& setting) {
   Command check;
-  check.arguments = {setting.root + "/tools/compliance/compliance.sh", "--check", setting.bin + "/../test-results.tsv"};
+  check.arguments = {"/usr/bin/env", "BUILD=" + setting.bin + "/..", setting.root + "/tools/compliance/compliance.py",
+                     "--check", setting.bin + "/../test-results.tsv"};
   check.folder = setting.root;
   check.merged = true;
   const Output output = run(check);
-  if (output.exit_code != 0) std::printf("FAILED docs/compliance.md\n%s", output.out.c_str());
+  if (output.exit_code != 0) std::printf("FAILED docs/compliance*.md\n%s", output.out.c_str());
   return output.exit_code == 0;
 }
 

@@ -20,7 +20,7 @@ struct Setting {
   std::vector<std::string> wanted;  // FILE arguments, relative to the root; empty: everything
 };
 
-// One row of test-results.tsv, from which docs/compliance.md is made.
+// One row of test-results.tsv, from which docs/compliance*.md are made.
 struct Row {
   std::string file, test;
   bool passed;

@@ -1,5 +1,6 @@
 // Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential tests and
-// of the library bodies that some test must miss, and the checks of tools/house/checks.
+// of the library bodies that some test must miss, what finds the mutants of the compiler, and the checks of
+// tools/house/checks.
 #include <cstdlib>
 
 #include "tests/runner/diff.h"
@@ -98,6 +99,11 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
                                        {"/usr/bin/env", "BUILD=" + setting.bin + "/..",
                                         setting.root + "/tests/bodies/bodies.py", "--sample", "-j", "1"});
                     }});
+  if (isWanted(setting, "unit/mutants"))
+    jobs.push_back(
+        {"unit/mutants", 5, [&setting] {
+           return runScript(setting, "unit/mutants", {setting.root + "/tests/mutation/mutation.py", "--sample"});
+         }});
   for (const std::string& script : filesBelow(setting, "tools/house/checks", ".sh")) {
     jobs.push_back(
         {script, 2, [&setting, script] { return runScript(setting, script, {setting.root + "/" + script}); }});
