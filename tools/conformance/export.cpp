@@ -35,15 +35,19 @@ std::vector<std::string> typesIn(std::string_view text) {
   return {found.begin(), found.end()};
 }
 
+bool isElementaryString(std::string_view word) { return word == "STRING" || word == "WSTRING"; }
+
 std::string firstError(const Checked& checked) {
   if (checked.errors.empty()) return "it cannot be read";
   const Complaint& first = checked.errors[0];
   return "line " + std::to_string(first.line) + ": " + first.code + ": " + first.message;
 }
 
+// A statement leaves an empty one: a body without any is not of edition 2.
 void blank(std::string& text, const Part& part) {
   for (size_t i = part.begin; i < part.end; ++i)
     if (text[i] != '\n') text[i] = ' ';
+  if (part.is_statement && part.begin < part.end) text[part.begin] = ';';
 }
 
 uint32_t lineAt(const std::string& text, size_t at) {
@@ -87,6 +91,12 @@ class Exporter {
       const size_t tab = line.find('\t');
       if (tab != std::string::npos) rules_[line.substr(0, tab)] = line.substr(tab + 1);
     }
+    const ReadResult words = readFile(options_.root + "/tools/conformance/words.tsv");
+    if (!words.error.empty()) return "tools/conformance/words.tsv: " + words.error;
+    for (const std::string& line : linesOf(words.content)) {
+      const size_t tab = line.find('\t');
+      if (tab != std::string::npos) words_[line.substr(0, tab)] = line[tab + 1] - '0';
+    }
     const ReadResult kept = readFile(options_.root + "/tools/conformance/kept.tsv");
     if (!kept.error.empty()) return "tools/conformance/kept.tsv: " + kept.error;
     for (const std::string& line : linesOf(kept.content)) {
@@ -94,6 +104,39 @@ class Exporter {
       if (tab != std::string::npos) kept_[line.substr(0, tab)] = line.substr(tab + 1);
     }
     return {};
+  }
+
+  // What the text has that its edition does not; empty: nothing.
+  std::string foreignWord(std::string_view text, int edition) const {
+    Scanner scanner(text);
+    std::string before;
+    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+      const std::string word = upper(scanner.textOf(unit));
+      if (unit.kind == UnitKind::Name) {
+        const auto found = word == "BIT" && before != ":" && before != "OF" ? words_.end() : words_.find(word);
+        const bool has_it = found == words_.end() || (found->second != 0 && found->second <= edition);
+        const bool is_instruction = word == "LD" || word == "LT" || word == "SET" || word == "RESET";
+        if (!has_it && !(is_instruction && !isFollowedBy(text, unit.end, '#') && !isPin(text, unit.end)))
+          return "`" + word + (found->second == 0 ? "` is not of the standard" : "` is of edition 3");
+        if ((word == "TIME" || word == "LTIME") && isFollowedBy(text, unit.end, '('))
+          return "`" + word + "()` is not of the standard";
+        if (isElementaryString(word) && isFollowedBy(text, unit.end, '('))
+          return "a string length in parentheses is not of the standard";
+        if (edition == 2 && word.starts_with("TO_")) return "`" + word + "` is of edition 3";
+      } else if (edition == 2 && before == "." && (word == "%" || unit.kind == UnitKind::Number)) {
+        return "the part of a bit string is of edition 3";
+      }
+      before = word;
+    }
+    return {};
+  }
+  static bool isFollowedBy(std::string_view text, size_t at, char c) {
+    const size_t next = text.find_first_not_of(" \n", at);
+    return next != std::string_view::npos && text[next] == c;
+  }
+  static bool isPin(std::string_view text, size_t at) {
+    const size_t next = text.find_first_not_of(" \n", at);
+    return next != std::string_view::npos && text.substr(next, 2) == ":=";
   }
 
   void refuse(const Program& program, const std::string& test, const std::string& reason) {
@@ -155,6 +198,13 @@ class Exporter {
     for (const char* name : names) {
       if (!isWanted(name)) continue;
       const size_t before = suite_.cases.size();
+      const auto kept =
+          kept_.find(std::string(name) + ":" + program.path + (draft.test.empty() ? "" : ":" + draft.test));
+      const std::string foreign = is_xml ? std::string() : foreignWord(draft.text, findProfile(name)->edition);
+      if (!foreign.empty() || kept != kept_.end()) {
+        if (why.empty() || std::string_view(name) == "ed3-text") why = foreign.empty() ? kept->second : foreign;
+        continue;
+      }
       std::string reason = program.expects ? exportErrors(program, draft, *findProfile(name))
                                            : exportRun(program, draft, *findProfile(name));
       made += suite_.cases.size() - before;
@@ -458,7 +508,7 @@ class Exporter {
     if (!removeErrors(scratch, alone, profile.dialect, due.line)) return false;
     control = alone;
     if (!removeErrors(scratch, control, profile.dialect, 0)) return false;
-    if (control.find_first_not_of(" \n") == std::string::npos) return false;
+    if (control.find_first_not_of(" \n;") == std::string::npos) return false;
     Case one = caseOf(program, draft, profile, "line_" + std::to_string(due.line));
     one.line = due.line;
     one.code = due.code;
@@ -493,7 +543,7 @@ class Exporter {
       if (other->line == 0) return false;
       std::vector<Part> parts = partsAround(text, dialect, other->line);
       std::erase_if(parts, [&](const Part& part) {
-        return text.find_first_not_of(" \n", part.begin) >= part.end ||
+        return text.find_first_not_of(" \n;", part.begin) >= part.end ||
                (kept != 0 && lineAt(text, part.begin) <= kept && kept <= lineAt(text, part.end));
       });
       const size_t level = tried[other->line]++;
@@ -506,6 +556,7 @@ class Exporter {
   const ExportOptions& options_;
   Suite& suite_;
   std::map<std::string, std::string> rules_, kept_;
+  std::map<std::string, int> words_;  // by word: the edition that has it
   std::string problem_;
 };
 

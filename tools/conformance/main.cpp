@@ -32,7 +32,7 @@ std::string copyRunner(const ExportOptions& options) {
   const fs::path from = fs::path(options.root) / "tools/conformance/runner";
   for (const auto& entry : fs::recursive_directory_iterator(from, error)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;
-    const fs::path to = fs::path(options.folder) / fs::relative(entry.path(), from);
+    const fs::path to = fs::path(options.folder) / entry.path().lexically_relative(from);
     fs::copy_file(entry.path(), to, fs::copy_options::overwrite_existing, error);
     if (error) return "cannot write `" + to.string() + "`: " + error.message();
   }

@@ -56,9 +56,11 @@ class Writer {
     if (tree_.files.empty()) return;
     for (const DeclId id : tree_.list(tree_.files[0].decls)) decls_.push_back(id);
     keeps_pragmas_ = std::find(program.features.begin(), program.features.end(), "4/1") != program.features.end();
-    noteGlobals();
     noteComments();
     noteSelf();
+    noteSemicolons();
+    noteLengths();
+    noteGlobals();
   }
 
   std::vector<Draft> drafts() {
@@ -110,7 +112,7 @@ class Writer {
         const auto& var = tree_.as<VarDecl>(v);
         if (!var.type) continue;
         const Range type = tree_.range(var.type);
-        const std::string written(text().substr(source_.at(type.begin), source_.at(type.end) - source_.at(type.begin)));
+        const std::string written = rendered(source_.at(type.begin), source_.at(type.end), base_);
         for (const Ident& name : tree_.list(var.names))
           globals_.push_back({upper(spelling(name.name)), spelling(name.name), written,
                               (section.h.bits & kConstant) != 0, sections_.size() - 1});
@@ -172,6 +174,31 @@ class Writer {
       if (units_[i].kind != UnitKind::Name || textOf(units_[i + 1]) != "^") continue;
       const std::string word = upper(textOf(units_[i]));
       if (word == "SUPER" || word == "THIS") base_.push_back({units_[i + 1].begin, units_[i + 1].end, {}});
+    }
+  }
+  // STRING(20) of codesys is STRING[20].
+  void noteLengths() {
+    for (size_t i = 0; i + 3 < units_.size(); ++i) {
+      const std::string word = upper(textOf(units_[i]));
+      if ((word != "STRING" && word != "WSTRING") || textOf(units_[i + 1]) != "(" || textOf(units_[i + 3]) != ")")
+        continue;
+      base_.push_back({units_[i + 1].begin, units_[i + 1].end, "["});
+      base_.push_back({units_[i + 3].begin, units_[i + 3].end, "]"});
+    }
+  }
+  // END_IF and the like end a statement, END_STRUCT a declaration: the standard wants a semicolon after them.
+  void noteSemicolons() {
+    for (size_t i = 0; i < units_.size(); ++i) {
+      if (units_[i].kind != UnitKind::Name || isInNetworks(units_[i].begin)) continue;
+      const std::string word = upper(textOf(units_[i]));
+      if (word != "END_IF" && word != "END_CASE" && word != "END_FOR" && word != "END_WHILE" && word != "END_REPEAT" &&
+          word != "END_STRUCT")
+        continue;
+      size_t next = i + 1;
+      while (next < units_.size() && (units_[next].kind == UnitKind::Comment || units_[next].kind == UnitKind::Pragma))
+        ++next;
+      const std::string_view after = next < units_.size() ? textOf(units_[next]) : std::string_view();
+      if (after != ";" && after != ":" && after != ")") base_.push_back({units_[i].end, units_[i].end, ";"});
     }
   }
   static bool isHeadLine(std::string_view comment) {
@@ -533,6 +560,10 @@ class Writer {
         return;
       }
       const Range range = tree_.range(id);
+      if (isNamed(holds, "SIZEOF")) {  // sizes in memory are not the standard's business
+        edits.push_back({source_.at(range.begin), source_.at(range.end), ";"});
+        continue;
+      }
       const std::string name = prefix + std::to_string(draft.watch.size() + 1);
       edits.push_back({source_.at(range.begin), source_.at(range.end),
                        "IF " + holds + " THEN IF " + name + " = 0 THEN " + name + " := 1; END_IF; ELSE " + name +
@@ -541,7 +572,7 @@ class Writer {
       draft.watch.push_back(std::string(kInstance) + "." + name);
       draft.checks.emplace_back(holds);
     }
-    if (assertions.empty()) {
+    if (draft.watch.empty()) {
       draft.reason = "the test asserts nothing";
       return;
     }
@@ -651,18 +682,22 @@ class Writer {
 
 template <class Id>
 void collectParts(const Source& source, Id id, size_t from, size_t to, std::vector<Part>& parts) {
-  if constexpr (!std::is_same_v<Id, ExprId> && !std::is_same_v<Id, TypeExprId>) {
-    Range range;
-    if constexpr (std::is_same_v<Id, DeclId>)
-      range = {source.tree.decl(id).begin, source.tree.decl(id).end};
-    else
-      range = source.tree.range(id);
+  const Tree& tree = source.tree;
+  if constexpr (std::is_same_v<Id, StmtId> || std::is_same_v<Id, DeclId>) {
+    Range range = tree.range(id);
+    if constexpr (std::is_same_v<Id, DeclId>) range = {tree.decl(id).begin, tree.decl(id).end};
     if (range.begin && range.end && source.sources.fileOf(range.begin) == source.file) {
       const size_t begin = source.at(range.begin), end = source.at(range.end);
-      if (begin < to && end > from) parts.push_back({begin, end});
+      if (begin < to && end > from) parts.push_back({begin, end, std::is_same_v<Id, StmtId>});
     }
   }
-  forEachChild(source.tree, id, [&](const auto& child) { collectParts(source, child, from, to, parts); });
+  forEachChild(tree, id, [&](const auto& child) {
+    if constexpr (std::is_same_v<Id, DeclId> && std::is_same_v<std::decay_t<decltype(child)>, DeclId>) {
+      // The only variable of a section goes with it: a section without any is not of edition 2.
+      if (tree.kind(id) == DeclKind::Section && tree.as<SectionDecl>(id).vars.count == 1) return;
+    }
+    collectParts(source, child, from, to, parts);
+  });
 }
 
 }  // namespace

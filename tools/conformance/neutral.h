@@ -33,6 +33,7 @@ std::vector<Draft> neutralDrafts(const Program& program);
 // declarations, POUs. As byte ranges. The line itself comes first.
 struct Part {
   size_t begin, end;
+  bool is_statement = false;
 };
 std::vector<Part> partsAround(const std::string& text, Dialect dialect, uint32_t line);
 

@@ -121,7 +121,7 @@ std::vector<std::string> filesBelow(const std::string& root, const std::string& 
   for (const auto& entry : fs::recursive_directory_iterator(root + "/" + folder, error)) {
     const std::string ending = entry.path().extension().string();
     if (std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
-    paths.push_back(fs::relative(entry.path(), root).generic_string());
+    paths.push_back(entry.path().lexically_relative(root).generic_string());
   }
   std::sort(paths.begin(), paths.end());
   return paths;

@@ -91,7 +91,10 @@ def compare_traces(expected, actual):
 
 class Adapter:
     def __init__(self, command, timeout):
-        self.command, self.timeout = shlex.split(command), timeout
+        # The adapter runs in another folder: what names a file here must name it there.
+        self.command = [os.path.abspath(word) if os.sep in word and os.path.exists(word) else word
+                        for word in shlex.split(command)]
+        self.timeout = timeout
 
     def call(self, arguments, folder):
         """Exit code (None: ran too long), stdout, stderr. A new session, so that all it started ends with it."""
@@ -310,7 +313,7 @@ def side_by_side(reports):
         lines.append('%-9s ' % feature + ' '.join('%-*s' % (width, word) for word in words) + ' ' + name)
     for verdict in VERDICTS:
         lines.append('%-9s ' % verdict + ' '.join(
-            '%-*d' % (width, sum(row['verdict'] == verdict for row in report['rows'])) for report in reports))
+            '%-*d' % (width, sum(row['verdict'] == verdict for row in report['rows'])) for report in reports).rstrip())
     return '\n'.join(lines)
 
 
