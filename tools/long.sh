@@ -17,6 +17,7 @@
 # asan          the whole suite with ASan and UBSan
 # debug         the whole suite without optimization, with the invariants of the compiler checked
 # tidy          clang-tidy over every file
+# conformance   the conformance suite exported, every row of edition 3 or its reason, and run with Rung, interpreted and compiled
 # compilers     every conformance program's C++ compiled by clang++ too (needs clang++)
 set -eu
 cd "$(dirname "$0")/.."
@@ -110,17 +111,30 @@ debug() { suite debug; }
 
 tidy() { tools/clang_tidy.sh; }
 
+conformance() {
+  needs rung_conformance
+  local folder engine
+  folder=$(mktemp -d)
+  "$bin/rung_conformance" export "$folder"
+  for engine in interp native; do
+    "$folder/conformance.py" run --adapter "$folder/adapters/rung.py --rung $bin/rung --engine $engine" -q -v \
+      --profile ed3-text --profile ed3-oop --profile plcopen-xml --profile motion --timeout 120
+    "$folder/conformance.py" run --adapter "$folder/adapters/rung.py --rung $bin/rung --engine $engine --std iec2" -q -v --profile ed2-text --timeout 120
+  done
+  rm -r "$folder"
+}
+
 compilers() {
   needs rung_test_runner
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan lateness asan debug tidy compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan lateness asan debug tidy conformance compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|lateness|asan|debug|tidy|compilers) ;;
-    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|lateness|asan|debug|tidy|conformance|compilers) ;;
+    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

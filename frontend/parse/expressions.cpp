@@ -182,6 +182,12 @@ ExprId ExpressionParser::parseOperandName() {
     advance();
     return parsePostfix(ended(object));
   }
+  // SUPER(): the body of the base, as the standard writes it; CODESYS writes SUPER^().
+  if (at(Tok::Super) && peek(2) == Tok::RightParen) {
+    const ExprId object = build_.superObject(start);
+    advance();
+    return parsePostfix(ended(build_.deref(ended(object), start)));
+  }
   if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
   const ExprId name = build_.name(nameOf(t_), start);
   advance();

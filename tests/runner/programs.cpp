@@ -1,6 +1,8 @@
-// Programs with an expected trace, tests/programs/**.st, or a folder with test.txt and a project:
+// Programs with an expected trace, tests/programs/**.st and **.xml, or a folder with test.txt and a project:
 //   // run: --cycles 5 --watch a,b     options of `rung run`; --trace - is added
 //   // trace: cycle,time_ms,a,b        the expected CSV, line by line, computed by hand or from a manual
+//   // restart: 2                      cycles before a warm start, after which the trace begins; --set is for these
+//   alone
 //   // exit: 3                         when the program faults; `// expect:` then gives the heading on stderr
 // Each program runs once for each way (interpreted and compiled, -O0 and -O1).
 #include <algorithm>
@@ -28,6 +30,18 @@ Result runProgram(const Setting& setting, const std::string& file) {
       c.arguments.insert(c.arguments.end(), {"--trace", "-"});
     }
     c.folder = setting.root + "/" + folderOf(file);
+    if (const std::string cycles = valueOf(lines, "restart"); !cycles.empty()) {
+      c.arguments.insert(c.arguments.end(), {"--retain", freshFolder(setting) + "/state"});
+      Command before = c;
+      const auto count = std::find(before.arguments.begin(), before.arguments.end(), "--cycles");
+      if (count != before.arguments.end()) *(count + 1) = cycles;
+      run(before);
+      while (true) {
+        const auto set = std::find(c.arguments.begin(), c.arguments.end(), "--set");
+        if (set == c.arguments.end()) break;
+        c.arguments.erase(set, set + 2);
+      }
+    }
     const Output output = run(c);
     std::string problem;
     if (output.exit_code != exit_code) {
@@ -59,6 +73,8 @@ void addPrograms(const Setting& setting, std::vector<Job>& jobs) {
     });
     if (!part) files.push_back(file);
   }
+  for (const std::string& file : filesBelow(setting, "tests/programs", ".xml"))
+    if (!valuesOf(splitLines(readContent(setting.root + "/" + file)), "trace").empty()) files.push_back(file);
   for (const std::string& file : files) {
     jobs.push_back(
         {file, 2 * static_cast<int>(setting.ways.size()), [&setting, file] { return runProgram(setting, file); }});

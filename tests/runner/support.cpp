@@ -70,6 +70,8 @@ std::vector<std::string> valuesOf(const std::vector<std::string>& lines, const s
       if (!startsWith(line, prefix)) continue;
       std::string value = line.substr(prefix.size());
       if (comment[0] == '<' && value.ends_with("-->")) value.resize(value.size() - 3);
+      // A comment of XML has no two hyphens: \-\-std=iec3.
+      for (size_t at; comment[0] == '<' && (at = value.find("\\-")) != std::string::npos;) value.erase(at, 1);
       values.push_back(trimmed(value));
       break;
     }

@@ -1,0 +1,137 @@
+#include "tools/conformance/trial.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "frontend/source/scanner.h"
+#include "sema/project.h"
+#include "tools/conformance/program.h"
+#include "tools/driver/commands.h"
+#include "tools/driver/compile.h"
+
+namespace rung::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Keeps what a command says.
+class Listener : public driver::Sink {
+ public:
+  Listener() : stream_(open_memstream(&bytes_, &size_)) {}
+  ~Listener() override {
+    if (stream_ != nullptr) std::fclose(stream_);
+    std::free(bytes_);
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  void message(std::string_view text) override { said_ += text; }
+  std::string output(std::string_view text) override {
+    said_ += text;
+    return {};
+  }
+  void internalError(std::string_view what) override { said_ += what; }
+  std::FILE* programOutput() override { return stream_; }
+  std::FILE* programErrors() override { return stream_; }
+
+  std::string said() {
+    std::fflush(stream_);
+    return said_ + std::string(bytes_, size_);
+  }
+
+ private:
+  std::string said_;
+  char* bytes_ = nullptr;
+  size_t size_ = 0;
+  std::FILE* stream_;
+};
+
+driver::Options optionsOf(const std::string& file, Dialect dialect) {
+  driver::Options options;
+  options.inputs = {file};
+  options.dialect = dialect;
+  options.dialect_given = true;
+  options.jobs = 1;
+  return options;
+}
+
+std::set<std::string> namesIn(std::string_view text) {
+  std::set<std::string> names;
+  Scanner scanner(text);
+  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode())
+    if (unit.kind == UnitKind::Name) names.insert(upper(scanner.textOf(unit)));
+  return names;
+}
+
+}  // namespace
+
+Checked check(const std::string& file, Dialect dialect) {
+  Listener listener;
+  driver::PhaseTimes times;
+  driver::Compilation compilation(optionsOf(file, dialect), times, listener);
+  Checked checked;
+  compilation.check();
+  checked.refused = compilation.exitCode() == driver::kUsage;
+  compilation.finish();
+  for (const Diagnostic& diagnostic : compilation.diagnostics.all()) {
+    if (diagnostic.severity != Severity::Error) continue;
+    const Loc loc = diagnostic.loc ? compilation.sources.originalLocation(diagnostic.loc) : diagnostic.loc;
+    checked.errors.push_back(
+        {diagInfo(diagnostic.diag).code, diagnostic.message, diagnostic.loc ? compilation.sources.lineNumber(loc) : 0});
+  }
+  if (!compilation.project) return checked;
+  const std::set<std::string> named = namesIn(readFile(file).content);
+  for (const sema::Pou& pou : compilation.project->pous) {
+    if (!pou.library || pou.owner || !pou.name || pou.generic_of) continue;
+    const std::string name(compilation.names.string(pou.name));
+    if (named.count(upper(name)) != 0)
+      checked.library_pous.emplace_back(name, compilation.names.string(pou.library_name));
+  }
+  std::sort(checked.library_pous.begin(), checked.library_pous.end());
+  checked.library_pous.erase(std::unique(checked.library_pous.begin(), checked.library_pous.end()),
+                             checked.library_pous.end());
+  return checked;
+}
+
+Ran run(const std::string& file, Dialect dialect, const RunSetting& setting) {
+  Listener listener;
+  driver::Options options = optionsOf(file, dialect);
+  options.engine = driver::Engine::Interpreter;
+  const std::string trace = file + ".trace";
+  options.host_arguments = {"--cycles=" + std::to_string(setting.cycles), "--trace=" + trace,
+                            "--watch=" + joined(setting.watch, ",")};
+  options.host_arguments.insert(options.host_arguments.end(), setting.options.begin(), setting.options.end());
+  Ran ran;
+  ran.exit = driver::runRun(options, listener);
+  ran.messages = listener.said();
+  ran.trace = linesOf(readFile(trace).content);
+  std::error_code error;
+  fs::remove(trace, error);
+  return ran;
+}
+
+std::string asSt(const std::string& file) {
+  Listener listener;
+  driver::PhaseTimes times;
+  driver::Compilation compilation(optionsOf(file, Dialect::Codesys), times, listener);
+  if (!compilation.parse() || compilation.diagnostics.hasErrors() || compilation.tree.files.empty()) return {};
+  return std::string(compilation.sources.sourceText(compilation.tree.files[0].file));
+}
+
+std::string asXml(const std::string& file, const std::string& scratch) {
+  Listener listener;
+  driver::Options options = optionsOf(file, Dialect::Iec3);
+  options.to = driver::ConvertTo::Xml;
+  options.output = scratch;
+  if (driver::runConvert(options, listener) != driver::kSuccess) return {};
+  const std::string path = scratch + "/" + fs::path(file).stem().string() + ".xml";
+  std::string text = readFile(path).content;
+  std::error_code error;
+  fs::remove(path, error);
+  return text;
+}
+
+}  // namespace rung::conformance
