@@ -16,15 +16,16 @@ bool isBit(Context& context, TypeExprId written) {
   return isNamedBit(context, name) && !lookUpType(context, name);
 }
 
-// Forbids BIT outside of structures and blocks, where there is nothing to share a byte with.
-//   passes  TYPE t : STRUCT ready : BIT; END_STRUCT END_TYPE       fails  FUNCTION f VAR b : BIT; END_VAR      E0380
+// Tells of a BIT outside of structures and blocks, where there is nothing to share a byte with: it is a BOOL, as in the
+// tables of the NCT manual.
+//   passes  TYPE t : STRUCT ready : BIT; END_STRUCT END_TYPE       warns  FUNCTION f VAR b : BIT; END_VAR      W0393
 bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
   const bool block = var.pou && (context.symbols.pou(var.pou).kind == PouKind::FunctionBlock ||
                                  context.symbols.pou(var.pou).kind == PouKind::Class);
   const bool plain =
       var.section == SectionKind::Local || var.section == SectionKind::Input || var.section == SectionKind::Output;
   if (var.storage == Storage::Field && plain && (block || var.record)) return true;
-  context.report(diag::BitOutside, context.tree().loc(written));
+  context.report(diag::BitAsBool, context.tree().loc(written));
   return false;
 }
 

@@ -139,8 +139,8 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   if (found.entityKind() == EntityKind::Error) return types::kError;
   if (found.entityKind() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
-    context.report(diag::BitOutside, last.loc);
-    return types::kError;
+    context.report(diag::BitAsBool, last.loc);
+    return types::kBool;
   }
   const bool is_block =
       found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;

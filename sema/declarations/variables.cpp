@@ -290,9 +290,10 @@ void ensureVarType(Context& context, VarId id) {
   }
   ++context.scopes.depth;
   TypeId type = types::kError;
-  const bool bit = decl.type && isBit(there, decl.type);
-  if (bit)
-    type = mayBeBit(there, symbols.var(id), decl.type) ? types::kBool : types::kError;
+  const bool is_bit_type = decl.type && isBit(there, decl.type);
+  const bool bit = is_bit_type && mayBeBit(there, symbols.var(id), decl.type);
+  if (is_bit_type)
+    type = types::kBool;
   else if (decl.type)
     type = resolveType(there, decl.type);
   --context.scopes.depth;
