@@ -94,6 +94,7 @@ class CamReader {
     const auto row = std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& key) { return key.word == words_[0]; });
     if (row == kKeys.end()) {
       std::vector<std::string_view> keys;
+      keys.reserve(kKeys.size());
       for (const Key& key : kKeys) keys.push_back(key.word);
       // The first key misspelled is one mistake, and a file of another tool is one too.
       const bool is_first = seen_.empty() && !misses_name_;
