@@ -69,8 +69,8 @@ std::string KnotSystem::build(const FitRequest& request, std::vector<double> kno
     if (!fix(knotAt(point.x), 0, point.y / stroke)) return "two positions are wished at " + exactText(point.x);
   for (const Dwell& dwell : request.dwells) {
     const size_t from = knotAt(dwell.from), to = knotAt(dwell.to);
-    const std::string contradiction = "the dwell from " + exactText(dwell.from) + " to " + exactText(dwell.to) +
-                                      " contradicts another wish: the slave cannot rest at two positions";
+    std::string contradiction = "the dwell from " + exactText(dwell.from) + " to " + exactText(dwell.to) +
+                                " contradicts another wish: the slave cannot rest at two positions";
     for (size_t knot = from; knot <= to; ++knot) {
       if (!fix(knot, 1, 0) || !fix(knot, 2, 0)) return contradiction;
       if (knot > from && !unite(3 * from, 3 * knot, 0)) return contradiction;

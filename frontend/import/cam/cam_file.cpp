@@ -33,7 +33,7 @@ class CamReader {
   void read() {
     const size_t bad = findInvalidUtf8(source_);
     if (bad != std::string_view::npos) diagnostics_.report(diag::CamUtf8, locOf(source_.substr(bad))).length(1);
-    for (size_t begin = 0; begin < source_.size() && !diagnostics_.full();) {
+    for (size_t begin = 0; begin < source_.size() && !diagnostics_.full() && !is_foreign_;) {
       const size_t end = std::min(source_.find('\n', begin), source_.size());
       readLine(source_.substr(begin, end - begin));
       begin = end + 1;
@@ -94,7 +94,16 @@ class CamReader {
     const auto row = std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& key) { return key.word == words_[0]; });
     if (row == kKeys.end()) {
       std::vector<std::string_view> keys;
+      keys.reserve(kKeys.size());
       for (const Key& key : kKeys) keys.push_back(key.word);
+      // The first key misspelled is one mistake, and a file of another tool is one too.
+      const bool is_first = seen_.empty() && !misses_name_;
+      if (is_first) misses_name_ = true;
+      is_foreign_ = is_first && nearest(words_[0], keys).empty();
+      if (is_foreign_) {
+        report(diag::CamNoName, words_[0]);
+        return;
+      }
       report(diag::CamUnknownKey, words_[0], {words_[0]}).didYouMean(nearest(words_[0], keys));
       return;
     }
@@ -417,6 +426,7 @@ class CamReader {
   Span capacity_;
   Loc first_row_;
   bool has_rows_ = false, misses_name_ = false, is_wrong_ = false;
+  bool is_foreign_ = false;  // its first line has no key of a cam
 };
 
 constexpr std::array<CamReader::Key, 15> CamReader::kKeys = {{

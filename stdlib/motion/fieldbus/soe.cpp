@@ -50,7 +50,7 @@ size_t putText(const char* text, uint8_t* bytes, size_t room) {
   if (length + 4 > room) return 0;
   put(bytes, static_cast<uint32_t>(length), 2);
   put(bytes + 2, static_cast<uint32_t>(length), 2);
-  memcpy(bytes + 4, text, length);
+  memcpy(bytes + 4, text, length);  // NOLINT(bugprone-not-null-terminated-result): its length is in front of it
   return length + 4;
 }
 

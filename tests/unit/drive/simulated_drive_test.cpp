@@ -51,6 +51,53 @@ TEST(SimulatedDrive, SafeOpTakesNoOutputs) {
   EXPECT_EQ(0, test.data.communication);
 }
 
+// Each cycle has a logical write and a logical read, to which the slave adds 1 each; in SafeOp it takes no outputs.
+TEST(SimulatedDrive, TheWorkingCounterTellsThatTheSlaveTakesPart) {
+  TestDrive test;
+  test.step();
+  EXPECT_EQ(2, test.drive.working_counter_);
+  test.drive.requested_state_ = 4;
+  test.step();
+  EXPECT_EQ(1, test.drive.working_counter_);
+  test.drive.requested_state_ = 2;
+  test.step();
+  EXPECT_EQ(0, test.drive.working_counter_);
+  EXPECT_EQ(0, test.data.communication);
+}
+
+TEST(SimulatedDrive, OutputsThatAreRefusedDoNotArrive) {
+  TestDrive test;
+  test.enable(8);
+  test.data.target_position = 100;
+  test.step();
+  EXPECT_EQ(100, test.data.position);
+  test.drive.outputs_refused_ = 1;
+  test.data.target_position = 200;
+  test.step();
+  EXPECT_EQ(1, test.drive.working_counter_);
+  EXPECT_EQ(0, test.data.communication);
+  EXPECT_EQ(100, test.data.position);
+  test.drive.outputs_refused_ = 0;
+  test.step();
+  EXPECT_EQ(1, test.data.communication);
+  EXPECT_EQ(200, test.data.position);
+}
+
+TEST(SimulatedDrive, InputsThatAreRefusedStayAsTheyWere) {
+  TestDrive test;
+  test.enable(8);
+  test.drive.inputs_refused_ = 1;
+  test.data.target_position = 100;
+  test.step();
+  EXPECT_EQ(1, test.drive.working_counter_);
+  EXPECT_EQ(0, test.data.communication);
+  EXPECT_EQ(0, test.data.position);
+  EXPECT_EQ(100.0, test.drive.machine_position_) << "the drive has the set value";
+  test.drive.inputs_refused_ = 0;
+  test.step();
+  EXPECT_EQ(100, test.data.position);
+}
+
 TEST(SimulatedDrive, FaultWithCodeAndReset) {
   TestDrive test;
   test.enable(9);
