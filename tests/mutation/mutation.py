@@ -7,6 +7,7 @@ one fails; one that needs 30 s of a processor has noticed it too.
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
 --native     so many conformance programs are compiled as well (160)
+--most       so many tests of one mutant (all), for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
@@ -40,7 +41,7 @@ WEIGHTS = {"operator": 4, "check": 3, "constant": 2, "table": 1}
 TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
 WALL_SECONDS = 400       # of one command
-FIRST, BATCH = 6, 40     # tests of a command: the first one small, since most mutants end there
+FIRST, BATCH = 16, 40    # tests of a command: the first one small, since most mutants end there
 
 
 def files():
@@ -260,8 +261,8 @@ def prepare(tree, draw, names, jobs, targets):
 # ---- the tests
 
 class Suite:
-    def __init__(self, tree, names, native):
-        self.tree = tree
+    def __init__(self, tree, names, native, most):
+        self.tree, self.most = tree, most
         self.bin = tree.root / "build/bin"
         self.tests = []
         for name in names:
@@ -277,6 +278,7 @@ class Suite:
             self.tests += [f"unit/{name}" for name in listed.read_text().split() if (self.bin / name).exists()]
         programs = [name for name in self.tests if name.startswith("tests/conformance/") and name.endswith(".st")]
         self.native = [f"native {name}" for name in sorted(random.Random(1).sample(programs, min(native, len(programs))))]
+        self.words, self.texts = {}, {}  # by number, what is in quotes in the line of a place; texts of tests
         self.records = {}  # test -> [stamp, passes, seconds, reached numbers]
         self.records_file = tree.folder / "tests.json"
         if self.records_file.exists():
@@ -354,6 +356,8 @@ class Suite:
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for done, _ in enumerate(pool.map(one, wanted), 1):
                 if done % 500 == 0:
+                    with self.lock:
+                        self.records_file.write_text(json.dumps(self.records))
                     print(f"{done} of {len(wanted)} tests run without a mutant", flush=True)
         self.records_file.write_text(json.dumps(self.records))
         known = [test for test in self.tests + self.native if self.records[test][1]]
@@ -367,13 +371,24 @@ class Suite:
             for number in self.records[test][3]:
                 self.reaching.setdefault(number, []).append(test)
 
+    def text(self, test):
+        file = self.tree.root / test.removeprefix("native ")
+        if test not in self.texts:
+            self.texts[test] = file.read_text(errors="replace").lower() if file.is_file() else ""
+        return self.texts[test]
+
     def batches(self, number):
-        """The tests that evaluate a place: those that do little else first, the compiled programs last."""
+        """The tests that evaluate a place: first those that name what its line names, then the kinds of which many run in one
+        process, the compiled programs last."""
+        words = self.words.get(number, ())
+
         def order(test):
             _, _, seconds, numbers = self.records[test]
-            return (test.startswith("native "), seconds > 2, len(numbers), seconds)
+            is_dense = test.startswith(("tests/conformance/", "unit/", "tests/golden/ir/")) and not test.endswith(".test")
+            names_it = any(word in self.text(test) for word in words)
+            return (test.startswith("native "), seconds > 2, not names_it, not is_dense, hashlib.sha1(f"{number} {test}".encode()).digest())
 
-        tests = sorted(self.reaching.get(number, []), key=order)
+        tests = sorted(self.reaching.get(number, []), key=order)[:self.most]
         start = 0
         while start < len(tests):
             size = FIRST if start == 0 else BATCH
@@ -494,6 +509,7 @@ def main():
     parser.add_argument("-j", type=int, default=os.cpu_count())
     parser.add_argument("--units", default="")
     parser.add_argument("--native", type=int, default=160)
+    parser.add_argument("--most", type=int, default=10 ** 6)
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
@@ -517,13 +533,15 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
-    suite = Suite(tree, files(), options.native)
+    suite = Suite(tree, files(), options.native, options.most)
     suite.record(options.j)
 
     results_file = folder / f"results-{options.seed}.json"
     results = json.loads(results_file.read_text()) if results_file.exists() and options.survivors else {}
     known = equivalents()
     texts = {site.file: (ROOT / site.file).read_text() for site in mutants.values()}
+    suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(shown(site, texts[site.file])))}
+                   for number, site in mutants.items()}
     is_equivalent = {number: shown(site, texts[site.file]) in known for number, site in mutants.items()}
     wanted = options.numbers or [number for number in sorted(mutants) if not is_equivalent[number] and
                                  results.get(key(mutants[number])) != "noticed"]
