@@ -108,6 +108,7 @@ class Exporter {
   std::string foreignWord(std::string_view text, int edition) const {
     Scanner scanner(text);
     std::string before;
+    bool before_point = false;  // a name or an index
     for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
       const std::string word = upper(scanner.textOf(unit));
       if (unit.kind == UnitKind::Name) {
@@ -121,9 +122,11 @@ class Exporter {
         if (isElementaryString(word) && isFollowedBy(text, unit.end, '('))
           return "a string length in parentheses is not of the standard";
         if (edition == 2 && word.starts_with("TO_")) return "`" + word + "` is of edition 3";
-      } else if (edition == 2 && before == "." && (word == "%" || unit.kind == UnitKind::Number)) {
+      } else if (edition == 2 && before == "." && (word == "%" || unit.kind == UnitKind::Number) && before_point) {
         return "the part of a bit string is of edition 3";
       }
+      // 4.0 after REAL# is a number in three units.
+      if (word != ".") before_point = unit.kind == UnitKind::Name || word == "]";
       before = word;
     }
     return {};
