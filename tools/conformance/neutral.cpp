@@ -355,6 +355,67 @@ class Writer {
     forEachChild(tree_, id, [&](const auto& child) { findAssertions(child, found); });
   }
 
+  // ---- what only edition 3 has
+
+  bool isLiteral(ExprId id) const {
+    const ExprKind kind = tree_.kind(id);
+    if (kind == ExprKind::Unary) return tree_.kind(tree_.as<UnaryExpr>(id).operand) == ExprKind::Literal;
+    return kind != ExprKind::Binary && kind != ExprKind::Call;
+  }
+  void noteEdition3(TypeExprId id, Draft& draft) const {
+    if (tree_.kind(id) == TypeExprKind::Array)
+      for (const ArrayBound& bound : tree_.list(tree_.as<ArrayTypeExpr>(id).bounds))
+        for (const ExprId side : {bound.low, bound.high})
+          if (!side || !isLiteral(side) || tree_.kind(side) == ExprKind::Name)
+            draft.of_edition_3 = "array bounds that are not numbers are of edition 3";
+    if (tree_.kind(id) == TypeExprKind::Enum)
+      for (const EnumItem& item : tree_.list(tree_.as<EnumTypeExpr>(id).items))
+        if (item.value) draft.of_edition_3 = "items of enumerations with values are of edition 3";
+    if (tree_.kind(id) == TypeExprKind::Struct)
+      for (const DeclId field : tree_.list(tree_.as<StructTypeExpr>(id).fields))
+        if (tree_.as<VarDecl>(field).located) draft.of_edition_3 = "places in structures are of edition 3";
+  }
+  void noteEdition3(DeclId id, Draft& draft) const {
+    if (tree_.kind(id) == DeclKind::Var) {
+      const ExprId init = tree_.as<VarDecl>(id).init;
+      if (init && !isLiteral(init)) draft.of_edition_3 = "initial values that are expressions are of edition 3";
+    }
+    if (tree_.kind(id) != DeclKind::Pou) return;
+    const auto& pou = tree_.as<PouDecl>(id);
+    for (const DeclId s : tree_.list(pou.sections)) {
+      const SectionKind kind = tree_.as<SectionDecl>(s).section;
+      if (kind == SectionKind::Global) draft.of_edition_3 = "VAR_GLOBAL of a program is of edition 3";
+      if (pou.pou_kind == PouKind::Function && (kind == SectionKind::External || kind == SectionKind::Temp))
+        draft.of_edition_3 = "VAR_EXTERNAL and VAR_TEMP of functions are of edition 3";
+    }
+    if (pou.pou_kind != PouKind::Function) return;
+    if (!pou.result) draft.of_edition_3 = "functions without a result are of edition 3";
+    std::set<std::string> names;
+    addNames(begin(id), end(id), names);
+    if (std::any_of(globals_.begin(), globals_.end(), [&](const Global& g) { return names.count(g.key) != 0; }))
+      draft.of_edition_3 = "VAR_EXTERNAL and VAR_TEMP of functions are of edition 3";
+  }
+  void noteEdition3(ExprId, Draft&) const {}
+  void noteEdition3(StmtId id, Draft& draft) const {
+    if (tree_.kind(id) == StmtKind::Jump && draft.foreign.empty() && tree_.range(id).begin)
+      draft.foreign = "a jump in ST is not of the standard";
+    if (tree_.kind(id) != StmtKind::Call) return;
+    const ExprId call = tree_.as<CallStmt>(id).call;
+    if (!call || tree_.kind(call) != ExprKind::Call) return;
+    const ExprId callee = tree_.as<CallExpr>(call).callee;
+    if (tree_.kind(callee) != ExprKind::Name) return;
+    const std::string name = upper(spelling(tree_.as<NameExpr>(callee).name));
+    for (const DeclId d : decls_)
+      if (tree_.kind(d) == DeclKind::Pou && tree_.as<PouDecl>(d).pou_kind == PouKind::Function &&
+          upper(spelling(tree_.as<PouDecl>(d).name)) == name)
+        draft.of_edition_3 = "a function called as a statement is of edition 3";
+  }
+  template <class Id>
+  void findEdition3(Id id, Draft& draft) const {
+    noteEdition3(id, draft);
+    forEachChild(tree_, id, [&](const auto& child) { findEdition3(child, draft); });
+  }
+
   // ---- one draft
 
   void describe(DeclId id, Draft& draft) const {
@@ -488,7 +549,10 @@ class Writer {
     }
     const Needs needs = needsOf(test);
     for (const DeclId id : decls_)
-      if (std::find(needs.left_out.begin(), needs.left_out.end(), id) == needs.left_out.end()) describe(id, draft);
+      if (std::find(needs.left_out.begin(), needs.left_out.end(), id) == needs.left_out.end()) {
+        describe(id, draft);
+        findEdition3(id, draft);
+      }
     if (test) refuse(test, draft);
     if (!draft.reason.empty()) return draft;
 
@@ -504,6 +568,8 @@ class Writer {
       if (std::find(needs.left_out.begin(), needs.left_out.end(), id) == needs.left_out.end())
         declareExternals(id, edits);
     for (const DeclId id : decls_) declareAccess(id, false, edits);
+    if (!test && program_.expects)
+      for (const DeclId id : decls_) giveStatement(id, edits);
     std::string program;
     if (test) {
       program = draft.test;
@@ -543,6 +609,16 @@ class Writer {
     return out;
   }
 
+  // A body keeps a statement when those with errors are left out: one without any is not of edition 2.
+  void giveStatement(DeclId id, std::vector<Edit>& edits) const {
+    if (tree_.kind(id) != DeclKind::Pou) return;
+    const auto& pou = tree_.as<PouDecl>(id);
+    const bool has_body =
+        pou.pou_kind == PouKind::Program || pou.pou_kind == PouKind::FunctionBlock || pou.pou_kind == PouKind::Function;
+    if (!has_body || pou.body_kind != BodyKind::St || !pou.members.empty()) return;
+    edits.push_back({bodyOf(pou), bodyOf(pou), "VAR suite_idle : BOOL; END_VAR suite_idle := TRUE; "});
+  }
+
   void rewriteTest(DeclId test, std::vector<Edit>& edits, Draft& draft) const {
     std::vector<StmtId> assertions;
     findAssertions(test, assertions);
@@ -561,7 +637,7 @@ class Writer {
       }
       const Range range = tree_.range(id);
       if (isNamed(holds, "SIZEOF")) {  // sizes in memory are not the standard's business
-        edits.push_back({source_.at(range.begin), source_.at(range.end), ";"});
+        edits.push_back({source_.at(range.begin), source_.at(range.end), {}});
         continue;
       }
       const std::string name = prefix + std::to_string(draft.watch.size() + 1);
@@ -688,7 +764,7 @@ void collectParts(const Source& source, Id id, size_t from, size_t to, std::vect
     if constexpr (std::is_same_v<Id, DeclId>) range = {tree.decl(id).begin, tree.decl(id).end};
     if (range.begin && range.end && source.sources.fileOf(range.begin) == source.file) {
       const size_t begin = source.at(range.begin), end = source.at(range.end);
-      if (begin < to && end > from) parts.push_back({begin, end, std::is_same_v<Id, StmtId>});
+      if (begin < to && end > from) parts.push_back({begin, end});
     }
   }
   forEachChild(tree, id, [&](const auto& child) {

@@ -324,12 +324,18 @@ def write(path, text):
         file.write(text)
 
 
+def stop(message):
+    """Usage or I/O."""
+    sys.stderr.write('conformance.py: %s\n' % message)
+    sys.exit(2)
+
+
 def read_json(path):
     try:
         with open(path, encoding='utf-8') as file:
             return json.load(file)
     except (OSError, ValueError) as error:
-        sys.exit('conformance.py: %s: %s' % (path, error))
+        stop('%s: %s' % (path, error))
 
 
 def regressions(baseline, results):
@@ -346,8 +352,10 @@ def command_run(options):
              and (not options.case or any(fnmatch.fnmatch(case['id'], glob) for glob in options.case))
              and (not options.feature or set(options.feature) & set(case['features']))]
     if not cases:
-        sys.exit('conformance.py: no case matches')
+        stop('no case matches')
     adapter = Adapter(options.adapter, options.timeout)
+    if shutil.which(adapter.command[0]) is None:
+        stop('cannot start %s: No such file or directory' % adapter.command[0])
     suite = os.path.abspath(options.suite)
     results = []
     with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:

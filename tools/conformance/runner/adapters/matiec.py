@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adapter for matiec. --iec2c=PATH, --include=DIR (its lib folder), --flags="-l -p", --cc="gcc -O1"; see conformance.py for
+"""Adapter for matiec. --iec2c=PATH, --include=DIR (its lib folder), --flags="-l -p", --cc="gcc -O1 -fgnu89-inline"; see conformance.py for
 what an adapter does. iec2c writes C; the program that runs the cycles is written here, beside that C: it gives each
 located variable memory of its own, sets the time, and prints the variables that VARIABLES.csv describes."""
 import argparse
@@ -16,7 +16,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument('--iec2c', default='iec2c')
 parser.add_argument('--include', default='/usr/share/matiec/lib')
 parser.add_argument('--flags', default='')
-parser.add_argument('--cc', default='gcc -O1')
+parser.add_argument('--cc', default='gcc -O1 -fgnu89-inline')
 parser.add_argument('operation', choices=['check', 'run', 'restart'])
 parser.add_argument('source')
 parser.add_argument('rest', nargs='*')  # of run: CYCLES INTERVAL_MS WATCH [INPUTS]
