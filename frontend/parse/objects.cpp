@@ -1,15 +1,26 @@
 // Objects: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
 // CLASS and INTERFACE are POUs of parser.cpp.
+#include <algorithm>
+
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/parser.h"
 #include "frontend/source/dialect.h"
 
 namespace rung::text {
 
+// METHOD : INT on a line of its own: as a variable's declaration or as a statement it would end with a semicolon.
+static bool lineLacksSemicolon(const std::vector<Token>& tokens, size_t at) {
+  for (size_t i = at + 1; i < tokens.size() && (tokens[i].flags & kLineStart) == 0; ++i)
+    if (tokens[i].kind == Tok::Semicolon) return false;
+  return true;
+}
+
 // Keywords that are names unless a declaration begins with them: `METHOD Start`. Others become names here, so that the
 // parser and the block repair need no further check; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
 void resolveObjectKeywords(TokenStream& stream) {
   std::vector<Token>& tokens = stream.tokens;
+  const bool closes_methods = std::any_of(stream.blocks.begin(), stream.blocks.end(),
+                                          [&](uint32_t b) { return tokens[b].kind == Tok::EndMethod; });
   size_t kept = 0;
   for (const uint32_t i : stream.blocks) {
     Tok& k = tokens[i].kind;
@@ -21,7 +32,9 @@ void resolveObjectKeywords(TokenStream& stream) {
       const bool behind_operator = (before > Tok::Semicolon && before <= Tok::EqualLess) ||
                                    (before >= Tok::And && before <= Tok::Not) || before == Tok::Mod;
       const bool line_start = (tokens[i].flags & kLineStart) != 0;
-      if (!names_something || (!line_start && behind_operator)) {
+      const bool lost_its_name =
+          k == Tok::Method && line_start && !names_something && closes_methods && lineLacksSemicolon(tokens, i);
+      if ((!names_something && !lost_its_name) || (!line_start && behind_operator)) {
         k = Tok::Ident;
         continue;
       }

@@ -183,6 +183,12 @@ void Parser::parsePouName(PouDecl& d) {
 
 // [":" type] [";"], and the end of the header's line
 void Parser::parsePouResult(PouDecl& d, Tok word) {
+  // One token too many before the result.
+  if (word != Tok::Action && !atLineStart() && !at(Tok::Colon) && !isTypeWord(kind()) && peek() == Tok::Colon &&
+      (t_[1].flags & kLineStart) == 0) {
+    slip(diag::StrayToken, t_, {describe(t_)});
+    advance();
+  }
   if (word == Tok::Action) {
     accept(Tok::Colon);
   } else if (at(Tok::Colon)) {

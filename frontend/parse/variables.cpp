@@ -13,6 +13,7 @@ void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<Decl
     if (accept(Tok::Semicolon)) continue;
     if (at(end) || endsDeclarations(kind())) return;
     const Token* before = t_;
+    if (at(Tok::Comma)) lost_ = true;  // the name before it is missing
     skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), diag::NotADeclaration);
     const DeclId var = parseVar(section);
     if (var) out.push_back(var);

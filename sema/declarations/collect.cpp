@@ -290,15 +290,15 @@ ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc
   const ListId list_id{static_cast<uint32_t>(project.global_lists.size())};
   qualifiers.insert(keyOf(context, id), Entity::of(EntityKind::GlobalList, list_id.index));
   // The list's record shares a name space with POUs and types in generated code.
-  const NameId key = keyOf(context, id);
-  if (scopes.pous_and_types.find(key) || scopes.libraries.index.find(key))
-    id = context.names().intern(name + "_globals");
+  const NameId key = keyOf(context, id), other = context.names().intern(name + "_globals");
+  const NameId record = scopes.libraries.index.find(key) ? other : id;
+  if (scopes.pous_and_types.find(key)) id = other;
   project.global_lists.emplace_back();
   scopes.lists.emplace_back();
   GlobalList& list = project.global_lists.back();
   list.name = id;
   list.loc = loc;
-  list.record = context.types().addRecord(RecordKind::GlobalList, id);
+  list.record = context.types().addRecord(RecordKind::GlobalList, id == other ? other : record);
   scopes.lists.back().file = file;
   NamedType& named = addNamed(context, list.record);
   named.file = file;

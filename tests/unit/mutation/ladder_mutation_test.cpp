@@ -35,7 +35,8 @@ const std::vector<sema::LibraryFile>& libraryFiles() {
   static std::vector<std::unique_ptr<std::string>> texts;
   static const std::vector<sema::LibraryFile> files = [] {
     std::vector<sema::LibraryFile> list;
-    for (const auto& [library, folder] : {std::pair{"Standard", "stdlib/standard"}, {"Nct", "stdlib/nct"}})
+    for (const auto& [library, folder] :
+         {std::pair{"Standard", "stdlib/standard"}, {"System", "stdlib/system"}, {"Nct", "stdlib/nct"}})
       for (const std::string& path : pathsBelow(folder, ".st")) {
         texts.push_back(std::make_unique<std::string>(path));
         const char* name = texts.back()->c_str();

@@ -76,6 +76,7 @@ class RangeCheck {
     if (kind == ExprKind::Call && (!tree_.as<CallExpr>(id).callee || hasNestedIl(range))) return;
     const bool operator_name = kind == ExprKind::Name && isOperatorName(textOf(range));  // AND(a, b), a box ADD
     if (operator_name) return;
+    if (kind == ExprKind::Deref && textOf(range).back() != '^') return;  // of SUPER in `SUPER()`
     const bool bare_assignment = kind == ExprKind::Assign && textOf(range).front() != '(';
     if (bare_assignment) return;  // an expression only as a condition or in parentheses
     reparse(std::string(textOf(range)), [&](FileId file) {
