@@ -16,7 +16,7 @@ bool isBit(Context& context, TypeExprId written) {
   return isNamedBit(context, name) && !lookUpType(context, name);
 }
 
-// Tells of a BIT outside of structures and blocks, where there is nothing to share a byte with: it is a BOOL, as in the
+// A BIT outside of structures and blocks, where there is nothing to share a byte with, is a BOOL, as in the
 // tables of the NCT manual.
 //   passes  TYPE t : STRUCT ready : BIT; END_STRUCT END_TYPE       warns  FUNCTION f VAR b : BIT; END_VAR      W0393
 bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
