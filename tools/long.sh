@@ -13,6 +13,7 @@
 # cams          200 random cams, 100 s of four slaves each: no set position further than 1e-9 of the stroke from the exact curve (COUNT, FIRST)
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
+# service       the systemd unit of samples/service under systemd in a namespace (root; needs the package systemd)
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
 # asan          the whole suite with ASan and UBSan
 # debug         the whole suite without optimization, with the invariants of the compiler checked
@@ -95,6 +96,11 @@ tsan() {
   tools/house/tsan.sh
 }
 
+service() {
+  needs rung
+  tools/house/service.sh
+}
+
 lateness() {
   needs rung
   tests/bench/lateness.sh "${SECONDS_EACH:-60}"
@@ -130,11 +136,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan lateness asan debug tidy conformance compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conformance compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|lateness|asan|debug|tidy|conformance|compilers) ;;
-    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conformance|compilers) ;;
+    *) sed -n '2,22s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do
