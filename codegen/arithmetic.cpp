@@ -27,6 +27,15 @@ bool ExpressionWriter::isChain(const Expr& e) const {
   return is_arithmetic && widthOf(kind) > 1 && !TypeTable::isReal(kind);
 }
 
+// Nothing has to be cut, here or in what it is made of.
+bool ExpressionWriter::isUncut(ExprId id) const {
+  const Expr& e = expr(id);
+  if (!isChain(e)) return true;
+  if (e.proven == 0) return false;
+  if (const auto* negation = e.tryAs<ir::UnaryExpr>()) return isUncut(negation->operand);
+  return isUncut(e.as<ir::BinaryExpr>().left) && isUncut(e.as<ir::BinaryExpr>().right);
+}
+
 // Bits of a signed number that holds every value of the expression computed in int.
 uint32_t ExpressionWriter::plainBits(ExprId id) const {
   const Expr& e = expr(id);
@@ -130,6 +139,10 @@ void ExpressionWriter::arithmetic(ExprId id, Prec context) {
   }
   if (!types_.isSigned(kind) && width >= 32) {
     modular(id, width == 64, context);
+    return;
+  }
+  if (isUncut(id) && plainBits(id) <= 32) {
+    plain(id, context);
     return;
   }
   parenthesis(Prec::Unary, context);

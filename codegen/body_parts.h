@@ -38,6 +38,7 @@ class ExpressionWriter : public BodyPart {
   void plain(ExprId id, Prec context);  // in int, which holds every intermediate value
   void inPlainOrModular(ExprId id, uint32_t width);
   uint32_t plainBits(ExprId id) const;
+  bool isUncut(ExprId id) const;
   bool isChain(const Expr& expr) const;  // an operand of such an operator that may join its expression
   void divide(const ir::BinaryExpr& node, Prec context);
   void shift(const Expr& expr, Prec context);

@@ -83,8 +83,9 @@ void CallWriter::callStatement(StmtId id) {
   }
   if (plan.form == CallPlan::Form::Virtual) {
     dispatch(stmt, body_->stmt(id).loc);
-  } else if ((callee.kind == ir::BodyKind::Function || callee.native) && plan.form != CallPlan::Form::Sized) {
-    call(stmt.callee);
+  } else if ((callee.kind == ir::BodyKind::Function || callee.native || facts_.is_inlined[stmt.callee.index] != 0) &&
+             plan.form != CallPlan::Form::Sized) {
+    call(stmt.callee);  // the other blocks are declared with their records
   }
   CallText text;
   if (plan.is_measured) text.length = captured([&] { strings().lengthName(stmt.result); });

@@ -57,6 +57,10 @@ void ExpressionWriter::convert(ExprId id, Prec context) {
     return;
   }
   const TypeInfo& info = types_.info(types_.resolve(e.type));
+  if (e.proven != 0 && widthOf(target) < 32 && (widthOf(kindOf(from)) < 32 || kindOf(from) == TypeKind::DInt)) {
+    value(from, context);  // an int
+    return;
+  }
   if (info.kind != TypeKind::Subrange || types_.resolve(expr(from).type) == types_.resolve(e.type)) {
     convertScalar(e.type, e.as<ir::ConvertExpr>(), context);
     return;

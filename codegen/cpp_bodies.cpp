@@ -338,6 +338,7 @@ class Writer {
         file_.group.callees.push_back(record.body);
         call = ir::nativeName(module_, body) + "(rung_ctx_, &rung_self_)";
       } else {
+        if (facts_.is_inlined[record.body.index] != 0) file_.group.inlined.push_back(record.body);
         appendFunctionName(call, module_, body);
         call += "(rung_self_, rung_ctx_)";
       }

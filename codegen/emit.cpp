@@ -132,7 +132,7 @@ void appendNativeHeaders(const ir::Module& module, const EmitOptions& options, s
 std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options) {
   setPhase("codegen");
   const std::string name_space = mangle(options.module_name);
-  const Facts facts(module);
+  const Facts facts(module, options.optimize_all && !options.counts_steps);
 
   std::vector<Group> groups = makeGroups(module, facts);
   Marks marks;

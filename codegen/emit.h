@@ -13,7 +13,9 @@ namespace rung::codegen {
 struct EmitOptions {
   std::string module_name = "plc";  // --name: the prefix of every external symbol
   bool line_directives = true;
-  bool optimize_all = false;  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h)
+  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h), and inlines small blocks and
+  // functions of the project across files.
+  bool optimize_all = false;
   bool (*is_native_of_rung)(std::string_view function) = nullptr;  // the others get a header; none: no header
   bool bundled = false;       // a C++ file may include several sources: what two of them define is in a header
   bool with_tests = false;    // `rung test`: entries of the tests instead of tasks

@@ -29,9 +29,26 @@ bool isSmall(const Body& body) {
   return true;
 }
 
+// By body: tables of the module or of its classes name it, so that it needs a function of its own.
+std::vector<uint8_t> namedInTables(const ir::Module& module) {
+  std::vector<uint8_t> named(module.bodies.size());
+  for (const ir::ProgramInstance& program : module.programs) named[program.body.index] = 1;
+  for (const ir::Test& test : module.tests) named[test.body.index] = 1;
+  for (const ir::Dispatch& dispatch : module.dispatches)
+    for (const ir::BodyId body : dispatch.bodies) named[body.index] = 1;
+  return named;
+}
+
+// A pure function, or the body of a function block.
+bool isInlinedKind(const ir::Module& module, const Body& body) {
+  if (body.kind == ir::BodyKind::Function) return body.pure;
+  return body.kind == ir::BodyKind::Block &&
+         module.types.info(module.types.resolve(body.self)).record_kind == types::RecordKind::FunctionBlock;
+}
+
 }  // namespace
 
-Facts::Facts(const ir::Module& module) : MemoryBlocks(module), exposure(module) {
+Facts::Facts(const ir::Module& module, bool across_pous) : MemoryBlocks(module), exposure(module) {
   is_zeroing.resize(module.bodies.size(), kUnknown);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) is_zeroing[i] = onlyClears(module, ir::BodyId{i});
   is_inlined.resize(module.bodies.size());
@@ -41,9 +58,11 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module), exposure(module) 
     if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference)
       is_pointed[module.types.resolve(info.base).index] = 1;
   }
+  const std::vector<uint8_t> named = namedInTables(module);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const Body& body = module.bodies[i];
-    is_inlined[i] = body.kind == ir::BodyKind::Function && body.library && body.pure && !body.native && isSmall(body);
+    is_inlined[i] = (body.library || across_pous) && !body.native && body.cpp == 0 && !body.abstract && !body.test &&
+                    named[i] == 0 && isInlinedKind(module, body) && isSmall(body);
   }
 }
 

@@ -14,9 +14,10 @@
 namespace rung::codegen {
 
 struct Facts : ir::MemoryBlocks {
-  explicit Facts(const ir::Module& module);
+  // `across_pous`: bodies of the project are inlined too, so that what calls them depends on their text.
+  Facts(const ir::Module& module, bool across_pous);
 
-  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in its own header
+  std::vector<uint8_t> is_inlined;  // by body: a small pure function or block, in its own header
 
   std::vector<uint8_t> is_zeroing;  // by body: an initialiser that only clears its record; none is generated
   std::vector<uint8_t> is_pointed;  // by record: the target of some POINTER or REFERENCE

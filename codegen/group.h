@@ -30,7 +30,7 @@ struct Group {
   std::vector<ir::BodyId> virtuals;  // methods whose dispatch it uses
   std::vector<TypeId> classes;       // whose numbers it uses
   std::vector<NameId> libraries;     // whose headers with sized forms it includes
-  std::vector<ir::BodyId> inlined;   // small pure library functions that they call, each in its own header
+  std::vector<ir::BodyId> inlined;   // small functions and blocks that they call, each in its own header
   uint32_t data_count = 0;
 };
 

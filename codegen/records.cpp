@@ -108,7 +108,8 @@ std::string RecordDefinitions::definition(uint32_t row) const {
   appendRecordDefinition(out, types, type, facts_.is_pointed[type.index] != 0);
   bool has_code = false;
   for (ir::BodyId body : {record.init, record.body}) {
-    if (!body || module_.body(body).native || facts_.is_zeroing[body.index] != 0) continue;
+    if (!body || module_.body(body).native || facts_.is_zeroing[body.index] != 0 || facts_.is_inlined[body.index] != 0)
+      continue;
     has_code = true;
     out += "void ";
     appendFunctionName(out, module_, module_.body(body));

@@ -163,7 +163,9 @@ class Node {
 
 struct Expr : Node<ExprKind, 12> {
   uint8_t checks = 0;
-  uint16_t proven = 0;  // of an Index with a check: by bit, the dimensions whose index needs none
+  // Of an Index with a check: by bit, the dimensions whose index needs none. Of a sum, product, negation or Convert of
+  // integers: 1 when the value fits the type, so that nothing is cut.
+  uint16_t proven = 0;
   TypeId type;
   Loc loc;
 

@@ -422,11 +422,13 @@ ExprId Reader::conversion(types::Rounding rounding) {
     if (isPunct("("))
       while (token().kind != TokenKind::End && !accept(")")) ++at_;
   }
+  const bool is_proven = accept("=");
   const TypeId to = type();
   const ExprId operand = expr({});
   if (failed_) return {};
   b.loc = loc;
   const ExprId id = b.convert(to, operand, 0, rounding);
+  b.body.expr(id).proven = is_proven ? 1 : 0;
   const size_t end = at_;
   at_ = mark;
   const uint8_t set = checks(naturalCheck(types_, b.body.expr(id)));
@@ -435,11 +437,12 @@ ExprId Reader::conversion(types::Rounding rounding) {
   return id;
 }
 
-// add! int x, y   not bool x. The type is that of the operands.
+// add! int x, y   not bool x   sub= int x, y. The type is that of the operands.
 ExprId Reader::operation(Op op) {
   const Loc loc = builder_->loc;
   ++at_;
   const uint8_t set = checks(naturalCheck(op));
+  const bool is_proven = accept("=");
   const TypeId of = type();
   const bool is_unary = types::operandCount(op) == 1;
   const ExprId first = expr(of);
@@ -447,8 +450,10 @@ ExprId Reader::operation(Op op) {
   const ExprId second = is_unary ? ExprId{} : expr(of);
   if (failed_) return {};
   const TypeId result = types::isComparison(op) ? types::kBool : types_.resolve(of);
-  return is_unary ? builder_->add(loc, result, UnaryExpr{first, op}, set)
-                  : builder_->add(loc, result, BinaryExpr{first, second, op}, set);
+  const ExprId id = is_unary ? builder_->add(loc, result, UnaryExpr{first, op}, set)
+                             : builder_->add(loc, result, BinaryExpr{first, second, op}, set);
+  builder_->body.expr(id).proven = is_proven ? 1 : 0;
+  return id;
 }
 
 // A local, or a field of self.

@@ -396,10 +396,11 @@ void Printer::place(const Expr& e) {
   }
 }
 
-// A word, its checks, a type, and operands: `div! int x, y`.
+// A word, its checks, a type, and operands: `div! int x, y`, or `sub= int x, y` of which nothing is cut.
 void Printer::prefixed(const char* word, const Expr& e, TypeId of) {
   put(word);
   checks(e);
+  if (e.proven != 0) put("=");
   put(" ");
   type(of);
   put(" ");

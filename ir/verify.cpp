@@ -26,7 +26,8 @@
 //   14  Bits: of a place of integer or bit string type; BOOL, BYTE, WORD or DWORD, inside the width.
 //   15  Unary, Binary: the operator takes that many operands. Operands have one plain type, which is the operator's
 //       (comparisons are BOOL; a shift's right operand is any integer, a power's any number). Div check only on
-//       integer division, MOD and power; overflow check on numbers; no other.
+//       integer division, MOD and power; overflow check on numbers; no other. Only sums, products and negations of
+//       integers, and Convert between integers, can be marked as uncut.
 //   16  Convert: scalar to scalar, string to string, pointer to pointer; subrange, convert and overflow check only.
 //       Rounding away from zero: REAL or LREAL to integer.
 //   17  Select: a BOOL condition, two operands of its type.
@@ -694,6 +695,7 @@ void Verifier::conversion(const Expr& e) {
   require(e.as<ConvertExpr>().rounding == types::Rounding::ToEven ||
               (TypeTable::isReal(from) && TypeTable::isScalar(to) && !TypeTable::isReal(to) && to != TypeKind::Bool),
           16, [&] { return "a rounding of " + toString(typeOf(operand)) + " to " + toString(e.type); });
+  require(e.proven == 0 || (isIntegral(from) && isIntegral(to)), 16, "a conversion of other than integers has `=`");
   allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
 }
 
@@ -763,6 +765,8 @@ void Verifier::node(const Expr& e) {
 }
 
 void Verifier::operatorNode(const Expr& e, Op op, ExprId first, ExprId second) {
+  require(e.proven == 0 || op == Op::Add || op == Op::Sub || op == Op::Mul || op == Op::Neg, 15,
+          "an operator that cuts nothing has `=`");
   const std::string_view word = types::word(op);
   if (!require(types::operandCount(op) == (second ? 2 : 1), 15,
                [&] { return std::string(word) + " has the wrong number of operands"; }))

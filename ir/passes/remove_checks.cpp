@@ -664,6 +664,11 @@ class Analysis {
     changed_ = true;
   }
 
+  // Nothing of this value is cut. Only where it would cost: the C++ compiler computes in 32 bits.
+  void fits(Expr& e) const {
+    if (!asking_ && TypeTable::bitWidth(types_.plainKind(e.type)) < 32) e.proven = 1;
+  }
+
   // Memory that only ST writes holds a subrange's bounds; an image, a union or a pointer's target may not.
   bool keepsBounds(ExprId id) const {
     const Expr* e = &body_.expr(id);
@@ -711,6 +716,7 @@ class Analysis {
         if (!isIntegral(e.type)) break;
         const IntervalResult result = apply(op, a, {0, 0}, allOf(e.type, false));
         if (result.fits) clear(e, kCheckOverflow);
+        if (result.fits && op == Op::Neg) fits(e);
         return result.interval;
       }
       case ExprKind::Binary: return binary(id);
@@ -724,6 +730,8 @@ class Analysis {
         if (types_.plainKind(e.type) == TypeKind::Bool) break;  // <> 0
         if (a.within(target)) {
           clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
+          const TypeId from = body_.expr(operand).type;
+          if (types_.plainKind(from) != TypeKind::Bool && !types::isLossless(types_, from, e.type)) fits(e);
           return a;
         }
         return target;
@@ -806,6 +814,7 @@ class Analysis {
     if ((op == Op::Div || op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
     const IntervalResult result = apply(op, a, b, allOf(e.type, false));
     if (result.fits) clear(e, kCheckOverflow);
+    if (result.fits && (op == Op::Add || op == Op::Sub || op == Op::Mul)) fits(e);
     if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(e)) dropSign(id);
     return result.interval;
   }

@@ -65,8 +65,9 @@ inline MemoryAreas standardAreas() {
   return {{'I', AreaOwner::Input}, {'Q', AreaOwner::Output}, {'M', AreaOwner::Memory}};
 }
 // The two memories of the NCT ladder, which programs with a `.nct` file have besides: 10 000 words, and those up to
-// PLCNVRAM of the TimeSlice. NCT manual 2, 3.3.
-inline MemoryAreas nctAreas() { return {{'N', AreaOwner::Shared, 40000}, {'T', AreaOwner::Shared, 16000}}; }
+// PLCNVRAM of the TimeSlice; after these is what the exchange of both keeps (stdlib/nct/memory.st), which a task takes
+// and gives with them. NCT manual 2, 3.3.
+inline MemoryAreas nctAreas() { return {{'N', AreaOwner::Shared, 40000}, {'T', AreaOwner::Shared, 16000 + 2 * 5248}}; }
 
 // Of standardAreas().
 inline constexpr AreaId kInputArea{0}, kOutputArea{1}, kMemoryArea{2};

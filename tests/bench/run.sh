@@ -106,10 +106,10 @@ wrap() {
 }
 
 # What is measured is what ships: the shared library of `rung build`, in CPU time, in turn with the code by hand.
-measure_kernels() {  # kernels.st hand.cpp
+measure_kernels() {  # kernels.st hand.cpp [OPTION]
   local modules= checks rounds
   for checks in none default; do
-    "$rung" build "$1" --shared --checks=$checks -o "$work/$checks.so" || { echo "failed with exit code $?"; return; }
+    "$rung" build "$1" --shared ${3:-} --checks=$checks -o "$work/$checks.so" || { echo "failed with exit code $?"; return; }
     modules=$modules${modules:+:}$checks=$work/$checks.so
   done
   if grep -q measure_hand.h "$2"; then
@@ -200,10 +200,10 @@ kernels() {
   measure_kernels tests/bench/routines/kernels.st tests/bench/routines/hand.cpp
   echo "-- functions and blocks of libraries"
   measure_kernels tests/bench/functions/kernels.st tests/bench/functions/hand.cpp
-  echo "-- the same in a project whose code is in several files"
+  echo "-- routines of plant programs in a project whose code is in several files, -O2"
   { awk 'BEGIN { for (i = 100; i < 400; i++) print "FUNCTION Level" i " : DINT\nLevel" i " := " i ";\nEND_FUNCTION" }'
     cat tests/bench/routines/kernels.st; } >"$work/spread.st"
-  measure_kernels "$work/spread.st" tests/bench/routines/hand.cpp
+  measure_kernels "$work/spread.st" tests/bench/routines/hand.cpp -O2
   if [ -n "$other_kernels" ]; then
     echo "-- $other_kernels"
     wrap "$other_kernels" >"$work/other.st"

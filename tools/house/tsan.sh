@@ -3,7 +3,7 @@
 # tools/house/tsan in real time, with tasks that take turns and, where permitted, with SCHED_FIFO. The code of the
 # programs is not instrumented: plain globals are shared without order by design (docs/language.md). Called by
 # tools/long.sh.
-#   tools/house/tsan.sh [NAME]      only tsan/NAME.st
+#   tools/house/tsan.sh [NAME]      only tsan/NAME
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
 rung=${RUNG:-$here/build/bin/rung}
@@ -12,8 +12,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 runtime=$here/stdlib/runtime
 mkdir "$folder/host"
-flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime/host"
-ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
+flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime/host -I $here/stdlib/nct -I $here"
+ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp "$here"/stdlib/nct/control/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
   'g++ '"$flags"' -c {} -o '"$folder"'/host/$(basename $(dirname {}))_$(basename {} .cpp).o'
 gcc -std=c99 -shared -fPIC -I "$runtime/include" "$here/tests/programs/tasks/log_driver.c" -o "$folder/log.so"
 cat > "$folder/main.cpp" <<'END'
@@ -22,8 +22,12 @@ extern "C" const rung_module* plant_module(void);
 int main(int argc, char** argv) { return rung::host::applicationMain(*plant_module(), argc, argv); }
 END
 failed=0
-for program in "$here"/tools/house/tsan/${1:-*}.st; do
-  name=$(basename "$program" .st)
+for program in "$here"/tools/house/tsan/${1:-*}.st "$here"/tools/house/tsan/${1:-*}.nct; do
+  [ -e "$program" ] || continue
+  name=$(basename "$program")
+  name=${name%.*}
+  driver="--driver log.so=log"
+  [ -e "$here/tools/house/tsan/$name.st" ] || driver=""  # a ladder has no %I and %Q
   options=$(sed -n 's,^// options: ,,p' "$program")
   "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
   ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
@@ -31,7 +35,7 @@ for program in "$here"/tools/house/tsan/${1:-*}.st; do
   for rights in with without; do
     runner=""
     [ $rights = with ] || runner="setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-all"
-    (cd "$folder" && $runner "$name/app" --realtime --for 3s --driver log.so=log --retain "$name.kept" --retain-interval 5ms \
+    (cd "$folder" && $runner "$name/app" --realtime --for 3s $driver --retain "$name.kept" --retain-interval 5ms \
       --control "$here/tools/house/tsan/commands.txt" --trace "$name.csv" $options > "$name.out" 2>&1) || status=$?
     if grep -q 'WARNING: ThreadSanitizer' "$folder/$name.out" || [ "${status:-0}" != 0 ]; then
       echo "$name, $rights rights: status ${status:-0}"

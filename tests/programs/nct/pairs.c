@@ -21,7 +21,7 @@ static void exchange(void *data, uint32_t *slice, uint32_t *nonvolatile, bool is
   const int64_t begin = now();
   const uint32_t own = ++*number;
   slice[N_ACTMSG] = own;
-  while (is_cycle && now() - begin < 500000) continue;
+  while (is_cycle && now() - begin < 500000 + own * 7919 % 100000) continue; /* ends anywhere in a TimeSlice of 100 us */
   slice[CN_POTNO] = own;
   slice[MKBTNS0] += slice[P_CHSEL] != slice[CP_OFFSNO];
 }

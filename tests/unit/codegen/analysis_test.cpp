@@ -18,7 +18,7 @@ const char* const kLibrary =
     "function @Plain native Lib pure library { in s: string[80]; result int }\n";
 
 struct Analysed {
-  explicit Analysed(const std::string& text) : read(text + kLibrary), facts(read.module) {
+  explicit Analysed(const std::string& text) : read(text + kLibrary), facts(read.module, false) {
     EXPECT_TRUE(read.ok) << read.errors();
     body = read.find("B");
     if (body == nullptr) return;

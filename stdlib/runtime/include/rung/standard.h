@@ -104,13 +104,31 @@ static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, u
   return length1 + rung_string_part(out + length1, in2, limit - length1);
 }
 
+/* `from` comes after `to`. */
+static inline void rung_string_move_down(char* to, const char* from, uint32_t count) {
+  if (count >= 8 && count <= 64) {
+    uint64_t last, word;
+    memcpy(&last, from + count - 8, 8);
+    char* const end = to + count - 8;
+    while (to < end) {
+      memcpy(&word, from, 8);
+      memcpy(to, &word, 8);
+      to += 8;
+      from += 8;
+    }
+    memcpy(end, &last, 8);
+    return;
+  }
+  memmove(to, from, count);
+}
+
 /* From inside a string, in place: the rest moves. */
 static inline uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p,
                                                               char* out, uint32_t capacity) {
   if (out != in || l <= 0 || p <= 0 || (uint32_t)p > length || length > rung_string_limit(capacity))
     return rung_string_delete(in, length, l, p, out, capacity);
   const uint32_t begin = (uint32_t)p - 1, count = rung_min_u32((uint32_t)l, length - begin);
-  memmove(out + begin, out + begin + count, length - begin - count);
+  rung_string_move_down(out + begin, out + begin + count, length - begin - count);
   out[length - count] = 0;
   return length - count;
 }
