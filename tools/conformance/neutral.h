@@ -24,18 +24,9 @@ struct Draft {
   bool has_objects = false;            // classes, interfaces, methods, inheritance
   bool has_networks = false;           // in Rung's notation: to be printed as XML
   std::string reason;                  // why it cannot be exported
-  std::string foreign;                 // what it has that is in no edition
-  std::string of_edition_3;            // what it has that edition 2 does not
 };
 
 // The tests of a program, one draft each; without tests one draft of the whole.
 std::vector<Draft> neutralDrafts(const Program& program);
-
-// The parts of a text that can be left out, from the innermost to the outermost, that contain the line: statements,
-// declarations, POUs. As byte ranges. The line itself comes first.
-struct Part {
-  size_t begin, end;
-};
-std::vector<Part> partsAround(const std::string& text, Dialect dialect, uint32_t line);
 
 }  // namespace rung::conformance

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/children.h"
 #include "sema/project.h"
 #include "tools/conformance/program.h"
 #include "tools/driver/commands.h"
@@ -66,6 +67,36 @@ std::set<std::string> namesIn(std::string_view text) {
   return names;
 }
 
+// A conversion that was written has become the same node; its location is that of the function's name.
+bool isConversion(std::string_view name) {
+  const std::string word = upper(name);
+  return word.find("TO_") != std::string::npos || word.find("TRUNC") != std::string::npos;
+}
+
+// Lines with an implicit conversion from one elementary type to another, and with an integer literal used as a REAL.
+template <class Id>
+void collectConversions(const driver::Compilation& compilation, Id id, std::vector<uint32_t>& lines) {
+  const Tree& tree = compilation.tree;
+  if constexpr (std::is_same_v<Id, ExprId>) {
+    const types::TypeTable& table = compilation.project->types;
+    const Loc loc = tree.loc(id);
+    if (tree.kind(id) == ExprKind::Convert) {
+      const types::TypeKind from = table.plainKind(tree.expr(tree.as<ConvertExpr>(id).operand).type);
+      const types::TypeKind to = table.plainKind(tree.expr(id).type);
+      const bool is_text = types::TypeTable::isString(from) || types::TypeTable::isString(to);
+      const bool is_written = isConversion(compilation.sources.tokenAt(loc));
+      if (loc && !is_written && from != to && !is_text && types::TypeTable::isElementary(from) &&
+          types::TypeTable::isElementary(to))
+        lines.push_back(compilation.sources.lineNumber(loc));
+    } else if (tree.kind(id) == ExprKind::Literal && tree.as<LiteralExpr>(id).literal() == LiteralKind::Real && loc) {
+      const std::string_view token = compilation.sources.tokenAt(loc);
+      if (!token.empty() && token.find_first_not_of("0123456789_") == std::string_view::npos)
+        lines.push_back(compilation.sources.lineNumber(loc));
+    }
+  }
+  forEachChild(tree, id, [&](const auto& child) { collectConversions(compilation, child, lines); });
+}
+
 }  // namespace
 
 Checked check(const std::string& file, Dialect dialect) {
@@ -83,6 +114,9 @@ Checked check(const std::string& file, Dialect dialect) {
         {diagInfo(diagnostic.diag).code, diagnostic.message, diagnostic.loc ? compilation.sources.lineNumber(loc) : 0});
   }
   if (!compilation.project) return checked;
+  if (!compilation.tree.files.empty())
+    for (const DeclId id : compilation.tree.list(compilation.tree.files[0].decls))
+      collectConversions(compilation, id, checked.conversions);
   const std::set<std::string> named = namesIn(readFile(file).content);
   for (const sema::Pou& pou : compilation.project->pous) {
     if (!pou.library || pou.owner || !pou.name || pou.generic_of) continue;
