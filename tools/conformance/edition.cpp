@@ -185,6 +185,7 @@ class Productions {
       for (const DeclId inner : tree_.list(tree_.as<NamespaceDecl>(id).decls)) noteDeclaration(inner);
     if (tree_.kind(id) == DeclKind::Type) {
       const auto& type = tree_.as<TypeDecl>(id);
+      if (hasLength(type.type)) strings_.insert(key(type.name));
       if (type.type && tree_.kind(type.type) == TypeExprKind::Enum)
         for (const EnumItem& item : tree_.list(tree_.as<EnumTypeExpr>(type.type).items))
           items_.insert(key(item.item.name));
@@ -221,11 +222,14 @@ class Productions {
 
   // ---- types
 
-  bool isBlock(TypeExprId id) const {
-    if (!id || tree_.kind(id) != TypeExprKind::Named) return false;
+  // The name of a type that is written as one identifier.
+  std::string nameOf(TypeExprId id) const {
+    if (!id || tree_.kind(id) != TypeExprKind::Named) return {};
     const std::span<const Ident> path = tree_.list(tree_.as<NamedTypeExpr>(id).path);
-    return path.size() == 1 && (isIn(kFunctionBlocks, key(path[0].name)) || blocks_.count(key(path[0].name)) != 0);
+    return path.size() == 1 ? key(path[0].name) : std::string();
   }
+  bool isNamed(TypeExprId id, const std::set<std::string>& names) const { return names.count(nameOf(id)) != 0; }
+  bool isBlock(TypeExprId id) const { return isIn(kFunctionBlocks, nameOf(id)) || isNamed(id, blocks_); }
   bool hasLength(TypeExprId id) const {
     return id && tree_.kind(id) == TypeExprKind::String && tree_.as<StringTypeExpr>(id).length;
   }
@@ -277,7 +281,7 @@ class Productions {
       if (field.located) of3("places in structures are");
       if (field.names.count > 1) ofNone("two elements of a structure in one declaration are");
       if (isBlock(field.type)) of3("a function block in a structure is");
-      if (hasLength(field.type)) of3("STRING[n] in a structure is");
+      if (hasLength(field.type) || isNamed(field.type, strings_)) of3("STRING[n] in a structure is");
       if (field.type && tree_.kind(field.type) == TypeExprKind::Struct) ofNone("a structure without a name is");
     }
   }
@@ -303,8 +307,14 @@ class Productions {
       case DeclKind::Property: return ofNone("PROPERTY is");
       case DeclKind::Namespace: return of3("NAMESPACE is");
       case DeclKind::Using: return of3("USING is");
-      case DeclKind::Task: return;
+      case DeclKind::Task: return checkTask(tree_.as<TaskDecl>(id));
     }
+  }
+  void checkTask(const TaskDecl& task) {
+    bool has_priority = false;
+    for (const Argument& setting : tree_.list(task.settings))
+      has_priority = has_priority || (setting.pin.name && key(setting.pin.name) == "PRIORITY");
+    if (!has_priority) ofNone("a TASK without PRIORITY is");
   }
   void checkPou(const PouDecl& pou) {
     name(pou.name);
@@ -394,7 +404,10 @@ class Productions {
   }
   // Annex B.1.6: a simple instruction list, which neither jumps nor calls.
   void checkTransition(const SfcTransition& transition) {
+    const bool is_elsewhere = !transition.body && !transition.condition.value;
+    if (is_elsewhere || transition.from.empty()) of3("a condition apart from its transition is");
     if (!transition.body) return;
+    if (tree_.as<PouDecl>(transition.body).body_kind == BodyKind::St) ofNone("a condition of statements is");
     for (const IlInstruction& one : tree_.list(tree_.as<PouDecl>(transition.body).il))
       if (one.kind == IlKind::Jump || one.kind == IlKind::Call || one.kind == IlKind::Return)
         ofNone("a condition in IL that jumps, calls or returns is");
@@ -407,6 +420,7 @@ class Productions {
         ofNone("`" + source_.spelling(one.word) + "`, N without C, is");
       if ((one.flags & kIlAttempt) != 0) of3("`ST?` is");
       if ((one.flags & kIlDeferred) != 0) checkDeferred(one);
+      if (one.kind == IlKind::Binary && (one.flags & kIlInParens) != 0) ofNone("a list of operands in parentheses is");
     }
   }
   // `ADD( 5` ends its line: the operator's instructions follow, and the parenthesis closes on a line of its own.
@@ -507,7 +521,7 @@ class Productions {
   const Source& source_;
   const Tree& tree_;
   const Vocabulary& vocabulary_;
-  std::set<std::string> items_, blocks_, functions_;
+  std::set<std::string> items_, blocks_, functions_, strings_;
   std::string found_;
 };
 
