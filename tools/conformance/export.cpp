@@ -271,7 +271,7 @@ class Exporter {
   static std::string tryTest(const Draft& draft, const std::string& path, Case& one) {
     one.watch = draft.watch;
     one.checks = draft.checks;
-    one.cycles = 1;
+    one.cycles = std::max<int64_t>(draft.cycles, 1);
     if (!draft.done.empty()) {
       one.cycles = cyclesUntil(draft.done, path, one.profile->dialect);
       if (one.cycles == 0) return "`done` does not become TRUE";

@@ -19,7 +19,8 @@ struct Draft {
   std::string text;
   std::vector<std::string> watch;      // paths of its checks
   std::vector<std::string> checks;     // the assertions that they stand for
-  std::string done;                    // the path of the variable that ends it; empty: one cycle
+  std::string done;                    // the path of the variable that ends it; empty: see `cycles`
+  int64_t cycles = 0;                  // that it takes; 0: one
   std::vector<std::string> languages;  // ST, IL, SFC, LD, FBD, CFC
   bool has_objects = false;            // classes, interfaces, methods, inheritance
   bool has_networks = false;           // in Rung's notation: to be printed as XML
