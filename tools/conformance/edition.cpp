@@ -415,8 +415,7 @@ class Productions {
   // Operators of jumps, calls and returns have N only after C; a list of pins has a line for each.
   void checkInstructions(std::span<const IlInstruction> list) {
     for (const IlInstruction& one : list) {
-      const bool is_control = one.kind == IlKind::Jump || one.kind == IlKind::Call || one.kind == IlKind::Return;
-      if (is_control && (one.flags & kIlNegated) != 0 && (one.flags & kIlConditional) == 0)
+      if (isIn({"JMPN", "CALN", "RETN"}, key(one.word)))
         ofNone("`" + source_.spelling(one.word) + "`, N without C, is");
       if ((one.flags & kIlAttempt) != 0) of3("`ST?` is");
       if ((one.flags & kIlDeferred) != 0) checkDeferred(one);

@@ -220,7 +220,7 @@ class Writer {
     while (draft.text.ends_with("\n\n")) draft.text.pop_back();
     if (test) draft.text = withFewBlankLines(draft.text);
     if (hasName(draft.text, "ASSERT")) draft.reason = "assertions outside of the test";
-    if (hasName(draft.text, "TEST_ADVANCE"))
+    if (draft.reason.empty() && hasName(draft.text, "TEST_ADVANCE"))
       draft.reason = "TEST_ADVANCE inside of a statement: time passes within a cycle";
     return draft;
   }
