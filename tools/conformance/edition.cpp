@@ -347,7 +347,7 @@ class Productions {
         ofNone("two names in one declaration of VAR_EXTERNAL are");
       if (kind == SectionKind::External && hasLength(var.type)) of3("VAR_EXTERNAL of STRING[n] is");
       if (kind == SectionKind::External && var.init) ofNone("an initial value of VAR_EXTERNAL is");
-      if (kind == SectionKind::Temp && var.init) ofNone("an initial value of VAR_TEMP is");
+      if (kind == SectionKind::Temp && var.init) of3("an initial value of VAR_TEMP is");
       if (kind == SectionKind::InOut && var.init) ofNone("an initial value of VAR_IN_OUT is");
       if (kind == SectionKind::Temp && isBlock(var.type)) ofNone("a function block in VAR_TEMP is");
       if (pou.pou_kind == PouKind::Function && kind == SectionKind::Local && isBlock(var.type))

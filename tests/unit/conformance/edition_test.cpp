@@ -76,8 +76,8 @@ TEST_F(Edition, Declarations) {
          "a function block in a structure is of edition 3", kAll);
   expect(program("TYPE T5 : STRING[5]; S : STRUCT t : T5; END_STRUCT; END_TYPE", "VAR s : S; END_VAR", ";"),
          "STRING[n] in a structure is of edition 3", kAll);
-  expect(program("", "VAR_TEMP t : INT := 1; END_VAR", "t := 1;"),
-         "an initial value of VAR_TEMP is not of the standard", "an initial value of VAR_TEMP is not of the standard");
+  expect(program("", "VAR_TEMP t : INT := 1; END_VAR", "t := 1;"), "an initial value of VAR_TEMP is of edition 3",
+         kAll);
   expect("FUNCTION f : STRING[5]\nf := 'a';\nEND_FUNCTION\n", "STRING[n] as a result is of edition 3", kAll);
   expect(program("", "VAR x : INT := 1 + 2; END_VAR", "x := 1;"),
          "initial values that are expressions are of edition 3", kAll);
