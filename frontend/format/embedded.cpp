@@ -1,5 +1,5 @@
-// Files of TwinCAT and PLCopen: what is between the tags of declarations and of ST is formatted on its own, the rest is
-// copied.
+// Files of TwinCAT, PLCopen and IEC 61131-10: what is between the tags of declarations, of ST and of IL is formatted on
+// its own, the rest is copied.
 #include <algorithm>
 #include <array>
 
@@ -83,11 +83,13 @@ std::string encode(std::string_view text, std::string_view as) {
 }
 
 // White space at both ends belongs to the file.
-std::string fragment(std::string_view source, const Style& style, Dialect dialect) {
+std::string fragment(std::string_view source, bool is_il, const Style& style, Dialect dialect) {
   const size_t begin = source.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return std::string(source);
   const size_t end = source.find_last_not_of(kBlanks) + 1;
-  std::string text = formatted(source.substr(begin, end - begin), {}, style, dialect);
+  Bodies bodies;
+  if (is_il) bodies.il.push_back({0, static_cast<uint32_t>(end - begin)});
+  std::string text = formatted(source.substr(begin, end - begin), bodies, style, dialect);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   return std::string(source.substr(0, begin)) + text + std::string(source.substr(end));
 }
@@ -102,13 +104,14 @@ std::string formattedXml(std::string_view source, const Style& style, Dialect di
       at = std::min(source.find("-->", at), source.size() - 1);
       continue;
     }
-    if (!opens(source, at, "ST") && !opens(source, at, "Declaration")) continue;
+    const bool is_il = opens(source, at, "IL");
+    if (!is_il && !opens(source, at, "ST") && !opens(source, at, "Declaration")) continue;
     const Content content = contentAt(source, at);
     if (content.begin == std::string_view::npos) continue;
     const std::string_view raw = source.substr(content.begin, content.end - content.begin);
     std::string text;
     if (!content.is_cdata && !decode(raw, text)) continue;
-    const std::string result = fragment(content.is_cdata ? raw : std::string_view(text), style, dialect);
+    const std::string result = fragment(content.is_cdata ? raw : std::string_view(text), is_il, style, dialect);
     out += source.substr(copied, content.begin - copied);
     out += content.is_cdata ? result : encode(result, raw);
     copied = content.end;
