@@ -73,6 +73,31 @@ bool isConversion(std::string_view name) {
   return word.find("TO_") != std::string::npos || word.find("TRUNC") != std::string::npos;
 }
 
+// Inputs of ANY_INT and ANY_NUM in the standard that the library declares with one type.
+bool takesAnyNumber(std::string_view function) {
+  static const std::set<std::string> kNames = {"LEFT", "RIGHT", "MID",     "INSERT",  "DELETE",   "REPLACE",
+                                               "SHL",  "SHR",   "ROL",     "ROR",     "EXPT",     "MUX",
+                                               "MUL",  "DIV",   "MULTIME", "DIVTIME", "MUL_TIME", "DIV_TIME"};
+  return kNames.count(upper(function)) != 0;
+}
+
+// Whether the operand may have another type than the operation: a duration is multiplied by any number.
+bool mayDiffer(const driver::Compilation& compilation, ExprId parent) {
+  const Tree& tree = compilation.tree;
+  const types::TypeTable& table = compilation.project->types;
+  if (tree.kind(parent) == ExprKind::Call) {
+    const ExprId callee = tree.as<CallExpr>(parent).callee;
+    return callee && tree.kind(callee) == ExprKind::Name &&
+           takesAnyNumber(compilation.sources.tokenAt(tree.loc(callee)));
+  }
+  if (tree.kind(parent) != ExprKind::Binary) return false;
+  const auto isTime = [&](ExprId id) {
+    const types::TypeKind kind = table.plainKind(tree.expr(id).type);
+    return types::TypeTable::isDuration(kind) || types::TypeTable::isDate(kind);
+  };
+  return isTime(tree.as<BinaryExpr>(parent).left) || isTime(tree.as<BinaryExpr>(parent).right);
+}
+
 // Lines with an implicit conversion from one elementary type to another, and with an integer literal used as a REAL.
 template <class Id>
 void collectConversions(const driver::Compilation& compilation, Id id, std::vector<uint32_t>& lines) {
@@ -94,7 +119,13 @@ void collectConversions(const driver::Compilation& compilation, Id id, std::vect
         lines.push_back(compilation.sources.lineNumber(loc));
     }
   }
-  forEachChild(tree, id, [&](const auto& child) { collectConversions(compilation, child, lines); });
+  forEachChild(tree, id, [&](const auto& child) {
+    if constexpr (std::is_same_v<Id, ExprId> && std::is_same_v<std::decay_t<decltype(child)>, ExprId>) {
+      if (tree.kind(child) == ExprKind::Convert && mayDiffer(compilation, id))
+        return collectConversions(compilation, tree.as<ConvertExpr>(child).operand, lines);
+    }
+    collectConversions(compilation, child, lines);
+  });
 }
 
 }  // namespace
