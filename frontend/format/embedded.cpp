@@ -1,5 +1,5 @@
-// Files of TwinCAT and PLCopen: what is between the tags of declarations and of ST is formatted on its own, the rest is
-// copied.
+// Files of TwinCAT, PLCopen and IEC 61131-10: what is between the tags of declarations, of ST and of IL is formatted on
+// its own, the rest is copied.
 #include <algorithm>
 #include <array>
 
@@ -82,14 +82,31 @@ std::string encode(std::string_view text, std::string_view as) {
   return out;
 }
 
-// White space at both ends belongs to the file.
-std::string fragment(std::string_view source, const Style& style, Dialect dialect) {
-  const size_t begin = source.find_first_not_of(kBlanks);
+// White space at both ends belongs to the file, but for the blanks before the first instruction of a list.
+std::string fragment(std::string_view source, bool is_il, const Style& style, Dialect dialect) {
+  size_t begin = source.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return std::string(source);
   const size_t end = source.find_last_not_of(kBlanks) + 1;
-  std::string text = formatted(source.substr(begin, end - begin), {}, style, dialect);
+  Bodies bodies;
+  if (is_il) {
+    const size_t newline = source.rfind('\n', begin);
+    begin = newline == std::string_view::npos || newline > begin ? 0 : newline + 1;
+    bodies.il.push_back({0, static_cast<uint32_t>(end - begin)});
+  }
+  std::string text = formatted(source.substr(begin, end - begin), bodies, style, dialect);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   return std::string(source.substr(0, begin)) + text + std::string(source.substr(end));
+}
+
+// Whether the list is one text with a line for each instruction: some tools write a paragraph for each, or one line.
+bool hasLines(std::string_view source, const Content& content) {
+  const size_t next = source.find('<', content.end + (content.is_cdata ? kCdataEnd.size() : 0));
+  if (next == std::string_view::npos || source.find('\n', content.begin) >= content.end) return false;
+  const size_t close = source.find("IL>", next);
+  const std::string_view rest = source.substr(next, close == std::string_view::npos ? 0 : close - next);
+  for (size_t at = rest.find('<'); at != std::string_view::npos; at = rest.find('<', at + 1))
+    if (rest.substr(at + 1, 1) != "/") return false;
+  return close != std::string_view::npos;
 }
 
 }  // namespace
@@ -102,13 +119,14 @@ std::string formattedXml(std::string_view source, const Style& style, Dialect di
       at = std::min(source.find("-->", at), source.size() - 1);
       continue;
     }
-    if (!opens(source, at, "ST") && !opens(source, at, "Declaration")) continue;
+    const bool is_il = opens(source, at, "IL");
+    if (!is_il && !opens(source, at, "ST") && !opens(source, at, "Declaration")) continue;
     const Content content = contentAt(source, at);
-    if (content.begin == std::string_view::npos) continue;
+    if (content.begin == std::string_view::npos || (is_il && !hasLines(source, content))) continue;
     const std::string_view raw = source.substr(content.begin, content.end - content.begin);
     std::string text;
     if (!content.is_cdata && !decode(raw, text)) continue;
-    const std::string result = fragment(content.is_cdata ? raw : std::string_view(text), style, dialect);
+    const std::string result = fragment(content.is_cdata ? raw : std::string_view(text), is_il, style, dialect);
     out += source.substr(copied, content.begin - copied);
     out += content.is_cdata ? result : encode(result, raw);
     copied = content.end;

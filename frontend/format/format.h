@@ -43,7 +43,8 @@ std::string formatted(std::string_view source, const Bodies& bodies, const Style
 // An NCT program: elements indented by their branches, the columns of its symbols aligned.
 std::string formattedLadder(std::string_view source, const Style& style, LineRange range = {});
 
-// The declarations and statements inside a file of TwinCAT or PLCopen; all else stays byte for byte.
+// The declarations, statements and instructions inside a file of TwinCAT, PLCopen or IEC 61131-10; all else stays byte
+// for byte.
 std::string formattedXml(std::string_view source, const Style& style, Dialect dialect);
 
 }  // namespace rung::format

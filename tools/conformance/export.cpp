@@ -5,6 +5,8 @@
 
 #include "frontend/source/files.h"
 #include "frontend/source/scanner.h"
+#include "tools/conformance/edition.h"
+#include "tools/conformance/parts.h"
 #include "tools/driver/output_files.h"
 
 namespace rung::conformance {
@@ -35,17 +37,10 @@ std::vector<std::string> typesIn(std::string_view text) {
   return {found.begin(), found.end()};
 }
 
-bool isElementaryString(std::string_view word) { return word == "STRING" || word == "WSTRING"; }
-
 std::string firstError(const Checked& checked) {
   if (checked.errors.empty()) return "it cannot be read";
   const Complaint& first = checked.errors[0];
   return "line " + std::to_string(first.line) + ": " + first.code + ": " + first.message;
-}
-
-void blank(std::string& text, const Part& part) {
-  for (size_t i = part.begin; i < part.end; ++i)
-    if (text[i] != '\n') text[i] = ' ';
 }
 
 uint32_t lineAt(const std::string& text, size_t at) {
@@ -89,12 +84,7 @@ class Exporter {
       const size_t tab = line.find('\t');
       if (tab != std::string::npos) rules_[line.substr(0, tab)] = line.substr(tab + 1);
     }
-    const ReadResult words = readFile(options_.root + "/tools/conformance/words.tsv");
-    if (!words.error.empty()) return "tools/conformance/words.tsv: " + words.error;
-    for (const std::string& line : linesOf(words.content)) {
-      const size_t tab = line.find('\t');
-      if (tab != std::string::npos) words_[line.substr(0, tab)] = line[tab + 1] - '0';
-    }
+    if (std::string error = readVocabulary(options_.root, vocabulary_); !error.empty()) return error;
     const ReadResult kept = readFile(options_.root + "/tools/conformance/kept.tsv");
     if (!kept.error.empty()) return "tools/conformance/kept.tsv: " + kept.error;
     for (const std::string& line : linesOf(kept.content)) {
@@ -104,44 +94,10 @@ class Exporter {
     return {};
   }
 
-  // What the text has that its edition does not; empty: nothing.
-  std::string foreignWord(std::string_view text, int edition) const {
-    Scanner scanner(text);
-    std::string before;
-    bool before_point = false;  // a name or an index
-    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
-      const std::string word = upper(scanner.textOf(unit));
-      if (unit.kind == UnitKind::Name) {
-        const auto found = word == "BIT" && before != ":" && before != "OF" ? words_.end() : words_.find(word);
-        const bool has_it = found == words_.end() || (found->second != 0 && found->second <= edition);
-        const bool is_instruction = word == "LD" || word == "LT" || word == "SET" || word == "RESET";
-        if (!has_it && !(is_instruction && !isFollowedBy(text, unit.end, '#') && !isPin(text, unit.end)))
-          return "`" + word + (found->second == 0 ? "` is not of the standard" : "` is of edition 3");
-        if ((word == "TIME" || word == "LTIME") && isFollowedBy(text, unit.end, '('))
-          return "`" + word + "()` is not of the standard";
-        if (isElementaryString(word) && isFollowedBy(text, unit.end, '('))
-          return "a string length in parentheses is not of the standard";
-        if (edition == 2 && word.starts_with("TO_")) return "`" + word + "` is of edition 3";
-      } else if (edition == 2 && before == "." && (word == "%" || unit.kind == UnitKind::Number) && before_point) {
-        return "the part of a bit string is of edition 3";
-      }
-      // 4.0 after REAL# is a number in three units.
-      if (word != ".") before_point = unit.kind == UnitKind::Name || word == "]";
-      before = word;
-    }
-    return {};
-  }
-  std::string foreignPart(const Draft& draft, int edition, bool is_xml) const {
-    if (edition == 2 && !draft.of_edition_3.empty()) return draft.of_edition_3;
-    return is_xml ? std::string() : draft.foreign.empty() ? foreignWord(draft.text, edition) : draft.foreign;
-  }
-  static bool isFollowedBy(std::string_view text, size_t at, char c) {
-    const size_t next = text.find_first_not_of(" \n", at);
-    return next != std::string_view::npos && text[next] == c;
-  }
-  static bool isPin(std::string_view text, size_t at) {
-    const size_t next = text.find_first_not_of(" \n", at);
-    return next != std::string_view::npos && text.substr(next, 2) == ":=";
+  // What the text has that the edition of the profile does not; empty: nothing.
+  std::string foreignIn(const std::string& text, const Profile& profile) const {
+    const Source source(text, profile.dialect);
+    return foreignTo(profile.edition, source, vocabulary_);
   }
 
   void refuse(const Program& program, const std::string& test, const std::string& reason) {
@@ -166,6 +122,10 @@ class Exporter {
     if (is_xml) {
       program.text = asSt(options_.root + "/" + program.path);
       if (program.text.empty()) return refuse(program, {}, "it cannot be read");
+    }
+    for (auto one = kept_.lower_bound(program.path + ":"); one != kept_.end(); ++one) {
+      if (!one->first.starts_with(program.path + ":")) break;
+      program.choices.insert(one->first.substr(program.path.size() + 1));
     }
     for (Draft& draft : neutralDrafts(program)) {
       if (const auto reason = kept_.find(program.path + ":" + draft.test); reason != kept_.end())
@@ -207,9 +167,11 @@ class Exporter {
       const size_t before = suite_.cases.size();
       const auto kept =
           kept_.find(std::string(name) + ":" + program.path + (draft.test.empty() ? "" : ":" + draft.test));
-      const std::string foreign = foreignPart(draft, findProfile(name)->edition, is_xml);
-      if (!foreign.empty() || kept != kept_.end()) {
-        if (why.empty() || std::string_view(name) == "ed3-text") why = foreign.empty() ? kept->second : foreign;
+      std::string foreign = kept == kept_.end() ? std::string() : kept->second;
+      if (foreign.empty() && !program.expects && !is_xml && !draft.has_networks)
+        foreign = foreignIn(draft.text, *findProfile(name));
+      if (!foreign.empty()) {
+        if (why.empty() || std::string_view(name) == "ed3-text") why = foreign;
         continue;
       }
       std::string reason = program.expects ? exportErrors(program, draft, *findProfile(name))
@@ -297,6 +259,8 @@ class Exporter {
     const std::string path = options_.folder + "/" + file;
     const Checked checked = check(path, one.profile->dialect);
     if (!checked.errors.empty() || checked.refused) return firstError(checked);
+    if (one.profile->edition == 2 && !checked.conversions.empty())
+      return "line " + std::to_string(checked.conversions[0]) + ": an implicit conversion, which is of edition 3";
     const bool is_draft_of_xml = std::string_view(one.profile->name) == "plcopen-xml" && !file.ends_with(".xml");
     if (std::string reason = libraryReason(checked, *one.profile, one); !reason.empty() && !is_draft_of_xml)
       return reason;
@@ -307,7 +271,7 @@ class Exporter {
   static std::string tryTest(const Draft& draft, const std::string& path, Case& one) {
     one.watch = draft.watch;
     one.checks = draft.checks;
-    one.cycles = 1;
+    one.cycles = std::max<int64_t>(draft.cycles, 1);
     if (!draft.done.empty()) {
       one.cycles = cyclesUntil(draft.done, path, one.profile->dialect);
       if (one.cycles == 0) return "`done` does not become TRUE";
@@ -515,7 +479,8 @@ class Exporter {
     if (!removeErrors(scratch, alone, profile.dialect, due.line)) return false;
     control = alone;
     if (!removeErrors(scratch, control, profile.dialect, 0)) return false;
-    if (control.find_first_not_of(" \n") == std::string::npos) return false;
+    if (control.find_first_not_of(" \n") == std::string::npos || !foreignIn(control, profile).empty()) return false;
+    if (!foreignWordIn(Source(alone, profile.dialect), profile.edition, vocabulary_).empty()) return false;
     Case one = caseOf(program, draft, profile, "line_" + std::to_string(due.line));
     one.line = due.line;
     one.code = due.code;
@@ -527,7 +492,8 @@ class Exporter {
       write(one.control, commentOf(one.id) + control);
       return check(options_.folder + "/" + one.control, profile.dialect);
     }();
-    if (!libraries.errors.empty() || !libraryReason(libraries, profile, one).empty() ||
+    const bool converts = profile.edition == 2 && !libraries.conversions.empty();
+    if (!libraries.errors.empty() || converts || !libraryReason(libraries, profile, one).empty() ||
         !write(one.source, commentOf(one.id) + alone)) {
       remove(one.control);
       return false;
@@ -546,7 +512,10 @@ class Exporter {
       if (kept != 0 && !is_left) return false;
       const auto other =
           std::find_if(errors.begin(), errors.end(), [&](const Complaint& one) { return one.line != kept; });
-      if (other == errors.end()) return true;
+      if (other == errors.end()) {
+        blankEmptySections(text);
+        return true;
+      }
       if (other->line == 0) return false;
       std::vector<Part> parts = partsAround(text, dialect, other->line);
       std::erase_if(parts, [&](const Part& part) {
@@ -563,7 +532,7 @@ class Exporter {
   const ExportOptions& options_;
   Suite& suite_;
   std::map<std::string, std::string> rules_, kept_;
-  std::map<std::string, int> words_;  // by word: the edition that has it
+  Vocabulary vocabulary_;
   std::string problem_;
 };
 

@@ -4,416 +4,56 @@
 #include <map>
 #include <set>
 
-#include "frontend/parse/conditions.h"
-#include "frontend/parse/parse.h"
-#include "frontend/source/scanner.h"
 #include "frontend/syntax/children.h"
+#include "tools/conformance/checks.h"
+#include "tools/conformance/needs.h"
+#include "tools/conformance/parts.h"
+#include "tools/conformance/source.h"
+#include "tools/conformance/standard_form.h"
 
 namespace rung::conformance {
 namespace {
 
 constexpr const char* kInstance = "suite";
 constexpr const char* kTask = "suite_task";
-
-struct Edit {
-  size_t begin, end;
-  std::string text;
-};
-
-// A variable of the project: in VAR_GLOBAL of a file.
-struct Global {
-  std::string key, name, type;
-  bool constant;
-  size_t section;  // index in sections
-};
-
-// One file, parsed.
-class Source {
- public:
-  Source(const std::string& text, Dialect dialect) : diagnostics(sources) {
-    file = sources.add("case.st", text);
-    if (!file) return;
-    const std::vector<FileId> files = {file};
-    text::applyConditions(sources, files, {}, dialect, diagnostics);
-    text::parseFile(tree, names, sources, file, dialect, diagnostics);
-  }
-  size_t at(Loc loc) const { return loc.offset - sources.begin(file).offset; }
-  std::string_view text() const { return sources.sourceText(file); }
-
-  Sources sources;
-  Names names;
-  Diagnostics diagnostics;
-  Tree tree;
-  FileId file;
-};
+constexpr const char* kIdleProgram = "suite_program";  // of a configuration that has none
 
 class Writer {
  public:
   explicit Writer(const Program& program)
-      : program_(program), source_(program.text, program.dialect), tree_(source_.tree) {
-    Scanner scanner(source_.text());
-    for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next()) units_.push_back(unit);
-    if (tree_.files.empty()) return;
-    for (const DeclId id : tree_.list(tree_.files[0].decls)) decls_.push_back(id);
-    keeps_pragmas_ = std::find(program.features.begin(), program.features.end(), "4/1") != program.features.end();
-    noteComments();
-    noteSelf();
-    noteSemicolons();
-    noteLengths();
-    noteGlobals();
-  }
+      : program_(program),
+        source_(program.text, program.dialect),
+        tree_(source_.tree),
+        base_(standardForm(program, source_)),
+        declarations_(source_, base_) {}
 
   std::vector<Draft> drafts() {
     std::vector<Draft> all;
     if (!program_.expects)
-      for (const DeclId id : decls_) collectTests(id, all);
+      for (const DeclId id : source_.decls) collectTests(id, all);
     if (all.empty()) all.push_back(draft({}));
     return all;
   }
 
  private:
   std::string_view text() const { return source_.text(); }
-  std::string_view textOf(const Unit& unit) const { return text().substr(unit.begin, unit.end - unit.begin); }
-  std::string spelling(NameId name) const { return std::string(source_.names.string(name)); }
-  size_t begin(DeclId id) const { return source_.at(tree_.decl(id).begin); }
-  size_t end(DeclId id) const { return source_.at(tree_.decl(id).end); }
-
-  bool hasPragma(DeclId id, std::string_view name) const {
-    for (const Pragma& pragma : tree_.list(tree_.decl(id).pragmas))
-      if (upper(source_.names.string(pragma.name)) == name) return true;
-    return false;
-  }
-  bool isTest(DeclId id) const { return tree_.kind(id) == DeclKind::Pou && hasPragma(id, "TEST"); }
+  std::string_view textOf(const Unit& unit) const { return source_.textOf(unit); }
+  std::string spelling(NameId name) const { return source_.spelling(name); }
+  size_t begin(DeclId id) const { return source_.begin(id); }
+  size_t end(DeclId id) const { return source_.end(id); }
 
   void collectTests(DeclId id, std::vector<Draft>& all) {
-    if (isTest(id)) {
+    if (declarations_.isTest(id)) {
       all.push_back(draft(id));
     } else if (tree_.kind(id) == DeclKind::Namespace) {
       for (const DeclId inner : tree_.list(tree_.as<NamespaceDecl>(id).decls)) {
-        if (!isTest(inner)) continue;
+        if (!declarations_.isTest(inner)) continue;
         Draft none;
         none.test = spelling(tree_.as<PouDecl>(inner).name);
         none.reason = "the test is inside of a NAMESPACE";
         all.push_back(none);
       }
     }
-  }
-
-  // ---- what the file has
-
-  void noteGlobals() {
-    for (const DeclId id : decls_) {
-      if (tree_.kind(id) != DeclKind::Section) continue;
-      const auto& section = tree_.as<SectionDecl>(id);
-      if (section.section != SectionKind::Global) continue;
-      sections_.push_back(id);
-      for (const DeclId v : tree_.list(section.vars)) {
-        if (tree_.kind(v) != DeclKind::Var) continue;
-        const auto& var = tree_.as<VarDecl>(v);
-        if (!var.type) continue;
-        const Range type = tree_.range(var.type);
-        const std::string written = rendered(source_.at(type.begin), source_.at(type.end), base_);
-        for (const Ident& name : tree_.list(var.names))
-          globals_.push_back({upper(spelling(name.name)), spelling(name.name), written,
-                              (section.h.bits & kConstant) != 0, sections_.size() - 1});
-      }
-    }
-  }
-
-  bool isInNetworks(size_t at) const {
-    return std::any_of(networks_.begin(), networks_.end(),
-                       [&](const auto& n) { return n.first <= at && at < n.second; });
-  }
-  void noteNetworks(DeclId id) {
-    if (tree_.kind(id) == DeclKind::Namespace)
-      for (const DeclId inner : tree_.list(tree_.as<NamespaceDecl>(id).decls)) noteNetworks(inner);
-    if (tree_.kind(id) != DeclKind::Pou) return;
-    const auto& pou = tree_.as<PouDecl>(id);
-    if (pou.body_kind == BodyKind::Network) networks_.push_back({source_.at(pou.body_begin), source_.at(pou.body_end)});
-    for (const DeclId member : tree_.list(pou.members)) noteNetworks(member);
-    for (const SfcTransition& transition : tree_.list(pou.transitions))
-      if (transition.body) noteNetworks(transition.body);
-  }
-
-  // Comments in the form that every edition has, unless they are the subject; pragmas go.
-  void noteComments() {
-    for (const DeclId id : decls_) noteNetworks(id);
-    const bool keeps_comments = std::any_of(program_.features.begin(), program_.features.end(),
-                                            [](const std::string& feature) { return feature.starts_with("3/"); });
-    bool heads = true;
-    for (const Unit& unit : units_) {
-      if (unit.kind == UnitKind::Pragma) {
-        heads = false;
-        if (isInNetworks(unit.begin) || (keeps_pragmas_ && textOf(unit) != "{test}")) continue;
-        base_.push_back({unit.begin, unit.end, newlinesOf(unit.begin, unit.end)});
-        continue;
-      }
-      if (unit.kind != UnitKind::Comment) {
-        heads = false;
-        continue;
-      }
-      const std::string_view comment = textOf(unit);
-      if (comment.starts_with("// ") && isHeadLine(comment)) {
-        base_.push_back({unit.begin, unit.end, {}});
-      } else if (!keeps_comments || heads) {
-        if (comment.starts_with("//"))
-          base_.push_back({unit.begin, unit.end,
-                           inParentheses(comment.substr(comment.find_first_not_of('/') == std::string_view::npos
-                                                            ? comment.size()
-                                                            : comment.find_first_not_of('/')))});
-        else if (comment.starts_with("/*"))
-          base_.push_back({unit.begin, unit.end, inParentheses(comment.substr(2, comment.size() - 4))});
-        else if (comment.find("(*", 2) != std::string_view::npos)
-          base_.push_back({unit.begin, unit.end, inParentheses(comment.substr(2, comment.size() - 4))});
-      }
-    }
-  }
-  // SUPER^ and THIS^ of codesys are SUPER and THIS of the standard.
-  void noteSelf() {
-    for (size_t i = 0; i + 1 < units_.size(); ++i) {
-      if (units_[i].kind != UnitKind::Name || textOf(units_[i + 1]) != "^") continue;
-      const std::string word = upper(textOf(units_[i]));
-      if (word == "SUPER" || word == "THIS") base_.push_back({units_[i + 1].begin, units_[i + 1].end, {}});
-    }
-  }
-  // STRING(20) of codesys is STRING[20].
-  void noteLengths() {
-    for (size_t i = 0; i + 3 < units_.size(); ++i) {
-      const std::string word = upper(textOf(units_[i]));
-      if ((word != "STRING" && word != "WSTRING") || textOf(units_[i + 1]) != "(" || textOf(units_[i + 3]) != ")")
-        continue;
-      base_.push_back({units_[i + 1].begin, units_[i + 1].end, "["});
-      base_.push_back({units_[i + 3].begin, units_[i + 3].end, "]"});
-    }
-  }
-  // END_IF and the like end a statement, END_STRUCT a declaration: the standard wants a semicolon after them.
-  void noteSemicolons() {
-    for (size_t i = 0; i < units_.size(); ++i) {
-      if (units_[i].kind != UnitKind::Name || isInNetworks(units_[i].begin)) continue;
-      const std::string word = upper(textOf(units_[i]));
-      if (word != "END_IF" && word != "END_CASE" && word != "END_FOR" && word != "END_WHILE" && word != "END_REPEAT" &&
-          word != "END_STRUCT")
-        continue;
-      size_t next = i + 1;
-      while (next < units_.size() && (units_[next].kind == UnitKind::Comment || units_[next].kind == UnitKind::Pragma))
-        ++next;
-      const std::string_view after = next < units_.size() ? textOf(units_[next]) : std::string_view();
-      if (after != ";" && after != ":" && after != ")") base_.push_back({units_[i].end, units_[i].end, ";"});
-    }
-  }
-  static bool isHeadLine(std::string_view comment) {
-    for (const std::string_view key :
-         {"features:", "covers:", "args:", "run:", "with:", "expect:", "trace:", "exit:", "restart:"})
-      if (comment.substr(3).starts_with(key)) return true;
-    return comment.starts_with("// expect ");
-  }
-  static std::string inParentheses(std::string_view words) {
-    std::string out;
-    for (const char c : words)
-      if (c != '*' && (c == '\n' || static_cast<unsigned char>(c) >= 32) && static_cast<unsigned char>(c) < 127 &&
-          c != '{' && c != '}' && c != '$')
-        out += c;
-    while (!out.empty() && out.front() == ' ') out.erase(0, 1);
-    while (!out.empty() && out.back() == ' ') out.pop_back();
-    return out.empty() ? out : "(* " + out + " *)";
-  }
-  std::string newlinesOf(size_t from, size_t to) const {
-    return std::string(static_cast<size_t>(std::count(text().begin() + static_cast<std::ptrdiff_t>(from),
-                                                      text().begin() + static_cast<std::ptrdiff_t>(to), '\n')),
-                       '\n');
-  }
-
-  // ---- what a test needs
-
-  // The names in a part of the text, in upper case; those after a point are members.
-  void addNames(size_t from, size_t to, std::set<std::string>& names) const {
-    auto unit =
-        std::lower_bound(units_.begin(), units_.end(), from, [](const Unit& u, size_t at) { return u.begin < at; });
-    bool after_point = false;
-    for (; unit != units_.end() && unit->begin < to; ++unit) {
-      if (unit->kind == UnitKind::Name && !after_point) names.insert(upper(textOf(*unit)));
-      if (unit->kind == UnitKind::Comment) continue;
-      if (unit->kind == UnitKind::Pragma && isInNetworks(unit->begin)) addPragmaNames(textOf(*unit), names);
-      after_point = unit->kind == UnitKind::Other && textOf(*unit) == ".";
-    }
-  }
-  static void addPragmaNames(std::string_view pragma, std::set<std::string>& names) {
-    Scanner scanner(pragma.substr(1));
-    for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next())
-      if (unit.kind == UnitKind::Name) names.insert(upper(scanner.textOf(unit)));
-  }
-
-  struct Needs {
-    std::set<std::string> names;
-    std::vector<DeclId> left_out;
-    std::set<size_t> sections;  // of globals
-  };
-  Needs needsOf(DeclId test) const {
-    Needs needs;
-    std::vector<DeclId> open;
-    for (const DeclId id : decls_) {
-      const DeclKind kind = tree_.kind(id);
-      if (kind == DeclKind::Section) continue;
-      if (test && id != test && kind == DeclKind::Pou) {
-        open.push_back(id);
-      } else if (kind == DeclKind::Configuration) {
-        addConfigurationNames(id, needs.names);
-      } else {
-        addNames(begin(id), end(id), needs.names);
-      }
-    }
-    for (bool more = true; more;) {
-      more = false;
-      for (size_t i = 0; i < open.size();) {
-        const auto& pou = tree_.as<PouDecl>(open[i]);
-        if (isTest(open[i]) || needs.names.count(upper(spelling(pou.name))) == 0) {
-          ++i;
-          continue;
-        }
-        addNames(begin(open[i]), end(open[i]), needs.names);
-        open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
-        more = true;
-      }
-      for (const Global& global : globals_)
-        if (needs.names.count(global.key) != 0 && needs.sections.insert(global.section).second) {
-          addNames(begin(sections_[global.section]), end(sections_[global.section]), needs.names);
-          more = true;
-        }
-    }
-    if (!test)
-      for (size_t i = 0; i < sections_.size(); ++i) needs.sections.insert(i);
-    else
-      keepUnnamed(needs);
-    needs.left_out = open;
-    return needs;
-  }
-  // `AT %QW2 : WORD := 5;` has no name and may matter all the same.
-  void keepUnnamed(Needs& needs) const {
-    for (size_t i = 0; i < sections_.size(); ++i)
-      for (const DeclId v : tree_.list(tree_.as<SectionDecl>(sections_[i]).vars))
-        if (tree_.kind(v) == DeclKind::Var && tree_.as<VarDecl>(v).names.empty()) needs.sections.insert(i);
-  }
-  void addConfigurationNames(DeclId id, std::set<std::string>& names) const {
-    size_t from = begin(id);
-    for (const auto& instance : instancesOf(id)) {
-      addNames(from, instance.begin, names);
-      from = instance.end;
-    }
-    addNames(from, end(id), names);
-  }
-  // `PROGRAM p WITH t : Main;` of a configuration: a test runs alone.
-  std::vector<Edit> instancesOf(DeclId configuration) const {
-    std::vector<Edit> found;
-    const auto visit = [&](const auto& self, Slice<DeclId> members) -> void {
-      for (const DeclId member : tree_.list(members)) {
-        if (tree_.kind(member) == DeclKind::Resource) self(self, tree_.as<ResourceDecl>(member).members);
-        if (tree_.kind(member) == DeclKind::ProgramInstance) found.push_back({begin(member), end(member), {}});
-      }
-    };
-    visit(visit, tree_.as<ConfigurationDecl>(configuration).members);
-    return found;
-  }
-
-  // ---- assertions
-
-  bool isAssertion(StmtId id, std::string& word) const {
-    if (tree_.kind(id) != StmtKind::Call) return false;
-    const ExprId call = tree_.as<CallStmt>(id).call;
-    if (!call || tree_.kind(call) != ExprKind::Call) return false;
-    const ExprId callee = tree_.as<CallExpr>(call).callee;
-    if (tree_.kind(callee) != ExprKind::Name) return false;
-    word = upper(source_.names.string(tree_.as<NameExpr>(callee).name));
-    return word == "ASSERT" || word == "ASSERT_EQ" || word == "ASSERT_NEAR";
-  }
-
-  // `needs_parens`: beside an operator.
-  std::string operand(ExprId id, bool needs_parens) const {
-    const Range range = tree_.range(id);
-    std::string written(text().substr(source_.at(range.begin), source_.at(range.end) - source_.at(range.begin)));
-    const bool is_operation = tree_.kind(id) == ExprKind::Binary || tree_.kind(id) == ExprKind::Unary;
-    return needs_parens && is_operation && tree_.expr(id).in_parens == 0 ? "(" + written + ")" : written;
-  }
-  std::string condition(const std::string& word, std::span<const Argument> arguments) const {
-    if (word == "ASSERT" && !arguments.empty()) return operand(arguments[0].value, false);
-    if (word == "ASSERT_EQ" && arguments.size() >= 2)
-      return operand(arguments[0].value, true) + " = " + operand(arguments[1].value, true);
-    if (word == "ASSERT_NEAR" && arguments.size() >= 3)
-      return "ABS(" + operand(arguments[1].value, true) + " - " + operand(arguments[0].value, true) +
-             ") <= " + operand(arguments[2].value, true);
-    return {};
-  }
-
-  template <class Id>
-  void findAssertions(Id id, std::vector<StmtId>& found) const {
-    if constexpr (std::is_same_v<Id, StmtId>) {
-      std::string word;
-      if (isAssertion(id, word)) {
-        found.push_back(id);
-        return;
-      }
-    }
-    forEachChild(tree_, id, [&](const auto& child) { findAssertions(child, found); });
-  }
-
-  // ---- what only edition 3 has
-
-  bool isLiteral(ExprId id) const {
-    const ExprKind kind = tree_.kind(id);
-    if (kind == ExprKind::Unary) return tree_.kind(tree_.as<UnaryExpr>(id).operand) == ExprKind::Literal;
-    return kind != ExprKind::Binary && kind != ExprKind::Call;
-  }
-  void noteEdition3(TypeExprId id, Draft& draft) const {
-    if (tree_.kind(id) == TypeExprKind::Array)
-      for (const ArrayBound& bound : tree_.list(tree_.as<ArrayTypeExpr>(id).bounds))
-        for (const ExprId side : {bound.low, bound.high})
-          if (!side || !isLiteral(side) || tree_.kind(side) == ExprKind::Name)
-            draft.of_edition_3 = "array bounds that are not numbers are of edition 3";
-    if (tree_.kind(id) == TypeExprKind::Enum)
-      for (const EnumItem& item : tree_.list(tree_.as<EnumTypeExpr>(id).items))
-        if (item.value) draft.of_edition_3 = "items of enumerations with values are of edition 3";
-    if (tree_.kind(id) == TypeExprKind::Struct)
-      for (const DeclId field : tree_.list(tree_.as<StructTypeExpr>(id).fields))
-        if (tree_.as<VarDecl>(field).located) draft.of_edition_3 = "places in structures are of edition 3";
-  }
-  void noteEdition3(DeclId id, Draft& draft) const {
-    if (tree_.kind(id) == DeclKind::Var) {
-      const ExprId init = tree_.as<VarDecl>(id).init;
-      if (init && !isLiteral(init)) draft.of_edition_3 = "initial values that are expressions are of edition 3";
-    }
-    if (tree_.kind(id) != DeclKind::Pou) return;
-    const auto& pou = tree_.as<PouDecl>(id);
-    for (const DeclId s : tree_.list(pou.sections)) {
-      const SectionKind kind = tree_.as<SectionDecl>(s).section;
-      if (kind == SectionKind::Global) draft.of_edition_3 = "VAR_GLOBAL of a program is of edition 3";
-      if (pou.pou_kind == PouKind::Function && (kind == SectionKind::External || kind == SectionKind::Temp))
-        draft.of_edition_3 = "VAR_EXTERNAL and VAR_TEMP of functions are of edition 3";
-    }
-    if (pou.pou_kind != PouKind::Function) return;
-    if (!pou.result) draft.of_edition_3 = "functions without a result are of edition 3";
-    std::set<std::string> names;
-    addNames(begin(id), end(id), names);
-    if (std::any_of(globals_.begin(), globals_.end(), [&](const Global& g) { return names.count(g.key) != 0; }))
-      draft.of_edition_3 = "VAR_EXTERNAL and VAR_TEMP of functions are of edition 3";
-  }
-  void noteEdition3(ExprId, Draft&) const {}
-  void noteEdition3(StmtId id, Draft& draft) const {
-    if (tree_.kind(id) == StmtKind::Jump && draft.foreign.empty() && tree_.range(id).begin)
-      draft.foreign = "a jump in ST is not of the standard";
-    if (tree_.kind(id) != StmtKind::Call) return;
-    const ExprId call = tree_.as<CallStmt>(id).call;
-    if (!call || tree_.kind(call) != ExprKind::Call) return;
-    const ExprId callee = tree_.as<CallExpr>(call).callee;
-    if (tree_.kind(callee) != ExprKind::Name) return;
-    const std::string name = upper(spelling(tree_.as<NameExpr>(callee).name));
-    for (const DeclId d : decls_)
-      if (tree_.kind(d) == DeclKind::Pou && tree_.as<PouDecl>(d).pou_kind == PouKind::Function &&
-          upper(spelling(tree_.as<PouDecl>(d).name)) == name)
-        draft.of_edition_3 = "a function called as a statement is of edition 3";
-  }
-  template <class Id>
-  void findEdition3(Id id, Draft& draft) const {
-    noteEdition3(id, draft);
-    forEachChild(tree_, id, [&](const auto& child) { findEdition3(child, draft); });
   }
 
   // ---- one draft
@@ -458,19 +98,22 @@ class Writer {
 
   void refuse(DeclId test, Draft& draft) const {
     for (const char* pragma : {"CASE", "SKIP", "MOCK"})
-      if (hasPragma(test, pragma)) draft.reason = "a service of `rung test`: {case}, {skip} or {mock}";
-    for (const DeclId id : decls_)
+      if (declarations_.hasPragma(test, pragma)) draft.reason = "a service of `rung test`: {case}, {skip} or {mock}";
+    for (const DeclId id : source_.decls)
       for (const char* pragma : {"SETUP", "TEARDOWN"})
-        if (tree_.kind(id) == DeclKind::Pou && hasPragma(id, pragma))
+        if (tree_.kind(id) == DeclKind::Pou && declarations_.hasPragma(id, pragma))
           draft.reason = "a service of `rung test`: {setup}";
     const auto& pou = tree_.as<PouDecl>(test);
     if (pou.pou_kind != PouKind::Program && pou.pou_kind != PouKind::FunctionBlock)
       draft.reason = "the test is a FUNCTION";
   }
 
-  // The place after the header and sections of a POU.
+  // The place after the header and sections of a POU. Its body may begin later, after an empty statement.
   size_t bodyOf(const PouDecl& pou) const {
-    size_t at = source_.at(pou.body_begin);
+    size_t at = 0;
+    for (const DeclId section : tree_.list(pou.sections)) at = std::max(at, end(section));
+    if (at != 0) return at;
+    at = source_.at(pou.body_begin);
     for (const DeclId member : tree_.list(pou.members)) at = std::min(at, begin(member));
     return at;
   }
@@ -501,10 +144,10 @@ class Writer {
     const auto& pou = tree_.as<PouDecl>(id);
     if (pou.pou_kind == PouKind::Interface) return;
     std::set<std::string> names;
-    addNames(begin(id), end(id), names);
+    declarations_.addNames(begin(id), end(id), names);
     const std::set<std::string> declared = declaredIn(pou);
     std::string plain, constant;
-    for (const Global& global : globals_)
+    for (const Global& global : declarations_.globals)
       if (names.count(global.key) != 0 && declared.count(global.key) == 0)
         (global.constant ? constant : plain) += " " + global.name + " : " + global.type + ";";
     std::string all;
@@ -524,20 +167,9 @@ class Writer {
     for (const DeclId member : tree_.list(pou.members))
       declareAccess(member, pou.pou_kind == PouKind::Interface, edits);
     if (pou.pou_kind != PouKind::Method || pou.access != AccessLevel::None || in_interface) return;
-    auto unit = std::lower_bound(units_.begin(), units_.end(), begin(id),
-                                 [](const Unit& u, size_t at) { return u.begin < at; });
-    while (unit != units_.end() && (unit->kind != UnitKind::Name || upper(textOf(*unit)) != "METHOD")) ++unit;
-    if (unit != units_.end()) edits.push_back({unit->end, unit->end, " PUBLIC"});
-  }
-
-  std::string unusedPrefix() const {
-    for (const char* prefix : {"check_", "verdict_", "held_"}) {
-      const bool used = std::any_of(units_.begin(), units_.end(), [&](const Unit& unit) {
-        return unit.kind == UnitKind::Name && upper(textOf(unit)).starts_with(upper(prefix));
-      });
-      if (!used) return prefix;
-    }
-    return "suite_check_";
+    auto unit = source_.unitAt(begin(id));
+    while (unit != source_.units.end() && (unit->kind != UnitKind::Name || upper(textOf(*unit)) != "METHOD")) ++unit;
+    if (unit != source_.units.end()) edits.push_back({unit->end, unit->end, " PUBLIC"});
   }
 
   Draft draft(DeclId test) {
@@ -547,29 +179,28 @@ class Writer {
       draft.reason = "it cannot be read";
       return draft;
     }
-    const Needs needs = needsOf(test);
-    for (const DeclId id : decls_)
-      if (std::find(needs.left_out.begin(), needs.left_out.end(), id) == needs.left_out.end()) {
+    const Needs needs = declarations_.needsOf(test);
+    for (const DeclId id : source_.decls)
+      if (needs.has(id)) {
         describe(id, draft);
-        findEdition3(id, draft);
       }
     if (test) refuse(test, draft);
     if (!draft.reason.empty()) return draft;
 
     std::vector<Edit> edits = base_;
-    for (const DeclId id : needs.left_out) edits.push_back({begin(id), end(id), newlinesOf(begin(id), end(id))});
+    for (const DeclId id : needs.left_out)
+      edits.push_back({begin(id), end(id), lineEndsOf(text(), begin(id), end(id))});
     std::string moved;
-    for (size_t i = 0; i < sections_.size(); ++i) {
-      const DeclId section = sections_[i];
-      if (needs.sections.count(i) != 0) moved += rendered(begin(section), end(section), base_) + "\n";
-      edits.push_back({begin(section), end(section), newlinesOf(begin(section), end(section))});
+    for (size_t i = 0; i < declarations_.sections.size(); ++i) {
+      const DeclId section = declarations_.sections[i];
+      if (needs.sections.count(i) != 0) moved += part(begin(section), end(section), base_) + "\n";
+      edits.push_back({begin(section), end(section), lineEndsOf(text(), begin(section), end(section))});
     }
-    for (const DeclId id : decls_)
-      if (std::find(needs.left_out.begin(), needs.left_out.end(), id) == needs.left_out.end())
-        declareExternals(id, edits);
-    for (const DeclId id : decls_) declareAccess(id, false, edits);
+    for (const DeclId id : source_.decls)
+      if (needs.has(id)) declareExternals(id, edits);
+    for (const DeclId id : source_.decls) declareAccess(id, false, edits);
     if (!test && program_.expects)
-      for (const DeclId id : decls_) giveStatement(id, edits);
+      for (const DeclId id : source_.decls) giveStatement(id, edits);
     std::string program;
     if (test) {
       program = draft.test;
@@ -577,30 +208,23 @@ class Writer {
       if (tree_.as<PouDecl>(test).pou_kind == PouKind::FunctionBlock) program = wrap(draft);
       addDone(test, draft);
     }
-    for (const DeclId id : decls_) {
-      if (std::find(needs.left_out.begin(), needs.left_out.end(), id) != needs.left_out.end() || id == test) continue;
-      std::vector<StmtId> elsewhere;
-      findAssertions(id, elsewhere);
-      if (!elsewhere.empty()) draft.reason = "assertions outside of the test";
+    for (const DeclId id : source_.decls) {
+      if (!needs.has(id) || id == test) continue;
+      if (hasAssertions(source_, id)) draft.reason = "assertions outside of the test";
     }
     const std::string wrapper = program == draft.test ? std::string() : wrapperText(program, draft.test);
     placeConfiguration(program, moved, wrapper, edits);
-    draft.text = rendered(0, text().size(), edits);
+    draft.text = part(0, text().size(), edits);
     if (!draft.text.ends_with('\n')) draft.text += '\n';
     draft.text += after_;
     while (draft.text.ends_with("\n\n")) draft.text.pop_back();
     if (test) draft.text = withFewBlankLines(draft.text);
-    if (isNamed(draft.text, "ASSERT")) draft.reason = "assertions outside of the test";
-    if (isNamed(draft.text, "TEST_ADVANCE")) draft.reason = "TEST_ADVANCE: time passes within a cycle";
+    if (hasName(draft.text, "ASSERT")) draft.reason = "assertions outside of the test";
+    if (draft.reason.empty() && hasName(draft.text, "TEST_ADVANCE"))
+      draft.reason = "TEST_ADVANCE inside of a statement: time passes within a cycle";
     return draft;
   }
 
-  static bool isNamed(std::string_view text, std::string_view beginning) {
-    Scanner scanner(text);
-    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode())
-      if (unit.kind == UnitKind::Name && upper(scanner.textOf(unit)).starts_with(beginning)) return true;
-    return false;
-  }
   // Only the lines of errors must stay where they are.
   static std::string withFewBlankLines(const std::string& text) {
     std::string out;
@@ -616,44 +240,23 @@ class Writer {
     const bool has_body =
         pou.pou_kind == PouKind::Program || pou.pou_kind == PouKind::FunctionBlock || pou.pou_kind == PouKind::Function;
     if (!has_body || pou.body_kind != BodyKind::St || !pou.members.empty()) return;
-    edits.push_back({bodyOf(pou), bodyOf(pou), "VAR suite_idle : BOOL; END_VAR suite_idle := TRUE; "});
+    edits.push_back({bodyOf(pou), bodyOf(pou), " " + std::string(kIdleDeclaration) + kIdleStatement + " "});
   }
 
   void rewriteTest(DeclId test, std::vector<Edit>& edits, Draft& draft) const {
-    std::vector<StmtId> assertions;
-    findAssertions(test, assertions);
-    std::sort(assertions.begin(), assertions.end(),
-              [&](StmtId a, StmtId b) { return tree_.range(a).begin < tree_.range(b).begin; });
-    const std::string prefix = unusedPrefix();
-    std::string names;
-    for (const StmtId id : assertions) {
-      std::string word;
-      isAssertion(id, word);
-      const auto arguments = tree_.list(tree_.as<CallExpr>(tree_.as<CallStmt>(id).call).arguments);
-      const std::string holds = condition(word, arguments);
-      if (holds.empty()) {
-        draft.reason = "an assertion that is not understood";
-        return;
-      }
-      const Range range = tree_.range(id);
-      if (isNamed(holds, "SIZEOF")) {  // sizes in memory are not the standard's business
-        edits.push_back({source_.at(range.begin), source_.at(range.end), {}});
-        continue;
-      }
-      const std::string name = prefix + std::to_string(draft.watch.size() + 1);
-      edits.push_back({source_.at(range.begin), source_.at(range.end),
-                       "IF " + holds + " THEN IF " + name + " = 0 THEN " + name + " := 1; END_IF; ELSE " + name +
-                           " := 2; END_IF;"});
-      names += (names.empty() ? "" : ", ") + name;
-      draft.watch.push_back(std::string(kInstance) + "." + name);
-      draft.checks.emplace_back(holds);
-    }
-    if (draft.watch.empty()) {
-      draft.reason = "the test asserts nothing";
-      return;
-    }
-    const auto& pou = tree_.as<PouDecl>(test);
-    edits.push_back({bodyOf(pou), bodyOf(pou), "VAR " + names + " : INT; END_VAR\n"});
+    const size_t body = bodyOf(tree_.as<PouDecl>(test));
+    std::set<std::string> choices;
+    for (const std::string& choice : program_.choices)
+      if (choice.starts_with(draft.test + ":")) choices.insert(choice.substr(draft.test.size() + 1));
+    Checks checks = checksOf(source_, test, body, choices);
+    if (!checks.reason.empty()) draft.reason = checks.reason;
+    for (const std::string& name : checks.names) draft.watch.push_back(std::string(kInstance) + "." + name);
+    draft.checks = checks.conditions;
+    draft.cycles = checks.cycles;
+    std::string variables = joined(checks.names, ", ") + " : INT;";
+    for (const std::string& variable : checks.variables) variables += " " + variable + ";";
+    edits.push_back({body, body, " VAR " + variables + " END_VAR\n"});
+    edits.insert(edits.end(), checks.edits.begin(), checks.edits.end());
   }
 
   // A test that is a block runs in a program.
@@ -676,15 +279,18 @@ class Writer {
                           std::vector<Edit>& edits) {
     after_ = wrapper;
     DeclId configuration;
-    for (const DeclId id : decls_)
+    for (const DeclId id : source_.decls)
       if (tree_.kind(id) == DeclKind::Configuration) configuration = id;
-    const std::string instance = "    PROGRAM " + std::string(kInstance) + " WITH " + kTask + " : " + program + ";\n";
+    const bool needs_program = program.empty() && !moved.empty() && !configuration;
+    if (needs_program)
+      after_ += "PROGRAM " + std::string(kIdleProgram) + " " + kIdleDeclaration + kIdleStatement + " END_PROGRAM\n";
+    const std::string instance = "    PROGRAM " + std::string(kInstance) + " WITH " + kTask + " : " +
+                                 (needs_program ? kIdleProgram : program) + ";\n";
     const std::string task = "    TASK " + std::string(kTask) + "(INTERVAL := T#10ms, PRIORITY := 1);\n";
     if (!configuration) {
       if (program.empty() && moved.empty()) return;
       after_ += "CONFIGURATION suite_configuration\n" + moved;
-      if (!program.empty()) after_ += "  RESOURCE suite_resource ON PLC\n" + task + instance + "  END_RESOURCE\n";
-      after_ += "END_CONFIGURATION\n";
+      after_ += "  RESOURCE suite_resource ON PLC\n" + task + instance + "  END_RESOURCE\nEND_CONFIGURATION\n";
       return;
     }
     const auto& decl = tree_.as<ConfigurationDecl>(configuration);
@@ -692,7 +298,7 @@ class Writer {
     if (members.empty()) return;
     if (!moved.empty()) edits.push_back({begin(members[0]), begin(members[0]), moved});
     if (program.empty()) return;
-    for (Edit& gone : instancesOf(configuration)) edits.push_back(gone);
+    for (Edit& gone : declarations_.instancesOf(configuration)) edits.push_back(gone);
     placeInstance(configuration, members, task, instance, edits);
   }
   void placeInstance(DeclId configuration, std::span<const DeclId> members, const std::string& task,
@@ -726,73 +332,20 @@ class Writer {
     static_cast<void>(configuration);
   }
 
-  std::string rendered(size_t from, size_t to, std::vector<Edit> edits) const {
-    std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
-      if (a.begin != b.begin) return a.begin < b.begin;
-      const size_t first = a.end - a.begin, second = b.end - b.begin;
-      return first == 0 || second == 0 ? first < second : first > second;  // insertions, then the longest
-    });
-    std::string out;
-    size_t at = from;
-    for (const Edit& edit : edits) {
-      if (edit.begin < at || edit.begin >= to) continue;
-      out += text().substr(at, edit.begin - at);
-      out += edit.text;
-      at = edit.end;
-    }
-    if (at < to) out += text().substr(at, to - at);
-    return out;
+  std::string part(size_t from, size_t to, const std::vector<Edit>& edits) const {
+    return rendered(text(), from, to, edits);
   }
 
   const Program& program_;
   Source source_;
   const Tree& tree_;
-  std::vector<Unit> units_;
-  std::vector<DeclId> decls_, sections_;
-  std::vector<Global> globals_;
-  std::vector<std::pair<size_t, size_t>> networks_;
-  std::vector<Edit> base_;  // of comments and pragmas
-  bool keeps_pragmas_ = false;
+  const std::vector<Edit> base_;  // to the standard's form
+  const Declarations declarations_;
   std::string after_;
 };
-
-template <class Id>
-void collectParts(const Source& source, Id id, size_t from, size_t to, std::vector<Part>& parts) {
-  const Tree& tree = source.tree;
-  if constexpr (std::is_same_v<Id, StmtId> || std::is_same_v<Id, DeclId>) {
-    Range range = tree.range(id);
-    if constexpr (std::is_same_v<Id, DeclId>) range = {tree.decl(id).begin, tree.decl(id).end};
-    if (range.begin && range.end && source.sources.fileOf(range.begin) == source.file) {
-      const size_t begin = source.at(range.begin), end = source.at(range.end);
-      if (begin < to && end > from) parts.push_back({begin, end});
-    }
-  }
-  forEachChild(tree, id, [&](const auto& child) {
-    if constexpr (std::is_same_v<Id, DeclId> && std::is_same_v<std::decay_t<decltype(child)>, DeclId>) {
-      // The only variable of a section goes with it: a section without any is not of edition 2.
-      if (tree.kind(id) == DeclKind::Section && tree.as<SectionDecl>(id).vars.count == 1) return;
-    }
-    collectParts(source, child, from, to, parts);
-  });
-}
 
 }  // namespace
 
 std::vector<Draft> neutralDrafts(const Program& program) { return Writer(program).drafts(); }
-
-std::vector<Part> partsAround(const std::string& text, Dialect dialect, uint32_t line) {
-  size_t begin = 0;
-  for (uint32_t n = 1; n < line && begin < text.size(); ++n)
-    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
-  const size_t end = std::min(text.find('\n', begin), text.size());
-  std::vector<Part> parts;
-  const Source source(text, dialect);
-  if (!source.tree.files.empty())
-    for (const DeclId id : source.tree.list(source.tree.files[0].decls)) collectParts(source, id, begin, end, parts);
-  parts.push_back({begin, end});
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.end - a.begin < b.end - b.begin; });
-  return parts;
-}
 
 }  // namespace rung::conformance

@@ -19,23 +19,15 @@ struct Draft {
   std::string text;
   std::vector<std::string> watch;      // paths of its checks
   std::vector<std::string> checks;     // the assertions that they stand for
-  std::string done;                    // the path of the variable that ends it; empty: one cycle
+  std::string done;                    // the path of the variable that ends it; empty: see `cycles`
+  int64_t cycles = 0;                  // that it takes; 0: one
   std::vector<std::string> languages;  // ST, IL, SFC, LD, FBD, CFC
   bool has_objects = false;            // classes, interfaces, methods, inheritance
   bool has_networks = false;           // in Rung's notation: to be printed as XML
   std::string reason;                  // why it cannot be exported
-  std::string foreign;                 // what it has that is in no edition
-  std::string of_edition_3;            // what it has that edition 2 does not
 };
 
 // The tests of a program, one draft each; without tests one draft of the whole.
 std::vector<Draft> neutralDrafts(const Program& program);
-
-// The parts of a text that can be left out, from the innermost to the outermost, that contain the line: statements,
-// declarations, POUs. As byte ranges. The line itself comes first.
-struct Part {
-  size_t begin, end;
-};
-std::vector<Part> partsAround(const std::string& text, Dialect dialect, uint32_t line);
 
 }  // namespace rung::conformance

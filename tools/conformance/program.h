@@ -2,6 +2,7 @@
 // file. Out: Program. Read by the exporter, which turns it into neutral cases.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,9 @@ struct Program {
   bool expects = false;                 // has lines `// expect:`
   std::vector<std::string> trace;       // `// trace:`
   Dialect dialect = Dialect::Codesys;
-  int64_t restart = 0;  // `// restart:`: cycles before a warm start, after which the trace begins
-  bool faults = false;  // `// exit:`
+  int64_t restart = 0;            // `// restart:`: cycles before a warm start, after which the trace begins
+  bool faults = false;            // `// exit:`
+  std::set<std::string> choices;  // `test:condition` of kept.tsv: assertions about what the standard leaves open
 };
 
 // An empty text: the file cannot be read.

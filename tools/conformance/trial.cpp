@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/children.h"
 #include "sema/project.h"
 #include "tools/conformance/program.h"
 #include "tools/driver/commands.h"
@@ -66,6 +67,67 @@ std::set<std::string> namesIn(std::string_view text) {
   return names;
 }
 
+// A conversion that was written has become the same node; its location is that of the function's name.
+bool isConversion(std::string_view name) {
+  const std::string word = upper(name);
+  return word.find("TO_") != std::string::npos || word.find("TRUNC") != std::string::npos;
+}
+
+// Inputs of ANY_INT and ANY_NUM in the standard that the library declares with one type.
+bool takesAnyNumber(std::string_view function) {
+  static const std::set<std::string> kNames = {"LEFT", "RIGHT", "MID",     "INSERT",  "DELETE",   "REPLACE",
+                                               "SHL",  "SHR",   "ROL",     "ROR",     "EXPT",     "MUX",
+                                               "MUL",  "DIV",   "MULTIME", "DIVTIME", "MUL_TIME", "DIV_TIME"};
+  return kNames.count(upper(function)) != 0;
+}
+
+// Whether the operand may have another type than the operation: a duration is multiplied by any number.
+bool mayDiffer(const driver::Compilation& compilation, ExprId parent) {
+  const Tree& tree = compilation.tree;
+  const types::TypeTable& table = compilation.project->types;
+  if (tree.kind(parent) == ExprKind::Call) {
+    const ExprId callee = tree.as<CallExpr>(parent).callee;
+    return callee && tree.kind(callee) == ExprKind::Name &&
+           takesAnyNumber(compilation.sources.tokenAt(tree.loc(callee)));
+  }
+  if (tree.kind(parent) != ExprKind::Binary) return false;
+  const auto isTime = [&](ExprId id) {
+    const types::TypeKind kind = table.plainKind(tree.expr(id).type);
+    return types::TypeTable::isDuration(kind) || types::TypeTable::isDate(kind);
+  };
+  return isTime(tree.as<BinaryExpr>(parent).left) || isTime(tree.as<BinaryExpr>(parent).right);
+}
+
+// Lines with an implicit conversion from one elementary type to another, and with an integer literal used as a REAL.
+template <class Id>
+void collectConversions(const driver::Compilation& compilation, Id id, std::vector<uint32_t>& lines) {
+  const Tree& tree = compilation.tree;
+  if constexpr (std::is_same_v<Id, ExprId>) {
+    const types::TypeTable& table = compilation.project->types;
+    const Loc loc = tree.loc(id);
+    if (tree.kind(id) == ExprKind::Convert) {
+      const types::TypeKind from = table.plainKind(tree.expr(tree.as<ConvertExpr>(id).operand).type);
+      const types::TypeKind to = table.plainKind(tree.expr(id).type);
+      const bool is_text = types::TypeTable::isString(from) || types::TypeTable::isString(to);
+      const bool is_written = isConversion(compilation.sources.tokenAt(loc));
+      if (loc && !is_written && from != to && !is_text && types::TypeTable::isElementary(from) &&
+          types::TypeTable::isElementary(to))
+        lines.push_back(compilation.sources.lineNumber(loc));
+    } else if (tree.kind(id) == ExprKind::Literal && tree.as<LiteralExpr>(id).literal() == LiteralKind::Real && loc) {
+      const std::string_view token = compilation.sources.tokenAt(loc);
+      if (!token.empty() && token.find_first_not_of("0123456789_") == std::string_view::npos)
+        lines.push_back(compilation.sources.lineNumber(loc));
+    }
+  }
+  forEachChild(tree, id, [&](const auto& child) {
+    if constexpr (std::is_same_v<Id, ExprId> && std::is_same_v<std::decay_t<decltype(child)>, ExprId>) {
+      if (tree.kind(child) == ExprKind::Convert && mayDiffer(compilation, id))
+        return collectConversions(compilation, tree.as<ConvertExpr>(child).operand, lines);
+    }
+    collectConversions(compilation, child, lines);
+  });
+}
+
 }  // namespace
 
 Checked check(const std::string& file, Dialect dialect) {
@@ -83,6 +145,9 @@ Checked check(const std::string& file, Dialect dialect) {
         {diagInfo(diagnostic.diag).code, diagnostic.message, diagnostic.loc ? compilation.sources.lineNumber(loc) : 0});
   }
   if (!compilation.project) return checked;
+  if (!compilation.tree.files.empty())
+    for (const DeclId id : compilation.tree.list(compilation.tree.files[0].decls))
+      collectConversions(compilation, id, checked.conversions);
   const std::set<std::string> named = namesIn(readFile(file).content);
   for (const sema::Pou& pou : compilation.project->pous) {
     if (!pou.library || pou.owner || !pou.name || pou.generic_of) continue;

@@ -20,6 +20,7 @@ struct Checked {
   std::vector<Complaint> errors;                                  // none: accepted
   std::vector<std::pair<std::string, std::string>> library_pous;  // name and library of those that the text names
   bool refused = false;                                           // it cannot be read
+  std::vector<uint32_t> conversions;                              // lines with an implicit conversion of numbers
 };
 Checked check(const std::string& file, Dialect dialect);
 

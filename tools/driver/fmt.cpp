@@ -25,6 +25,50 @@ using importer::FileKind;
 constexpr const char* kStandardInput = "stdin.st";
 constexpr std::string_view kMark = "\xef\xbb\xbf";
 
+// A file keeps how its characters are stored.
+enum class Encoding : uint8_t { Utf8, Utf8WithMark, Utf16Little, Utf16Big };
+Encoding encodingOf(std::string_view content) {
+  if (content.starts_with(kMark)) return Encoding::Utf8WithMark;
+  if (content.starts_with("\xff\xfe")) return Encoding::Utf16Little;
+  return content.starts_with("\xfe\xff") ? Encoding::Utf16Big : Encoding::Utf8;
+}
+// `source` is UTF-8; the result has the byte order mark.
+std::string encodeUtf16(std::string_view source, bool little) {
+  std::string out;
+  out.reserve(2 * source.size() + 2);
+  const auto unit = [&](uint32_t value) {
+    const char high = static_cast<char>(value >> 8), low = static_cast<char>(value & 0xff);
+    out += little ? low : high;
+    out += little ? high : low;
+  };
+  unit(0xfeff);
+  for (size_t i = 0; i < source.size();) {
+    const auto lead = static_cast<unsigned char>(source[i]);
+    const size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
+    uint32_t c = size == 1 ? lead : lead & (0xffu >> (size + 1));
+    for (size_t k = 1; k < size && i + k < source.size(); ++k)
+      c = c << 6 | (static_cast<unsigned char>(source[i + k]) & 0x3fu);
+    if (c >= 0x10000) {
+      unit(0xd800 + ((c - 0x10000) >> 10));
+      unit(0xdc00 + ((c - 0x10000) & 0x3ff));
+    } else {
+      unit(c);
+    }
+    i += size;
+  }
+  return out;
+}
+
+std::string encoded(const std::string& text, Encoding encoding) {
+  switch (encoding) {
+    case Encoding::Utf8: return text;
+    case Encoding::Utf8WithMark: return std::string(kMark) + text;
+    case Encoding::Utf16Little: return encodeUtf16(text, true);
+    case Encoding::Utf16Big: return encodeUtf16(text, false);
+  }
+  return text;
+}
+
 // The bodies in IL and networks of each file.
 class BodyFinder {
  public:
@@ -99,12 +143,12 @@ class FileFormatter {
       }
       case FileKind::Nct: return format::formattedLadder(source, style, options.lines);
       case FileKind::TwinCat:
-      case FileKind::Plcopen: return format::formattedXml(source, style, options.dialect);
+      case FileKind::Plcopen:
+      case FileKind::Iec10: return format::formattedXml(source, style, options.dialect);
       case FileKind::Unknown:
       case FileKind::Xml:
       case FileKind::Cam:
       case FileKind::PlcProject:
-      case FileKind::Iec10:
       case FileKind::Beremiz:
       case FileKind::Codesys2:
       case FileKind::Multiprog:
@@ -117,15 +161,16 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
-    const bool is_xml = input.kind == FileKind::TwinCat || input.kind == FileKind::Plcopen;
+    const bool is_xml =
+        input.kind == FileKind::TwinCat || input.kind == FileKind::Plcopen || input.kind == FileKind::Iec10;
     if (is_xml && compilation_.options.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
-    const ReadResult read = readFile(input.path);
+    ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
+    const Encoding encoding = encodingOf(read.content);
+    if (!decodeUtf16(read.content)) return fail("`" + input.shown + "` is not UTF-16");
     std::string_view source = read.content;
-    const bool has_mark = source.starts_with(kMark);
-    if (has_mark) source.remove_prefix(kMark.size());
-    if (source.find('\0') != std::string_view::npos) return true;  // UTF-16 is read, but not written
+    if (encoding == Encoding::Utf8WithMark) source.remove_prefix(kMark.size());
     const std::string result = text(input, source);
     if (result == source) return true;
     ++changed_;
@@ -135,7 +180,7 @@ class FileFormatter {
       const std::string error = sink_.output(changesOf(source, result, input.shown));
       return error.empty() || fail(error);
     }
-    return options.only_checks || write(input.path, (has_mark ? std::string(kMark) : std::string()) + result);
+    return options.only_checks || write(input.path, encoded(result, encoding));
   }
 
   // Keeps the permissions of the file, and a link to it.
@@ -161,9 +206,10 @@ class FileFormatter {
 };
 
 int formatStandardInput(Options options, Sink& sink) {
-  const std::string read{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-  const std::string mark(read.starts_with(kMark) ? kMark : std::string_view());
-  const std::string text = read.substr(mark.size());
+  std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  const Encoding encoding = encodingOf(text);
+  if (!decodeUtf16(text)) return usageError(sink, "standard input is not UTF-16");
+  if (encoding == Encoding::Utf8WithMark) text.erase(0, kMark.size());
   options.inputs = {kStandardInput};
   options.unsaved = {{kStandardInput, text}};
   PhaseTimes times;
@@ -174,7 +220,7 @@ int formatStandardInput(Options options, Sink& sink) {
   FileFormatter formatter(compilation, sink);
   const std::string result = formatter.text(compilation.inputs.files.front(), text);
   if (options.only_checks) return result == text ? kSuccess : kInputErrors;
-  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : mark + result);
+  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : encoded(result, encoding));
 }
 
 }  // namespace

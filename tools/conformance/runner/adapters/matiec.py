@@ -62,9 +62,11 @@ int main(void) {
 def compile_to_c(target):
     """Messages go to stderr; iec2c prints the names of its files to stdout."""
     command = [options.iec2c] + shlex.split(options.flags) + ['-I', options.include, '-T', target, options.source]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL)
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    sys.stderr.write(done.stderr.decode('utf-8', 'replace'))
     if done.returncode != 0:
-        sys.exit(1 if done.returncode > 0 else 70)
+        is_own_error = done.returncode < 0 or b'Internal compiler error' in done.stderr
+        sys.exit(70 if is_own_error else 1)
 
 
 def variables(target):
