@@ -7,7 +7,7 @@ one fails; one that needs 30 s of a processor has noticed it too.
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
 --native     so many conformance programs are compiled as well (160)
---most       so many tests of one mutant (all), for a first look
+--longest    only tests that take at most so many seconds, for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
@@ -41,6 +41,8 @@ WEIGHTS = {"operator": 4, "check": 3, "constant": 2, "table": 1}
 TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
 WALL_SECONDS = 400       # of one command
+LENGTHS = 0.5, 2, 10     # seconds of a test: those of a class run before the longer ones
+NEW = ["", False, 0.0, []]
 FIRST, BATCH = 16, 40    # tests of a command: the first one small, since most mutants end there
 
 
@@ -238,10 +240,14 @@ def prepare(tree, draw, names, jobs, targets):
     """Builds until all compile. Out: number -> Site of exactly the count that was asked for."""
     rejected = tree.state["rejected"]
     chosen = draw.take(rejected, surplus=0.25)
+    built = set(tree.state.get("built", ()))
+    if {key(site) for site in draw.take(rejected)} <= built:
+        chosen = [site for site in draw.take(rejected, surplus=0.5) if key(site) in built]  # the same: nothing is built
     while True:
         crossing = tree.write([name for name in names if (ROOT / name).is_file()], chosen)
         rejected.update({name: "crosses another" for name in crossing})
-        blamed = set() if crossing else tree.tryHeaders(chosen, jobs)
+        is_known = all(key(site) in built for site in chosen)
+        blamed = set() if crossing or is_known else tree.tryHeaders(chosen, jobs)
         good, output = (False, "") if crossing or blamed else tree.build(jobs, targets)
         if good:
             break
@@ -254,6 +260,7 @@ def prepare(tree, draw, names, jobs, targets):
         chosen = [site for site in chosen if key(site) not in rejected]
         if not {key(site) for site in draw.take(rejected)} <= {key(site) for site in chosen}:
             chosen = draw.take(rejected, surplus=0.1)
+    tree.state["built"] = [key(site) for site in chosen]
     tree.save()
     return {tree.number(site): site for site in draw.take(rejected)}
 
@@ -261,8 +268,8 @@ def prepare(tree, draw, names, jobs, targets):
 # ---- the tests
 
 class Suite:
-    def __init__(self, tree, names, native, most):
-        self.tree, self.most = tree, most
+    def __init__(self, tree, names, native, longest):
+        self.tree, self.longest = tree, longest
         self.bin = tree.root / "build/bin"
         self.tests = []
         for name in names:
@@ -333,8 +340,9 @@ class Suite:
 
     def record(self, jobs):
         """Runs each test without a mutant: whether it passes, and which places it evaluates."""
+        self.tests = [test for test in self.tests + self.native if self.records.get(test, NEW)[2] <= self.longest]
         wanted = []
-        for test in self.tests + self.native:
+        for test in self.tests:
             stamp = self.stamp(test)
             if test not in self.records or self.records[test][0] != stamp:
                 wanted.append((test, stamp))
@@ -360,8 +368,8 @@ class Suite:
                         self.records_file.write_text(json.dumps(self.records))
                     print(f"{done} of {len(wanted)} tests run without a mutant", flush=True)
         self.records_file.write_text(json.dumps(self.records))
-        known = [test for test in self.tests + self.native if self.records[test][1]]
-        broken = [test for test in self.tests + self.native if self.records[test][1] is False]
+        known = [test for test in self.tests if self.records[test][1] and self.records[test][2] <= self.longest]
+        broken = [test for test in self.tests if self.records[test][1] is False]
         print(f"{len(known)} tests pass without a mutant, {len(broken)} do not and are left out ({time.monotonic() - begin:.0f} s)",
               flush=True)
         if broken:
@@ -386,9 +394,11 @@ class Suite:
             _, _, seconds, numbers = self.records[test]
             is_dense = test.startswith(("tests/conformance/", "unit/", "tests/golden/ir/")) and not test.endswith(".test")
             names_it = any(word in self.text(test) for word in words)
-            return (test.startswith("native "), seconds > 2, not names_it, not is_dense, hashlib.sha1(f"{number} {test}".encode()).digest())
+            length = sum(seconds > limit for limit in LENGTHS)
+            by_chance = hashlib.sha1(f"{number} {test}".encode()).digest()
+            return (test.startswith("native "), length, not names_it, not is_dense, by_chance)
 
-        tests = sorted(self.reaching.get(number, []), key=order)[:self.most]
+        tests = sorted(self.reaching.get(number, []), key=order)
         start = 0
         while start < len(tests):
             size = FIRST if start == 0 else BATCH
@@ -509,7 +519,7 @@ def main():
     parser.add_argument("-j", type=int, default=os.cpu_count())
     parser.add_argument("--units", default="")
     parser.add_argument("--native", type=int, default=160)
-    parser.add_argument("--most", type=int, default=10 ** 6)
+    parser.add_argument("--longest", type=float, default=10 ** 6)
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
@@ -533,7 +543,7 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
-    suite = Suite(tree, files(), options.native, options.most)
+    suite = Suite(tree, files(), options.native, options.longest)
     suite.record(options.j)
 
     results_file = folder / f"results-{options.seed}.json"
