@@ -290,6 +290,10 @@ class Suite:
         self.records_file = tree.folder / "tests.json"
         if self.records_file.exists():
             self.records = json.loads(self.records_file.read_text())
+        self.passed = {}  # number -> test -> its stamp when it passed with the mutant
+        self.passed_file = tree.folder / "passed.json"
+        if self.passed_file.exists():
+            self.passed = json.loads(self.passed_file.read_text())
         self.lock = threading.Lock()
 
     def stamp(self, test):
@@ -398,7 +402,9 @@ class Suite:
             by_chance = hashlib.sha1(f"{number} {test}".encode()).digest()
             return (test.startswith("native "), length, not names_it, not is_dense, by_chance)
 
-        tests = sorted(self.reaching.get(number, []), key=order)
+        passed = self.passed.get(str(number), {})
+        tests = [test for test in self.reaching.get(number, []) if passed.get(test) != self.records[test][0]]
+        tests.sort(key=order)
         start = 0
         while start < len(tests):
             size = FIRST if start == 0 else BATCH
@@ -413,11 +419,15 @@ class Suite:
             yield batch
 
     def judge(self, number):
-        """What notices the mutant: text of the failure, or None."""
+        """What notices the mutant: text of the failure, or None. What passed before is not run again."""
+        with self.lock:
+            passed = self.passed.setdefault(str(number), {})
         for batch in self.batches(number):
             good, text = self.run(batch, number)
             if good is False and self.run(batch)[0]:  # not by chance
                 return text
+            with self.lock:
+                passed.update({test: self.records[test][0] for test in batch})
         return None
 
 
@@ -572,6 +582,8 @@ def main():
             elif options.numbers:
                 print(f"noticed: {number} {site}\n" + text[:3000], flush=True)
             results_file.write_text(json.dumps(results, indent=0))
+            with suite.lock:
+                suite.passed_file.write_text(json.dumps(suite.passed))
     if options.numbers:
         return None
     seconds = time.monotonic() - begin
