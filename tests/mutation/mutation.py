@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Whether the tests notice a mistake in Rung itself. COUNT places of the compiler and the runtime, at least 40 in each part,
-are drawn by a seeded choice from all that sites.py finds. A copy of the tree gets all of them in one build, where an
+are drawn by a seeded choice from all that sites.py finds (draw.py). A copy of the tree gets all of them in one build, where an
 environment variable chooses the active one (mutant.h). The tests that evaluate the place are run, quickest first, until
 one fails; one that needs 30 s of a processor has noticed it too.
-  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--survivors | --list | --sample] [NUMBER...]
+  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--fresh] [--survivors | --list | --sample] [NUMBER...]
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
 --native     so many conformance programs are compiled as well (160)
 --longest    only tests that take at most so many seconds, for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
+--fresh      draws all anew instead of those of drawn.tsv, and writes them there
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
 Exits 0 when at least 95 % are noticed or in equivalent.tsv, whose columns are file, kind, line, mutated, reason. Run it from
@@ -30,14 +31,8 @@ import threading
 import time
 
 import sites
+from draw import ALL, EACH, HERE, PARTS, ROOT, Draw, allSites, keptSites, key, partOf, rowOf, rowsOf
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-HERE = pathlib.Path(__file__).resolve().parent
-PARTS = {"sema": ("sema/",), "lowering": ("ir/lower/",), "passes": ("ir/passes/",), "codegen": ("codegen/",),
-         "interpreter": ("ir/interpreter/",), "runtime": ("stdlib/", "cam/table/")}
-ALL = ("frontend/", "sema/", "ir/", "codegen/", "stdlib/", "cam/table/")
-EACH = 40           # of each part; the rest is drawn from all
-WEIGHTS = {"operator": 4, "check": 3, "constant": 2, "table": 1}
 TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
 WALL_SECONDS = 400       # of one command
@@ -50,70 +45,6 @@ def files():
     """What git knows or could add, below the root."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, capture_output=True, check=True)
     return sorted(name for name in listed.stdout.decode().split("\0") if name and (ROOT / name).is_file())
-
-
-def partOf(name):
-    return next((part for part, folders in PARTS.items() if name.startswith(folders)), "other")
-
-
-# ---- drawing
-
-def allSites(names):
-    found = []
-    for name in names:
-        if name.startswith(ALL) and name.endswith((".cpp", ".h")):
-            found += sites.sitesOf((ROOT / name).read_text(), name)
-    return found
-
-
-def inRandomOrder(found, seed):
-    """All of them: kinds by their weight, places of a kind at random."""
-    choice = random.Random(seed)
-    left = {kind: [site for site in found if site.kind == kind] for kind in sites.KINDS}
-    for some in left.values():
-        choice.shuffle(some)
-    while any(left.values()):
-        kinds = [kind for kind in sites.KINDS if left[kind]]
-        yield left[choice.choices(kinds, [WEIGHTS[kind] for kind in kinds])[0]].pop()
-
-
-class Draw:
-    """The places in the order in which they are taken, without those that do not compile."""
-
-    def __init__(self, found, seed, count):
-        self.count = count
-        each = min(EACH, count // (len(PARTS) + 1))
-        self.quotas = {part: each for part in PARTS}
-        self.quotas["all"] = count - each * len(PARTS)
-        self.orders = {part: list(inRandomOrder([s for s in found if part == "all" or partOf(s.file) == part],
-                                                f"{seed}/{part}")) for part in self.quotas}
-
-    def take(self, rejected, surplus=0.0):
-        taken, seen = [], set()
-        for part, order in self.orders.items():
-            wanted = int(self.quotas[part] * (1 + surplus) + 0.999)
-            for site in order:
-                if wanted == 0:
-                    break
-                if key(site) in rejected or key(site) in seen:
-                    continue
-                seen.add(key(site))
-                taken.append(site)
-                wanted -= 1
-        return taken
-
-
-def key(site):
-    return f"{site.file}:{site.begin}-{site.end} {site.kind} {sites.oneLine(site.mutated)}"
-
-
-def shown(site, text):
-    """As in equivalent.tsv: file, kind, the line with the place between « and », what it becomes."""
-    start = text.rfind("\n", 0, site.begin) + 1
-    stop = text.find("\n", site.begin)
-    end = min(site.end, stop)
-    line = text[start:site.begin] + "«" + text[site.begin:end] + "»" + text[end:stop]
-    return (site.file, site.kind, line.strip(), sites.oneLine(site.mutated))
 
 
 # ---- the copy and its build
@@ -479,7 +410,7 @@ def sample():
     if min(per_part.values()) < EACH:
         sys.exit(f"too few of a part: {per_part}")
     checkBuilt(text, len(found))
-    stale = [cells for cells in equivalents() if not isPresent(cells)]
+    stale = [cells for cells in equivalents() if cells not in rowsOf(cells[0]).values()]
     for cells in stale:
         print("equivalent.tsv: no such place: " + " | ".join(cells))
     if stale:
@@ -509,18 +440,6 @@ def checkBuilt(text, count):
             sys.exit(f"sample.cpp: sites {same} change nothing")
 
 
-def isPresent(cells):
-    file, kind, line, mutated = cells
-    path = ROOT / file
-    if not path.exists():
-        return False
-    if file not in LINES:
-        text = path.read_text()
-        LINES[file] = text
-    text = LINES[file]
-    return any(shown(site, text) == cells for site in sites.sitesOf(text, file))
-
-
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("--seed", default=os.environ.get("SEED", "1"))
@@ -533,6 +452,7 @@ def main():
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
+    parser.add_argument("--fresh", action="store_true")
     parser.add_argument("numbers", nargs="*", type=int)
     options = parser.parse_args()
     if options.sample:
@@ -540,7 +460,8 @@ def main():
 
     names = files()
     found = allSites(names)
-    draw = Draw(found, options.seed, options.count)
+    is_usual = (options.seed, options.count) == ("1", 300)
+    draw = Draw(found, options.seed, options.count, keptSites(found) if is_usual and not options.fresh else ())
     if options.list:
         for site in draw.take({}):
             print(site)
@@ -553,16 +474,18 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
+    if options.fresh:
+        (HERE / "drawn.tsv").write_text("file\tkind\tline\tmutated\n" + "".join("\t".join(rowOf(site)) + "\n"
+                                                                             for _, site in sorted(mutants.items())))
     suite = Suite(tree, files(), options.native, options.longest)
     suite.record(options.j)
 
     results_file = folder / f"results-{options.seed}.json"
     results = json.loads(results_file.read_text()) if results_file.exists() and options.survivors else {}
     known = equivalents()
-    texts = {site.file: (ROOT / site.file).read_text() for site in mutants.values()}
-    suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(shown(site, texts[site.file])))}
+    suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(rowOf(site)))}
                    for number, site in mutants.items()}
-    is_equivalent = {number: shown(site, texts[site.file]) in known for number, site in mutants.items()}
+    is_equivalent = {number: rowOf(site) in known for number, site in mutants.items()}
     wanted = options.numbers or [number for number in sorted(mutants) if not is_equivalent[number] and
                                  results.get(key(mutants[number])) != "noticed"]
 
@@ -578,7 +501,7 @@ def main():
             site = mutants[number]
             results[key(site)] = result
             if result != "noticed":
-                print(f"{result}: {number} at line {site.line}\n  " + "\t".join(shown(site, texts[site.file])), flush=True)
+                print(f"{result}: {number} at line {site.line}\n  " + "\t".join(rowOf(site)), flush=True)
             elif options.numbers:
                 print(f"noticed: {number} {site}\n" + text[:3000], flush=True)
             results_file.write_text(json.dumps(results, indent=0))
