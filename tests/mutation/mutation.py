@@ -6,7 +6,7 @@ one fails; one that needs 30 s of a processor has noticed it too.
   tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--fresh] [--survivors | --list | --sample] [NUMBER...]
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
---native     so many conformance programs are compiled as well (160)
+--native     so many conformance programs are compiled as well (160), or these files, separated by commas
 --longest    only tests that take at most so many seconds, for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
 --fresh      draws all anew instead of those of drawn.tsv, and writes them there
@@ -215,7 +215,11 @@ class Suite:
         if listed.exists():
             self.tests += [f"unit/{name}" for name in listed.read_text().split() if (self.bin / name).exists()]
         programs = [name for name in self.tests if name.startswith("tests/conformance/") and name.endswith(".st")]
-        self.native = [f"native {name}" for name in sorted(random.Random(1).sample(programs, min(native, len(programs))))]
+        if native.isdigit():
+            given = sorted(random.Random(1).sample(programs, min(int(native), len(programs))))
+        else:
+            given = native.split(",")
+        self.native = [f"native {name}" for name in given]
         self.words, self.texts = {}, {}  # by number, what is in quotes in the line of a place; texts of tests
         self.records = {}  # test -> [stamp, passes, seconds, reached numbers]
         self.records_file = tree.folder / "tests.json"
@@ -447,7 +451,7 @@ def main():
     parser.add_argument("--folder", default=os.path.join(tempfile.gettempdir(), "rung-mutation"))
     parser.add_argument("-j", type=int, default=os.cpu_count())
     parser.add_argument("--units", default="")
-    parser.add_argument("--native", type=int, default=160)
+    parser.add_argument("--native", default="160")
     parser.add_argument("--longest", type=float, default=10 ** 6)
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
