@@ -359,8 +359,12 @@ class Suite:
             passed = self.passed.setdefault(str(number), {})
         for batch in self.batches(number):
             good, text = self.run(batch, number)
-            if good is False and self.run(batch)[0]:  # not by chance
+            if good is False and self.run(batch)[0]:
                 return text
+            for test in batch if good is False else []:  # one fails without the mutant, by chance or beside the others
+                good, text = self.run([test], number)
+                if good is False and self.run([test])[0]:
+                    return text
             with self.lock:
                 passed.update({test: self.records[test][0] for test in batch})
         return None
