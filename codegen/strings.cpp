@@ -27,17 +27,26 @@ std::string_view firstWhole(std::string_view string, uint32_t bytes) {
   return string.substr(0, bytes);
 }
 
-// The first `units` UTF-16 units of a UTF-8 string.
-std::string_view firstUnits(std::string_view string, uint32_t units) {
+// The first of the two UTF-16 units of a character of four bytes, in the form of a character of three.
+std::string firstHalf(std::string_view character) {
+  uint32_t point = static_cast<unsigned char>(character[0]) & 7;
+  for (const char c : character.substr(1, 3)) point = point << 6 | (static_cast<unsigned char>(c) & 63);
+  const uint32_t unit = 0xd800 + ((point - 0x10000) >> 10);
+  return {static_cast<char>(0xe0 | unit >> 12), static_cast<char>(0x80 | (unit >> 6 & 63)),
+          static_cast<char>(0x80 | (unit & 63))};
+}
+
+// The first `units` UTF-16 units of a UTF-8 string; of two that are one character the first may stay.
+std::string firstUnits(std::string_view string, uint32_t units) {
   size_t at = 0;
   while (at < string.size()) {
     const auto lead = static_cast<unsigned char>(string[at]);
     const uint32_t width = lead >= 0xf0 ? 2 : 1;
-    if (width > units) break;
+    if (width > units) return std::string(string.substr(0, at)) + (units == 1 ? firstHalf(string.substr(at)) : "");
     units -= width;
     at += lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
   }
-  return string.substr(0, at);
+  return std::string(string.substr(0, at));
 }
 
 }  // namespace
@@ -149,9 +158,11 @@ void StringWriter::copyString(const StringTarget& target, ExprId from) {
 }
 
 void StringWriter::copyLiteral(const StringTarget& target, std::string_view literal, bool utf8) {
-  literal = target.wide ? firstUnits(literal, target.capacity)
-            : utf8      ? firstWhole(literal, target.capacity)
-                        : literal.substr(0, target.capacity);
+  std::string units;
+  if (target.wide)
+    literal = units = firstUnits(literal, target.capacity);
+  else
+    literal = utf8 ? firstWhole(literal, target.capacity) : literal.substr(0, target.capacity);
   if (literal.empty()) {
     out_ += target.name;
     out_ += "[0] = 0;";

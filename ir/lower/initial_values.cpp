@@ -37,9 +37,9 @@ bool storeString(const TypeTable& types, TypeId type, std::string_view string, u
       to[2 * unit + 1] = static_cast<uint8_t>(value >> 8);
       ++unit;
     };
-    if (code >= 0x10000 && unit + 1 < info.length) {
+    if (code >= 0x10000) {  // two units, of which the first may stay
       put(0xd800 + ((code - 0x10000) >> 10));
-      put(0xdc00 + ((code - 0x10000) & 0x3ff));
+      if (unit < info.length) put(0xdc00 + ((code - 0x10000) & 0x3ff));
     } else {
       put(code);
     }

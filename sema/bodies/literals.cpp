@@ -460,7 +460,6 @@ bool untypedFits(Context& context, ExprId expr, TypeId to) {
 
 bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
   ExprHeader& header = context.tree().expr(expr);
-  if (to == types::kError || header.type == types::kError) return to != types::kError;
   const TypeId target = context.types().resolve(to);
   const types::TypeInfo& info = context.types().info(target);
   const TypeKind kind = context.types().plainKind(target);

@@ -236,10 +236,7 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
       context.tree().kind(node.target) == ExprKind::Member ? context.tree().as<MemberExpr>(node.target).base : ExprId{};
   const TypeId pin_type = context.symbols.var(pin).type;
   if (node.op() == AssignOp::Reference) {
-    if (context.types().kind(pin_type) != TypeKind::Reference) {
-      context.report(diag::NotAReference, loc, {"REF=", context.types().toString(pin_type)});
-      return true;
-    }
+    if (context.types().kind(pin_type) != TypeKind::Reference) return false;  // reported as for a variable
     if (!bindReference(context, node.value, pin_type)) return true;
     node.setEffect(AssignOp::Assign);
   } else if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first

@@ -6,22 +6,37 @@
 // Called for each conversion to a record or array, and for each variable.
 #include "sema/checks/uncopied.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
 
-PouId uncopiedIn(Context& context, TypeId type) {
+namespace {
+
+// `seen`: records that hold none, so that one that contains itself, which is reported elsewhere, ends.
+PouId firstUncopied(Context& context, TypeId type, std::vector<TypeId>& seen) {
   type = context.types().resolve(type);
   const types::TypeInfo& info = context.types().info(type);
-  if (info.kind == TypeKind::Array) return uncopiedIn(context, info.base);
+  if (info.kind == TypeKind::Array) return firstUncopied(context, info.base, seen);
   if (info.kind != TypeKind::Record || info.record_kind == types::RecordKind::Interface) return {};
+  if (std::find(seen.begin(), seen.end(), type) != seen.end()) return {};
+  seen.push_back(type);
   if (const PouId pou = pouOf(context, type); pou && context.symbols.pou(pou).pragmas.no_copy) return pou;
   for (const types::Field& field : info.fields) {
     if (field.by_reference || !field.type) continue;
-    if (const PouId found = uncopiedIn(context, field.type)) return found;
+    if (const PouId found = firstUncopied(context, field.type, seen)) return found;
   }
   return {};
+}
+
+}  // namespace
+
+PouId uncopiedIn(Context& context, TypeId type) {
+  std::vector<TypeId> seen;
+  return firstUncopied(context, type, seen);
 }
 
 bool checkCopied(Context& context, ExprId expr, TypeId type) {

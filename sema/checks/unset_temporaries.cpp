@@ -50,7 +50,6 @@ class TempWalk {
 
   // A read of a plain variable; what is passed to a call may be set by it.
   void read(ExprId id) {
-    if (!id) return;
     if (tree_.kind(id) == ExprKind::Call || tree_.kind(id) == ExprKind::AddressOf || tree_.kind(id) == ExprKind::Assign)
       return setAll(id);
     if (tree_.kind(id) == ExprKind::Name) {
@@ -65,7 +64,6 @@ class TempWalk {
   }
 
   void setAll(ExprId id) {
-    if (!id) return;
     if (tree_.kind(id) == ExprKind::Name) {
       const Entity entity = tree_.as<NameExpr>(id).entity;
       if (entity.entityKind() == EntityKind::Var) is_unset_[entity.index] = false;

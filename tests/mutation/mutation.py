@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Whether the tests notice a mistake in Rung itself. COUNT places of the compiler and the runtime, at least 40 in each part,
-are drawn by a seeded choice from all that sites.py finds. A copy of the tree gets all of them in one build, where an
+are drawn by a seeded choice from all that sites.py finds (draw.py). A copy of the tree gets all of them in one build, where an
 environment variable chooses the active one (mutant.h). The tests that evaluate the place are run, quickest first, until
 one fails; one that needs 30 s of a processor has noticed it too.
-  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--survivors | --list | --sample] [NUMBER...]
+  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--fresh] [--survivors | --list | --sample] [NUMBER...]
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
---native     so many conformance programs are compiled as well (160)
---most       so many tests of one mutant (all), for a first look
+--native     so many conformance programs are compiled as well (160), or these files, separated by commas
+--longest    only tests that take at most so many seconds, for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
+--fresh      draws all anew instead of those of drawn.tsv, and writes them there
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
 Exits 0 when at least 95 % are noticed or in equivalent.tsv, whose columns are file, kind, line, mutated, reason. Run it from
@@ -30,17 +31,13 @@ import threading
 import time
 
 import sites
+from draw import ALL, EACH, HERE, PARTS, ROOT, Draw, allSites, keptSites, key, partOf, rowOf, rowsOf
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-HERE = pathlib.Path(__file__).resolve().parent
-PARTS = {"sema": ("sema/",), "lowering": ("ir/lower/",), "passes": ("ir/passes/",), "codegen": ("codegen/",),
-         "interpreter": ("ir/interpreter/",), "runtime": ("stdlib/", "cam/table/")}
-ALL = ("frontend/", "sema/", "ir/", "codegen/", "stdlib/", "cam/table/")
-EACH = 40           # of each part; the rest is drawn from all
-WEIGHTS = {"operator": 4, "check": 3, "constant": 2, "table": 1}
 TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
 WALL_SECONDS = 400       # of one command
+LENGTHS = 0.5, 2, 10     # seconds of a test: those of a class run before the longer ones
+NEW = ["", False, 0.0, []]
 FIRST, BATCH = 16, 40    # tests of a command: the first one small, since most mutants end there
 
 
@@ -48,70 +45,6 @@ def files():
     """What git knows or could add, below the root."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, capture_output=True, check=True)
     return sorted(name for name in listed.stdout.decode().split("\0") if name and (ROOT / name).is_file())
-
-
-def partOf(name):
-    return next((part for part, folders in PARTS.items() if name.startswith(folders)), "other")
-
-
-# ---- drawing
-
-def allSites(names):
-    found = []
-    for name in names:
-        if name.startswith(ALL) and name.endswith((".cpp", ".h")):
-            found += sites.sitesOf((ROOT / name).read_text(), name)
-    return found
-
-
-def inRandomOrder(found, seed):
-    """All of them: kinds by their weight, places of a kind at random."""
-    choice = random.Random(seed)
-    left = {kind: [site for site in found if site.kind == kind] for kind in sites.KINDS}
-    for some in left.values():
-        choice.shuffle(some)
-    while any(left.values()):
-        kinds = [kind for kind in sites.KINDS if left[kind]]
-        yield left[choice.choices(kinds, [WEIGHTS[kind] for kind in kinds])[0]].pop()
-
-
-class Draw:
-    """The places in the order in which they are taken, without those that do not compile."""
-
-    def __init__(self, found, seed, count):
-        self.count = count
-        each = min(EACH, count // (len(PARTS) + 1))
-        self.quotas = {part: each for part in PARTS}
-        self.quotas["all"] = count - each * len(PARTS)
-        self.orders = {part: list(inRandomOrder([s for s in found if part == "all" or partOf(s.file) == part],
-                                                f"{seed}/{part}")) for part in self.quotas}
-
-    def take(self, rejected, surplus=0.0):
-        taken, seen = [], set()
-        for part, order in self.orders.items():
-            wanted = int(self.quotas[part] * (1 + surplus) + 0.999)
-            for site in order:
-                if wanted == 0:
-                    break
-                if key(site) in rejected or key(site) in seen:
-                    continue
-                seen.add(key(site))
-                taken.append(site)
-                wanted -= 1
-        return taken
-
-
-def key(site):
-    return f"{site.file}:{site.begin}-{site.end} {site.kind} {sites.oneLine(site.mutated)}"
-
-
-def shown(site, text):
-    """As in equivalent.tsv: file, kind, the line with the place between « and », what it becomes."""
-    start = text.rfind("\n", 0, site.begin) + 1
-    stop = text.find("\n", site.begin)
-    end = min(site.end, stop)
-    line = text[start:site.begin] + "«" + text[site.begin:end] + "»" + text[end:stop]
-    return (site.file, site.kind, line.strip(), sites.oneLine(site.mutated))
 
 
 # ---- the copy and its build
@@ -238,10 +171,14 @@ def prepare(tree, draw, names, jobs, targets):
     """Builds until all compile. Out: number -> Site of exactly the count that was asked for."""
     rejected = tree.state["rejected"]
     chosen = draw.take(rejected, surplus=0.25)
+    built = set(tree.state.get("built", ()))
+    if {key(site) for site in draw.take(rejected)} <= built:
+        chosen = [site for site in draw.take(rejected, surplus=0.5) if key(site) in built]  # the same: nothing is built
     while True:
         crossing = tree.write([name for name in names if (ROOT / name).is_file()], chosen)
         rejected.update({name: "crosses another" for name in crossing})
-        blamed = set() if crossing else tree.tryHeaders(chosen, jobs)
+        is_known = all(key(site) in built for site in chosen)
+        blamed = set() if crossing or is_known else tree.tryHeaders(chosen, jobs)
         good, output = (False, "") if crossing or blamed else tree.build(jobs, targets)
         if good:
             break
@@ -254,6 +191,7 @@ def prepare(tree, draw, names, jobs, targets):
         chosen = [site for site in chosen if key(site) not in rejected]
         if not {key(site) for site in draw.take(rejected)} <= {key(site) for site in chosen}:
             chosen = draw.take(rejected, surplus=0.1)
+    tree.state["built"] = [key(site) for site in chosen]
     tree.save()
     return {tree.number(site): site for site in draw.take(rejected)}
 
@@ -261,8 +199,8 @@ def prepare(tree, draw, names, jobs, targets):
 # ---- the tests
 
 class Suite:
-    def __init__(self, tree, names, native, most):
-        self.tree, self.most = tree, most
+    def __init__(self, tree, names, native, longest):
+        self.tree, self.longest = tree, longest
         self.bin = tree.root / "build/bin"
         self.tests = []
         for name in names:
@@ -277,12 +215,20 @@ class Suite:
         if listed.exists():
             self.tests += [f"unit/{name}" for name in listed.read_text().split() if (self.bin / name).exists()]
         programs = [name for name in self.tests if name.startswith("tests/conformance/") and name.endswith(".st")]
-        self.native = [f"native {name}" for name in sorted(random.Random(1).sample(programs, min(native, len(programs))))]
+        if native.isdigit():
+            given = sorted(random.Random(1).sample(programs, min(int(native), len(programs))))
+        else:
+            given = native.split(",")
+        self.native = [f"native {name}" for name in given]
         self.words, self.texts = {}, {}  # by number, what is in quotes in the line of a place; texts of tests
         self.records = {}  # test -> [stamp, passes, seconds, reached numbers]
         self.records_file = tree.folder / "tests.json"
         if self.records_file.exists():
             self.records = json.loads(self.records_file.read_text())
+        self.passed = {}  # number -> test -> its stamp when it passed with the mutant
+        self.passed_file = tree.folder / "passed.json"
+        if self.passed_file.exists():
+            self.passed = json.loads(self.passed_file.read_text())
         self.lock = threading.Lock()
 
     def stamp(self, test):
@@ -333,8 +279,9 @@ class Suite:
 
     def record(self, jobs):
         """Runs each test without a mutant: whether it passes, and which places it evaluates."""
+        self.tests = [test for test in self.tests + self.native if self.records.get(test, NEW)[2] <= self.longest]
         wanted = []
-        for test in self.tests + self.native:
+        for test in self.tests:
             stamp = self.stamp(test)
             if test not in self.records or self.records[test][0] != stamp:
                 wanted.append((test, stamp))
@@ -360,8 +307,8 @@ class Suite:
                         self.records_file.write_text(json.dumps(self.records))
                     print(f"{done} of {len(wanted)} tests run without a mutant", flush=True)
         self.records_file.write_text(json.dumps(self.records))
-        known = [test for test in self.tests + self.native if self.records[test][1]]
-        broken = [test for test in self.tests + self.native if self.records[test][1] is False]
+        known = [test for test in self.tests if self.records[test][1] and self.records[test][2] <= self.longest]
+        broken = [test for test in self.tests if self.records[test][1] is False]
         print(f"{len(known)} tests pass without a mutant, {len(broken)} do not and are left out ({time.monotonic() - begin:.0f} s)",
               flush=True)
         if broken:
@@ -386,9 +333,13 @@ class Suite:
             _, _, seconds, numbers = self.records[test]
             is_dense = test.startswith(("tests/conformance/", "unit/", "tests/golden/ir/")) and not test.endswith(".test")
             names_it = any(word in self.text(test) for word in words)
-            return (test.startswith("native "), seconds > 2, not names_it, not is_dense, hashlib.sha1(f"{number} {test}".encode()).digest())
+            length = sum(seconds > limit for limit in LENGTHS)
+            by_chance = hashlib.sha1(f"{number} {test}".encode()).digest()
+            return (test.startswith("native "), length, not names_it, not is_dense, by_chance)
 
-        tests = sorted(self.reaching.get(number, []), key=order)[:self.most]
+        passed = self.passed.get(str(number), {})
+        tests = [test for test in self.reaching.get(number, []) if passed.get(test) != self.records[test][0]]
+        tests.sort(key=order)
         start = 0
         while start < len(tests):
             size = FIRST if start == 0 else BATCH
@@ -403,11 +354,19 @@ class Suite:
             yield batch
 
     def judge(self, number):
-        """What notices the mutant: text of the failure, or None."""
+        """What notices the mutant: text of the failure, or None. What passed before is not run again."""
+        with self.lock:
+            passed = self.passed.setdefault(str(number), {})
         for batch in self.batches(number):
             good, text = self.run(batch, number)
-            if good is False and self.run(batch)[0]:  # not by chance
+            if good is False and self.run(batch)[0]:
                 return text
+            for test in batch if good is False else []:  # one fails without the mutant, by chance or beside the others
+                good, text = self.run([test], number)
+                if good is False and self.run([test])[0]:
+                    return text
+            with self.lock:
+                passed.update({test: self.records[test][0] for test in batch})
         return None
 
 
@@ -459,7 +418,7 @@ def sample():
     if min(per_part.values()) < EACH:
         sys.exit(f"too few of a part: {per_part}")
     checkBuilt(text, len(found))
-    stale = [cells for cells in equivalents() if not isPresent(cells)]
+    stale = [cells for cells in equivalents() if cells not in rowsOf(cells[0]).values()]
     for cells in stale:
         print("equivalent.tsv: no such place: " + " | ".join(cells))
     if stale:
@@ -489,18 +448,6 @@ def checkBuilt(text, count):
             sys.exit(f"sample.cpp: sites {same} change nothing")
 
 
-def isPresent(cells):
-    file, kind, line, mutated = cells
-    path = ROOT / file
-    if not path.exists():
-        return False
-    if file not in LINES:
-        text = path.read_text()
-        LINES[file] = text
-    text = LINES[file]
-    return any(shown(site, text) == cells for site in sites.sitesOf(text, file))
-
-
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("--seed", default=os.environ.get("SEED", "1"))
@@ -508,11 +455,12 @@ def main():
     parser.add_argument("--folder", default=os.path.join(tempfile.gettempdir(), "rung-mutation"))
     parser.add_argument("-j", type=int, default=os.cpu_count())
     parser.add_argument("--units", default="")
-    parser.add_argument("--native", type=int, default=160)
-    parser.add_argument("--most", type=int, default=10 ** 6)
+    parser.add_argument("--native", default="160")
+    parser.add_argument("--longest", type=float, default=10 ** 6)
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
+    parser.add_argument("--fresh", action="store_true")
     parser.add_argument("numbers", nargs="*", type=int)
     options = parser.parse_args()
     if options.sample:
@@ -520,7 +468,8 @@ def main():
 
     names = files()
     found = allSites(names)
-    draw = Draw(found, options.seed, options.count)
+    is_usual = (options.seed, options.count) == ("1", 300)
+    draw = Draw(found, options.seed, options.count, keptSites(found) if is_usual and not options.fresh else ())
     if options.list:
         for site in draw.take({}):
             print(site)
@@ -533,16 +482,18 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
-    suite = Suite(tree, files(), options.native, options.most)
+    if options.fresh:
+        (HERE / "drawn.tsv").write_text("file\tkind\tline\tmutated\n" + "".join("\t".join(rowOf(site)) + "\n"
+                                                                             for _, site in sorted(mutants.items())))
+    suite = Suite(tree, files(), options.native, options.longest)
     suite.record(options.j)
 
     results_file = folder / f"results-{options.seed}.json"
     results = json.loads(results_file.read_text()) if results_file.exists() and options.survivors else {}
     known = equivalents()
-    texts = {site.file: (ROOT / site.file).read_text() for site in mutants.values()}
-    suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(shown(site, texts[site.file])))}
+    suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(rowOf(site)))}
                    for number, site in mutants.items()}
-    is_equivalent = {number: shown(site, texts[site.file]) in known for number, site in mutants.items()}
+    is_equivalent = {number: rowOf(site) in known for number, site in mutants.items()}
     wanted = options.numbers or [number for number in sorted(mutants) if not is_equivalent[number] and
                                  results.get(key(mutants[number])) != "noticed"]
 
@@ -558,10 +509,12 @@ def main():
             site = mutants[number]
             results[key(site)] = result
             if result != "noticed":
-                print(f"{result}: {number} at line {site.line}\n  " + "\t".join(shown(site, texts[site.file])), flush=True)
+                print(f"{result}: {number} at line {site.line}\n  " + "\t".join(rowOf(site)), flush=True)
             elif options.numbers:
                 print(f"noticed: {number} {site}\n" + text[:3000], flush=True)
             results_file.write_text(json.dumps(results, indent=0))
+            with suite.lock:
+                suite.passed_file.write_text(json.dumps(suite.passed))
     if options.numbers:
         return None
     seconds = time.monotonic() - begin

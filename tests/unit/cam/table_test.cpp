@@ -254,6 +254,24 @@ TEST(CamTable, NoticesPointsThatBecameBad) {
   EXPECT_FALSE(at(table, 10, segment = 0, value));
   points[3].x = 240;
   EXPECT_FALSE(at(table, 300, segment = 2, value));
+
+  std::vector<double> pairs = {0, 0, 1, 1, 4, 16};
+  const Table list = numbers(Kind::Pairs, pairs, 0, 4, false);
+  EXPECT_TRUE(at(list, 0.5, segment = 0, value));
+  pairs[0] = 0.75;
+  EXPECT_FALSE(at(list, 0.5, segment = 0, value));
+  pairs = {0, 0, 1, 1, 0.5, 16};
+  EXPECT_FALSE(at(list, 3, segment = 1, value));
+
+  Polynomial parts[] = {{0, {1}}, {2, {7}}};
+  Table curve = {};
+  curve.points = parts;
+  curve.kind = Kind::Polynomials;
+  curve.count = 2;
+  curve.end = 5;
+  EXPECT_TRUE(at(curve, 0.5, segment = 0, value));
+  parts[0].x = 1;
+  EXPECT_FALSE(at(curve, 0.5, segment = 0, value));
 }
 
 // 20 ns is what tests/bench/cams.sh asks for; here, on a loaded machine and in any build, a multiple of it.

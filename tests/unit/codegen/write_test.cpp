@@ -62,6 +62,19 @@ TEST_F(WriteTest, LeavesNothingWhenOneFileIsRefused) {
   EXPECT_EQ(files, 0u);
 }
 
+// No name is the folder where the tool runs; a slash at the end names the same folder.
+TEST_F(WriteTest, CurrentFolderAndTrailingSlash) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder);
+  const WriteResult here = writeOutputs("", {{"a.cpp", "1"}});
+  const WriteResult below = writeOutputs("new/", {{"b.cpp", "2"}});
+  fs::current_path(before);
+  EXPECT_EQ(here.error, "");
+  EXPECT_EQ(text("a.cpp"), "1");
+  EXPECT_EQ(below.error, "");
+  EXPECT_EQ(text("new/b.cpp"), "2");
+}
+
 TEST_F(WriteTest, AManifestNamesNothingOutside) {
   std::ofstream(folder + "/outside") << "kept";
   fs::create_directory(folder + "/gen");

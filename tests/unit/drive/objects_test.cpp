@@ -18,14 +18,15 @@ constexpr Row kRows[] = {
     {0x1C12, 0, 1, false}, {0x1C13, 1, 2, false}, {0x1600, 0, 1, false}, {0x1A00, 1, 4, false}, {0x603F, 0, 2, false},
     {0x6040, 0, 2, true},  {0x6041, 0, 2, false}, {0x605A, 0, 2, true},  {0x605B, 0, 2, true},  {0x605C, 0, 2, true},
     {0x605D, 0, 2, true},  {0x605E, 0, 2, true},  {0x6060, 0, 1, true},  {0x6061, 0, 1, false}, {0x6064, 0, 4, false},
-    {0x6065, 0, 4, true},  {0x6066, 0, 2, true},  {0x606C, 0, 4, false}, {0x6071, 0, 2, true},  {0x6072, 0, 2, true},
-    {0x6073, 0, 2, true},  {0x6075, 0, 4, true},  {0x6077, 0, 2, false}, {0x607A, 0, 4, true},  {0x607C, 0, 4, true},
-    {0x607D, 0, 1, false}, {0x607D, 1, 4, true},  {0x607D, 2, 4, true},  {0x607F, 0, 4, true},  {0x6081, 0, 4, true},
-    {0x6083, 0, 4, true},  {0x6084, 0, 4, true},  {0x6085, 0, 4, true},  {0x6087, 0, 4, true},  {0x6098, 0, 1, true},
-    {0x6099, 0, 1, false}, {0x6099, 1, 4, true},  {0x6099, 2, 4, true},  {0x609A, 0, 4, true},  {0x60B8, 0, 2, true},
-    {0x60B9, 0, 2, false}, {0x60BA, 0, 4, false}, {0x60BB, 0, 4, false}, {0x60BC, 0, 4, false}, {0x60BD, 0, 4, false},
-    {0x60C2, 0, 1, false}, {0x60C2, 1, 1, true},  {0x60C2, 2, 1, true},  {0x60FD, 0, 4, false}, {0x60FE, 1, 4, true},
-    {0x60FF, 0, 4, true},  {0x6502, 0, 4, false},
+    {0x6065, 0, 4, true},  {0x6066, 0, 2, true},  {0x6067, 0, 4, true},  {0x6068, 0, 2, true},  {0x606C, 0, 4, false},
+    {0x606D, 0, 2, true},  {0x606E, 0, 2, true},  {0x6071, 0, 2, true},  {0x6072, 0, 2, true},  {0x6073, 0, 2, true},
+    {0x6075, 0, 4, true},  {0x6077, 0, 2, false}, {0x607A, 0, 4, true},  {0x607C, 0, 4, true},  {0x607D, 0, 1, false},
+    {0x607D, 1, 4, true},  {0x607D, 2, 4, true},  {0x607F, 0, 4, true},  {0x6081, 0, 4, true},  {0x6083, 0, 4, true},
+    {0x6084, 0, 4, true},  {0x6085, 0, 4, true},  {0x6087, 0, 4, true},  {0x6098, 0, 1, true},  {0x6099, 0, 1, false},
+    {0x6099, 1, 4, true},  {0x6099, 2, 4, true},  {0x609A, 0, 4, true},  {0x60B8, 0, 2, true},  {0x60B9, 0, 2, false},
+    {0x60BA, 0, 4, false}, {0x60BB, 0, 4, false}, {0x60BC, 0, 4, false}, {0x60BD, 0, 4, false}, {0x60C2, 0, 1, false},
+    {0x60C2, 1, 1, true},  {0x60C2, 2, 1, true},  {0x60FD, 0, 4, false}, {0x60FE, 1, 4, true},  {0x60FF, 0, 4, true},
+    {0x6502, 0, 4, false},
 };
 
 // Objects that the process data overwrites.
@@ -56,6 +57,29 @@ TEST(Objects, LengthAndAccess) {
     } else {
       EXPECT_NE(RUNG_OBJECT_DONE, written) << std::hex << row.index;
     }
+  }
+}
+
+// What is written to one is not seen in another.
+TEST(Objects, EachHasItsOwnValue) {
+  TestDrive test;
+  test.step();
+  const auto isKept = [](const Row& row) {
+    const bool is_choice = row.index >= 0x605A && row.index <= 0x605E;  // of a few values
+    return row.is_writable && row.bytes > 1 && !is_choice && !isExchanged(row.index);
+  };
+  uint32_t value = 40;
+  for (const Row& row : kRows) {
+    if (!isKept(row)) continue;
+    ++value;
+    EXPECT_EQ(RUNG_OBJECT_DONE, test.access(row.index, row.subindex, row.bytes, true, &value)) << std::hex << row.index;
+  }
+  uint32_t written = 40;
+  for (const Row& row : kRows) {
+    if (!isKept(row)) continue;
+    value = 0;
+    test.access(row.index, row.subindex, row.bytes, false, &value);
+    EXPECT_EQ(++written, value) << std::hex << row.index;
   }
 }
 

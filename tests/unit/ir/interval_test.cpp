@@ -42,6 +42,15 @@ TEST(Interval, HoldsEveryResultOfTheKernel) {
   }
 }
 
+// The result of a comparison is a BOOL, whatever its operands: nothing to check.
+TEST(Interval, ComparisonsFit) {
+  for (const Op op : {Op::Eq, Op::Ne, Op::Lt, Op::Le, Op::Gt, Op::Ge}) {
+    const IntervalResult result = apply(op, {-3, 900}, {5, 7}, {-128, 127});
+    EXPECT_TRUE(result.fits);
+    EXPECT_EQ(result.interval, (Interval{0, 1}));
+  }
+}
+
 TEST(Interval, BoundsOfTypes) {
   Names names;
   types::TypeTable types(names, 8);

@@ -160,6 +160,8 @@ TEST(Verify, Rule24Switch) {
 TEST(Verify, Rule25For) {
   expectStatementBroken(25, "  for i = 1 to 3 by 0 { }");
   expectStatementBroken(25, "  for r = 1.0 to 3.0 by 1.0 { }");
+  expectStatementBroken(25, "  for i = w to 3 by 1 { }");
+  expectStatementBroken(25, "  for i = 1 to r by 1 { }");
   expectStatementBroken(25, "  for m[i, i]! = 1 to 3 by 1 { }");
 }
 TEST(Verify, Rule26Break) {

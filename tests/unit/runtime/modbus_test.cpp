@@ -258,6 +258,15 @@ TEST(Modbus, FramesOfALineNeedTheirChecksum) {
   }
 }
 
+// 9 bytes more than it announces are longer than a frame may be: nothing that follows could make it one.
+TEST(Modbus, FramesOfALineHaveALimit) {
+  for (const uint8_t function : {uint8_t{15}, uint8_t{16}}) {
+    const uint8_t longest[] = {1, function, 0, 0, 0, 1, 247}, longer[] = {1, function, 0, 0, 0, 1, 248};
+    EXPECT_EQ(rung_modbus_rtu_request(longest, sizeof longest), 0);
+    EXPECT_EQ(rung_modbus_rtu_request(longer, sizeof longer), -1);
+  }
+}
+
 // However the bytes of pipelined requests are cut, the replies are the same; and they have a bound.
 TEST(Modbus, PiecesOfAStreamDoNotMatter) {
   Requests requests(setting("RUNG_MUTATION_SEED", 4));
