@@ -108,10 +108,17 @@ class Writer {
       draft.reason = "the test is a FUNCTION";
   }
 
+  // The section may end with a semicolon, which is an empty statement in the standard.
+  size_t endVarOf(DeclId section) const {
+    size_t at = end(section);
+    for (auto unit = source_.unitAt(begin(section)); unit != source_.units.end() && unit->end <= end(section); ++unit)
+      if (unit->kind == UnitKind::Name && upper(textOf(*unit)) == "END_VAR") at = unit->end;
+    return at;
+  }
   // The place after the header and sections of a POU. Its body may begin later, after an empty statement.
   size_t bodyOf(const PouDecl& pou) const {
     size_t at = 0;
-    for (const DeclId section : tree_.list(pou.sections)) at = std::max(at, end(section));
+    for (const DeclId section : tree_.list(pou.sections)) at = std::max(at, endVarOf(section));
     if (at != 0) return at;
     at = source_.at(pou.body_begin);
     for (const DeclId member : tree_.list(pou.members)) at = std::min(at, begin(member));

@@ -53,6 +53,11 @@ TEST(Neutral, WhatTheStandardLeavesOpenIsNotChecked) {
   EXPECT_EQ(drafts[0].checks, std::vector<std::string>{"1 = (a + 1)"});
 }
 
+TEST(Neutral, AnEmptyStatementAfterTheVariablesStaysInTheBody) {
+  const Draft draft = draftOf("{test}\nPROGRAM p\nVAR a : INT; END_VAR\n;\nASSERT(a = 0);\nEND_PROGRAM\n");
+  EXPECT_TRUE(contains(draft.text, "END_VAR VAR check_1 : INT; END_VAR\n;")) << draft.text;
+}
+
 TEST(Neutral, OneDraftForEachTestWithWhatItReaches) {
   const std::vector<Draft> drafts = draftsOf(
       "FUNCTION Used : INT\nUsed := 1;\nEND_FUNCTION\nFUNCTION Unused : INT\nUnused := 2;\nEND_FUNCTION\n"
