@@ -31,7 +31,12 @@ static inline int16_t rung_standard_LEN__STRING_255_sized(const char*, uint32_t 
 /* How many of `length` characters LEFT and RIGHT take; `result`: as many of them as have room. */
 static inline uint32_t rung_string_taken(uint32_t length, int32_t l, uint32_t capacity, uint32_t* result) {
   const uint32_t limit = rung_string_limit(capacity);
-  uint32_t count = l < 0 ? 0 : (uint32_t)l;
+  uint32_t count = (uint32_t)l;
+  if (!RUNG_UNLIKELY(count > length || count > limit)) { /* a foretold jump is quicker than a choice */
+    *result = count;
+    return count;
+  }
+  if (l < 0) count = 0;
   if (count > length) count = length;
   *result = count > limit ? limit : count;
   return count;
