@@ -124,7 +124,11 @@ struct TaskReader {
   //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
   void setting(Argument& argument) {
     const std::string name = upper(context.names().string(argument.pin.name));
-    if (!argument.value || context.tree().kind(argument.value) == ExprKind::Error) return;
+    if (!argument.value) {
+      if (argument.pin.name) context.report(diag::TaskSettingType, argument.pin.loc, {"`" + name + "`", "a value"});
+      return;
+    }
+    if (context.tree().kind(argument.value) == ExprKind::Error) return;
     if (name == "INTERVAL") {
       if (const auto ns = time(argument.value, name)) {
         has_interval = *ns != 0 || !has_single;
