@@ -214,7 +214,7 @@ class Describer {
     for (const rung_range& is : is_.persistent) {
       row(persistent_rows, {number(is.block), number(is.offset), number(is.size)});
     }
-    for (const uint32_t is : is_.resources) row(resource_rows, {number(is)});
+    for (const uint32_t is : is_.resources) resource_rows += number(is) + ",\n";
     for (const rung_write& is : is_.writes)
       row(write_rows, {number(is.area), number(is.mask), number(is.offset), number(is.size)});
     for (const rung_io_module& is : is_.io_modules)

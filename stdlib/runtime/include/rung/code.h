@@ -308,7 +308,7 @@ uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
  * RUNG_FAULT_STOP. */
 bool rung_poll(rung_context* ctx);
 static inline bool rung_step(rung_context* ctx) {
-  return RUNG_UNLIKELY((--ctx->steps < 0) | (ctx->stop != 0)) && rung_poll(ctx);
+  return RUNG_UNLIKELY((int)(--ctx->steps < 0) | (int)(ctx->stop != 0)) && rung_poll(ctx);
 }
 /* The steps of a loop with `repeats` + 1 iterations, at once. */
 static inline bool rung_steps(rung_context* ctx, uint64_t repeats) {
