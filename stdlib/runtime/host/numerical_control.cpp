@@ -23,8 +23,8 @@ NumericalControl::~NumericalControl() = default;
 void NumericalControl::serve(const rung_module& module, rung_host& host,
                              std::function<void(const std::string&)> on_message) {
   if (!isNct(module)) return;
-  const bool is_product = host.nc != nullptr && host.nc_data != simulated_.get();
-  if (is_product) return;
+  const bool is_simulated = simulated_ != nullptr && host.nc_data == simulated_.get();
+  if (host.nc != nullptr && !is_simulated) return;  // a product's, whose data may be null
   simulated_ = std::make_unique<nct::Control>();
   if (on_message)
     simulated_->on_message = [on_message](const nct::Message& message) {

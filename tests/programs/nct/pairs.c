@@ -6,6 +6,8 @@
 
 #include "rung/nc.h"
 
+static uint32_t number; /* the control has no data */
+
 enum { N_ACTMSG = 5, P_CHSEL = 6, MKBTNS0 = 7, CN_POTNO = 855, CP_OFFSNO = 1071 };
 
 static int64_t now(void) {
@@ -15,11 +17,11 @@ static int64_t now(void) {
 }
 
 static void exchange(void *data, uint32_t *slice, uint32_t *nonvolatile, bool is_cycle, int64_t now_ns) {
-  uint32_t *const number = data;
+  (void)data;
   (void)nonvolatile;
   (void)now_ns;
   const int64_t begin = now();
-  const uint32_t own = ++*number;
+  const uint32_t own = ++number;
   slice[N_ACTMSG] = own;
   while (is_cycle && now() - begin < 500000 + own * 7919 % 100000) continue; /* ends anywhere in a TimeSlice of 100 us */
   slice[CN_POTNO] = own;
@@ -29,9 +31,8 @@ static void exchange(void *data, uint32_t *slice, uint32_t *nonvolatile, bool is
 const rung_nc *rung_numerical_control(const char *argument, void **data);
 const rung_nc *rung_numerical_control(const char *argument, void **data) {
   static rung_nc control;
-  static uint32_t number;
   if (strcmp(argument, "pairs") != 0) return NULL;
   control.exchange = exchange;
-  *data = &number;
+  *data = NULL;
   return &control;
 }
