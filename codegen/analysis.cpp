@@ -4,7 +4,7 @@
 namespace rung::codegen {
 
 BodyAnalysis analyzeBody(const ir::Module& module, const ir::Body& body, const Facts& facts) {
-  BodyAnalysis of{analyzeUses(module, body, facts), {}, {}, {}, {}, {}, {}, {}, {}};
+  BodyAnalysis of{analyzeUses(module, body, facts), {}, {}, {}, {}, {}, {}, {}, {}, {}};
   of.fields = analyzeLocals(module, facts, of.uses);
   of.write_backs = analyzeWriteBacks(module, body, of.uses, of.fields);
   of.loops = analyzeLoops(module, body, of.uses, of.fields);
@@ -14,6 +14,7 @@ BodyAnalysis analyzeBody(const ir::Module& module, const ir::Body& body, const F
   of.lengths = analyzeKnownLengths(strings, of.slices, facts);
   of.effort = effortFor(body, of.measured.any);
   of.appends = analyzeAppends(strings, of.lengths);
+  of.held = analyzeHeldBytes(module, body);
   return of;
 }
 

@@ -6,6 +6,7 @@
 #include "codegen/appends.h"
 #include "codegen/counted_loops.h"
 #include "codegen/effort.h"
+#include "codegen/held_bytes.h"
 #include "codegen/slices.h"
 #include "codegen/write_backs.h"
 
@@ -20,6 +21,7 @@ struct BodyAnalysis {
   Slices slices;
   KnownLengths lengths;
   Appends appends;
+  HeldBytes held;
   Effort effort;
 };
 

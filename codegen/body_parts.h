@@ -14,6 +14,9 @@ class ExpressionWriter : public BodyPart {
   void value(ExprId id, Prec context);
   void condition(ExprId id, Prec context);
   void scalarBits(ExprId id);  // as uint64_t, for the runtime's generic functions
+  // Contacts: a condition that costs less without jumps.
+  bool isContacts(ExprId id) const;
+  void bitAt(ExprId contacts, uint32_t position, Prec context);
 
  private:
   void constant(const Expr& expr, Prec context);
@@ -25,12 +28,13 @@ class ExpressionWriter : public BodyPart {
   void extreme(const ir::BinaryExpr& node);  // MIN, MAX
   void differs(const ir::BinaryExpr& node, Prec context);
   void loadBits(const ir::BitsExpr& node, TypeKind kind);
-  void logical(const ir::BinaryExpr& node, Prec context);
-  struct Contacts {
-    uint32_t bits = 0, steps = 0;  // bits of the image, expressions looked at
-  };
+  void logical(ExprId id, Prec context);
   bool isPlainRead(ExprId id) const;
-  bool isBranchless(ExprId id, Contacts& seen) const;
+  bool readsWithoutJumps(ExprId id, uint32_t& steps, bool& any_bit) const;
+  void bits(ExprId id, uint32_t position);
+  bool isSingleBit(ExprId id) const;
+  uint32_t positionOf(ExprId contacts) const;
+  bool isOnlyBits(ExprId id, uint32_t& highest) const;
   void comparison(const ir::BinaryExpr& node, Prec context);
   void leftOfEquality(ExprId id);
   void arithmetic(ExprId id, Prec context);  // + - * and negation of integers
@@ -69,6 +73,14 @@ class PlaceWriter : public BodyPart {
   bool isLvalue(ExprId id) const;
   // `place = value` as an expression without `;` for a scalar; `value` is C++ code of the right type.
   void store(ExprId place, std::string_view value);
+  // A coil: the place is a bit of the image, the value one of contacts.
+  void storeBit(ExprId place, ExprId value);
+  void imageByte(const ir::ImageExpr& image);
+  // held_bytes.h: around each statement.
+  void holdBytes(StmtId id);
+  bool holdsBytesFrom(StmtId id) const;
+  bool releasesBytes(StmtId id) const;
+  void releaseBytes(StmtId id);
   void reference(const ir::Local& parameter, ExprId operand);  // as an argument
   void plainReference(const ir::Local& parameter, ExprId operand);
   bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
@@ -82,11 +94,21 @@ class PlaceWriter : public BodyPart {
   void targetPlace(ExprId pointer, TypeId type);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
   void area(uint32_t index);
+  void memoryByte(uint32_t area, uint32_t byte);
+  struct Held {
+    const HeldByte* byte;
+    std::string name;
+    uint8_t cleared;  // bits that are 0 and not yet written
+  };
+  Held* heldFor(const ir::ImageExpr& image);
+  void putBit(const ir::ImageExpr& image, std::string_view value_bits);
   void imageStore(ExprId place, std::string_view value);
   void storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value);
 
   std::vector<uint32_t> blocks_declared_;
   uint32_t areas_declared_ = 0;  // a bit for each
+  std::vector<Held> held_;
+  size_t held_begun_ = 0;  // of the analysis
 };
 
 // Strings, their lengths and slices: strings.cpp, measured.cpp.
@@ -210,6 +232,7 @@ class StatementWriter : public BodyPart {
 
  private:
   void statement(StmtId id, const Stmt& stmt);
+  void write(StmtId id, const Stmt& stmt);
   void begin(Loc loc);  // starts a statement from that location: line breaks and #line
   void open();          // ` {` and one more level of indentation
   void close();         // `}`, written where the next statement begins

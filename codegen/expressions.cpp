@@ -112,6 +112,7 @@ void ExpressionWriter::condition(ExprId id, Prec context) {
     places().place(id);
     return;
   }
+  if (e.kind == ExprKind::Binary && isContacts(id)) return bitAt(id, positionOf(id), context);
   value(id, context);
 }
 
@@ -215,7 +216,7 @@ void ExpressionWriter::binary(ExprId id, Prec context) {
                      : divide(node, context);
     case Op::Power: return power(expr(id));
     case Op::And:
-    case Op::Or: return kind == TypeKind::Bool ? logical(node, context) : bitwise(node, context);
+    case Op::Or: return kind == TypeKind::Bool ? logical(id, context) : bitwise(node, context);
     case Op::Xor: return kind == TypeKind::Bool ? differs(node, context) : bitwise(node, context);
     case Op::Shl:
     case Op::Shr:
@@ -287,9 +288,12 @@ void ExpressionWriter::differs(const ir::BinaryExpr& node, Prec context) {
   closeParenthesis(Prec::Equality, context);
 }
 
-// A constant or a variable that is where the code says, without a check.
+// A constant or a variable that is where the code says, without a check; an integer may be converted to another.
 bool ExpressionWriter::isPlainRead(ExprId id) const {
   if (ir::mayFault(*body_, id)) return false;
+  const auto* convert = expr(id).tryAs<ir::ConvertExpr>();
+  const auto isCounted = [&](ExprId of) { return TypeTable::isInteger(kindOf(of)) || TypeTable::isBits(kindOf(of)); };
+  if (convert != nullptr && isCounted(id) && isCounted(convert->operand)) id = convert->operand;
   while (const auto* field = expr(id).tryAs<ir::FieldExpr>()) id = field->base;
   const ExprKind root = expr(id).kind;
   return root == ExprKind::Const || root == ExprKind::Local || root == ExprKind::Self || root == ExprKind::Image;
@@ -297,34 +301,121 @@ bool ExpressionWriter::isPlainRead(ExprId id) const {
 
 // Whether to evaluate all of a condition costs less than to jump around its operands: a ladder has a contact every few
 // bytes of code. The operands only read and compare; in a long condition the jumps pay.
-bool ExpressionWriter::isBranchless(ExprId id, Contacts& seen) const {
+bool ExpressionWriter::isContacts(ExprId id) const {
+  uint32_t steps = 0;
+  bool any_bit = false;
+  return readsWithoutJumps(id, steps, any_bit) && any_bit;
+}
+
+bool ExpressionWriter::readsWithoutJumps(ExprId id, uint32_t& steps, bool& any_bit) const {
   constexpr uint32_t kLongest = 40;
   const Expr& e = expr(id);
-  if (++seen.steps > kLongest) return false;
-  if (ir::isNot(e)) return isBranchless(e.as<ir::UnaryExpr>().operand, seen);
+  if (++steps > kLongest) return false;
+  if (ir::isNot(e)) return readsWithoutJumps(e.as<ir::UnaryExpr>().operand, steps, any_bit);
   const auto* node = e.tryAs<ir::BinaryExpr>();
   if (node == nullptr) {
-    seen.bits += ir::isImageBit(e) ? 1 : 0;
+    any_bit = any_bit || ir::isImageBit(e);
     return isPlainRead(id);
   }
   if (node->op == Op::And || node->op == Op::Or)
-    return isBranchless(node->left, seen) && isBranchless(node->right, seen);
+    return readsWithoutJumps(node->left, steps, any_bit) && readsWithoutJumps(node->right, steps, any_bit);
   const TypeKind kind = kindOf(node->left);
   return types::isComparison(node->op) && !TypeTable::isReal(kind) && !TypeTable::isString(kind) &&
          isPlainRead(node->left) && isPlainRead(node->right);
 }
 
-void ExpressionWriter::logical(const ir::BinaryExpr& node, Prec context) {
-  Contacts seen;
-  if (isBranchless(node.left, seen) && isBranchless(node.right, seen) && seen.bits != 0) {
-    bitwise(node, context);
+// Contacts as an integer whose bit at `position` is their value; the others are anything unless isSingleBit. A bit of
+// the image is shifted once, and not cut from its byte.
+void ExpressionWriter::bits(ExprId id, uint32_t position) {
+  const Expr& e = expr(id);
+  if (ir::isImageBit(e)) {
+    const ir::ImageExpr& image = e.as<ir::ImageExpr>();
+    if (image.bit == position) return places().imageByte(image);
+    out_ += '(';
+    places().imageByte(image);
+    out_ += image.bit > position ? " >> " : " << ";
+    appendUnsigned(out_, image.bit > position ? image.bit - position : position - image.bit);
+    out_ += ')';
     return;
   }
+  const auto* node = e.tryAs<ir::BinaryExpr>();
+  if (node != nullptr && (node->op == Op::And || node->op == Op::Or)) {
+    out_ += '(';
+    bits(node->left, position);
+    out_ += node->op == Op::And ? " & " : " | ";
+    bits(node->right, position);
+    out_ += ')';
+    return;
+  }
+  if (ir::isNot(e) && !isSingleBit(id)) {
+    out_ += '~';
+    return bits(e.as<ir::UnaryExpr>().operand, position);
+  }
+  if (position != 0) out_ += '(';
+  value(id, Prec::Unary);
+  if (position == 0) return;
+  out_ += " << ";
+  appendUnsigned(out_, position);
+  out_ += ')';
+}
+
+// Whether `bits` has no bit but that at its position.
+bool ExpressionWriter::isSingleBit(ExprId id) const {
+  const Expr& e = expr(id);
+  if (ir::isNot(e)) {  // ~ of contacts, ! of anything else
+    const Expr& operand = expr(e.as<ir::UnaryExpr>().operand);
+    return !ir::isImageBit(operand) && !ir::isNot(operand) &&
+           (operand.kind != ExprKind::Binary || types::isComparison(operand.op()));
+  }
+  const auto* node = e.tryAs<ir::BinaryExpr>();
+  if (node != nullptr && node->op == Op::And) return isSingleBit(node->left) || isSingleBit(node->right);
+  if (node != nullptr && node->op == Op::Or) return isSingleBit(node->left) && isSingleBit(node->right);
+  return !ir::isImageBit(e);
+}
+
+// Where g++ has the shortest code. Bits of the image: the highest, since it shifts left in fewer instructions. With
+// anything else: 0, since it makes a jump of a truth value that is shifted.
+uint32_t ExpressionWriter::positionOf(ExprId contacts) const {
+  uint32_t highest = 0;
+  return isOnlyBits(contacts, highest) ? highest : 0;
+}
+
+bool ExpressionWriter::isOnlyBits(ExprId id, uint32_t& highest) const {
+  const Expr& e = expr(id);
+  if (ir::isNot(e)) return isOnlyBits(e.as<ir::UnaryExpr>().operand, highest);
+  if (const auto* node = e.tryAs<ir::BinaryExpr>())
+    return (node->op == Op::And || node->op == Op::Or) && isOnlyBits(node->left, highest) &&
+           isOnlyBits(node->right, highest);
+  if (!ir::isImageBit(e)) return false;
+  highest = std::max(highest, e.as<ir::ImageExpr>().bit);
+  return true;
+}
+
+// Contacts as an integer that has their value at `position` and is 0 elsewhere.
+void ExpressionWriter::bitAt(ExprId contacts, uint32_t position, Prec context) {
+  const uint32_t own = positionOf(contacts);
+  const bool is_cut = !isSingleBit(contacts), is_shifted = own != position;
+  const Prec last = is_shifted ? Prec::Shift : is_cut ? Prec::Bit : Prec::Postfix;
+  parenthesis(last, context);
+  if (is_cut && is_shifted) out_ += '(';
+  bits(contacts, own);
+  if (is_cut) out_ += " & " + std::to_string(1u << own);
+  if (is_cut && is_shifted) out_ += ')';
+  if (is_shifted) {
+    out_ += own > position ? " >> " : " << ";
+    appendUnsigned(out_, own > position ? own - position : position - own);
+  }
+  closeParenthesis(last, context);
+}
+
+void ExpressionWriter::logical(ExprId id, Prec context) {
+  if (isContacts(id)) return bitAt(id, 0, context);
+  const ir::BinaryExpr& node = expr(id).as<ir::BinaryExpr>();
   const Prec own = node.op == Op::And ? Prec::And : Prec::Or;
   parenthesis(own, context);
-  auto operand = [&](ExprId id) {
-    const auto* child = expr(id).tryAs<ir::BinaryExpr>();
-    condition(id, child != nullptr && child->op == node.op ? own : Prec::Equality);
+  auto operand = [&](ExprId side) {
+    const auto* child = expr(side).tryAs<ir::BinaryExpr>();
+    condition(side, child != nullptr && child->op == node.op ? own : Prec::Equality);
   };
   operand(node.left);
   out_ += node.op == Op::And ? " && " : " || ";

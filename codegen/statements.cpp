@@ -111,7 +111,16 @@ void StatementWriter::statement(StmtId id, const Stmt& stmt) {
     return strings().forgetLengths(id);
   }
   begin(stmt.loc);
+  places().holdBytes(id);
   strings().countLengths(id);
+  write(id, stmt);
+  if (places().releasesBytes(id)) {
+    flushCloses(0);
+    places().releaseBytes(id);
+  }
+}
+
+void StatementWriter::write(StmtId id, const Stmt& stmt) {
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
     case StmtKind::Assign: assign(stmt.as<ir::AssignStmt>()); return strings().forgetLengths(id);
@@ -158,7 +167,9 @@ void StatementWriter::assign(const ir::AssignStmt& stmt) {
   if (!isAggregate(type)) {
     checks().prepare(to);
     checks().prepare(from);
-    if (places().isLvalue(to)) {
+    if (ir::isImageBit(expr(to)) && values().isContacts(from)) {
+      places().storeBit(to, from);
+    } else if (places().isLvalue(to)) {
       places().place(to);
       out_ += " = ";
       values().value(from, Prec::Ternary);
@@ -286,7 +297,7 @@ void StatementWriter::ifStatement(const ir::IfStmt& stmt) {
     out_ += " else";
     const auto* chained = other.next ? nullptr : other.tryAs<ir::IfStmt>();
     if (chained == nullptr || checks().needsPreparation(chained->condition) ||
-        analysis_->lengths.countsBefore(at->else_block)) {
+        analysis_->lengths.countsBefore(at->else_block) || places().holdsBytesFrom(at->else_block)) {
       open();
       block(at->else_block);
       close();

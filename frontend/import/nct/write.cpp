@@ -300,7 +300,7 @@ class Writer {
       case Shape::Compare: writeOrder(element, power); return true;
       case Shape::Box: writeBox(element, power, is_end); return false;
       case Shape::Order: writeOrder(element, power); return false;
-      case Shape::Timer: writeInstance(element, power); return false;
+      case Shape::Timer: writeTimer(element, power); return false;
       case Shape::Message: writeMessage(element, power); return false;
       case Shape::Service: writeService(element, power); return false;
       case Shape::Pinned:
@@ -521,7 +521,6 @@ class Writer {
                     std::string_view inputs, Power& power) {
     const std::string instance = hidden("box", element.instruction->flagged);
     const std::string guard = reaches(element, operands);
-    const std::string output = temporary();
     const bool is_dynamic = operands[0].isDynamic();
     const std::string place =
         is_dynamic ? hidden("word", "DWORD") : places_.of(operands[0].address, Part::Word, Space::Plc);
@@ -533,20 +532,40 @@ class Writer {
     }
     // Outside of memory a word reads as 0 and is not written.
     if (is_dynamic) put(place + " := NCT_WORD(" + places_.wordOf(operands[0].address) + ");\n");
-    put(call + ");\n" + output + " := " + instance + ".Q;\n");
+    put(call + ");\n");
     if (is_dynamic) put("NCT_PUT_WORD(" + places_.wordOf(operands[0].address) + ", " + place + ");\n");
-    power.text = output;
+    takeOutput(instance, power);
+  }
+
+  // Nothing calls an instance again in the rung.
+  static void takeOutput(const std::string& instance, Power& power) {
+    power.text = instance + ".Q";
     power.is_atom = true;
     power.is_or = false;
     power.has_contact = true;
   }
 
-  void writeInstance(const Element& element, Power& power) {
+  void writeTimer(const Element& element, Power& power) {
     needContact(element, power);
     std::vector<Operand> operands;
     if (!operands_.take(element, operands)) return;
     settle(power);
-    callInstance(element, operands, "EN := " + power.text, "preset basis", power);
+    const std::string enable = "EN := " + power.text;
+    const int64_t ms = writtenTime(operands);
+    if (ms < 0 || operands[0].isDynamic()) return callInstance(element, operands, enable, "preset basis", power);
+    const std::string instance = hidden("box", element.instruction->plain);
+    put(instance + "(" + enable + ", preset := " + std::to_string(ms) +
+        ", value := " + places_.of(operands[0].address, Part::Word, Space::Plc) + "); " + clearError() + "\n");
+    takeOutput(instance, power);
+  }
+  // The time of a timer in milliseconds, where it is written in the ladder and right; else -1.
+  static int64_t writtenTime(std::span<const Operand> operands) {
+    constexpr int64_t kUnits[] = {1, 1000, 60'000, 3'600'000};
+    if (operands[1].kind != OperandKind::Integer || operands[2].kind != OperandKind::Integer) return -1;
+    const int64_t preset = operands[1].value, basis = operands[2].value;
+    if (basis < 0 || basis > 3 || preset < 0) return -1;
+    const int64_t ms = preset * kUnits[basis];
+    return ms <= INT32_MAX ? ms : -1;
   }
 
   // An instance of the library that asks the numerical control; `inputs` are those after EN. It is called in each

@@ -53,6 +53,8 @@ constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, 
               kWord = 10, kDword = 11, kLword = 12, kReal = 13, kTime = 15, kLtime = 16, kTod = 18, kDt = 19,
               kLtod = 21, kLdt = 22, kChar = 23, kString = 25;
 
+constexpr unsigned kCoils = 16;  // bits of the memory that at_dword and at_byte show, too
+
 std::string lowered(const char* name);
 
 // Made with braces, so the random numbers are drawn from left to right with every compiler.
@@ -138,6 +140,9 @@ class Generator {
   Node attempt(int depth);
   Node blockCall();
   Node guardedCall();
+  Node rungs();
+  Node contacts(int depth);
+  std::string coil() { return prefix_ + "_coil" + std::to_string(below(static_cast<int>(kCoils))); }
 
   Node methodCall(const std::string& receiver, int number, std::vector<Node> before, int depth);
   bool methodOf(int type, int depth, Node& result);

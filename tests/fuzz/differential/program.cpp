@@ -162,6 +162,10 @@ void declareGlobals(const std::string& prefix, unsigned index, bool codesys, std
   global("_at_word AT %MW" + std::to_string(base / 2 + 1) + " : WORD");
   global("_at_byte AT %MB" + std::to_string(base + 1) + " : BYTE");
   global("_at_bool AT %MX" + std::to_string(base) + ".3 : BOOL");
+  for (unsigned coil = 0; coil < kCoils; ++coil) {
+    global("_coil" + std::to_string(coil) + " AT %MX" + std::to_string(base + coil / 8) + "." +
+           std::to_string(coil % 8) + " : BOOL");
+  }
   global("_at_int AT %QW" + std::to_string(index) + " : INT");
   parts.push_back(Fixed{globals + "END_VAR\n", std::move(global_lines)});
   if (codesys) parts.push_back(Stmt{"VAR_GLOBAL CONSTANT " + prefix + "_k5 : INT := 5; END_VAR\n"});

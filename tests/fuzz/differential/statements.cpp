@@ -204,6 +204,31 @@ Node Generator::attempt(int depth) {
   return Stmt{text + "__ENDTRY\n", std::move(parts)};
 }
 
+// A series of coils in two bytes, and now and then something else that may reach them.
+Node Generator::rungs() {
+  std::vector<Node> parts;
+  const int count = 2 + below(6);
+  for (int i = 0; i < count; ++i) {
+    switch (below(8)) {
+      case 0: parts.push_back(assignment()); break;
+      case 1:
+      case 2:
+        parts.push_back(Stmt{"IF \1 THEN " + coil() + " := " + pick({"TRUE", "FALSE"}) + "; END_IF\n", {contacts(2)}});
+        break;
+      default: parts.push_back(Stmt{coil() + " := \1;\n", {contacts(3)}});
+    }
+  }
+  return Stmt{std::string(parts.size(), kChild), std::move(parts)};
+}
+
+Node Generator::contacts(int depth) {
+  if (depth > 0 && chance(70))
+    return Expr{kBool, "(\1 " + pick({"AND", "OR"}) + " \1)", {contacts(depth - 1), contacts(depth - 1)}};
+  if (depth > 0 && chance(30)) return Expr{kBool, "NOT \1", {contacts(depth - 1)}};
+  if (chance(80)) return Expr{kBool, coil()};
+  return chance(50) ? Expr{kBool, "(\1 > \1)", {leaf(kInt), leaf(kInt)}} : leaf(kBool);
+}
+
 Node Generator::statement(int depth) {
   if (loops_ > 0 && chance(7)) {
     return Stmt{"IF \1 THEN " + pick({"EXIT", dialect_ == Dialect::Iec2 ? "EXIT" : "CONTINUE"}) + "; END_IF\n",
@@ -219,6 +244,7 @@ Node Generator::statement(int depth) {
   if (body_ == Body::Program && dialect_ == Dialect::Iec3 && loops_ < 2 && chance(30)) return classStatement();
   if (body_ == Body::Program && chance(18)) return blockCall();
   if (chance(7)) return guardedCall();
+  if (chance(12)) return rungs();
   return assignment();
 }
 

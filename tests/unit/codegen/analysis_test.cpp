@@ -165,5 +165,35 @@ TEST(Effort, LongBodiesWithoutLoopsAreStraight) {
   EXPECT_EQ(analysed("var x: int; var i: int; var a: array[0..9] of int", checked).of->effort, Effort::CheckedLoops);
 }
 
+std::string heldBytes(const std::string& statements) {
+  const Analysed b = analysed("var x: bool; var y: bool; var w: word; inout r: bool", statements);
+  std::string text;
+  for (const HeldByte& held : b.of->held)
+    text += std::to_string(held.byte) + " cleared " + std::to_string(held.cleared) + " statements " +
+            std::to_string(held.first.index) + ".." + std::to_string(held.last.index) + "\n";
+  return text;
+}
+
+TEST(HeldBytes, BitsThatNothingReadsBeforeAreCleared) {
+  EXPECT_EQ(heldBytes("bool %M4.0 = x\nbool %M4.1 = bool %M4.0\nbool %M4.2 = not bool bool %M4.2"),
+            "4 cleared 3 statements 1..3\n");
+  EXPECT_EQ(heldBytes("if x { bool %M4.0 = 1 }\nbool %M4.0 = y\nbool %M4.3 = y"), "4 cleared 8 statements 2..4\n");
+}
+
+TEST(HeldBytes, OneStoreIsNotWorthIt) { EXPECT_EQ(heldBytes("bool %M4.0 = x\nbool %M5.0 = x"), ""); }
+
+TEST(HeldBytes, OtherWaysToTheByteEndIt) {
+  EXPECT_EQ(heldBytes("bool %M4.0 = x\nbool %M4.1 = x\nw = word %M3\nbool %M4.2 = x"), "4 cleared 3 statements 1..2\n");
+  EXPECT_EQ(heldBytes("bool %M4.0 = x\nbool %M4.1 = x\nw = word %M5\nbool %M4.2 = x"), "4 cleared 7 statements 1..4\n");
+  EXPECT_EQ(heldBytes("bool %M4.0 = x\ny = r\nbool %M4.2 = x"), "");
+  EXPECT_EQ(heldBytes("bool %M4.0 = x\nif x { return }\nbool %M4.2 = x"), "");
+}
+
+TEST(HeldBytes, FourAtOnce) {
+  EXPECT_EQ(heldBytes("bool %M1.0 = x\nbool %M2.0 = x\nbool %M3.0 = x\nbool %M4.0 = x\nbool %M5.0 = x\n"
+                      "bool %M1.1 = x\nbool %M3.1 = x\nbool %M4.1 = x"),
+            "3 cleared 3 statements 3..7\n4 cleared 3 statements 4..8\n");
+}
+
 }  // namespace
 }  // namespace rung::codegen

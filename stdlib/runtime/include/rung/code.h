@@ -232,6 +232,8 @@ RUNG_IMAGE void rung_put64(uint8_t* p, uint64_t v) {
   rung_put32(p + 4, (uint32_t)(v >> 32));
 }
 #endif
+/* A call: g++ makes a jump of a comparison that is shifted. */
+RUNG_IMAGE uint32_t rung_bit(bool v, uint32_t bit) { return (uint32_t)v << bit; }
 RUNG_IMAGE void rung_put_bit(uint8_t* p, uint32_t bit, bool v) {
   *p = (uint8_t)((*p & ~(1u << bit)) | (uint32_t)v << bit);
 }
