@@ -21,9 +21,9 @@ namespace {
 constexpr size_t kMostHeld = 4;  // at once: each takes a register
 constexpr uint32_t kFewest = 2;  // stores that make a variable worth its load and store
 
-class Finder {
+class CoilFollower {
  public:
-  Finder(const ir::Module& module, const ir::Body& body) : module_(module), body_(body) {}
+  CoilFollower(const ir::Module& module, const ir::Body& body) : module_(module), body_(body) {}
 
   HeldBytes run() {
     uint32_t coils = 0;
@@ -191,6 +191,6 @@ class Finder {
 
 }  // namespace
 
-HeldBytes analyzeHeldBytes(const ir::Module& module, const ir::Body& body) { return Finder(module, body).run(); }
+HeldBytes analyzeHeldBytes(const ir::Module& module, const ir::Body& body) { return CoilFollower(module, body).run(); }
 
 }  // namespace rung::codegen

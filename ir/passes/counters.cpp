@@ -14,33 +14,16 @@ using types::TypeTable;
 
 namespace {
 
-constexpr uint32_t kNoVariable = ~0u;
+constexpr uint32_t kNoVariable = KnownVariables::kNone;
 constexpr Int128 kMost = Int128{1} << 64;  // larger products prove nothing
 
 }  // namespace
 
 // ---- variables and constants
 
-uint32_t Counters::variable(ExprId id) const {
-  const Expr& e = body_.expr(id);
-  if (!hasInterval(module_.types, e.type)) return kNoVariable;
-  if (const uint32_t* local = localOf(e)) return private_[*local] ? *local : kNoVariable;
-  const auto* field = e.tryAs<FieldExpr>();
-  if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self) return kNoVariable;
-  const types::TypeInfo& self = module_.types.info(module_.types.resolve(body_.self));
-  if (self.record_kind == types::RecordKind::Union || self.fields[field->field].by_reference) return kNoVariable;
-  return static_cast<uint32_t>(body_.locals.size()) + field->field;
-}
-
-// Also through conversions that keep every value.
-uint32_t Counters::variableAfter(ExprId id) const {
-  while (const auto* convert = body_.expr(id).tryAs<ConvertExpr>()) {
-    const TypeId from = body_.expr(convert->operand).type;
-    if (!hasInterval(module_.types, from) || !types::isLossless(module_.types, from, body_.expr(id).type))
-      return kNoVariable;
-    id = convert->operand;
-  }
-  return variable(id);
+uint32_t Counters::counted(uint32_t variable) const {
+  const bool is_counted = variable != kNoVariable && variables_.isIntegral(variables_.typeOf(variable));
+  return is_counted ? variable : kNoVariable;
 }
 
 std::optional<Int128> Counters::constant(ExprId id) const {
@@ -130,22 +113,23 @@ bool Counters::count(const AssignStmt& assign, Growth& growth) const {
 }
 
 bool Counters::mayWrite(const Stmt& stmt, uint32_t variable) const {
-  const auto locals = static_cast<uint32_t>(body_.locals.size());
-  const bool is_field = variable >= locals;
-  const auto isExposed = [&] { return exposure_.isExposed(module_.types.resolve(body_.self), variable - locals); };
-  bool may = is_field && bindsOwn(body_, stmt);
+  const bool is_own = !variables_.isLocal(variable);
+  bool may = is_own && bindsOwn(body_, stmt);
   forEachWritten(module_, body_, stmt, [&](ExprId place) {
-    const Effect effect = effectOfWrite(module_, body_, private_, place);
+    const Effect effect = effectOfWrite(module_, body_, variables_.privateLocals(), place);
     switch (effect.kind) {
       case Effect::None: return;
       case Effect::Local: may = may || effect.index == variable; return;
-      case Effect::Field: may = may || (is_field && effect.index == variable - locals); return;
-      case Effect::Exposed: may = may || (is_field && isExposed()); return;
-      case Effect::Fields: may = may || is_field; return;
+      case Effect::Field:
+        may = may || (variables_.isField(variable) && effect.index == variables_.fieldOf(variable));
+        return;
+      case Effect::Exposed: may = may || variables_.isExposed(variable); return;
+      case Effect::Fields: may = may || is_own; return;
     }
   });
-  if (const auto* call = stmt.tryAs<CallStmt>(); call != nullptr && is_field && !may)
-    may = !module_.body(call->callee).pure && (callReachesSelf(module_, exposure_, body_, *call) || isExposed());
+  if (const auto* call = stmt.tryAs<CallStmt>(); call != nullptr && is_own && !may)
+    may = !module_.body(call->callee).pure &&
+          (callReachesSelf(module_, exposure_, body_, *call) || variables_.isExposed(variable));
   return may;
 }
 

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "ir/exposure.h"
-#include "ir/passes/interval.h"
+#include "ir/passes/known_variables.h"
 
 namespace rung::ir {
 
@@ -19,11 +18,10 @@ struct Growth {
   bool is_counted = true;  // false: something else writes it, too
 };
 
-// A variable: a private local, or a field of self after them.
 class Counters {
  public:
-  Counters(const Module& module, const Exposure& exposure, const Body& body, const std::vector<bool>& private_locals)
-      : module_(module), exposure_(exposure), body_(body), private_(private_locals) {}
+  Counters(const Module& module, const Exposure& exposure, const Body& body, const KnownVariables& variables)
+      : module_(module), exposure_(exposure), body_(body), variables_(variables) {}
 
   // The iterations of a FOR; none: unknown. Without facts: `FOR i := 1 TO 8` and `FOR i := x - 1 TO x + 1`, which runs
   // three times or, where x + 1 wraps, not at all.
@@ -39,8 +37,9 @@ class Counters {
   };
   using Growths = std::vector<Growth>;
 
-  uint32_t variable(ExprId id) const;
-  uint32_t variableAfter(ExprId id) const;
+  uint32_t variable(ExprId id) const { return counted(variables_.at(id)); }
+  uint32_t variableAfter(ExprId id) const { return counted(variables_.after(id)); }
+  uint32_t counted(uint32_t variable) const;  // no pointer
   std::optional<Int128> constant(ExprId id) const;
   std::optional<Sum> sumOf(ExprId id) const;
   void add(StmtId block, const std::vector<uint32_t>& variables, Growths& to) const;
@@ -53,7 +52,7 @@ class Counters {
   const Module& module_;
   const Exposure& exposure_;
   const Body& body_;
-  const std::vector<bool>& private_;
+  const KnownVariables& variables_;
 };
 
 }  // namespace rung::ir

@@ -1,13 +1,11 @@
-// Range analysis: see remove_checks.h. A fact is the interval of one variable. Changes of facts go to a trail, so that
-// the end of a branch takes them back; where branches meet, the facts that they left are joined.
+// Range analysis: see remove_checks.h. Walks the statements with the facts that hold at each (range_facts.h).
 #include "ir/passes/remove_checks.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "ir/passes/counters.h"
-#include "ir/passes/effects.h"
-#include "ir/passes/interval.h"
+#include "ir/passes/range_facts.h"
 #include "ir/passes/support.h"
 
 namespace rung::ir {
@@ -19,65 +17,41 @@ using types::TypeTable;
 
 namespace {
 
-constexpr uint32_t kNone = ~0u;
-constexpr Int128 kWide = Int128{1} << 100;  // beyond every integer: proves nothing
+constexpr uint32_t kNone = RangeFacts::kNone;
 
-constexpr Interval kPointers{0, kWide}, kNotNull{1, kWide};
+TypeId unsignedOf(TypeId type) {
+  return type == types::kSInt   ? types::kUSInt
+         : type == types::kInt  ? types::kUInt
+         : type == types::kDInt ? types::kUDInt
+         : type == types::kLInt ? types::kULInt
+                                : TypeId{};
+}
 
-struct Fact {
-  bool known = false;
-  uint32_t epoch = 0;  // of a field of self: valid until something unknown may write it
-  Interval interval;
-};
+// By a positive constant: cheaper without sign.
+bool isSignedDivision(const Body& body, const Expr& e) {
+  const auto* division = e.tryAs<BinaryExpr>();
+  if (division == nullptr || (division->op != Op::Div && division->op != Op::Mod) || !unsignedOf(e.type)) return false;
+  const Expr& divisor = body.expr(division->right);
+  return isConst(divisor) && static_cast<int64_t>(bitsOf(divisor)) > 0;
+}
+
+bool isWorthIt(const Body& body) {
+  return std::any_of(body.exprs.begin(), body.exprs.end(),
+                     [&](const Expr& e) { return (e.checks & ~kCheckCast) != 0 || isSignedDivision(body, e); });
+}
 
 class Analysis {
  public:
   Analysis(Module& module, const Exposure& exposure, Body& body)
-      : module_(module), types_(module.types), exposure_(exposure), body_(body) {}
+      : module_(module), types_(module.types), exposure_(exposure), body_(body), facts_(module, exposure, body) {}
 
   bool run() {
-    if (body_.has_labels || !body_.first || !isWorthIt()) return false;
-    private_ = privateLocals(module_, body_);
-    self_first_ = static_cast<uint32_t>(body_.locals.size());
-    findFields();
-    facts_.assign(references_first_ + (references_first_ - self_first_), {});
-    stamp_.assign(facts_.size(), 0);
-    stamp_entry_.assign(facts_.size(), 0);
     findChecks();
     block(body_.first);
     return changed_;
   }
 
  private:
-  bool isWorthIt() const {
-    for (const Expr& e : body_.exprs)
-      if ((e.checks & ~kCheckCast) != 0 || isSignedDivision(e)) return true;
-    return false;
-  }
-
-  void findFields() {
-    const TypeId self = body_.self ? types_.resolve(body_.self) : TypeId{};
-    const size_t count = self ? types_.info(self).fields.size() : 0;
-    references_first_ = self_first_ + static_cast<uint32_t>(count);
-    is_exposed_.resize(count);
-    for (uint32_t i = 0; i < count; ++i) is_exposed_[i] = exposure_.isExposed(self, i);
-  }
-
-  // By a positive constant: cheaper without sign.
-  bool isSignedDivision(const Expr& e) const {
-    const auto* division = e.tryAs<BinaryExpr>();
-    if (division == nullptr || (division->op != Op::Div && division->op != Op::Mod) || !unsignedOf(e.type))
-      return false;
-    const Expr& divisor = body_.expr(division->right);
-    return isConst(divisor) && static_cast<int64_t>(bitsOf(divisor)) > 0;
-  }
-  static TypeId unsignedOf(TypeId type) {
-    return type == types::kSInt   ? types::kUSInt
-           : type == types::kInt  ? types::kUInt
-           : type == types::kDInt ? types::kUDInt
-           : type == types::kLInt ? types::kULInt
-                                  : TypeId{};
-  }
   void dropSign(ExprId id) {
     const Expr signed_one = body_.expr(id);
     BinaryExpr division = signed_one.as<BinaryExpr>();
@@ -101,8 +75,8 @@ class Analysis {
     size_t divisions = 0;
     for (uint32_t i = 1; i < body_.exprs.size(); ++i) {
       const Expr& e = body_.exprs[i];
-      divisions += isSignedDivision(e);
-      uint8_t found = e.checks != 0 || isSignedDivision(e);
+      divisions += isSignedDivision(body_, e);
+      uint8_t found = e.checks != 0 || isSignedDivision(body_, e);
       forEachOperand(body_, e, [&](ExprId operand) {
         found |= has_checks_[operand.index];
         all_known = all_known && operand.index < i;
@@ -113,166 +87,12 @@ class Analysis {
     if (!all_known) has_checks_.assign(body_.exprs.size(), true);  // a pass left users before their operands
   }
 
-  Interval allOf(TypeId type, bool with_bounds) {
-    if (isPointer(type)) return kPointers;
-    if (type.index >= kKinds) return intervalOf(types_, type, with_bounds);
-    if (!kind_known_[type.index]) {
-      kind_known_[type.index] = true;
-      kind_interval_[type.index] = intervalOf(types_, type, false);
-    }
-    return kind_interval_[type.index];
-  }
-  bool isIntegral(TypeId type) const {
-    if (type.index >= kKinds) return hasInterval(types_, type);
-    const auto kind = static_cast<TypeKind>(type.index);
-    return kind == TypeKind::Bool || TypeTable::isInteger(kind) || TypeTable::isBits(kind);
-  }
-
-  bool isPointer(TypeId type) const {
-    const TypeKind kind = types_.kind(type);
-    return kind == TypeKind::Pointer || kind == TypeKind::Reference;
-  }
-  bool isTracked(TypeId type) const { return isIntegral(type) || isPointer(type); }
-
-  // ---- facts. The variables are the locals, the fields of self and, again by field, the pointers in fields that are
-  // references. Of a pointer a fact says whether it may be null.
-
-  // The number of a variable whose interval is tracked, or kNone.
-  uint32_t variable(ExprId id) const {
-    const Expr& e = body_.expr(id);
-    if (!isTracked(e.type)) return kNone;
-    if (const uint32_t* local = localOf(e)) return private_[*local] ? *local : kNone;
-    const auto* field = e.tryAs<FieldExpr>();
-    if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self) return kNone;
-    const TypeInfo& self = types_.info(types_.resolve(body_.self));
-    if (self.record_kind == RecordKind::Union || self.fields[field->field].by_reference) return kNone;
-    return self_first_ + field->field;
-  }
-  // The number of the pointer in a field of self that is a reference, or kNone.
-  uint32_t referenceOf(const Expr& e) const {
-    const auto* field = e.tryAs<FieldExpr>();
-    if (field == nullptr || body_.expr(field->base).kind != ExprKind::Self || !isReference(module_, body_, e))
-      return kNone;
-    return references_first_ + field->field;
-  }
-  // Epochs of fields of self: one counts the statements that may write any of them, the other also those that reach a
-  // field only by its address.
-  uint32_t epochOf(uint32_t variable) const {
-    const bool by_address =
-        variable >= self_first_ && variable < references_first_ && is_exposed_[variable - self_first_];
-    return by_address ? exposed_epoch_ : epoch_;
-  }
-  bool holds(uint32_t variable, const Fact& fact) const {
-    return fact.known && (variable < self_first_ || fact.epoch == epochOf(variable));
-  }
-  void set(uint32_t variable, const Fact& fact) {
-    trail_.push_back({variable, facts_[variable]});
-    facts_[variable] = fact;
-    facts_[variable].epoch = epochOf(variable);
-  }
-  void forgetFields() {
-    ++epoch_;
-    ++exposed_epoch_;
-  }
-  void setInterval(uint32_t variable, const Interval& interval) {
-    Fact fact;
-    fact.known = true;
-    fact.interval = interval;
-    set(variable, fact);
-  }
-
-  // A place was written, or may have been.
-  void written(ExprId place) {
-    const Effect effect = effectOfWrite(module_, body_, private_, place);
-    switch (effect.kind) {
-      case Effect::None: return;
-      case Effect::Local: return set(effect.index, {});
-      case Effect::Field: return set(self_first_ + effect.index, {});
-      case Effect::Exposed: ++exposed_epoch_; return;
-      case Effect::Fields: return forgetFields();
-    }
-  }
-  void effectsOf(const Stmt& s) {
-    forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
-    if (bindsOwn(body_, s)) forgetFields();
-    const auto* call = s.tryAs<CallStmt>();
-    if (call == nullptr || module_.body(call->callee).pure) return;
-    ++exposed_epoch_;
-    if (callReachesSelf(module_, exposure_, body_, *call)) ++epoch_;
-  }
-  void effectsIn(StmtId first) {
-    forEachStmt(body_, first, [&](StmtId id) { effectsOf(body_.stmt(id)); });
-  }
-
-  // ---- branches
-
-  struct Change {
-    uint32_t variable;
-    Fact before;
-  };
-  struct Touched {  // the fact that a branch left for a variable that it touched
-    uint32_t variable;
-    uint32_t branches;
-    Fact fact;
-  };
-
-  // Walks a block, takes its changes back and appends what it left to touched_. Whether control leaves its end.
-  template <class Before>
-  bool branch(StmtId first, Before&& before) {
-    const size_t mark = trail_.size();
-    before();
-    const bool falls = block(first);
-    const uint32_t now = ++stamps_;
-    for (size_t i = trail_.size(); i-- > mark;) {
-      const uint32_t v = trail_[i].variable;
-      if (stamp_[v] != now) {
-        stamp_[v] = now;
-        Fact left = facts_[v];
-        left.known = holds(v, left);
-        if (falls) touched_.push_back({v, 1, left});
-      }
-    }
-    undo(mark);
-    return falls;
-  }
-  void undo(size_t mark) {
-    while (trail_.size() > mark) {
-      facts_[trail_.back().variable] = trail_.back().before;
-      trail_.pop_back();
-    }
-  }
-  bool branch(StmtId first) {
-    return branch(first, [] {});
-  }
-
-  // Joins what `falling` branches left in touched_[mark..]; a branch that did not touch a variable keeps the old fact.
-  void joinBranches(size_t mark, uint32_t falling) {
-    const uint32_t now = ++stamps_;
-    size_t count = mark;
-    for (size_t i = mark; i < touched_.size(); ++i) {
-      const Touched one = touched_[i];
-      if (stamp_[one.variable] != now) {
-        stamp_[one.variable] = now;
-        stamp_entry_[one.variable] = static_cast<uint32_t>(count);
-        touched_[count++] = one;
-        continue;
-      }
-      Touched& entry = touched_[stamp_entry_[one.variable]];
-      ++entry.branches;
-      entry.fact.known = entry.fact.known && one.fact.known;
-      entry.fact.interval = join(entry.fact.interval, one.fact.interval);
-    }
-    for (size_t i = mark; i < count; ++i) {
-      Touched entry = touched_[i];
-      if (entry.branches < falling) {
-        const Fact& before = facts_[entry.variable];
-        entry.fact.known = entry.fact.known && holds(entry.variable, before);
-        entry.fact.interval = join(entry.fact.interval, before.interval);
-      }
-      set(entry.variable, entry.fact);
-    }
-    touched_.resize(mark);
-  }
+  const KnownVariables& variables() const { return facts_.variables(); }
+  uint32_t variable(ExprId id) const { return variables().at(id); }
+  bool isIntegral(TypeId type) const { return variables().isIntegral(type); }
+  bool isPointer(TypeId type) const { return variables().isPointer(type); }
+  bool isTracked(TypeId type) const { return variables().isTracked(type); }
+  Interval allOf(TypeId type, bool with_bounds) { return facts_.allOf(type, with_bounds); }
 
   // ---- statements
 
@@ -300,27 +120,19 @@ class Analysis {
       case StmtKind::Assert:
       case StmtKind::Evaluate:
         forEachRoot(module_, body_, s, [&](ExprId root, Use) { valueForChecks(root); });
-        effectsOf(s);
+        facts_.effectsOf(s);
         return true;
-      case StmtKind::If: {
-        const IfStmt node = s.as<IfStmt>();
-        valueForChecks(node.condition);
-        const size_t mark = touched_.size();
-        const bool yes = branch(node.then_block, [&] { refine(node.condition, true); });
-        const bool no = branch(node.else_block, [&] { refine(node.condition, false); });
-        joinBranches(mark, static_cast<uint32_t>(yes) + static_cast<uint32_t>(no));
-        return yes || no;
-      }
+      case StmtKind::If: return ifStmt(s.as<IfStmt>());
       case StmtKind::Switch: return switchStmt(s.as<SwitchStmt>());
       case StmtKind::Loop: {
         LoopState loop{s.as<LoopStmt>().body_block, s.as<LoopStmt>().next_block, {}};
-        const size_t mark = trail_.size();
-        effectsIn(loop.body);
-        effectsIn(loop.next);
+        const size_t mark = facts_.mark();
+        facts_.effectsIn(loop.body);
+        facts_.effectsIn(loop.next);
         watch(loop, mark, kNone);
         iterate(loop, [] {});
         for (const Watch& one : loop.watches)
-          if (one.at_exit.known) setInterval(one.variable, one.at_exit.interval);
+          if (one.at_exit) facts_.set(one.variable, *one.at_exit);
         return true;
       }
       case StmtKind::For: return forLoop(s.as<ForStmt>());
@@ -333,22 +145,34 @@ class Analysis {
     if (v == kNone) {
       valueForChecks(s.place);
       valueForChecks(s.value);
-      written(s.place);
+      facts_.written(s.place);
     } else {
       const Interval given = value(s.value);
       const Interval both = meet(given, allOf(body_.expr(s.place).type, true));
-      setInterval(v, both.isEmpty() ? given : both);
+      facts_.set(v, both.isEmpty() ? given : both);
     }
+  }
+  bool ifStmt(const IfStmt& s) {
+    valueForChecks(s.condition);
+    RangeFacts::Junction branches = facts_.junction();
+    for (const bool outcome : {true, false}) {
+      facts_.branch(branches, [&] {
+        refine(s.condition, outcome);
+        return block(outcome ? s.then_block : s.else_block);
+      });
+    }
+    facts_.join(branches);
+    return branches.falling > 0;
   }
   void tryStmt(const TryStmt& s) {
     for (const StmtId part : {s.body_block, s.catch_block, s.finally_block}) {  // begins anywhere in the one before
-      const size_t mark = touched_.size();
-      branch(part);
-      touched_.resize(mark);
-      effectsIn(part);
+      RangeFacts::Junction alone = facts_.junction();
+      facts_.branch(alone, [&] { return block(part); });
+      facts_.discard(alone);
+      facts_.effectsIn(part);
       if (part == s.body_block && s.number) {
         value(s.number);
-        written(s.number);
+        facts_.written(s.number);
       }
     }
   }
@@ -363,7 +187,7 @@ class Analysis {
     Interval before, head;
     Interval most = {-kWide, kWide}, most_after = {-kWide, kWide};  // of a counter: at the head, after the loop
     Interval agreed = {};                                           // the last guess that held
-    Fact at_end = {}, at_exit = {};  // joined over all ends of an iteration, over all breaks
+    std::optional<Interval> at_end = {}, at_exit = {};  // joined over all ends of an iteration, over all breaks
     bool is_narrowed = false;
   };
   struct LoopState {
@@ -372,13 +196,12 @@ class Analysis {
   };
   static constexpr int kMaxRounds = 6, kMaxTrials = 2;  // walks of a loop; nested loops that are tried
 
-  void note(Fact Watch::*where) {
+  void note(std::optional<Interval> Watch::*where) {
     if (loops_.empty()) return;
     for (Watch& one : loops_.back()->watches) {
-      Fact& fact = one.*where;
-      const Interval now = current(one.variable);
-      fact.interval = fact.known ? join(fact.interval, now) : now;
-      fact.known = true;
+      std::optional<Interval>& noted = one.*where;
+      const Interval now = facts_.current(one.variable);
+      noted = noted ? join(*noted, now) : now;
     }
   }
 
@@ -394,45 +217,40 @@ class Analysis {
   }
   // The variables whose facts went into the trail from `mark` on, because the loop writes them.
   void watch(LoopState& loop, size_t mark, uint32_t control) {
-    if (trials_ == kMaxTrials || mark == trail_.size()) return;
+    if (trials_ == kMaxTrials || mark == facts_.mark()) return;
     if (!isWorthWatching(loop.body) && !isWorthWatching(loop.next)) return;
-    const uint32_t now = ++stamps_;
-    for (size_t i = mark; i < trail_.size(); ++i) {
-      const uint32_t v = trail_[i].variable;
-      if (v == control || stamp_[v] == now) continue;
-      stamp_[v] = now;
-      if (holds(v, trail_[i].before)) {
-        const Interval before = trail_[i].before.interval;
-        loop.watches.push_back({v, before, before});
-      }
-    }
+    facts_.forEachForgotten(mark, [&](uint32_t variable, const Interval& before) {
+      if (variable != control) loop.watches.push_back({variable, before, before});
+    });
   }
 
   template <class Before>
   void iterateOnce(LoopState& loop, Before&& before) {
-    for (Watch& one : loop.watches) one.at_end.known = one.at_exit.known = false;
-    const size_t mark = trail_.size(), touched = touched_.size();
+    for (Watch& one : loop.watches) {
+      one.at_end.reset();
+      one.at_exit.reset();
+    }
+    const size_t mark = facts_.mark();
     loops_.push_back(&loop);
-    for (const Watch& one : loop.watches) setInterval(one.variable, one.head);
+    for (const Watch& one : loop.watches) facts_.set(one.variable, one.head);
     before();
     if (block(loop.body)) note(&Watch::at_end);
-    undo(mark);
+    facts_.undo(mark);
     if (loop.next) {
       for (Watch& one : loop.watches) {
-        if (one.at_end.known) setInterval(one.variable, one.at_end.interval);
-        one.at_end.known = false;
+        if (one.at_end) facts_.set(one.variable, *one.at_end);
+        one.at_end.reset();
       }
       if (block(loop.next)) note(&Watch::at_end);
-      undo(mark);
+      facts_.undo(mark);
     }
     loops_.pop_back();
-    touched_.resize(touched);
   }
   // The next guess for a variable whose iterations leave `left`; false: this one stays. The first guess for a counter
   // that a test stops at 7 fails, since the largest value plus one wraps; then the test's bound is tried.
   bool guess(Watch& one) {
-    if (!one.at_end.known) return false;
-    const Interval end = meet(one.at_end.interval, one.most);
+    if (!one.at_end) return false;
+    const Interval end = meet(*one.at_end, one.most);
     if (end.isEmpty()) return false;  // there is no next iteration
     const Interval left = join(one.before, end), last = one.head;
     if (left == last || (one.is_narrowed && left.within(last))) return false;
@@ -442,7 +260,7 @@ class Analysis {
       one.is_narrowed = true;
       return true;
     }
-    const Interval any = all(one.variable);
+    const Interval any = facts_.all(one.variable);
     const Int128 least = left.low >= 0 ? std::max<Int128>(any.low, 0) : any.low;
     one.head = meet({below ? least : last.low, above ? any.high : last.high}, one.most);
     return true;
@@ -457,8 +275,9 @@ class Analysis {
       if (round < kMaxRounds) iterateOnce(loop, before);
       bool holds = round < kMaxRounds, changed = false;
       for (const Watch& one : loop.watches) {
-        const Interval end = meet(one.at_end.interval, one.most);
-        holds = holds && (!one.at_end.known || end.isEmpty() || end.within(one.head));
+        if (!one.at_end) continue;
+        const Interval end = meet(*one.at_end, one.most);
+        holds = holds && (end.isEmpty() || end.within(one.head));
       }
       if (!holds && has_agreed) {
         for (Watch& one : loop.watches) one.head = one.agreed;
@@ -484,21 +303,20 @@ class Analysis {
     value(s.selector);
     const bool is_signed = types_.isSigned(types_.plainKind(body_.expr(s.selector).type));
     const auto bound = [&](int64_t bits) { return is_signed ? Int128{bits} : Int128{static_cast<uint64_t>(bits)}; };
-    const size_t mark = touched_.size();
-    uint32_t falling = 0;
+    const uint32_t v = variables().after(s.selector);
+    RangeFacts::Junction branches = facts_.junction();
     for (const Case& one : body_.list(s.cases)) {
-      falling += branch(one.block, [&] {
-        const uint32_t v = variableAfter(s.selector);
-        if (v == kNone) return;
+      facts_.branch(branches, [&] {
         const std::span<const CaseRange> ranges = body_.list(one.ranges);
         Interval hull{bound(ranges[0].low), bound(ranges[0].high)};
         for (const CaseRange& range : ranges) hull = join(hull, {bound(range.low), bound(range.high)});
-        narrow(v, hull);
+        if (v != kNone) facts_.narrow(v, hull);
+        return block(one.block);
       });
     }
-    falling += branch(s.else_block);
-    joinBranches(mark, falling);
-    return falling > 0;
+    facts_.branch(branches, [&] { return block(s.else_block); });
+    facts_.join(branches);
+    return branches.falling > 0;
   }
 
   bool forLoop(const ForStmt& s) {
@@ -507,25 +325,25 @@ class Analysis {
     const Interval to = value(s.to);
     const uint32_t control = variable(s.control);
     // Whether the body itself writes the control variable: its fact is set before the scan.
-    if (control != kNone) setInterval(control, from);
-    const size_t mark = trail_.size();
-    effectsIn(s.body_block);
-    const bool is_kept = control != kNone && holds(control, facts_[control]);
+    if (control != kNone) facts_.set(control, from);
+    const size_t mark = facts_.mark();
+    facts_.effectsIn(s.body_block);
+    const bool is_kept = control != kNone && facts_.isKnown(control);
     LoopState loop{s.body_block, {}, {}};
     watch(loop, mark, control);
     boundCounters(loop, s, from, to);
-    written(s.control);
+    facts_.written(s.control);
     const Expr& step = body_.expr(s.step);
     const bool up = static_cast<int64_t>(bitsOf(step)) > 0 || !types_.isSigned(types_.plainKind(step.type));
     const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
     iterate(loop, [&] {
-      if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
+      if (is_kept && !bounds.isEmpty()) facts_.narrow(control, bounds);
     });
     for (const Watch& one : loop.watches) {
       Interval after = one.head;
-      const Interval end = meet(one.at_end.interval, one.most_after);
-      if (one.at_end.known && !end.isEmpty()) after = join(after, end);
-      setInterval(one.variable, one.at_exit.known ? join(after, one.at_exit.interval) : after);
+      const Interval end = one.at_end ? meet(*one.at_end, one.most_after) : after;
+      if (!end.isEmpty()) after = join(after, end);
+      facts_.set(one.variable, one.at_exit ? join(after, *one.at_exit) : after);
     }
     return true;
   }
@@ -533,7 +351,7 @@ class Analysis {
   // How far the loop can move what its body only counts: `most` of the watches.
   void boundCounters(LoopState& loop, const ForStmt& s, const Interval& from, const Interval& to) {
     if (loop.watches.empty()) return;
-    const Counters counters(module_, exposure_, body_, private_);
+    const Counters counters(module_, exposure_, body_, variables());
     std::optional<Int128> times = counters.mostIterations(s);
     if (!times) {
       const std::optional<Int128> step = constant(s.step);
@@ -550,7 +368,7 @@ class Analysis {
       const auto after = [&](Int128 n) {
         return Interval{one.before.low - growths[i].down * n, one.before.high + growths[i].up * n};
       };
-      if (!growths[i].is_counted || !after(*times).within(meet(growths[i].limit, all(one.variable)))) continue;
+      if (!growths[i].is_counted || !after(*times).within(meet(growths[i].limit, facts_.all(one.variable)))) continue;
       one.most = after(*times - 1);
       one.most_after = after(*times);
     }
@@ -561,34 +379,6 @@ class Analysis {
   }
 
   // ---- comparisons
-
-  // The variable whose value an expression is, also through conversions that keep every value.
-  uint32_t variableAfter(ExprId id) const {
-    while (const auto* convert = body_.expr(id).tryAs<ConvertExpr>()) {
-      const TypeId from = body_.expr(convert->operand).type, to = body_.expr(id).type;
-      if (isPointer(from) && (isPointer(to) || TypeTable::bitWidth(types_.plainKind(to)) == 64)) {
-        id = convert->operand;
-        continue;
-      }
-      if (!isIntegral(to) || !isIntegral(from) || !types::isLossless(types_, from, to)) return kNone;
-      id = convert->operand;
-    }
-    return variable(id);
-  }
-
-  void narrow(uint32_t v, const Interval& bounds) {
-    const Interval now = current(v);
-    const Interval both = meet(now, bounds);
-    if (both.isEmpty() || both == now) return;  // empty: never reached
-    setInterval(v, both);
-  }
-  Interval current(uint32_t v) { return holds(v, facts_[v]) ? facts_[v].interval : all(v); }
-  Interval all(uint32_t v) {
-    if (v >= references_first_) return kPointers;
-    const TypeId type =
-        v < self_first_ ? body_.locals[v].type : types_.info(types_.resolve(body_.self)).fields[v - self_first_].type;
-    return allOf(type, true);
-  }
 
   // An expression lies in these bounds from here on: narrows the variable in `i`, `i + 1` or `i - 1`.
   void holdsFrom(ExprId id, Interval bounds) {
@@ -603,8 +393,8 @@ class Analysis {
       bounds = {bounds.low - addend, bounds.high - addend};
       id = sum->left;
     }
-    const uint32_t v = variableAfter(id);
-    if (v != kNone) narrow(v, bounds);
+    const uint32_t v = variables().after(id);
+    if (v != kNone) facts_.narrow(v, bounds);
   }
 
   // Narrows variables by the outcome of a condition.
@@ -626,7 +416,7 @@ class Analysis {
 
   // `one op other` (or `other op one` when swapped) gave `outcome`: narrows `one`.
   void compare(Op op, bool outcome, ExprId one, ExprId other, bool swapped) {
-    const uint32_t v = variableAfter(one);
+    const uint32_t v = variables().after(one);
     if (v == kNone) return;
     // Evaluated without clearing checks: they ran before the condition had an outcome.
     const bool outer = asking_;
@@ -644,15 +434,15 @@ class Analysis {
     if (swapped) {
       op = op == Op::Lt ? Op::Gt : op == Op::Gt ? Op::Lt : op == Op::Le ? Op::Ge : op == Op::Ge ? Op::Le : op;
     }
-    const Interval now = current(v);
-    if (op == Op::Lt) narrow(v, {now.low, o.high - 1});
-    if (op == Op::Le) narrow(v, {now.low, o.high});
-    if (op == Op::Gt) narrow(v, {o.low + 1, now.high});
-    if (op == Op::Ge) narrow(v, {o.low, now.high});
-    if (op == Op::Eq) narrow(v, o);
+    const Interval now = facts_.current(v);
+    if (op == Op::Lt) facts_.narrow(v, {now.low, o.high - 1});
+    if (op == Op::Le) facts_.narrow(v, {now.low, o.high});
+    if (op == Op::Gt) facts_.narrow(v, {o.low + 1, now.high});
+    if (op == Op::Ge) facts_.narrow(v, {o.low, now.high});
+    if (op == Op::Eq) facts_.narrow(v, o);
     if (op == Op::Ne && o.low == o.high) {
-      if (o.low == now.low) narrow(v, {now.low + 1, now.high});
-      if (o.low == now.high) narrow(v, {now.low, now.high - 1});
+      if (o.low == now.low) facts_.narrow(v, {now.low + 1, now.high});
+      if (o.low == now.high) facts_.narrow(v, {now.low, now.high - 1});
     }
   }
 
@@ -703,10 +493,10 @@ class Analysis {
       case ExprKind::Field: {
         if (e.kind == ExprKind::Field) {
           value(e.as<FieldExpr>().base);
-          nullCheck(e, referenceOf(e));
+          nullCheck(e, variables().referenceAt(e));
         }
         const uint32_t v = variable(id);
-        if (v != kNone) return current(v);
+        if (v != kNone) return facts_.current(v);
         return allOf(e.type, keepsBounds(id));
       }
       case ExprKind::Index: return indexed(id);
@@ -755,7 +545,7 @@ class Analysis {
       case ExprKind::Call: forEachOperand(body_, e, [&](ExprId operand) { value(operand); }); break;
       case ExprKind::Deref:
         value(e.as<DerefExpr>().pointer);
-        nullCheck(e, variableAfter(e.as<DerefExpr>().pointer));
+        nullCheck(e, variables().after(e.as<DerefExpr>().pointer));
         break;
       case ExprKind::Address:
         value(e.as<AddressExpr>().place);
@@ -767,8 +557,8 @@ class Analysis {
   // A place through a pointer: it is not null from here on, which `v` keeps.
   void nullCheck(Expr& e, uint32_t v) {
     if ((e.checks & kCheckNull) == 0 || v == kNone) return;
-    if (current(v).low > 0) return clear(e, kCheckNull);
-    narrow(v, kNotNull);
+    if (facts_.current(v).low > 0) return clear(e, kCheckNull);
+    facts_.narrow(v, kNotNull);
   }
   // Without a pointer on the way.
   bool isOwnMemory(ExprId place) const {
@@ -815,7 +605,7 @@ class Analysis {
     const IntervalResult result = apply(op, a, b, allOf(e.type, false));
     if (result.fits) clear(e, kCheckOverflow);
     if (result.fits && (op == Op::Add || op == Op::Sub || op == Op::Mul)) fits(e);
-    if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(e)) dropSign(id);
+    if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(body_, e)) dropSign(id);
     return result.interval;
   }
 
@@ -823,19 +613,9 @@ class Analysis {
   const TypeTable& types_;
   const Exposure& exposure_;
   Body& body_;
-  static constexpr size_t kKinds = static_cast<size_t>(TypeKind::Count_);
-  Interval kind_interval_[kKinds];
-  bool kind_known_[kKinds] = {};
   std::vector<uint8_t> has_checks_;  // by expression
-  std::vector<bool> private_;
-  std::vector<Fact> facts_;  // by variable: the locals, then the fields of self
-  std::vector<uint32_t> stamp_, stamp_entry_;
-  std::vector<Change> trail_;
-  std::vector<Touched> touched_;
-  std::vector<LoopState*> loops_;    // the loops around the current statement
-  std::vector<uint8_t> is_exposed_;  // by field of self
-  uint32_t self_first_ = 0, references_first_ = 0;
-  uint32_t epoch_ = 0, exposed_epoch_ = 0, stamps_ = 0;
+  RangeFacts facts_;
+  std::vector<LoopState*> loops_;  // the loops around the current statement
   int trials_ = 0;
   bool asking_ = false;
   bool changed_ = false;
@@ -844,6 +624,7 @@ class Analysis {
 }  // namespace
 
 bool removeChecks(Module& module, const Exposure& exposure, Body& body) {
+  if (body.has_labels || !body.first || !isWorthIt(body)) return false;
   return Analysis(module, exposure, body).run();
 }
 
