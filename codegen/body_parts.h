@@ -31,7 +31,7 @@ class ExpressionWriter : public BodyPart {
   void logical(ExprId id, Prec context);
   bool isPlainRead(ExprId id) const;
   bool readsWithoutJumps(ExprId id, uint32_t& steps, bool& any_bit) const;
-  void bits(ExprId id, uint32_t position);
+  void bits(ExprId id, uint32_t position, Op within);
   bool isSingleBit(ExprId id) const;
   uint32_t positionOf(ExprId contacts) const;
   bool isOnlyBits(ExprId id, uint32_t& highest) const;

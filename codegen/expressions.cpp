@@ -325,8 +325,8 @@ bool ExpressionWriter::readsWithoutJumps(ExprId id, uint32_t& steps, bool& any_b
 }
 
 // Contacts as an integer whose bit at `position` is their value; the others are anything unless isSingleBit. A bit of
-// the image is shifted once, and not cut from its byte.
-void ExpressionWriter::bits(ExprId id, uint32_t position) {
+// the image is shifted once, and not cut from its byte. `within`: AND or OR, when this is an operand of it.
+void ExpressionWriter::bits(ExprId id, uint32_t position, Op within) {
   const Expr& e = expr(id);
   if (ir::isImageBit(e)) {
     const ir::ImageExpr& image = e.as<ir::ImageExpr>();
@@ -340,16 +340,16 @@ void ExpressionWriter::bits(ExprId id, uint32_t position) {
   }
   const auto* node = e.tryAs<ir::BinaryExpr>();
   if (node != nullptr && (node->op == Op::And || node->op == Op::Or)) {
-    out_ += '(';
-    bits(node->left, position);
+    if (node->op != within) out_ += '(';
+    bits(node->left, position, node->op);
     out_ += node->op == Op::And ? " & " : " | ";
-    bits(node->right, position);
-    out_ += ')';
+    bits(node->right, position, node->op);
+    if (node->op != within) out_ += ')';
     return;
   }
   if (ir::isNot(e) && !isSingleBit(id)) {
     out_ += '~';
-    return bits(e.as<ir::UnaryExpr>().operand, position);
+    return bits(e.as<ir::UnaryExpr>().operand, position, Op::Not);
   }
   if (position != 0) out_ += '(';
   value(id, Prec::Unary);
@@ -395,10 +395,12 @@ bool ExpressionWriter::isOnlyBits(ExprId id, uint32_t& highest) const {
 void ExpressionWriter::bitAt(ExprId contacts, uint32_t position, Prec context) {
   const uint32_t own = positionOf(contacts);
   const bool is_cut = !isSingleBit(contacts), is_shifted = own != position;
-  const Prec last = is_shifted ? Prec::Shift : is_cut ? Prec::Bit : Prec::Postfix;
+  const auto* joined = expr(contacts).tryAs<ir::BinaryExpr>();
+  const bool is_joined = joined != nullptr && !types::isComparison(joined->op);
+  const Prec last = is_shifted ? Prec::Shift : is_cut || is_joined ? Prec::Bit : Prec::Postfix;
   parenthesis(last, context);
   if (is_cut && is_shifted) out_ += '(';
-  bits(contacts, own);
+  bits(contacts, own, is_cut ? Op::And : is_shifted || !is_joined ? Op::Not : joined->op);
   if (is_cut) out_ += " & " + std::to_string(1u << own);
   if (is_cut && is_shifted) out_ += ')';
   if (is_shifted) {

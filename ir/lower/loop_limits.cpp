@@ -115,27 +115,29 @@ void LoopLimits::add(const Body& body, StmtId id, Effects& effects) const {
 
 const Effects& LoopLimits::effectsOf(BodyId id) {
   const auto [found, is_new] = effects_.try_emplace(id.index);
+  Effects& effects = found->second;
   if (is_new) {
     const Body& body = module_.body(id);
-    forEachStmt(body, body.first, [&](StmtId stmt) { add(body, stmt, found->second); });
-    found->second.locals.clear();
+    forEachStmt(body, body.first, [&](StmtId stmt) { add(body, stmt, effects); });
+    effects.locals.clear();
   }
-  return found->second;
+  return effects;
 }
 
 // The locals whose address is taken anywhere, or to which an in-out of an instance refers.
 const std::unordered_set<uint32_t>& LoopLimits::addressedIn(BodyId id) {
   const auto [found, is_new] = addressed_.try_emplace(id.index);
-  if (!is_new) return found->second;
+  std::unordered_set<uint32_t>& addressed = found->second;
+  if (!is_new) return addressed;
   const Body& body = module_.body(id);
   const auto take = [&](ExprId place) {
-    if (const uint32_t* local = place ? localOf(body.expr(rootOf(body, place))) : nullptr) found->second.insert(*local);
+    if (const uint32_t* local = place ? localOf(body.expr(rootOf(body, place))) : nullptr) addressed.insert(*local);
   };
   for (const Expr& expr : body.exprs)
     if (const auto* address = expr.tryAs<AddressExpr>()) take(address->place);
   for (const Stmt& stmt : body.stmts)
     if (const auto* bind = stmt.tryAs<BindStmt>()) take(bind->place);
-  return found->second;
+  return addressed;
 }
 
 bool LoopLimits::changes(const Effects& effects, const Chain& read, bool is_own) const {
