@@ -21,6 +21,7 @@ Parameters::Parameters() {
     return 1;
   };
   const auto add = [&](uint32_t first, uint32_t count, Format format, Basis basis) {
+    if (all_.size() < first + count) all_.resize(first + count);
     for (uint32_t number = first; number < first + count; ++number)
       all_[number] = {format, basis, std::vector<double>(unitsOf(basis))};
   };
@@ -51,21 +52,20 @@ double Parameters::real(uint32_t number, uint32_t index) const {
 }
 
 bool Parameters::read(uint32_t number, uint32_t index, double& value) const {
-  const auto at = all_.find(number);
-  if (at == all_.end() || index >= at->second.values.size()) return false;
-  value = at->second.values[index];
+  const Parameter* const parameter = at(number);
+  if (parameter == nullptr || index >= parameter->values.size()) return false;
+  value = parameter->values[index];
   return true;
 }
 
 bool Parameters::write(uint32_t number, uint32_t index, double value) {
-  const auto at = all_.find(number);
-  if (at == all_.end() || index >= at->second.values.size()) return false;
-  Parameter& parameter = at->second;
-  if (parameter.format != Format::Real) {
+  Parameter* const parameter = at(number);
+  if (parameter == nullptr || index >= parameter->values.size()) return false;
+  if (parameter->format != Format::Real) {
     if (!(value >= -2147483648.0 && value <= 4294967295.0)) return false;
     value = static_cast<uint32_t>(static_cast<int64_t>(value));
   }
-  parameter.values[index] = value;
+  parameter->values[index] = value;
   return true;
 }
 
@@ -73,16 +73,15 @@ bool Parameters::write(uint32_t number, uint32_t index, double value) {
 Code Parameters::find(const Block& block, bool reals, Range& range) const {
   const uint32_t amount = block.amount(), words = reals ? 2 : 1;
   if (amount < 2 + words || (amount - 2) % words != 0) return kWrongAmount;
-  const auto at = all_.find(block.word(2));
-  if (at == all_.end()) return kMissing;
-  Parameter& parameter = at->second;
-  if ((parameter.format == Format::Real) != reals) return kWrongFormat;
-  const bool is_global = parameter.basis == Basis::Global;
+  Parameter* const parameter = at(block.word(2));
+  if (parameter == nullptr) return kMissing;
+  if ((parameter->format == Format::Real) != reals) return kWrongFormat;
+  const bool is_global = parameter->basis == Basis::Global;
   const uint32_t index = block.word(3);
   if (is_global && index != 0) return kIndexGiven;
   if (!is_global && index == 0) return kIndexMissing;
-  range = {&parameter, is_global ? 0 : index - 1, (amount - 2) / words};
-  const size_t units = parameter.values.size();
+  range = {parameter, is_global ? 0 : index - 1, (amount - 2) / words};
+  const size_t units = parameter->values.size();
   return range.first >= units || range.count > units - range.first ? kWrongAmount : kDone;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "block.h"
@@ -32,9 +31,9 @@ class Parameters {
   enum class Format : uint8_t { Bits, Word, Real };
   enum class Basis : uint8_t { Global, Channel, Axis, Spindle };
   struct Parameter {
-    Format format;
-    Basis basis;
-    std::vector<double> values;  // a word without a sign
+    Format format = Format::Bits;
+    Basis basis = Basis::Global;
+    std::vector<double> values;  // a word without a sign; empty: there is no such parameter
   };
   struct Range {
     Parameter* parameter = nullptr;
@@ -42,7 +41,12 @@ class Parameters {
   };
   Code find(const Block& block, bool reals, Range& range) const;
 
-  mutable std::map<uint32_t, Parameter> all_;
+  // Null: there is no such parameter.
+  Parameter* at(uint32_t number) const {
+    return number < all_.size() && !all_[number].values.empty() ? &all_[number] : nullptr;
+  }
+
+  mutable std::vector<Parameter> all_;  // by number: read some hundred times in each TimeSlice
   bool checksum_wrong_ = false;
 };
 
