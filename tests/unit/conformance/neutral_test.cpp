@@ -112,6 +112,16 @@ TEST(Neutral, OneNameInEachDeclarationOfVarExternal) {
   EXPECT_TRUE(contains(draft.text, "VAR_EXTERNAL a : BOOL; b : BOOL; END_VAR"));
 }
 
+TEST(Neutral, LocatedVariablesHaveSectionsOfTheirOwn) {
+  const Draft draft = draftOf(
+      "{test}\nPROGRAM p\nVAR RETAIN a : INT; b AT %MX1.0 : BOOL; c AT %MX1.1 : BOOL; d : INT; END_VAR\n"
+      "ASSERT(b);\nEND_PROGRAM\n");
+  EXPECT_TRUE(
+      contains(draft.text,
+               "VAR RETAIN a : INT; END_VAR VAR RETAIN b AT %MX1.0 : BOOL; c AT %MX1.1 : BOOL; END_VAR VAR RETAIN "
+               "d : INT; END_VAR"));
+}
+
 TEST(Neutral, ActionsHaveTheirQualifier) {
   const Draft draft = draftOf(
       "FUNCTION_BLOCK Chart\nVAR_OUTPUT n : INT; END_VAR\nINITIAL_STEP s: Count; END_STEP\nTRANSITION FROM s TO s := "
