@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kOfEdition3 = " of edition 3";
 constexpr const char* kOfNone = " not of the standard";
+constexpr int kOnlyEdition3 = 4;  // in keywords.tsv
 
 constexpr const char* kFunctionBlocks[] = {"SR",   "RS", "R_TRIG", "F_TRIG", "CTU", "CTD",
                                            "CTUD", "TP", "TON",    "TOF",    "SEMA"};
@@ -222,8 +223,11 @@ class Productions {
   }
   void name(NameId id) {
     const auto keyword = vocabulary_.keywords.find(key(id));
-    if (found_.empty() && keyword != vocabulary_.keywords.end() && keyword->second >= edition_)
-      found_ = "`" + source_.spelling(id) + "` is a keyword" + (keyword->second == 2 ? " of edition 2" : "");
+    if (!found_.empty() || keyword == vocabulary_.keywords.end()) return;
+    const bool is_of_one = keyword->second == kOnlyEdition3 || keyword->second == 2;
+    if (is_of_one && edition_ != (keyword->second == 2 ? 2 : 3)) return;
+    found_ =
+        "`" + source_.spelling(id) + "` is a keyword" + (is_of_one ? " of edition " + std::to_string(edition_) : "");
   }
 
   template <class Id>

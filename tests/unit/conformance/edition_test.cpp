@@ -47,6 +47,7 @@ TEST_F(Edition, PlainSourceIsOfBoth) {
 TEST_F(Edition, Keywords) {
   expect(program("", "VAR limit : INT; END_VAR", "limit := 1;"), "`limit` is a keyword of edition 2", kAll);
   expect(program("", "VAR step : INT; END_VAR", "step := 1;"), "`step` is a keyword", "`step` is a keyword");
+  EXPECT_EQ(foreign(3, program("", "VAR method : INT; END_VAR", "method := 1;")), "`method` is a keyword of edition 3");
 }
 
 TEST_F(Edition, Literals) {
