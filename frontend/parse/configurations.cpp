@@ -15,7 +15,7 @@ DeclId Parser::parseConfiguration() {
   ConfigurationDecl d{declHeader(DeclKind::Configuration), {}, {}};
   advance();
   Ident name;
-  if (parseName(name)) {
+  if (parseNewName(name)) {
     d.name = name.name;
     d.h.loc = name.loc;
   }
@@ -80,7 +80,7 @@ DeclId Parser::parseResource() {
   ResourceDecl d{declHeader(DeclKind::Resource), {}, {}, {}};
   advance();
   Ident name, target;
-  if (parseName(name)) {
+  if (parseNewName(name)) {
     d.name = name.name;
     d.h.loc = name.loc;
   }
@@ -109,7 +109,7 @@ DeclId Parser::parseTask() {
   TaskDecl d{declHeader(DeclKind::Task), {}, {}};
   advance();
   Ident name;
-  if (!parseName(name)) {
+  if (!parseNewName(name)) {
     tree_.lost_names = true;
   } else {
     d.name = name.name;
@@ -134,7 +134,7 @@ DeclId Parser::parseProgramInstance() {
     advance();
   }
   Ident name;
-  if (parseName(name)) {
+  if (parseNewName(name)) {
     d.name = name.name;
     d.h.loc = name.loc;
     if (accept(Tok::With)) {

@@ -1,5 +1,8 @@
 // Names and sections, and resynchronization after errors in declarations.
 #include "frontend/parse/declarations.h"
+
+#include <algorithm>
+
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/recover.h"
 #include "frontend/source/dialect.h"
@@ -29,6 +32,22 @@ constexpr TokMap<SectionKind> kSections = {
 constexpr TokMap<uint8_t> kSectionBits = {
     {Tok::Constant, kConstant}, {Tok::Retain, kRetain}, {Tok::Persistent, kPersistent}, {Tok::NonRetain, kNonRetain}};
 
+// Words of the textual languages that are names in codesys: of annex B of edition 2 and annex A of edition 3, and of
+// the latter alone.
+constexpr std::string_view kWordsOfBoth[] = {
+    "ACTION",       "ANY",        "AT", "BY",         "CONFIGURATION", "CONSTANT", "FROM",   "F_EDGE",
+    "INITIAL_STEP", "NON_RETAIN", "ON", "READ_ONLY",  "READ_WRITE",    "RESOURCE", "RETAIN", "R_EDGE",
+    "STEP",         "TASK",       "TO", "TRANSITION", "WITH"};
+constexpr std::string_view kWordsOfEdition3[] = {"CHAR",  "CONTINUE", "LDATE",  "LDT",
+                                                 "LTIME", "LTOD",     "REF_TO", "WCHAR"};
+
+bool isKeywordIn(Dialect dialect, std::string_view name) {
+  const auto is_name = [&](std::string_view word) { return sameIdentifier(name, word); };
+  if (dialect == Dialect::Codesys) return false;
+  return std::any_of(std::begin(kWordsOfBoth), std::end(kWordsOfBoth), is_name) ||
+         (dialect == Dialect::Iec3 && std::any_of(std::begin(kWordsOfEdition3), std::end(kWordsOfEdition3), is_name));
+}
+
 }  // namespace
 
 // Reports and skips one token that is not allowed here when the token after it is.
@@ -44,6 +63,11 @@ void DeclarationParser::skipStray(bool fits_after, Diag diag) {
 bool DeclarationParser::beginsType(const Token* t) const {
   return isTypeWord(t->kind) || t->kind == Tok::Array || t->kind == Tok::Struct || t->kind == Tok::RefTo ||
          (isName(t->kind) && (t->flags & kLineStart) == 0) || t->kind == Tok::LeftParen;
+}
+
+bool DeclarationParser::parseNewName(Ident& out) {
+  if (isName(kind()) && isKeywordIn(dialect_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
+  return parseName(out);
 }
 
 bool DeclarationParser::parseName(Ident& out) {

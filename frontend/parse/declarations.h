@@ -12,6 +12,7 @@ class DeclarationParser : public ExpressionParser {
 
  protected:
   bool parseName(Ident& out);
+  bool parseNewName(Ident& out);  // of what is declared here
   void parseNamePath(Slice<Ident>& out);
   void parseTypes(std::vector<DeclId>& out);
   DeclId parseSection();

@@ -151,8 +151,9 @@ constexpr std::array<bool, kTokCount> makeBlockKeywords() {
 }
 constexpr std::array<bool, kTokCount> kBlockKeyword = makeBlockKeywords();
 
-// Keywords that sources of CODESYS and TwinCAT use as names: its version 2.3 had no LTIME, LDATE, LTOD and LDT, no
-// version has CHAR, WCHAR and REF_TO, and the others are keywords only where a statement or declaration has them.
+// Keywords that sources of CODESYS and TwinCAT use as names; in the other dialects parseNewName reports them: its
+// version 2.3 had no LTIME, LDATE, LTOD and LDT, no version has CHAR, WCHAR and REF_TO, and the others are keywords
+// only where a statement or declaration has them.
 bool isForeignType(Tok kind) {
   static constexpr TokSet kTypes = {Tok::Ltime, Tok::Ldate, Tok::Ltod, Tok::Ldt, Tok::Char, Tok::Wchar, Tok::RefTo};
   return kTypes.has(kind);
@@ -332,7 +333,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   flushPending();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
-  if (may_be_name_ && dialect_ == Dialect::Codesys) resolveDeclaredWords();
+  if (may_be_name_) resolveDeclaredWords();
 }
 
 const char* Lexer::word(const char* begin) {

@@ -72,7 +72,7 @@ Ident Parser::parsePropertyHeader(PropertyDecl& d) {
   advance();
   parseModifiers(d.access, d.modifiers, true);
   Ident name{{}, here()};
-  if (parseName(name)) {
+  if (parseNewName(name)) {
     d.name = name.name;
     d.h.loc = name.loc;
   }

@@ -172,7 +172,7 @@ void Parser::parsePouName(PouDecl& d) {
     // The functional form of an operator, FUNCTION AND : ANY_BIT, and the library's FUNCTION TIME : TIME.
     name = {names_.intern(textOf(t_)), here()};
     advance();
-  } else if (!parseName(name)) {
+  } else if (!parseNewName(name)) {
     while (!atLineStart() && !at(Tok::Colon) && !at(Tok::Semicolon)) advance();
     panic_ = false;
     tree_.lost_names = true;

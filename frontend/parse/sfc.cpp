@@ -139,7 +139,7 @@ void ChartParser::parseStep(std::vector<SfcStep>& out) {
   step.initial = is(t_, "INITIAL_STEP");
   advance();
   std::vector<SfcAssociation> actions;
-  if (parseName(step.name)) {
+  if (parseNewName(step.name)) {
     parsePosition(step.position);
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
@@ -282,9 +282,9 @@ bool ChartParser::parseTransition(std::vector<SfcTransition>& out, std::vector<D
   t.loc = t.begin = here();
   advance();
   if (isName(kind()) && !is(t_, "FROM") && !is(t_, "AT")) {
-    t.name = ident(t_);
+    Ident name;
     t.loc = here();
-    advance();
+    if (parseNewName(name)) t.name = name;
   }
   parsePosition(t.position);
   if (at(Tok::LeftParen)) {

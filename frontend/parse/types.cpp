@@ -63,7 +63,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
   TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}};
   if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   Ident name;
-  if (!parseName(name)) {
+  if (!parseNewName(name)) {
     tree_.lost_names = true;
     if (!endsDeclarations(kind())) advance();
     syncDeclaration(Tok::EndType);
@@ -283,7 +283,7 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
   std::vector<EnumItem> items;
   while (!panic_ && !at(Tok::RightParen)) {
     EnumItem item{};
-    if (!parseName(item.item)) break;
+    if (!parseNewName(item.item)) break;
     if (acceptAssign()) item.value = parseExpr();
     items.push_back(item);
     if (accept(Tok::Comma)) {

@@ -48,7 +48,7 @@ void DeclarationParser::parseVarNames(SectionKind section) {
   do {
     Ident name;
     if (!isName(kind()) && !isNullName(t_) && !nameReserved(t_)) return reportNoName(idents_.size() > first);
-    if (!parseName(name)) return;
+    if (!parseNewName(name)) return;
     idents_.push_back(name);
   } while (nameFollows(dotted));
 }

@@ -264,6 +264,34 @@ void wrapConvert(Context& context, ExprId& expr, TypeId to) {
   markRounding(context.symbols, context.tree().expr(created), from, context.isWide());
 }
 
+namespace {
+
+// Literals without a type, and operators on them: `2`, `NOT 2`, `1 + 1`.
+bool isOfPlainLiterals(const Tree& tree, ExprId expr) {
+  if (tree.kind(expr) == ExprKind::Unary) return isOfPlainLiterals(tree, tree.as<UnaryExpr>(expr).operand);
+  if (tree.kind(expr) == ExprKind::Binary)
+    return isOfPlainLiterals(tree, tree.as<BinaryExpr>(expr).left) &&
+           isOfPlainLiterals(tree, tree.as<BinaryExpr>(expr).right);
+  return tree.kind(expr) == ExprKind::Literal && !tree.as<LiteralExpr>(expr).prefix;
+}
+
+// Names a number as it is written: the type that it was given is none of the user's. False: it is not such a number.
+bool reportNumberForBool(Context& context, ExprId expr, TypeId to, const Purpose& purpose) {
+  if (!isOfPlainLiterals(context.tree(), expr)) return false;
+  const Range range = context.tree().range(expr);
+  const Sources& sources = context.symbols.sources;
+  const FileId file = sources.fileOf(range.begin);
+  const std::string_view written = sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
+                                                                   range.end.offset - range.begin.offset);
+  if (written.find('\n') != std::string_view::npos) return false;
+  context.report(diag::WrongType, range.begin, {written, purpose.toString(context), context.types().toString(to)})
+      .length(static_cast<uint32_t>(written.size()))
+      .note({}, Note{"a BOOL is TRUE or FALSE"});
+  return true;
+}
+
+}  // namespace
+
 bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId to, const Purpose& purpose) {
   const Loc loc = context.tree().loc(expr);
   switch (fitness) {
@@ -300,18 +328,8 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
                     wide ? "'" : "\""});
     return false;
   }
-  if (wanted == TypeKind::Bool && own != TypeKind::Bool && TypeTable::isNumber(own) &&
-      context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix) {
-    const Range range = context.tree().range(expr);
-    const Sources& sources = context.symbols.sources;
-    const FileId file = sources.fileOf(range.begin);
-    const std::string_view written = sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
-                                                                     range.end.offset - range.begin.offset);
-    context.report(diag::WrongType, range.begin, {written, purpose.toString(context), context.types().toString(to)})
-        .length(static_cast<uint32_t>(written.size()))
-        .note({}, Note{"a BOOL is TRUE or FALSE"});
+  if (wanted == TypeKind::Bool && TypeTable::isNumber(own) && reportNumberForBool(context, expr, to, purpose))
     return false;
-  }
   // Does not suggest BOOL_TO_TIME(FALSE): another constant is meant.
   const bool truth = own == TypeKind::Bool && context.tree().kind(expr) == ExprKind::Literal;
   const std::string function = truth ? std::string() : conversionName(context, from, to);

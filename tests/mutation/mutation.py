@@ -449,7 +449,7 @@ def checkBuilt(text, count):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+    parser = argparse.ArgumentParser(usage=__doc__.replace("%", "%%"))
     parser.add_argument("--seed", default=os.environ.get("SEED", "1"))
     parser.add_argument("--count", type=int, default=int(os.environ.get("COUNT", "300")))
     parser.add_argument("--folder", default=os.path.join(tempfile.gettempdir(), "rung-mutation"))

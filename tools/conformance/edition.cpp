@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kOfEdition3 = " of edition 3";
 constexpr const char* kOfNone = " not of the standard";
+constexpr int kOnlyEdition3 = 4;  // in keywords.tsv
 
 constexpr const char* kFunctionBlocks[] = {"SR",   "RS", "R_TRIG", "F_TRIG", "CTU", "CTD",
                                            "CTUD", "TP", "TON",    "TOF",    "SEMA"};
@@ -105,6 +106,7 @@ class Lexis {
     if ((word == "STRING" || word == "WSTRING") && isFollowedBy(i, "("))
       return "a string length in parentheses is not of the standard";
     if (isFollowedBy(i, "#")) return ofTypedLiteral(i, word);
+    if (isConversionOfCodes(word)) return "`" + word + "` is of edition 4";
     if (edition_ != 2) return {};
     if (word.starts_with("TO_") || word.starts_with("BCD_TO_") || word.find("_TO_BCD") != std::string::npos ||
         (word.find("_TRUNC_") != std::string::npos && isFollowedBy(i, "(")))
@@ -113,6 +115,18 @@ class Lexis {
     if (word == "NOT" && isFollowedBy(i, "(") && isPin(source_.nextCode(source_.nextCode(i))))
       return "in annex B of edition 2 NOT is an operator of ST";
     return {};
+  }
+
+  // CHAR_TO_USINT, UINT_TO_WCHAR: table 27 of edition 3 has characters and strings only.
+  static bool isConversionOfCodes(std::string_view word) {
+    const size_t at = word.find("_TO_");
+    if (at == std::string_view::npos) return false;
+    const auto isCharacter = [](std::string_view type) { return type == "CHAR" || type == "WCHAR"; };
+    const auto isText = [&](std::string_view type) {
+      return isCharacter(type) || type == "STRING" || type == "WSTRING";
+    };
+    const std::string_view from = word.substr(0, at), to = word.substr(at + 4);
+    return (isCharacter(from) && !isText(to)) || (isCharacter(to) && !isText(from));
   }
 
   // REAL#1 has no point, T#1d5s leaves out the hours.
@@ -209,8 +223,11 @@ class Productions {
   }
   void name(NameId id) {
     const auto keyword = vocabulary_.keywords.find(key(id));
-    if (found_.empty() && keyword != vocabulary_.keywords.end() && keyword->second >= edition_)
-      found_ = "`" + source_.spelling(id) + "` is a keyword" + (keyword->second == 2 ? " of edition 2" : "");
+    if (!found_.empty() || keyword == vocabulary_.keywords.end()) return;
+    const bool is_of_one = keyword->second == kOnlyEdition3 || keyword->second == 2;
+    if (is_of_one && edition_ != (keyword->second == 2 ? 2 : 3)) return;
+    found_ =
+        "`" + source_.spelling(id) + "` is a keyword" + (is_of_one ? " of edition " + std::to_string(edition_) : "");
   }
 
   template <class Id>
@@ -251,8 +268,11 @@ class Productions {
       case TypeExprKind::Named:
         if (tree_.list(tree_.as<NamedTypeExpr>(id).path).size() > 1) of3("a type in a namespace is");
         return;
-      case TypeExprKind::Error:
       case TypeExprKind::String:
+        if (hasLength(id) && !isPlainNumber(tree_.as<StringTypeExpr>(id).length))
+          ofNone("a length of a string that is not a number is");
+        return;
+      case TypeExprKind::Error:
       case TypeExprKind::Pointer: return;
     }
   }
@@ -303,9 +323,9 @@ class Productions {
       case DeclKind::Var: return checkVariable(tree_.as<VarDecl>(id));
       case DeclKind::Configuration: return checkConfiguration(tree_.as<ConfigurationDecl>(id));
       case DeclKind::Resource: return checkResource(tree_.as<ResourceDecl>(id));
-      case DeclKind::ProgramInstance: return name(tree_.as<ProgramInstanceDecl>(id).name);
+      case DeclKind::ProgramInstance: return checkProgramInstance(tree_.as<ProgramInstanceDecl>(id));
       case DeclKind::Property: return ofNone("PROPERTY is");
-      case DeclKind::Namespace: return of3("NAMESPACE is");
+      case DeclKind::Namespace: return checkNamespace(tree_.as<NamespaceDecl>(id));
       case DeclKind::Using: return of3("USING is");
       case DeclKind::Task: return checkTask(tree_.as<TaskDecl>(id));
     }
@@ -379,6 +399,16 @@ class Productions {
     }
     if (!runs) ofNone("a CONFIGURATION without a program is");
   }
+  void checkProgramInstance(const ProgramInstanceDecl& instance) {
+    name(instance.name);
+    for (const Argument& connection : tree_.list(instance.arguments))
+      if (connection.negated) ofNone("NOT of a connection of a program is");
+  }
+  void checkNamespace(const NamespaceDecl& space) {
+    of3("NAMESPACE is");
+    for (const DeclId member : tree_.list(space.decls))
+      if (tree_.kind(member) == DeclKind::Section) ofNone("VAR_GLOBAL of a namespace is");
+  }
   void checkResource(const ResourceDecl& resource) {
     name(resource.name);
     bool runs = false;
@@ -419,11 +449,14 @@ class Productions {
         ofNone("`" + source_.spelling(one.word) + "`, N without C, is");
       if ((one.flags & kIlAttempt) != 0) of3("`ST?` is");
       if ((one.flags & kIlDeferred) != 0) checkDeferred(one);
-      if (one.kind == IlKind::Binary && (one.flags & kIlInParens) != 0) ofNone("a list of operands in parentheses is");
+      const bool in_parentheses = (one.flags & kIlInParens) != 0 && (one.flags & kIlFormal) == 0;
+      if (in_parentheses && (one.kind == IlKind::Binary || one.kind == IlKind::Function))
+        ofNone("a list of operands in parentheses is");
     }
   }
   // `ADD( 5` ends its line: the operator's instructions follow, and the parenthesis closes on a line of its own.
   void checkDeferred(const IlInstruction& one) {
+    if (one.kind == IlKind::Function) ofNone("a deferred function is");
     const auto open = std::find_if(source_.unitAt(source_.at(one.loc)), source_.units.end(),
                                    [&](const Unit& unit) { return source_.textOf(unit) == "("; });
     if (open == source_.units.end()) return;

@@ -13,6 +13,10 @@ void addPragmaNames(std::string_view pragma, std::set<std::string>& names) {
     if (unit.kind == UnitKind::Name) names.insert(upper(scanner.textOf(unit)));
 }
 
+bool isGlobal(const Tree& tree, DeclId id) {
+  return tree.kind(id) == DeclKind::Section && tree.as<SectionDecl>(id).section == SectionKind::Global;
+}
+
 }  // namespace
 
 bool Needs::has(DeclId id) const { return std::find(left_out.begin(), left_out.end(), id) == left_out.end(); }
@@ -20,21 +24,34 @@ bool Needs::has(DeclId id) const { return std::find(left_out.begin(), left_out.e
 Declarations::Declarations(const Source& source, const std::vector<Edit>& form)
     : source_(source), tree_(source.tree), networks_(networksOf(source)) {
   for (const DeclId id : source.decls)
-    if (tree_.kind(id) == DeclKind::Section && tree_.as<SectionDecl>(id).section == SectionKind::Global)
-      noteGlobals(id, form);
+    if (isGlobal(tree_, id)) {
+      sections.push_back(id);
+      noteGlobals(id, sections.size() - 1, form);
+    }
+  for (const DeclId id : source.decls)
+    if (tree_.kind(id) == DeclKind::Configuration) noteMembers(tree_.as<ConfigurationDecl>(id).members, form);
 }
 
-void Declarations::noteGlobals(DeclId id, const std::vector<Edit>& form) {
-  const auto& section = tree_.as<SectionDecl>(id);
-  sections.push_back(id);
-  for (const DeclId v : tree_.list(section.vars)) {
+void Declarations::noteMembers(Slice<DeclId> members, const std::vector<Edit>& form) {
+  for (const DeclId id : tree_.list(members)) {
+    if (isGlobal(tree_, id)) noteGlobals(id, kOfConfiguration, form);
+    if (tree_.kind(id) == DeclKind::Resource) noteMembers(tree_.as<ResourceDecl>(id).members, form);
+  }
+}
+
+void Declarations::noteGlobals(DeclId id, size_t section, const std::vector<Edit>& form) {
+  const auto& declared = tree_.as<SectionDecl>(id);
+  for (const DeclId v : tree_.list(declared.vars)) {
     if (tree_.kind(v) != DeclKind::Var || !tree_.as<VarDecl>(v).type) continue;
     const auto& var = tree_.as<VarDecl>(v);
     const Range type = tree_.range(var.type);
     const std::string written = rendered(source_.text(), source_.at(type.begin), source_.at(type.end), form);
-    for (const Ident& name : tree_.list(var.names))
-      globals.push_back({upper(source_.spelling(name.name)), source_.spelling(name.name), written,
-                         (section.h.bits & kConstant) != 0, sections.size() - 1});
+    for (const Ident& one : tree_.list(var.names)) {
+      const std::string name = source_.spelling(one.name), key = upper(name);
+      const auto is_same = [&](const Global& global) { return global.key == key; };
+      if (std::none_of(globals.begin(), globals.end(), is_same))
+        globals.push_back({key, name, written, (declared.h.bits & kConstant) != 0, section});
+    }
   }
 }
 
@@ -84,7 +101,8 @@ Needs Declarations::needsOf(DeclId test) const {
       more = true;
     }
     for (const Global& global : globals)
-      if (needs.names.count(global.key) != 0 && needs.sections.insert(global.section).second) {
+      if (global.section != kOfConfiguration && needs.names.count(global.key) != 0 &&
+          needs.sections.insert(global.section).second) {
         addNames(source_.begin(sections[global.section]), source_.end(sections[global.section]), needs.names);
         more = true;
       }

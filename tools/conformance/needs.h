@@ -2,6 +2,7 @@
 // what stays and what is left out. Called by neutral.cpp.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,12 +13,13 @@
 
 namespace rung::conformance {
 
-// A variable of the project: in VAR_GLOBAL of a file.
+// A variable in VAR_GLOBAL of a file, a configuration or a resource.
 struct Global {
   std::string key, name, type;
   bool constant;
-  size_t section;  // index in Declarations::sections
+  size_t section;  // index in Declarations::sections; kOfConfiguration
 };
+constexpr size_t kOfConfiguration = SIZE_MAX;
 
 struct Needs {
   std::set<std::string> names;
@@ -41,11 +43,12 @@ class Declarations {
   bool hasPragma(DeclId id, std::string_view name) const;
   bool isTest(DeclId id) const;
 
-  std::vector<DeclId> sections;
-  std::vector<Global> globals;
+  std::vector<DeclId> sections;  // VAR_GLOBAL of the file
+  std::vector<Global> globals;   // each name once
 
  private:
-  void noteGlobals(DeclId id, const std::vector<Edit>& form);
+  void noteGlobals(DeclId id, size_t section, const std::vector<Edit>& form);
+  void noteMembers(Slice<DeclId> members, const std::vector<Edit>& form);
   void keepUnnamed(Needs& needs) const;
   void addConfigurationNames(DeclId id, std::set<std::string>& names) const;
 

@@ -121,9 +121,25 @@ class Former {
     if constexpr (std::is_same_v<Id, DeclId>) {
       if (tree_.kind(id) == DeclKind::Section && tree_.as<SectionDecl>(id).section == SectionKind::External)
         for (const DeclId var : tree_.list(tree_.as<SectionDecl>(id).vars)) oneForEachName(var);
+      if (tree_.kind(id) == DeclKind::Section && tree_.as<SectionDecl>(id).section == SectionKind::Local) apart(id);
       if (tree_.kind(id) == DeclKind::Pou) bodies(tree_.as<PouDecl>(id));
     }
     forEachChild(tree_, id, [&](const auto& child) { declarations(child); });
+  }
+  // Located variables, partly located ones and others have sections of their own: located_var_declarations,
+  // incompletely_located_var_declarations and var_declarations of annex B, Loc_Var_Decls and the like of annex A.
+  void apart(DeclId id) {
+    const std::span<const DeclId> vars = tree_.list(tree_.as<SectionDecl>(id).vars);
+    const auto kindOf = [&](DeclId var) {
+      if (tree_.kind(var) != DeclKind::Var || !tree_.as<VarDecl>(var).located) return 0;
+      return tree_.as<VarDecl>(var).address.incomplete ? 1 : 2;
+    };
+    std::string head = "END_VAR";
+    for (auto unit = source_.unitAt(source_.begin(id)); !vars.empty() && unit->begin < source_.begin(vars.front());
+         ++unit)
+      if (unit->kind == UnitKind::Name) head += " " + std::string(source_.textOf(*unit));
+    for (size_t i = 1; i < vars.size(); ++i)
+      if (kindOf(vars[i]) != kindOf(vars[i - 1])) insert(source_.begin(vars[i]), head + " ");
   }
   // `a, b : INT := 1;` is `a : INT := 1; b : INT := 1;`.
   void oneForEachName(DeclId id) {

@@ -1,6 +1,7 @@
 // The form of the standard for what Rung and vendors write in other ways, and every edition has: comments (* *), one
-// declaration for each name of VAR_EXTERNAL and of structures, a qualifier for each action, STRING[n], semicolons. In:
-// a program and its source. Out: edits that change no meaning and no line, but of lists in IL. Called by neutral.cpp.
+// declaration for each name of VAR_EXTERNAL and of structures, sections of located variables, a qualifier for each
+// action, STRING[n], semicolons. In: a program and its source. Out: edits that change no meaning and no line, but of
+// lists in IL. Called by neutral.cpp.
 #pragma once
 
 #include <string_view>

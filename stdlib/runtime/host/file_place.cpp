@@ -17,6 +17,15 @@ int64_t fileErrorOf(int number) {
   return RUNG_FILE_FAILED;
 }
 
+int64_t writeAll(int descriptor, const char* bytes, uint64_t count) {
+  for (uint64_t done = 0; done < count;) {
+    const ssize_t written = write(descriptor, bytes + done, count - done);
+    if (written <= 0) return fileErrorOf(errno);
+    done += static_cast<uint64_t>(written);
+  }
+  return static_cast<int64_t>(count);
+}
+
 bool partsOf(std::string_view name, std::vector<std::string>& parts) {
   if (name.size() > 1 && name[1] == ':') name.remove_prefix(2);
   while (!name.empty()) {

@@ -34,6 +34,8 @@ class FilePlace {
 };
 
 int64_t fileErrorOf(int number);  // of errno
+// All of the bytes, since write() may take less. Out: their count, or a rung_file_error.
+int64_t writeAll(int descriptor, const char* bytes, uint64_t count);
 inline int64_t fileResultOf(int64_t result, int number) { return result < 0 ? fileErrorOf(number) : result; }
 
 }  // namespace rung::host

@@ -52,7 +52,9 @@ int64_t copyBytes(int from, int to) {
   for (;;) {
     const ssize_t count = read(from, buffer, sizeof buffer);
     if (count == 0) return 0;
-    if (count < 0 || write(to, buffer, static_cast<size_t>(count)) != count) return fileErrorOf(errno);
+    if (count < 0) return fileErrorOf(errno);
+    const int64_t written = writeAll(to, buffer, static_cast<uint64_t>(count));
+    if (written < 0) return written;
   }
 }
 

@@ -20,16 +20,6 @@ bool copyName(const char* from, char (&to)[256]) {
   return true;
 }
 
-// write() may take less than it is given.
-int64_t writeAll(int descriptor, const char* bytes, uint64_t count) {
-  for (uint64_t done = 0; done < count;) {
-    const ssize_t written = write(descriptor, bytes + done, count - done);
-    if (written <= 0) return fileErrorOf(errno);
-    done += static_cast<uint64_t>(written);
-  }
-  return static_cast<int64_t>(count);
-}
-
 // read() may return less than there is.
 int64_t readUpTo(int descriptor, char* bytes, uint64_t count) {
   uint64_t done = 0;

@@ -47,6 +47,7 @@ TEST_F(Edition, PlainSourceIsOfBoth) {
 TEST_F(Edition, Keywords) {
   expect(program("", "VAR limit : INT; END_VAR", "limit := 1;"), "`limit` is a keyword of edition 2", kAll);
   expect(program("", "VAR step : INT; END_VAR", "step := 1;"), "`step` is a keyword", "`step` is a keyword");
+  EXPECT_EQ(foreign(3, program("", "VAR method : INT; END_VAR", "method := 1;")), "`method` is a keyword of edition 3");
 }
 
 TEST_F(Edition, Literals) {
@@ -120,6 +121,29 @@ TEST_F(Edition, Words) {
   EXPECT_EQ(foreign(2, program("", "VAR c : CTD; END_VAR", "c(LD := TRUE, PV := 3);")), "");
   const Source broken("PROGRAM p\nVAR r : REF_TO INT END_VAR\nEND_PROGRAM\n", Dialect::Iec2);
   EXPECT_EQ(foreignWordIn(broken, 2, vocabulary_), "`REF_TO` is of edition 3");
+}
+
+TEST_F(Edition, WhatNoGrammarHas) {
+  const auto none = [&](const std::string& text, const std::string& what) {
+    EXPECT_EQ(foreign(3, text), what + " not of the standard") << text;
+  };
+  none(program("", "VAR CONSTANT n : INT := 3; END_VAR VAR s : STRING[n]; END_VAR", "s := 'a';"),
+       "a length of a string that is not a number is");
+  none("NAMESPACE A VAR_GLOBAL x : INT; END_VAR END_NAMESPACE\n" + program("", "", ";"),
+       "VAR_GLOBAL of a namespace is");
+  none(
+      program("", "VAR_OUTPUT q : BOOL; END_VAR", "q := TRUE;") +
+          "CONFIGURATION c\nVAR_GLOBAL lamp : BOOL; END_VAR\nRESOURCE r ON PLC\nTASK t(INTERVAL := T#10ms, PRIORITY := "
+          "1);\nPROGRAM i WITH t : p(NOT q => lamp);\nEND_RESOURCE\nEND_CONFIGURATION\n",
+      "NOT of a connection of a program is");
+  none(program("", "VAR x : INT; END_VAR", "LD x\nMAX( 2\nADD 1\n)\nST x"), "a deferred function is");
+  none(program("", "VAR x : INT; END_VAR", "LD x\nLIMIT(1, 2, 3)\nST x"), "a list of operands in parentheses is");
+}
+
+TEST_F(Edition, CodesOfCharactersAreOfEdition4) {
+  const std::string text = program("", "VAR c : CHAR; n : USINT; END_VAR", "n := CHAR_TO_USINT(c);");
+  EXPECT_EQ(foreign(3, text), "`CHAR_TO_USINT` is of edition 4");
+  EXPECT_EQ(foreign(3, program("", "VAR c : CHAR; s : STRING; END_VAR", "s := CHAR_TO_STRING(c);")), kAll);
 }
 
 }  // namespace

@@ -82,6 +82,16 @@ TEST(Neutral, GlobalsBelongToAConfiguration) {
   EXPECT_FALSE(contains(draft.text, "other"));
 }
 
+TEST(Neutral, GlobalsOfAConfigurationAreDeclared) {
+  const Draft draft = draftOf(
+      "CONFIGURATION c\nVAR_GLOBAL speed : INT := 5; END_VAR\nRESOURCE r ON PLC\nVAR_GLOBAL CONSTANT most : INT := 9; "
+      "END_VAR\nTASK t(INTERVAL := T#10ms, PRIORITY := 1);\nPROGRAM q WITH t : p;\nEND_RESOURCE\nEND_CONFIGURATION\n"
+      "{test}\nPROGRAM p\nVAR n : INT; END_VAR\nn := speed;\nASSERT(n < most);\nEND_PROGRAM\n");
+  EXPECT_TRUE(
+      contains(draft.text, "VAR_EXTERNAL speed : INT; END_VAR VAR_EXTERNAL CONSTANT most : INT; END_VAR VAR n"));
+  EXPECT_TRUE(contains(draft.text, "CONFIGURATION c\nVAR_GLOBAL speed : INT := 5; END_VAR"));
+}
+
 TEST(Neutral, FormsThatEveryEditionHas) {
   const Draft draft = draftOf(
       "TYPE Pair : STRUCT a, b : INT := 1; END_STRUCT END_TYPE  // two\n"
@@ -100,6 +110,16 @@ TEST(Neutral, OneNameInEachDeclarationOfVarExternal) {
       "END_RESOURCE\nEND_CONFIGURATION\n{test}\nPROGRAM p\nVAR_EXTERNAL a, b : BOOL; END_VAR\nASSERT(a = "
       "b);\nEND_PROGRAM\n");
   EXPECT_TRUE(contains(draft.text, "VAR_EXTERNAL a : BOOL; b : BOOL; END_VAR"));
+}
+
+TEST(Neutral, LocatedVariablesHaveSectionsOfTheirOwn) {
+  const Draft draft = draftOf(
+      "{test}\nPROGRAM p\nVAR RETAIN a : INT; b AT %MX1.0 : BOOL; c AT %MX1.1 : BOOL; d : INT; END_VAR\n"
+      "ASSERT(b);\nEND_PROGRAM\n");
+  EXPECT_TRUE(
+      contains(draft.text,
+               "VAR RETAIN a : INT; END_VAR VAR RETAIN b AT %MX1.0 : BOOL; c AT %MX1.1 : BOOL; END_VAR VAR RETAIN "
+               "d : INT; END_VAR"));
 }
 
 TEST(Neutral, ActionsHaveTheirQualifier) {
