@@ -119,9 +119,15 @@ void collectConversions(const driver::Compilation& compilation, Id id, std::vect
         lines.push_back(compilation.sources.lineNumber(loc));
     }
   }
+  const auto operandsMayDiffer = [&] {
+    if constexpr (std::is_same_v<Id, ExprId>)
+      return mayDiffer(compilation, id);
+    else
+      return false;
+  };
   forEachChild(tree, id, [&](const auto& child) {
-    if constexpr (std::is_same_v<Id, ExprId> && std::is_same_v<std::decay_t<decltype(child)>, ExprId>) {
-      if (tree.kind(child) == ExprKind::Convert && mayDiffer(compilation, id))
+    if constexpr (std::is_same_v<std::decay_t<decltype(child)>, ExprId>) {
+      if (tree.kind(child) == ExprKind::Convert && operandsMayDiffer())
         return collectConversions(compilation, tree.as<ConvertExpr>(child).operand, lines);
     }
     collectConversions(compilation, child, lines);
