@@ -23,11 +23,12 @@ class Collector {
       add(tree.range(id).begin, tree.range(id).end, is_in_statement && has_idle);
       is_in_statement = true;
     }
+    // The only variable of a section goes with it: a section without any is not of edition 2.
+    bool goes_as_whole = false;
+    if constexpr (std::is_same_v<Id, DeclId>)
+      goes_as_whole = tree.kind(id) == DeclKind::Section && tree.as<SectionDecl>(id).vars.count == 1;
     forEachChild(tree, id, [&](const auto& child) {
-      if constexpr (std::is_same_v<Id, DeclId> && std::is_same_v<std::decay_t<decltype(child)>, DeclId>) {
-        // The only variable of a section goes with it: a section without any is not of edition 2.
-        if (tree.kind(id) == DeclKind::Section && tree.as<SectionDecl>(id).vars.count == 1) return;
-      }
+      if (std::is_same_v<std::decay_t<decltype(child)>, DeclId> && goes_as_whole) return;
       collect(child, is_in_statement, has_idle);
     });
   }
