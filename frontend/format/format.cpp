@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "frontend/format/networks.h"
 #include "frontend/format/outline.h"
 #include "frontend/format/pieces.h"
 #include "frontend/format/spacing.h"
@@ -60,6 +61,7 @@ class Formatter {
 
   std::string run(const Bodies& bodies, Dialect dialect) {
     pieces_ = piecesOf(source_, dialect);
+    markNetworks(source_, pieces_);
     if (pieces_.empty()) return std::string(source_);
     lines_ = outlineOf(source_, pieces_, bodies);
     alignDeclarations();
@@ -83,11 +85,14 @@ class Formatter {
     return static_cast<uint32_t>(std::count(source_.begin() + begin, source_.begin() + end, '\n'));
   }
 
-  // What is written for a piece: keywords in their case.
+  // What is written for a piece: keywords in their case, the words of elements in small letters.
   std::string spelled(const Piece& piece) const {
     std::string text(textOf(piece));
-    if (piece.is_keyword)
-      for (char& c : text) c = inCase(c, style_.keywords);
+    const bool is_element = piece.network == NetworkPiece::Element;
+    if (!piece.is_keyword && !is_element) return text;
+    const KeywordCase wanted =
+        is_element && style_.keywords == KeywordCase::Upper ? KeywordCase::Lower : style_.keywords;
+    for (char& c : text) c = inCase(c, wanted);
     return text;
   }
 
@@ -155,12 +160,11 @@ class Formatter {
     row.kind = line.kind;
     row.level = line.level;
     row.blank_lines = pieces_[line.first].newlines > 0 ? pieces_[line.first].newlines - 1 : 0;
-    const bool kept = line.kind == LineKind::Kept || !may_change;
-    if (!kept) row.blank_lines = std::min(row.blank_lines, style_.blank_lines);
+    if (may_change) row.blank_lines = std::min(row.blank_lines, style_.blank_lines);
     if (index == 0) row.blank_lines = 0;
     if (last - line.first > 1 && pieces_[last - 1].kind == PieceKind::Comment) row.comment = textOf(pieces_[--last]);
     const size_t first_row = rows_.size();
-    if (!line.continues && line.kind != LineKind::Remark) beginStatement(line);
+    if (!line.continues && line.kind != LineKind::Remark) beginStatement(line.level);
     if (line.kind == LineKind::Il && !line.continues) {
       row.code = instruction(line, last);
       noteBrackets(line, last);
@@ -168,7 +172,7 @@ class Formatter {
     } else {
       layOut(line, last, colon_columns_[index], std::move(row));
     }
-    if (kept) keep(first_row, line);
+    if (!may_change) keep(first_row, line);
   }
 
   // The line as it was.
@@ -186,9 +190,9 @@ class Formatter {
     rows_.push_back(std::move(row));
   }
 
-  void beginStatement(const Line& line) {
+  void beginStatement(uint32_t level) {
     brackets_.clear();
-    base_ = line.level * style_.indent;
+    base_ = level * style_.indent;
     value_column_ = 0;
   }
 
@@ -245,7 +249,8 @@ class Formatter {
 
   // Where a row begins.
   uint32_t columnOf(const Piece& first, bool continues, const Line& line) const {
-    if (!continues) return line.level * style_.indent;
+    const bool begins_line = &first == &pieces_[line.first];
+    if (!continues) return (begins_line ? line.level : line.last_level) * style_.indent;
     const bool closes = first.token == Tok::RightParen || first.token == Tok::RightBracket;
     if (!brackets_.empty()) return closes ? brackets_.back().closer : brackets_.back().content;
     return value_column_ != 0 ? value_column_ : base_ + 2 * style_.indent;
@@ -255,9 +260,14 @@ class Formatter {
   struct Break {
     uint32_t piece, depth, end;  // `end`: the column that the row then reaches
   };
+  // Best between elements, then between the parts of one, then inside of them.
+  uint32_t depthOf(const Piece& piece) const {
+    return 2 * static_cast<uint32_t>(brackets_.size()) + (piece.network == NetworkPiece::Part ? 1 : 0);
+  }
 
   static bool isBreak(const Piece& before, const Piece& next) {
     if (next.kind != PieceKind::Token || before.kind != PieceKind::Token) return false;
+    if (next.network != NetworkPiece::None) return next.breaks;
     if (before.token == Tok::Comma) return true;
     static constexpr TokSet kJoins = {Tok::And,    Tok::Or,   Tok::Xor,      Tok::AndThen,
                                       Tok::OrElse, Tok::Plus, Tok::Ampersand};
@@ -286,7 +296,8 @@ class Formatter {
       rows_.push_back(std::move(before));
       row.blank_lines = 0;
       first = *at;
-      continues = true;
+      continues = pieces_[first].network != NetworkPiece::Element;
+      if (!continues) beginStatement(line.last_level);
     }
   }
 
@@ -315,7 +326,7 @@ class Formatter {
       const Piece& piece = pieces_[k];
       if (k > first) {
         if (may_break && isBreak(pieces_[k - 1], piece) && (!is_declaration || !brackets_.empty()))
-          breaks->push_back({k, static_cast<uint32_t>(brackets_.size()), out.column});
+          breaks->push_back({k, depthOf(piece), out.column});
         if (may_break && !breaks->empty() && isTooLong(out)) return out;
         if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
       }

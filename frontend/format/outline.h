@@ -18,12 +18,12 @@ enum class LineKind : uint8_t {
   Declaration,  // of a variable, with a colon
   Remark,       // comments and pragmas alone
   Il,           // an instruction
-  Kept,         // of a network or C++: stays as it is
 };
 
 struct Line {
   uint32_t first, last;  // pieces, `last` is one past
   uint32_t level = 0;
+  uint32_t last_level = 0;  // of the last element of a network that begins in it
   LineKind kind = LineKind::Statement;
   bool continues = false;  // a statement that began above
 };

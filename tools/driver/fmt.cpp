@@ -1,5 +1,5 @@
-// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL and networks are known by
-// their POU only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
+// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL are known by their POU
+// only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -69,14 +69,13 @@ std::string encoded(const std::string& text, Encoding encoding) {
   return text;
 }
 
-// The bodies in IL and networks of each file.
+// The bodies in IL of each file.
 class BodyFinder {
  public:
   BodyFinder(const Compilation& compilation) : tree_(compilation.tree), sources_(compilation.sources) {
     for (const FileUnit& unit : tree_.files) visit(unit.decls);
     for (auto& [file, bodies] : found_)
-      for (std::vector<format::Span>* spans : {&bodies.il, &bodies.kept})
-        std::sort(spans->begin(), spans->end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+      std::sort(bodies.il.begin(), bodies.il.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   }
   const format::Bodies& of(FileId file) { return found_[file.index]; }
 
@@ -96,12 +95,10 @@ class BodyFinder {
     visit(pou.members);
     for (const SfcTransition& transition : tree_.list(pou.transitions))
       if (transition.body) visit(transition.body);
-    if (pou.body_kind != BodyKind::Il && pou.body_kind != BodyKind::Network) return;
+    if (pou.body_kind != BodyKind::Il) return;
     const FileId file = sources_.fileOf(pou.body_begin);
     const uint32_t base = sources_.begin(file).offset;
-    format::Bodies& bodies = found_[file.index];
-    (pou.body_kind == BodyKind::Il ? bodies.il : bodies.kept)
-        .push_back({pou.body_begin.offset - base, pou.body_end.offset - base});
+    found_[file.index].il.push_back({pou.body_begin.offset - base, pou.body_end.offset - base});
   }
 
   const Tree& tree_;
