@@ -1,7 +1,8 @@
-// Files of TwinCAT, PLCopen and IEC 61131-10: what is between the tags of declarations, of ST and of IL is formatted on
-// its own, the rest is copied.
+// Parts of a file are formatted on their own, and the rest is copied: in XML of TwinCAT, PLCopen and IEC 61131-10 what
+// is between the tags of declarations, of ST and of IL; in text of other tools what the reader of the format says.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "frontend/format/format.h"
 
@@ -83,15 +84,17 @@ std::string encode(std::string_view text, std::string_view as) {
 }
 
 // White space at both ends belongs to the file, but for the blanks before the first instruction of a list.
-std::string fragment(std::string_view source, bool is_il, const Style& style, Dialect dialect) {
+std::string fragment(std::string_view source, Bodies bodies, const Style& style, Dialect dialect) {
   size_t begin = source.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return std::string(source);
   const size_t end = source.find_last_not_of(kBlanks) + 1;
-  Bodies bodies;
-  if (is_il) {
+  if (!bodies.il.empty() && bodies.il.front().begin <= begin) {
     const size_t newline = source.rfind('\n', begin);
     begin = newline == std::string_view::npos || newline > begin ? 0 : newline + 1;
-    bodies.il.push_back({0, static_cast<uint32_t>(end - begin)});
+  }
+  for (Span& il : bodies.il) {
+    il.begin -= std::min(il.begin, static_cast<uint32_t>(begin));
+    il.end -= std::min(il.end, static_cast<uint32_t>(begin));
   }
   std::string text = formatted(source.substr(begin, end - begin), bodies, style, dialect);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
@@ -111,6 +114,24 @@ bool hasLines(std::string_view source, const Content& content) {
 
 }  // namespace
 
+std::string formattedParts(std::string_view source, const std::vector<Span>& parts, const Bodies& bodies,
+                           const Style& style, Dialect dialect) {
+  std::string out;
+  size_t copied = 0;
+  auto il = bodies.il.begin();
+  for (const Span& part : parts) {
+    Bodies inside;
+    while (il != bodies.il.end() && il->begin < part.begin) ++il;
+    for (; il != bodies.il.end() && il->begin < part.end; ++il)
+      inside.il.push_back({il->begin - part.begin, std::min(il->end, part.end) - part.begin});
+    out += source.substr(copied, part.begin - copied);
+    out += fragment(source.substr(part.begin, part.end - part.begin), std::move(inside), style, dialect);
+    copied = part.end;
+  }
+  out += source.substr(copied);
+  return out;
+}
+
 std::string formattedXml(std::string_view source, const Style& style, Dialect dialect) {
   std::string out;
   size_t copied = 0;
@@ -126,7 +147,10 @@ std::string formattedXml(std::string_view source, const Style& style, Dialect di
     const std::string_view raw = source.substr(content.begin, content.end - content.begin);
     std::string text;
     if (!content.is_cdata && !decode(raw, text)) continue;
-    const std::string result = fragment(content.is_cdata ? raw : std::string_view(text), is_il, style, dialect);
+    const std::string_view fragment_source = content.is_cdata ? raw : std::string_view(text);
+    Bodies bodies;
+    if (is_il) bodies.il.push_back({0, static_cast<uint32_t>(fragment_source.size())});
+    const std::string result = fragment(fragment_source, std::move(bodies), style, dialect);
     out += source.substr(copied, content.begin - copied);
     out += content.is_cdata ? result : encode(result, raw);
     copied = content.end;

@@ -157,7 +157,8 @@ class Formatter {
     const Line& line = lines_[index];
     uint32_t last = line.last;
     Row row;
-    row.kind = line.kind;
+    if (!line.continues) statement_kind_ = line.kind;
+    row.kind = statement_kind_;
     row.level = line.level;
     row.blank_lines = pieces_[line.first].newlines > 0 ? pieces_[line.first].newlines - 1 : 0;
     if (may_change) row.blank_lines = std::min(row.blank_lines, style_.blank_lines);
@@ -325,7 +326,8 @@ class Formatter {
     for (uint32_t k = first; k < last; ++k) {
       const Piece& piece = pieces_[k];
       if (k > first) {
-        if (may_break && isBreak(pieces_[k - 1], piece) && (!is_declaration || !brackets_.empty()))
+        if (may_break && isBreak(pieces_[k - 1], piece) &&
+            (!is_declaration || !brackets_.empty() || value_column_ != 0))
           breaks->push_back({k, depthOf(piece), out.column});
         if (may_break && !breaks->empty() && isTooLong(out)) return out;
         if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
@@ -335,13 +337,13 @@ class Formatter {
         out.padTo(colon_column);
       }
       out.put(spelled(piece));
-      if (piece.kind == PieceKind::Token) follow(piece, out.column, line, k + 1 >= last);
+      if (piece.kind == PieceKind::Token) follow(piece, out.column, k + 1 >= last);
     }
     return out;
   }
 
   // `column`: the end of the piece.
-  void follow(const Piece& piece, uint32_t column, const Line& line, bool ends_line) {
+  void follow(const Piece& piece, uint32_t column, bool ends_line) {
     static constexpr TokSet kConditions = {Tok::If, Tok::Elsif, Tok::While, Tok::Until, Tok::Case};
     if (piece.token == Tok::LeftParen || piece.token == Tok::LeftBracket) {
       const uint32_t outer = brackets_.empty() ? base_ : brackets_.back().closer;
@@ -353,7 +355,7 @@ class Formatter {
       return;
     }
     if (piece.token == Tok::Semicolon && brackets_.empty()) value_column_ = 0;
-    if (!brackets_.empty() || value_column_ != 0 || line.kind == LineKind::Declaration) return;
+    if (!brackets_.empty() || value_column_ != 0) return;
     if ((piece.token == Tok::Assign && !ends_line) || kConditions.has(piece.token)) value_column_ = column + 1;
   }
 
@@ -402,9 +404,10 @@ class Formatter {
   std::vector<Line> lines_;
   std::vector<uint32_t> colon_columns_;  // of lines; 0: not aligned
   std::vector<Row> rows_;
-  std::vector<Bracket> brackets_;  // open in the current statement
-  uint32_t base_ = 0;              // the column of the statement
-  uint32_t value_column_ = 0;      // where the value or condition of the statement begins; 0: none so far
+  std::vector<Bracket> brackets_;                  // open in the current statement
+  LineKind statement_kind_ = LineKind::Statement;  // of the line in which the statement begins
+  uint32_t base_ = 0;                              // the column of the statement
+  uint32_t value_column_ = 0;  // where the value or condition of the statement begins; 0: none so far
   uint32_t number_ = 1;
 };
 

@@ -10,6 +10,8 @@
 #include <set>
 
 #include "frontend/format/format.h"
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/formats.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/driver/changes.h"
 #include "tools/driver/commands.h"
@@ -77,7 +79,9 @@ class BodyFinder {
     for (auto& [file, bodies] : found_)
       std::sort(bodies.il.begin(), bodies.il.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   }
-  const format::Bodies& of(FileId file) { return found_[file.index]; }
+  const format::Bodies& of(FileId file) {
+    return found_[sources_.fileOf(sources_.originalLocation(sources_.begin(file))).index];
+  }
 
  private:
   void visit(Slice<DeclId> decls) {
@@ -96,9 +100,11 @@ class BodyFinder {
     for (const SfcTransition& transition : tree_.list(pou.transitions))
       if (transition.body) visit(transition.body);
     if (pou.body_kind != BodyKind::Il) return;
-    const FileId file = sources_.fileOf(pou.body_begin);
+    const Loc begin = sources_.originalLocation(pou.body_begin);
+    const Loc last = sources_.originalLocation({pou.body_end.offset - 1});
+    const FileId file = sources_.fileOf(begin);
     const uint32_t base = sources_.begin(file).offset;
-    found_[file.index].il.push_back({pou.body_begin.offset - base, pou.body_end.offset - base});
+    found_[file.index].il.push_back({begin.offset - base, last.offset + 1 - base});
   }
 
   const Tree& tree_;
@@ -111,7 +117,7 @@ class FileFormatter {
   FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
     const Sources& sources = compilation.sources;
     for (const Diagnostic& diagnostic : compilation.diagnostics.all())
-      if (diagnostic.severity == Severity::Error && diagnostic.loc)
+      if (diagnostic.severity == Severity::Error && diagnostic.loc && diagnostic.diag != diag::NetworkBody)
         broken_.insert(std::string(sources.path(sources.fileOf(sources.originalLocation(diagnostic.loc)))));
   }
 
@@ -142,13 +148,18 @@ class FileFormatter {
       case FileKind::TwinCat:
       case FileKind::Plcopen:
       case FileKind::Iec10: return format::formattedXml(source, style, options.dialect);
+      case FileKind::Codesys2:
+      case FileKind::Multiprog: {
+        std::vector<format::Span> parts;
+        for (const importer::TextPart& part : importer::formatOf(input.kind).parts(source))
+          parts.push_back({part.begin, part.end});
+        return format::formattedParts(source, parts, bodies_.of(input.file), style, options.dialect);
+      }
       case FileKind::Unknown:
       case FileKind::Xml:
       case FileKind::Cam:
       case FileKind::PlcProject:
       case FileKind::Beremiz:
-      case FileKind::Codesys2:
-      case FileKind::Multiprog:
       case FileKind::Project:
       case FileKind::Binary: return std::string(source);
     }
@@ -158,9 +169,8 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
-    const bool is_xml =
-        input.kind == FileKind::TwinCat || input.kind == FileKind::Plcopen || input.kind == FileKind::Iec10;
-    if (is_xml && compilation_.options.lines.last != UINT32_MAX)
+    const bool is_text = input.kind == FileKind::St || input.kind == FileKind::Il || input.kind == FileKind::Nct;
+    if (!is_text && compilation_.options.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);

@@ -77,6 +77,16 @@ TEST(Format, LongLinesAreBrokenWithinTheWidth) {
             "result := first_operand AND second_operand AND third_operand;\n");
 }
 
+TEST(Format, LongDeclarations) {
+  Style style;
+  style.width = 36;
+  EXPECT_EQ(format("VAR\na : ARRAY[1..2, 1..3] OF INT := 1, 2, 3,\n4, 5, 6; // six\nb : INT; // one\nEND_VAR\n", style),
+            "VAR\n  a : ARRAY[1..2, 1..3] OF INT := 1,\n                                  2,\n"
+            "                                  3,\n                                  4,\n"
+            "                                  5,\n                                  6;  // six\n"
+            "  b : INT;                            // one\nEND_VAR\n");
+}
+
 TEST(Format, OnlyTheseLines) { EXPECT_EQ(format("a:=1;\nb:=2;\nc:=3;\n", {}, {}, {2, 2}), "a:=1;\nb := 2;\nc:=3;\n"); }
 
 TEST(Format, LineEndsOfTheFile) { EXPECT_EQ(format("a:=1;\r\nb:=2;\r\n"), "a := 1;\r\nb := 2;\r\n"); }
