@@ -24,6 +24,25 @@ TEST(Embedded, CharactersStayEscaped) {
   EXPECT_EQ(format("<ST>a&#61;1</ST>"), "<ST>a&#61;1</ST>");
 }
 
+TEST(Embedded, PrefixesAndDeclarationsAsText) {
+  EXPECT_EQ(format("<ppx:ST><x:p a='>'>a:=1;</x:p></ppx:ST>"), "<ppx:ST><x:p a='>'>a := 1;</x:p></ppx:ST>");
+  EXPECT_EQ(format("<b:textDeclaration>\n<b:content>program p\nvar a:int; end_var\n</b:content></b:textDeclaration>"),
+            "<b:textDeclaration>\n<b:content>PROGRAM p\nVAR a : INT; END_VAR\n</b:content></b:textDeclaration>");
+  EXPECT_EQ(format("<InterfaceAsPlainText><xhtml>program p</xhtml></InterfaceAsPlainText>"),
+            "<InterfaceAsPlainText><xhtml>PROGRAM p</xhtml></InterfaceAsPlainText>");
+}
+
+TEST(Embedded, LineEndsAsEntities) {
+  EXPECT_EQ(format("<ST>if a then&#13;\nb:=1;&#13;\nend_if</ST>"), "<ST>IF a THEN&#13;\n  b := 1;&#13;\nEND_IF</ST>");
+  EXPECT_EQ(format("<ST>if a then&#xD;\nb:=1;&#xD;\nend_if</ST>"), "<ST>IF a THEN&#xD;\n  b := 1;&#xD;\nEND_IF</ST>");
+}
+
+TEST(Embedded, SeveralTextsStay) {
+  for (const char* source : {"<ST><p>if a then</p><p>b:=1;</p></ST>", "<ST>a:=1;<br/>b:=2;</ST>",
+                             "<ST>a:=1;<!-- > x:=1; --> b:=2;</ST>", "<a><![CDATA[<ST>a:=1;</ST>]]></a>"})
+    EXPECT_EQ(format(source), source);
+}
+
 TEST(Embedded, InstructionLists) {
   EXPECT_EQ(format("<IL><p><![CDATA[\nld a\nst b\n]]></p></IL>"),
             "<IL><p><![CDATA[\n  LD      a\n  ST      b\n]]></p></IL>");
@@ -36,8 +55,8 @@ TEST(Embedded, ListsInParagraphsOrOnOneLineStay) {
 }
 
 TEST(Embedded, OtherTextStays) {
-  for (const char* source :
-       {"<!-- <ST>a:=1;</ST> -->", "<ST2>a:=1;</ST2>", "<STATE>a:=1;</STATE>", "<ST>a:=1;", "", "<ST><b/></ST>"})
+  for (const char* source : {"<!-- <ST>a:=1;</ST> -->", "<ST2>a:=1;</ST2>", "<STATE>a:=1;</STATE>", "<ST>a:=1;", "",
+                             "<", "</", "<ST", "<ST>", "<ST><b>", "<ST a='>", "<ST><![CDATA[a:=1;", "<ST><b/></ST>"})
     EXPECT_EQ(format(source), source);
 }
 
