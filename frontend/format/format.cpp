@@ -18,6 +18,7 @@ using text::Tok;
 using text::TokSet;
 
 constexpr uint32_t kBeforeComment = 2;
+constexpr uint32_t kInside = 1u << 16;                       // the depth of breaks inside of statements
 constexpr uint32_t kOperatorColumn = 2, kOperandColumn = 8;  // of IL; the operand's from the operator
 
 struct Row {
@@ -251,23 +252,27 @@ class Formatter {
   // Where a row begins.
   uint32_t columnOf(const Piece& first, bool continues, const Line& line) const {
     const bool begins_line = &first == &pieces_[line.first];
-    if (!continues) return (begins_line ? line.level : line.last_level) * style_.indent;
+    if (!continues) return (begins_line ? line.level : first.level) * style_.indent;
     const bool closes = first.token == Tok::RightParen || first.token == Tok::RightBracket;
     if (!brackets_.empty()) return closes ? brackets_.back().closer : brackets_.back().content;
     return value_column_ != 0 ? value_column_ : base_ + 2 * style_.indent;
   }
 
-  // A place to break the row before a piece: the depth of its brackets there.
+  // A place to break the row before a piece: the depth of its blocks or brackets there.
   struct Break {
     uint32_t piece, depth, end;  // `end`: the column that the row then reaches
   };
-  // Best between elements, then between the parts of one, then inside of them.
+  // Between statements or elements of a network it is that of their blocks, elsewhere it is deeper.
   uint32_t depthOf(const Piece& piece) const {
-    return 2 * static_cast<uint32_t>(brackets_.size()) + (piece.network == NetworkPiece::Part ? 1 : 0);
+    if (piece.begins) return piece.level;
+    return kInside + 2 * static_cast<uint32_t>(brackets_.size()) + (piece.network == NetworkPiece::Part ? 1 : 0);
   }
 
-  static bool isBreak(const Piece& before, const Piece& next) {
+  bool isBreak(LineKind kind, const Piece& before, const Piece& next) const {
     if (next.kind != PieceKind::Token || before.kind != PieceKind::Token) return false;
+    if (kind == LineKind::Header || kind == LineKind::Il) return false;
+    if (kind == LineKind::Declaration && brackets_.empty() && value_column_ == 0) return false;
+    if (next.begins) return kind == LineKind::Statement;
     if (next.network != NetworkPiece::None) return next.breaks;
     if (before.token == Tok::Comma) return true;
     static constexpr TokSet kJoins = {Tok::And,    Tok::Or,   Tok::Xor,      Tok::AndThen,
@@ -297,19 +302,23 @@ class Formatter {
       rows_.push_back(std::move(before));
       row.blank_lines = 0;
       first = *at;
-      continues = pieces_[first].network != NetworkPiece::Element;
-      if (!continues) beginStatement(line.last_level);
+      continues = !pieces_[first].begins;
+      if (!continues) beginStatement(pieces_[first].level);
     }
   }
 
   bool isTooLong(const Code& code) const { return style_.width != 0 && code.column > style_.width; }
 
-  // The outermost break within the width, and of these the last; else the first one at all.
+  // The outermost break within the width, and of these the last, or the end of a block that begins above; else the
+  // first one at all.
   std::optional<uint32_t> breakOf(const Code& code, const std::vector<Break>& breaks) const {
     if (!isTooLong(code) || breaks.empty() || code.text.find('\n') != std::string::npos) return {};
     const Break* best = nullptr;
-    for (const Break& one : breaks)
-      if (one.end <= style_.width && (best == nullptr || one.depth <= best->depth)) best = &one;
+    for (const Break& one : breaks) {
+      if (one.end > style_.width || (best != nullptr && one.depth > best->depth)) continue;
+      best = &one;
+      if (one.depth < kInside && one.depth * style_.indent < base_) break;
+    }
     return best == nullptr ? breaks.front().piece : best->piece;
   }
 
@@ -317,19 +326,17 @@ class Formatter {
   // too long and has one.
   Code written(const Line& line, uint32_t first, uint32_t last, bool continues, uint32_t colon_column,
                std::vector<Break>* breaks) {
-    const bool is_declaration = line.kind == LineKind::Declaration;
-    const bool may_break = breaks != nullptr && line.kind != LineKind::Header && line.kind != LineKind::Il;
-    const Colons colons = is_declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
+    const Colons colons =
+        line.kind == LineKind::Declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
     bool colon_seen = continues || colon_column == 0;
     Code out;
     out.padTo(columnOf(pieces_[first], continues, line));
     for (uint32_t k = first; k < last; ++k) {
       const Piece& piece = pieces_[k];
       if (k > first) {
-        if (may_break && isBreak(pieces_[k - 1], piece) &&
-            (!is_declaration || !brackets_.empty() || value_column_ != 0))
+        if (breaks != nullptr && isBreak(line.kind, pieces_[k - 1], piece))
           breaks->push_back({k, depthOf(piece), out.column});
-        if (may_break && !breaks->empty() && isTooLong(out)) return out;
+        if (breaks != nullptr && !breaks->empty() && isTooLong(out)) return out;
         if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
       }
       if (piece.kind == PieceKind::Token && piece.token == Tok::Colon && !colon_seen) {

@@ -96,7 +96,6 @@ class NetworkMarker {
     const bool is_named = is_box || isAnyOf({"connector", "continuation", "jump", "label", "compose", "select"});
     const bool is_coil = isAnyOf({"coil"});
     pieces_[at_].network = NetworkPiece::Element;
-    pieces_[at_].breaks = true;
     take(Gap::Blank);
     if (at(Tok::Number)) take(Gap::Blank);
     const bool is_attribute = atWord() && isAnyOf({"AT", "ORDER"}) && nextIs(Tok::Number);

@@ -108,7 +108,6 @@ class Outliner {
       addInstruction(line, code);
     } else {
       addCode(line, code);
-      line.last_level = level_;
     }
     placeRemarks(line);
     lines_.push_back(line);
@@ -162,6 +161,8 @@ class Outliner {
       if (pieces_[k].kind != PieceKind::Token) continue;
       const bool starts = at_start_ && depth_ == 0;
       if (starts) beginStatement(k);
+      pieces_[k].begins = starts && pieces_[k].token != Tok::Semicolon;
+      pieces_[k].level = level_;
       if (is_first) {
         line.level = level_;
         if (starts && !line.continues && (kPous.has(first) || kSections.has(first) || isStep(k))) header_ = true;

@@ -23,12 +23,11 @@ enum class LineKind : uint8_t {
 struct Line {
   uint32_t first, last;  // pieces, `last` is one past
   uint32_t level = 0;
-  uint32_t last_level = 0;  // of the last element of a network that begins in it
   LineKind kind = LineKind::Statement;
   bool continues = false;  // a statement that began above
 };
 
-// Also marks the colons of labels in `pieces`.
+// Also marks the colons of labels and the beginnings of statements in `pieces`.
 std::vector<Line> outlineOf(std::string_view source, std::vector<Piece>& pieces, const Bodies& bodies);
 
 }  // namespace rung::format

@@ -77,6 +77,15 @@ TEST(Format, LongLinesAreBrokenWithinTheWidth) {
             "result := first_operand AND second_operand AND third_operand;\n");
 }
 
+TEST(Format, LongLinesOfStatements) {
+  Style style;
+  style.width = 30;
+  EXPECT_EQ(
+      format("CASE n OF\n1: IF first THEN second(a := 1, b := 2); third := 3; END_IF; fourth := 4;\nEND_CASE\n", style),
+      "CASE n OF\n  1:\n    IF first THEN\n      second(a := 1, b := 2);\n      third := 3;\n"
+      "    END_IF; fourth := 4;\nEND_CASE\n");
+}
+
 TEST(Format, LongDeclarations) {
   Style style;
   style.width = 36;
