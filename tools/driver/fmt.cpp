@@ -116,15 +116,19 @@ class FileFormatter {
  public:
   FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
     const Sources& sources = compilation.sources;
+    // A body that is drawn is left out of what is formatted.
     for (const Diagnostic& diagnostic : compilation.diagnostics.all())
       if (diagnostic.severity == Severity::Error && diagnostic.loc && diagnostic.diag != diag::NetworkBody)
         broken_.insert(std::string(sources.path(sources.fileOf(sources.originalLocation(diagnostic.loc)))));
   }
 
+  // It has no syntax errors.
+  bool canFormat(const InputFile& input) const { return broken_.count(input.below) == 0; }
+
   // The exit code.
   int run() {
     for (const InputFile& input : compilation_.inputs.files)
-      if (!input.is_library && broken_.count(input.below) == 0 && !format(input)) return kUsage;
+      if (!input.is_library && canFormat(input) && !format(input)) return kUsage;
     if (compilation_.options.only_checks && !compilation_.options.shows_changes) {
       const std::string error = sink_.output(listed_);
       if (!error.empty()) return usageError(sink_, error);
@@ -223,11 +227,15 @@ int formatStandardInput(Options options, Sink& sink) {
   Compilation compilation(options, times, sink);
   compilation.parse();
   const int exit = compilation.finish();
-  if (exit != kSuccess || compilation.inputs.files.empty()) return exit;
+  if (exit == kUsage || exit == kInternal || compilation.inputs.files.empty()) return exit;
   FileFormatter formatter(compilation, sink);
-  const std::string result = formatter.text(compilation.inputs.files.front(), text);
-  if (options.only_checks) return result == text ? kSuccess : kInputErrors;
-  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : encoded(result, encoding));
+  const InputFile& input = compilation.inputs.files.front();
+  if (!formatter.canFormat(input)) return exit;
+  const std::string result = formatter.text(input, text);
+  if (options.only_checks) return result == text ? exit : kInputErrors;
+  const int printed =
+      printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : encoded(result, encoding));
+  return exit != kSuccess ? exit : printed;
 }
 
 }  // namespace
