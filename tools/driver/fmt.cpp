@@ -71,6 +71,12 @@ std::string encoded(const std::string& text, Encoding encoding) {
   return text;
 }
 
+// Whether it reports a body in a form that Rung does not read: nothing of it is formatted.
+bool isUnreadBody(Diag diag) {
+  return diag == diag::NetworkBody || diag == diag::XmlBodyLanguage || diag == diag::ArchiveObject ||
+         diag == diag::ArchiveIl;
+}
+
 // The bodies in IL of each file.
 class BodyFinder {
  public:
@@ -116,9 +122,8 @@ class FileFormatter {
  public:
   FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
     const Sources& sources = compilation.sources;
-    // A body that is drawn is left out of what is formatted.
     for (const Diagnostic& diagnostic : compilation.diagnostics.all())
-      if (diagnostic.severity == Severity::Error && diagnostic.loc && diagnostic.diag != diag::NetworkBody)
+      if (diagnostic.severity == Severity::Error && diagnostic.loc && !isUnreadBody(diagnostic.diag))
         broken_.insert(std::string(sources.path(sources.fileOf(sources.originalLocation(diagnostic.loc)))));
   }
 
