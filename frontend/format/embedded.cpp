@@ -2,7 +2,6 @@
 // is between the tags of declarations, of ST and of IL; in text of other tools what the reader of the format says.
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "frontend/format/format.h"
@@ -44,11 +43,19 @@ size_t endOfTag(std::string_view text, size_t at) {
   return std::string_view::npos;
 }
 
-// The characters in the element whose tag is at `tag`, inside other elements such as <xhtml> or not. None: there are
-// none, or several texts, such as a paragraph for each line.
-std::optional<Content> contentAt(std::string_view text, size_t tag) {
+// The texts in an element, inside other elements such as <xhtml> or not.
+struct Texts {
+  std::vector<Content> contents;
+  bool are_lines = true;  // each is in a paragraph
+};
+
+bool isParagraph(std::string_view name) { return name == "p" || name == "br" || name == "div" || name == "li"; }
+
+// Of the element whose tag is at `tag`.
+Texts textsAt(std::string_view text, size_t tag) {
   const std::string_view name = nameOfTag(text, tag);
-  std::optional<Content> content;
+  Texts texts;
+  bool begins_line = true;
   size_t at = tag;
   do {
     const bool is_cdata = text.substr(at, kCdata.size()) == kCdata;
@@ -57,14 +64,16 @@ std::optional<Content> contentAt(std::string_view text, size_t tag) {
     const size_t begin = is_cdata ? close : close + 1;
     const size_t end = is_cdata ? text.find(kCdataEnd, begin) : text.find('<', begin);
     if (end == std::string_view::npos) return {};
+    begins_line = begins_line || (!is_cdata && isParagraph(nameOfTag(text, at)));
     if (text.substr(begin, end - begin).find_first_not_of(kBlanks) != std::string_view::npos) {
-      if (content) return {};
-      content = {begin, end, is_cdata};
+      texts.are_lines = texts.are_lines && begins_line;
+      texts.contents.push_back({begin, end, is_cdata});
+      begins_line = false;
     }
     at = is_cdata ? text.find('<', end) : end;
     if (at == std::string_view::npos) return {};
   } while (text.substr(at, 2) != "</" || nameOfTag(text, at) != name);
-  return content;
+  return texts;
 }
 
 struct Entity {
@@ -132,6 +141,45 @@ std::string fragment(std::string_view source, Bodies bodies, const Style& style,
   return std::string(source.substr(0, begin)) + text + std::string(source.substr(end));
 }
 
+std::string_view trimmed(std::string_view text) {
+  const size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+// What is written for each: several are the lines of one text. None: they stay as they are.
+std::vector<std::string> formattedTexts(std::string_view source, const Texts& texts, bool is_il, const Style& style,
+                                        Dialect dialect) {
+  const auto rawOf = [&](const Content& content) { return source.substr(content.begin, content.end - content.begin); };
+  const bool is_one = texts.contents.size() == 1;
+  if (!is_one && !texts.are_lines) return {};
+  std::string joined;
+  for (const Content& content : texts.contents) {
+    const std::string_view raw = is_one ? rawOf(content) : trimmed(rawOf(content));
+    const bool has_lines = raw.find('\n') != std::string_view::npos;
+    // Instructions on one line cannot be told apart here.
+    if (is_one ? is_il && !has_lines : has_lines) return {};
+    if (content.is_cdata)
+      joined += raw;
+    else if (!decode(raw, joined))
+      return {};
+    if (!is_one) joined += '\n';
+  }
+  Bodies bodies;
+  if (is_il) bodies.il.push_back({0, static_cast<uint32_t>(joined.size())});
+  const std::string result = fragment(joined, std::move(bodies), style, dialect);
+  std::vector<std::string> out;
+  size_t begin = 0;
+  for (const Content& content : texts.contents) {
+    const size_t end = is_one ? result.size() : result.find('\n', begin);
+    if (end == std::string::npos) return {};
+    const std::string line = result.substr(begin, end - begin);
+    out.push_back(content.is_cdata ? line : encode(line, rawOf(content)));
+    begin = end + 1;
+  }
+  if (!is_one && begin != result.size()) out.clear();  // a line was broken
+  return out;
+}
+
 // Declarations as text, and bodies.
 bool holdsSource(std::string_view name) {
   static constexpr std::string_view kNames[] = {
@@ -170,24 +218,15 @@ std::string formattedXml(std::string_view source, const Style& style, Dialect di
     }
     const std::string_view name = nameOfTag(source, at);
     if (source.substr(at, 2) == "</" || !holdsSource(name)) continue;
-    const std::optional<Content> found = contentAt(source, at);
-    if (!found) continue;
-    const Content& content = *found;
-    const std::string_view raw = source.substr(content.begin, content.end - content.begin);
-    const bool is_il = name == "IL";
-    if (is_il && raw.find('\n') == std::string_view::npos) continue;  // several instructions on one line
-    std::string text;
-    if (!content.is_cdata && !decode(raw, text)) continue;
-    const std::string_view fragment_source = content.is_cdata ? raw : std::string_view(text);
-    Bodies bodies;
-    if (is_il) bodies.il.push_back({0, static_cast<uint32_t>(fragment_source.size())});
-    const std::string result = fragment(fragment_source, std::move(bodies), style, dialect);
-    out += source.substr(copied, content.begin - copied);
-    out += content.is_cdata ? result : encode(result, raw);
-    copied = content.end;
-    at = content.end;
-    if (at >= source.size()) break;
-    --at;
+    const Texts texts = textsAt(source, at);
+    const std::vector<std::string> results = formattedTexts(source, texts, name == "IL", style, dialect);
+    for (size_t k = 0; k < results.size(); ++k) {
+      const Content& content = texts.contents[k];
+      out += source.substr(copied, content.begin - copied);
+      out += results[k];
+      copied = at = content.end;
+    }
+    if (!results.empty()) --at;
   }
   out += source.substr(copied);
   return out;

@@ -37,9 +37,20 @@ TEST(Embedded, LineEndsAsEntities) {
   EXPECT_EQ(format("<ST>if a then&#xD;\nb:=1;&#xD;\nend_if</ST>"), "<ST>IF a THEN&#xD;\n  b := 1;&#xD;\nEND_IF</ST>");
 }
 
-TEST(Embedded, SeveralTextsStay) {
-  for (const char* source : {"<ST><p>if a then</p><p>b:=1;</p></ST>", "<ST>a:=1;<br/>b:=2;</ST>",
-                             "<ST>a:=1;<!-- > x:=1; --> b:=2;</ST>", "<a><![CDATA[<ST>a:=1;</ST>]]></a>"})
+TEST(Embedded, ALineInEachParagraph) {
+  EXPECT_EQ(format("<ST><x:p>if a&lt;1 then</x:p>\n<x:p>b:='&amp;';</x:p><x:p/><x:p> end_if</x:p>\n</ST>"),
+            "<ST><x:p>IF a &lt; 1 THEN</x:p>\n<x:p>  b := '&amp;';</x:p><x:p/><x:p>END_IF</x:p>\n</ST>");
+  EXPECT_EQ(format("<ST>a:=1;<br/><![CDATA[b:=a<2;]]></ST>"), "<ST>a := 1;<br/><![CDATA[b := a < 2;]]></ST>");
+  EXPECT_EQ(format("<IL><p>ld a</p><p> st b</p></IL>"), "<IL><p>  LD      a</p><p>  ST      b</p></IL>");
+}
+
+TEST(Embedded, TextsThatAreNotLinesStay) {
+  const std::string wide =
+      "call(first_argument := 1000000, second_argument := 2000000, third := 3000000, fourth := 4000000, fifth:=5);";
+  for (const std::string& source :
+       {std::string("<ST>a:=1;<b>b</b>:=2;</ST>"), std::string("<ST><p>a:=1;\nb:=2;</p><p>c:=3;</p></ST>"),
+        "<ST><p>" + wide + wide + "</p><p>a:=1;</p></ST>", std::string("<ST>a:=1;<!-- > x:=1; --> b:=2;</ST>"),
+        std::string("<a><![CDATA[<ST>a:=1;</ST>]]></a>")})
     EXPECT_EQ(format(source), source);
 }
 
@@ -49,9 +60,8 @@ TEST(Embedded, InstructionLists) {
   EXPECT_EQ(format("<IL>\n ld   a\n st b\n</IL>"), "<IL>\n  LD      a\n  ST      b\n</IL>");
 }
 
-TEST(Embedded, ListsInParagraphsOrOnOneLineStay) {
-  for (const char* source : {"<IL><p>ld a</p><p>st b</p></IL>", "<IL><p>ld a st b</p></IL>", "<IL/>", "<IL></IL>"})
-    EXPECT_EQ(format(source), source);
+TEST(Embedded, ListsOnOneLineStay) {
+  for (const char* source : {"<IL><p>ld a st b</p></IL>", "<IL/>", "<IL></IL>"}) EXPECT_EQ(format(source), source);
 }
 
 TEST(Embedded, OtherTextStays) {
