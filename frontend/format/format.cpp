@@ -99,14 +99,19 @@ class Formatter {
 
   // ---- declarations
 
-  // The colon that the types after it are aligned at; none: the line has none, or several declarations.
-  std::optional<uint32_t> colonOf(const Line& line) const {
-    if (line.kind != LineKind::Declaration || line.continues) return {};
+  // The colon that the types after it are aligned at; none: the line has none, or it or the end of its declaration, on
+  // a line below, has several declarations.
+  std::optional<uint32_t> colonOf(size_t index) const {
+    if (lines_[index].kind != LineKind::Declaration || lines_[index].continues) return {};
     std::optional<uint32_t> colon;
-    for (uint32_t k = line.first; k < line.last; ++k) {
-      if (pieces_[k].kind != PieceKind::Token) continue;
-      if (pieces_[k].token == Tok::Colon && !colon) colon = k;
-      if (pieces_[k].token == Tok::Semicolon && k + 1 < line.last && pieces_[k + 1].kind == PieceKind::Token) return {};
+    for (size_t row = index; row < lines_.size() && (row == index || lines_[row].continues); ++row) {
+      const Line& line = lines_[row];
+      for (uint32_t k = line.first; k < line.last; ++k) {
+        if (pieces_[k].kind != PieceKind::Token) continue;
+        if (pieces_[k].token == Tok::Colon && !colon && row == index) colon = k;
+        if (pieces_[k].token == Tok::Semicolon && k + 1 < line.last && pieces_[k + 1].kind == PieceKind::Token)
+          return {};
+      }
     }
     return colon;
   }
@@ -130,12 +135,12 @@ class Formatter {
         const bool belongs = line.kind == LineKind::Declaration || line.kind == LineKind::Remark || line.continues;
         if (!belongs || (end > k && pieces_[line.first].newlines > 1) || (!line.continues && line.level != level))
           break;
-        if (const std::optional<uint32_t> colon = colonOf(line); colon && !isList(line, *colon))
+        if (const std::optional<uint32_t> colon = colonOf(end); colon && !isList(line, *colon))
           column = std::max(column, widthOf(rendered(line.first, *colon, level * style_.indent)) + 1);
       }
       if (end == k) ++end;
       for (size_t row = k; row < end; ++row)
-        if (colonOf(lines_[row])) colon_columns_[row] = column;
+        if (colonOf(row)) colon_columns_[row] = column;
       k = end;
     }
   }
@@ -268,7 +273,8 @@ class Formatter {
     return kInside + 2 * static_cast<uint32_t>(brackets_.size()) + (piece.network == NetworkPiece::Part ? 1 : 0);
   }
 
-  bool isBreak(LineKind kind, const Piece& before, const Piece& next) const {
+  bool isBreak(const Piece& before, const Piece& next) const {
+    const LineKind kind = statement_kind_;
     if (next.kind != PieceKind::Token || before.kind != PieceKind::Token) return false;
     if (kind == LineKind::Header || kind == LineKind::Il) return false;
     if (kind == LineKind::Declaration && brackets_.empty() && value_column_ == 0) return false;
@@ -334,8 +340,7 @@ class Formatter {
     for (uint32_t k = first; k < last; ++k) {
       const Piece& piece = pieces_[k];
       if (k > first) {
-        if (breaks != nullptr && isBreak(line.kind, pieces_[k - 1], piece))
-          breaks->push_back({k, depthOf(piece), out.column});
+        if (breaks != nullptr && isBreak(pieces_[k - 1], piece)) breaks->push_back({k, depthOf(piece), out.column});
         if (breaks != nullptr && !breaks->empty() && isTooLong(out)) return out;
         if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
       }

@@ -161,7 +161,7 @@ class Outliner {
       if (pieces_[k].kind != PieceKind::Token) continue;
       const bool starts = at_start_ && depth_ == 0;
       if (starts) beginStatement(k);
-      pieces_[k].begins = starts && pieces_[k].token != Tok::Semicolon;
+      pieces_[k].begins = starts && pieces_[k].token != Tok::Semicolon && !inDeclarations();
       pieces_[k].level = level_;
       if (is_first) {
         line.level = level_;

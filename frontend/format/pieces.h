@@ -28,7 +28,7 @@ struct Piece {
   bool is_label = false;  // a colon that ends a label
   bool is_unary = false;  // a sign
   bool breaks = false;    // of networks: a row may begin here
-  bool begins = false;    // a statement, an element of a network or a keyword that ends or divides a block
+  bool begins = false;    // a statement, an element of a network, or a keyword that ends or divides a block of them
   uint32_t level = 0;     // then: its indentation
   NetworkPiece network = NetworkPiece::None;
   Gap gap = Gap::Free;

@@ -248,6 +248,7 @@ int formatStandardInput(Options options, Sink& sink) {
 int runFormat(const Options& given, Sink& sink) {
   Options options = given;
   options.warnings.push_back({"all", false});
+  options.max_errors = ~0u;  // beyond a limit a file would seem to have none
   const bool reads_input = std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
   if (reads_input && options.inputs.size() > 1)
     return usageError(sink, "`-` is standard input; name no file beside it");

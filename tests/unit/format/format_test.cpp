@@ -96,6 +96,14 @@ TEST(Format, LongDeclarations) {
             "  b : INT;                            // one\nEND_VAR\n");
 }
 
+TEST(Format, SeveralDeclarationsOnALongLine) {
+  Style style;
+  style.width = 36;
+  EXPECT_EQ(format("VAR\nlonger : INT;\na : ARRAY[0..1] OF INT := [1000, 2000]; b : INT; END_VAR\n", style),
+            "VAR\n  longer : INT;\n  a : ARRAY[0..1] OF INT := [1000,\n                             2000]; b : INT; "
+            "END_VAR\n");
+}
+
 TEST(Format, OnlyTheseLines) { EXPECT_EQ(format("a:=1;\nb:=2;\nc:=3;\n", {}, {}, {2, 2}), "a:=1;\nb := 2;\nc:=3;\n"); }
 
 TEST(Format, LineEndsOfTheFile) { EXPECT_EQ(format("a:=1;\r\nb:=2;\r\n"), "a := 1;\r\nb := 2;\r\n"); }
