@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "frontend/format/networks.h"
 #include "frontend/format/outline.h"
 #include "frontend/format/pieces.h"
 #include "frontend/format/spacing.h"
@@ -17,6 +18,7 @@ using text::Tok;
 using text::TokSet;
 
 constexpr uint32_t kBeforeComment = 2;
+constexpr uint32_t kInside = 1u << 16;                       // the depth of breaks inside of statements
 constexpr uint32_t kOperatorColumn = 2, kOperandColumn = 8;  // of IL; the operand's from the operator
 
 struct Row {
@@ -60,6 +62,7 @@ class Formatter {
 
   std::string run(const Bodies& bodies, Dialect dialect) {
     pieces_ = piecesOf(source_, dialect);
+    markNetworks(source_, pieces_);
     if (pieces_.empty()) return std::string(source_);
     lines_ = outlineOf(source_, pieces_, bodies);
     alignDeclarations();
@@ -83,24 +86,32 @@ class Formatter {
     return static_cast<uint32_t>(std::count(source_.begin() + begin, source_.begin() + end, '\n'));
   }
 
-  // What is written for a piece: keywords in their case.
+  // What is written for a piece: keywords in their case, the words of elements in small letters.
   std::string spelled(const Piece& piece) const {
     std::string text(textOf(piece));
-    if (piece.is_keyword)
-      for (char& c : text) c = inCase(c, style_.keywords);
+    const bool is_element = piece.network == NetworkPiece::Element;
+    if (!piece.is_keyword && !is_element) return text;
+    const KeywordCase wanted =
+        is_element && style_.keywords == KeywordCase::Upper ? KeywordCase::Lower : style_.keywords;
+    for (char& c : text) c = inCase(c, wanted);
     return text;
   }
 
   // ---- declarations
 
-  // The colon that the types after it are aligned at; none: the line has none, or several declarations.
-  std::optional<uint32_t> colonOf(const Line& line) const {
-    if (line.kind != LineKind::Declaration || line.continues) return {};
+  // The colon that the types after it are aligned at; none: the line has none, or it or the end of its declaration, on
+  // a line below, has several declarations.
+  std::optional<uint32_t> colonOf(size_t index) const {
+    if (lines_[index].kind != LineKind::Declaration || lines_[index].continues) return {};
     std::optional<uint32_t> colon;
-    for (uint32_t k = line.first; k < line.last; ++k) {
-      if (pieces_[k].kind != PieceKind::Token) continue;
-      if (pieces_[k].token == Tok::Colon && !colon) colon = k;
-      if (pieces_[k].token == Tok::Semicolon && k + 1 < line.last && pieces_[k + 1].kind == PieceKind::Token) return {};
+    for (size_t row = index; row < lines_.size() && (row == index || lines_[row].continues); ++row) {
+      const Line& line = lines_[row];
+      for (uint32_t k = line.first; k < line.last; ++k) {
+        if (pieces_[k].kind != PieceKind::Token) continue;
+        if (pieces_[k].token == Tok::Colon && !colon && row == index) colon = k;
+        if (pieces_[k].token == Tok::Semicolon && k + 1 < line.last && pieces_[k + 1].kind == PieceKind::Token)
+          return {};
+      }
     }
     return colon;
   }
@@ -124,12 +135,12 @@ class Formatter {
         const bool belongs = line.kind == LineKind::Declaration || line.kind == LineKind::Remark || line.continues;
         if (!belongs || (end > k && pieces_[line.first].newlines > 1) || (!line.continues && line.level != level))
           break;
-        if (const std::optional<uint32_t> colon = colonOf(line); colon && !isList(line, *colon))
+        if (const std::optional<uint32_t> colon = colonOf(end); colon && !isList(line, *colon))
           column = std::max(column, widthOf(rendered(line.first, *colon, level * style_.indent)) + 1);
       }
       if (end == k) ++end;
       for (size_t row = k; row < end; ++row)
-        if (colonOf(lines_[row])) colon_columns_[row] = column;
+        if (colonOf(row)) colon_columns_[row] = column;
       k = end;
     }
   }
@@ -152,15 +163,15 @@ class Formatter {
     const Line& line = lines_[index];
     uint32_t last = line.last;
     Row row;
-    row.kind = line.kind;
+    if (!line.continues) statement_kind_ = line.kind;
+    row.kind = statement_kind_;
     row.level = line.level;
     row.blank_lines = pieces_[line.first].newlines > 0 ? pieces_[line.first].newlines - 1 : 0;
-    const bool kept = line.kind == LineKind::Kept || !may_change;
-    if (!kept) row.blank_lines = std::min(row.blank_lines, style_.blank_lines);
+    if (may_change) row.blank_lines = std::min(row.blank_lines, style_.blank_lines);
     if (index == 0) row.blank_lines = 0;
     if (last - line.first > 1 && pieces_[last - 1].kind == PieceKind::Comment) row.comment = textOf(pieces_[--last]);
     const size_t first_row = rows_.size();
-    if (!line.continues && line.kind != LineKind::Remark) beginStatement(line);
+    if (!line.continues && line.kind != LineKind::Remark) beginStatement(line.level);
     if (line.kind == LineKind::Il && !line.continues) {
       row.code = instruction(line, last);
       noteBrackets(line, last);
@@ -168,7 +179,7 @@ class Formatter {
     } else {
       layOut(line, last, colon_columns_[index], std::move(row));
     }
-    if (kept) keep(first_row, line);
+    if (!may_change) keep(first_row, line);
   }
 
   // The line as it was.
@@ -186,9 +197,9 @@ class Formatter {
     rows_.push_back(std::move(row));
   }
 
-  void beginStatement(const Line& line) {
+  void beginStatement(uint32_t level) {
     brackets_.clear();
-    base_ = line.level * style_.indent;
+    base_ = level * style_.indent;
     value_column_ = 0;
   }
 
@@ -245,19 +256,30 @@ class Formatter {
 
   // Where a row begins.
   uint32_t columnOf(const Piece& first, bool continues, const Line& line) const {
-    if (!continues) return line.level * style_.indent;
+    const bool begins_line = &first == &pieces_[line.first];
+    if (!continues) return (begins_line ? line.level : first.level) * style_.indent;
     const bool closes = first.token == Tok::RightParen || first.token == Tok::RightBracket;
     if (!brackets_.empty()) return closes ? brackets_.back().closer : brackets_.back().content;
     return value_column_ != 0 ? value_column_ : base_ + 2 * style_.indent;
   }
 
-  // A place to break the row before a piece: the depth of its brackets there.
+  // A place to break the row before a piece: the depth of its blocks or brackets there.
   struct Break {
     uint32_t piece, depth, end;  // `end`: the column that the row then reaches
   };
+  // Between statements or elements of a network it is that of their blocks, elsewhere it is deeper.
+  uint32_t depthOf(const Piece& piece) const {
+    if (piece.begins) return piece.level;
+    return kInside + 2 * static_cast<uint32_t>(brackets_.size()) + (piece.network == NetworkPiece::Part ? 1 : 0);
+  }
 
-  static bool isBreak(const Piece& before, const Piece& next) {
+  bool isBreak(const Piece& before, const Piece& next) const {
+    const LineKind kind = statement_kind_;
     if (next.kind != PieceKind::Token || before.kind != PieceKind::Token) return false;
+    if (kind == LineKind::Header || kind == LineKind::Il) return false;
+    if (kind == LineKind::Declaration && brackets_.empty() && value_column_ == 0) return false;
+    if (next.begins) return kind == LineKind::Statement;
+    if (next.network != NetworkPiece::None) return next.breaks;
     if (before.token == Tok::Comma) return true;
     static constexpr TokSet kJoins = {Tok::And,    Tok::Or,   Tok::Xor,      Tok::AndThen,
                                       Tok::OrElse, Tok::Plus, Tok::Ampersand};
@@ -286,18 +308,23 @@ class Formatter {
       rows_.push_back(std::move(before));
       row.blank_lines = 0;
       first = *at;
-      continues = true;
+      continues = !pieces_[first].begins;
+      if (!continues) beginStatement(pieces_[first].level);
     }
   }
 
   bool isTooLong(const Code& code) const { return style_.width != 0 && code.column > style_.width; }
 
-  // The outermost break within the width, and of these the last; else the first one at all.
+  // The outermost break within the width, and of these the last, or the end of a block that begins above; else the
+  // first one at all.
   std::optional<uint32_t> breakOf(const Code& code, const std::vector<Break>& breaks) const {
     if (!isTooLong(code) || breaks.empty() || code.text.find('\n') != std::string::npos) return {};
     const Break* best = nullptr;
-    for (const Break& one : breaks)
-      if (one.end <= style_.width && (best == nullptr || one.depth <= best->depth)) best = &one;
+    for (const Break& one : breaks) {
+      if (one.end > style_.width || (best != nullptr && one.depth > best->depth)) continue;
+      best = &one;
+      if (one.depth < kInside && one.depth * style_.indent < base_) break;
+    }
     return best == nullptr ? breaks.front().piece : best->piece;
   }
 
@@ -305,18 +332,16 @@ class Formatter {
   // too long and has one.
   Code written(const Line& line, uint32_t first, uint32_t last, bool continues, uint32_t colon_column,
                std::vector<Break>* breaks) {
-    const bool is_declaration = line.kind == LineKind::Declaration;
-    const bool may_break = breaks != nullptr && line.kind != LineKind::Header && line.kind != LineKind::Il;
-    const Colons colons = is_declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
+    const Colons colons =
+        line.kind == LineKind::Declaration || line.kind == LineKind::Header ? Colons::Declares : Colons::Free;
     bool colon_seen = continues || colon_column == 0;
     Code out;
     out.padTo(columnOf(pieces_[first], continues, line));
     for (uint32_t k = first; k < last; ++k) {
       const Piece& piece = pieces_[k];
       if (k > first) {
-        if (may_break && isBreak(pieces_[k - 1], piece) && (!is_declaration || !brackets_.empty()))
-          breaks->push_back({k, static_cast<uint32_t>(brackets_.size()), out.column});
-        if (may_break && !breaks->empty() && isTooLong(out)) return out;
+        if (breaks != nullptr && isBreak(pieces_[k - 1], piece)) breaks->push_back({k, depthOf(piece), out.column});
+        if (breaks != nullptr && !breaks->empty() && isTooLong(out)) return out;
         if (isSeparated(source_, pieces_[k - 1], piece, colons)) out.put(" ");
       }
       if (piece.kind == PieceKind::Token && piece.token == Tok::Colon && !colon_seen) {
@@ -324,13 +349,13 @@ class Formatter {
         out.padTo(colon_column);
       }
       out.put(spelled(piece));
-      if (piece.kind == PieceKind::Token) follow(piece, out.column, line, k + 1 >= last);
+      if (piece.kind == PieceKind::Token) follow(piece, out.column, k + 1 >= last);
     }
     return out;
   }
 
   // `column`: the end of the piece.
-  void follow(const Piece& piece, uint32_t column, const Line& line, bool ends_line) {
+  void follow(const Piece& piece, uint32_t column, bool ends_line) {
     static constexpr TokSet kConditions = {Tok::If, Tok::Elsif, Tok::While, Tok::Until, Tok::Case};
     if (piece.token == Tok::LeftParen || piece.token == Tok::LeftBracket) {
       const uint32_t outer = brackets_.empty() ? base_ : brackets_.back().closer;
@@ -342,7 +367,7 @@ class Formatter {
       return;
     }
     if (piece.token == Tok::Semicolon && brackets_.empty()) value_column_ = 0;
-    if (!brackets_.empty() || value_column_ != 0 || line.kind == LineKind::Declaration) return;
+    if (!brackets_.empty() || value_column_ != 0) return;
     if ((piece.token == Tok::Assign && !ends_line) || kConditions.has(piece.token)) value_column_ = column + 1;
   }
 
@@ -391,9 +416,10 @@ class Formatter {
   std::vector<Line> lines_;
   std::vector<uint32_t> colon_columns_;  // of lines; 0: not aligned
   std::vector<Row> rows_;
-  std::vector<Bracket> brackets_;  // open in the current statement
-  uint32_t base_ = 0;              // the column of the statement
-  uint32_t value_column_ = 0;      // where the value or condition of the statement begins; 0: none so far
+  std::vector<Bracket> brackets_;                  // open in the current statement
+  LineKind statement_kind_ = LineKind::Statement;  // of the line in which the statement begins
+  uint32_t base_ = 0;                              // the column of the statement
+  uint32_t value_column_ = 0;  // where the value or condition of the statement begins; 0: none so far
   uint32_t number_ = 1;
 };
 

@@ -1,7 +1,7 @@
-// The formatter of ST, IL and textual SFC. In: a source, which may be a fragment such as the declarations of a POU.
-// Out: the same source with other white space and keywords in one case: every token, comment and pragma is kept, and
-// every line break; only lines that are too long are broken further. What is formatted once does not change again.
-// Called by `rung fmt`.
+// The formatter of ST, IL, textual SFC and the notation of networks. In: a source, which may be a fragment such as the
+// declarations of a POU. Out: the same source with other white space and keywords in one case: every token, comment and
+// pragma is kept, and every line break; only lines that are too long are broken further. What is formatted once does
+// not change again. Called by `rung fmt`.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ struct Style {
 struct Span {
   uint32_t begin, end;  // bytes
 };
-// The bodies whose lines are not statements, in the order of the source.
+// The bodies whose lines are instructions, in the order of the source.
 struct Bodies {
-  std::vector<Span> il, kept;  // kept: networks
+  std::vector<Span> il;
 };
 
 // The lines of the source that may change, from 1.
@@ -42,6 +42,10 @@ std::string formatted(std::string_view source, const Bodies& bodies, const Style
 
 // An NCT program: elements indented by their branches, the columns of its symbols aligned.
 std::string formattedLadder(std::string_view source, const Style& style, LineRange range = {});
+
+// The parts of a file in which a tool keeps other data as well; all else stays byte for byte.
+std::string formattedParts(std::string_view source, const std::vector<Span>& parts, const Bodies& bodies,
+                           const Style& style, Dialect dialect);
 
 // The declarations, statements and instructions inside a file of TwinCAT, PLCopen or IEC 61131-10; all else stays byte
 // for byte.

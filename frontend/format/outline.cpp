@@ -39,6 +39,7 @@ constexpr text::TokMap<Tok> kDeclarationEnds = {
     {Tok::EndNamespace, Tok::Namespace},
     {Tok::EndConfiguration, Tok::Configuration},
     {Tok::EndResource, Tok::Resource},
+    {Tok::EndNetwork, Tok::Network},
 };
 Tok beginOf(Tok end) {
   for (const text::StatementBlock& block : text::kStatementBlocks)
@@ -100,9 +101,7 @@ class Outliner {
     Line line{first, last};
     uint32_t code = first;
     while (code < last && pieces_[code].kind != PieceKind::Token) ++code;
-    if (holds(bodies_.kept, pieces_[first].begin)) {
-      line.kind = LineKind::Kept;
-    } else if (code == last) {
+    if (code == last) {
       addRemark(line);
       return;
     } else if (holds(bodies_.il, pieces_[code].begin)) {
@@ -162,6 +161,8 @@ class Outliner {
       if (pieces_[k].kind != PieceKind::Token) continue;
       const bool starts = at_start_ && depth_ == 0;
       if (starts) beginStatement(k);
+      pieces_[k].begins = starts && pieces_[k].token != Tok::Semicolon && !inDeclarations();
+      pieces_[k].level = level_;
       if (is_first) {
         line.level = level_;
         if (starts && !line.continues && (kPous.has(first) || kSections.has(first) || isStep(k))) header_ = true;
@@ -211,6 +212,10 @@ class Outliner {
   void beginStatement(uint32_t k) {
     const Tok token = pieces_[k].token;
     in_label_ = false;
+    if (pieces_[k].network == NetworkPiece::Heading && !open_.empty()) {
+      level_ = open_.back().level;
+      return;
+    }
     if (const Tok begin = beginOf(token); begin != Tok::End) {
       const auto found = std::find_if(open_.rbegin(), open_.rend(), [&](const Open& o) { return o.begin == begin; });
       level_ = found == open_.rend() ? 0 : found->level;
@@ -237,9 +242,23 @@ class Outliner {
     }
   }
 
+  // Elements after NETWORK are a level deeper, and the statements inside of an element.
+  void advanceInNetwork(uint32_t k) {
+    const Tok token = pieces_[k].token;
+    countBrackets(token);
+    at_start_ = token == Tok::Semicolon || token == Tok::Network;
+    if (token == Tok::Network) push(token, true);
+    if (token == Tok::EndNetwork) close(Tok::Network);
+    if (pieces_[k].network == NetworkPiece::Heading && !open_.empty()) open_.back().indents = true;
+  }
+
   // What a token does to the state; `starts`: it is the first of a statement.
   void advance(uint32_t k, bool starts) {
     const Tok token = pieces_[k].token;
+    if (pieces_[k].network != NetworkPiece::None) {
+      advanceInNetwork(k);
+      return;
+    }
     const uint32_t depth = depth_;
     countBrackets(token);
     if (depth_ > 0 || depth > 0) {
@@ -275,6 +294,9 @@ class Outliner {
     } else if (token == Tok::Colon && k > 0 && k - 1 == statement_ && !inDeclarations() && !header_ &&
                openKind() != Tok::Type) {
       pieces_[k].is_label = true;  // of a jump
+      at_start_ = true;
+    } else if (token == Tok::Network) {
+      push(token, false);
       at_start_ = true;
     } else if (kSections.has(token)) {
       push(Tok::Var, true);

@@ -18,7 +18,6 @@ enum class LineKind : uint8_t {
   Declaration,  // of a variable, with a colon
   Remark,       // comments and pragmas alone
   Il,           // an instruction
-  Kept,         // of a network or C++: stays as it is
 };
 
 struct Line {
@@ -28,7 +27,7 @@ struct Line {
   bool continues = false;  // a statement that began above
 };
 
-// Also marks the colons of labels in `pieces`.
+// Also marks the colons of labels and the beginnings of statements in `pieces`.
 std::vector<Line> outlineOf(std::string_view source, std::vector<Piece>& pieces, const Bodies& bodies);
 
 }  // namespace rung::format

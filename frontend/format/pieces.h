@@ -13,6 +13,10 @@
 namespace rung::format {
 
 enum class PieceKind : uint8_t { Token, Comment, Pragma };
+// Of the notation of networks: NETWORK, the word that begins an element, and all else outside of its expressions and
+// statements.
+enum class NetworkPiece : uint8_t { None, Heading, Element, Part };
+enum class Gap : uint8_t { Free, None, Blank };  // before the piece; Free: as the tokens need it
 
 struct Piece {
   uint32_t begin, end;
@@ -23,6 +27,11 @@ struct Piece {
   bool is_keyword = false;
   bool is_label = false;  // a colon that ends a label
   bool is_unary = false;  // a sign
+  bool breaks = false;    // of networks: a row may begin here
+  bool begins = false;    // a statement, an element of a network, or a keyword that ends or divides a block of them
+  uint32_t level = 0;     // then: its indentation
+  NetworkPiece network = NetworkPiece::None;
+  Gap gap = Gap::Free;
 };
 
 // Empty, too, when something between the pieces is not a blank: then nothing can be said about the source.

@@ -29,10 +29,11 @@ bool isModifiedEqual(std::string_view source, const Piece& before, const Piece& 
 
 bool isSeparated(std::string_view source, const Piece& before, const Piece& next, Colons colons) {
   if (next.kind != PieceKind::Token || before.kind != PieceKind::Token) return next.blank;
+  if (next.gap != Gap::Free) return next.gap == Gap::Blank;
   const Tok a = before.token, b = next.token;
   if (b == Tok::Semicolon || b == Tok::Comma || b == Tok::RightParen || b == Tok::RightBracket) return false;
   if (a == Tok::LeftParen || a == Tok::LeftBracket) return false;
-  if (a == Tok::Semicolon || a == Tok::Comma) return true;
+  if (a == Tok::Semicolon || a == Tok::Comma || a == Tok::Network) return true;
   if (a == Tok::Dot || b == Tok::Dot || b == Tok::Caret || a == Tok::Hash || b == Tok::Hash) return false;
   if (before.is_unary) return false;
   if (b == Tok::Colon) return next.is_label ? false : colons == Colons::Declares || next.blank;

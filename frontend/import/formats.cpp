@@ -29,8 +29,8 @@ bool isXml(std::string_view text) { return withoutBlanks(text).starts_with("<");
 constexpr Format kFormats[] = {
     {FileKind::TwinCat, "", ".tcpou .tcdut .tcgvl .tcio .tctleo .tctto", twincat::isTwinCat, twincat::readProgram},
     {FileKind::PlcProject, "", ".plcproj", twincat::isProject, nullptr},
-    {FileKind::Multiprog, "", "", multiprog::isMultiprog, multiprog::readProgram},
-    {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram},
+    {FileKind::Multiprog, "", "", multiprog::isMultiprog, multiprog::readProgram, multiprog::programParts},
+    {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram, codesys2::programParts},
     {FileKind::Plcopen, "", "", plcopen::isPlcopen, plcopen::readProgram},
     {FileKind::Iec10, "", "", iec10::isIec10, iec10::readProgram},
     {FileKind::Beremiz, "", "", beremiz::isExtension, beremiz::readProgram},

@@ -51,6 +51,11 @@ struct ReadContext {
   bool for_pictures = false;  // `rung graph` draws what is read: a ladder becomes networks, not statements
 };
 
+// Bytes of a file in which a tool keeps programs and other data.
+struct TextPart {
+  uint32_t begin, end;
+};
+
 struct Format {
   FileKind kind;
   std::string_view name;                  // in messages, for kinds that are not read
@@ -59,6 +64,8 @@ struct Format {
   // The program in the file, as a separate file; the file itself if it can be parsed unchanged. No file: an error has
   // been reported. Null: the parser reads it unchanged, or nothing reads it.
   FileId (*read)(ReadContext& context, FileId file);
+  // The declarations and bodies in it, for the formatter. Null: all of the text, or nothing.
+  std::vector<TextPart> (*parts)(std::string_view text) = nullptr;
 };
 
 const Format& formatOf(FileKind kind);

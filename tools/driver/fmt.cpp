@@ -1,5 +1,5 @@
-// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL and networks are known by
-// their POU only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
+// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL are known by their POU
+// only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <set>
 
 #include "frontend/format/format.h"
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/formats.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/driver/changes.h"
 #include "tools/driver/commands.h"
@@ -69,16 +71,23 @@ std::string encoded(const std::string& text, Encoding encoding) {
   return text;
 }
 
-// The bodies in IL and networks of each file.
+// Whether it reports a body in a form that Rung does not read: nothing of it is formatted.
+bool isUnreadBody(Diag diag) {
+  return diag == diag::NetworkBody || diag == diag::XmlBodyLanguage || diag == diag::ArchiveObject ||
+         diag == diag::ArchiveIl;
+}
+
+// The bodies in IL of each file.
 class BodyFinder {
  public:
   BodyFinder(const Compilation& compilation) : tree_(compilation.tree), sources_(compilation.sources) {
     for (const FileUnit& unit : tree_.files) visit(unit.decls);
     for (auto& [file, bodies] : found_)
-      for (std::vector<format::Span>* spans : {&bodies.il, &bodies.kept})
-        std::sort(spans->begin(), spans->end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+      std::sort(bodies.il.begin(), bodies.il.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   }
-  const format::Bodies& of(FileId file) { return found_[file.index]; }
+  const format::Bodies& of(FileId file) {
+    return found_[sources_.fileOf(sources_.originalLocation(sources_.begin(file))).index];
+  }
 
  private:
   void visit(Slice<DeclId> decls) {
@@ -96,12 +105,12 @@ class BodyFinder {
     visit(pou.members);
     for (const SfcTransition& transition : tree_.list(pou.transitions))
       if (transition.body) visit(transition.body);
-    if (pou.body_kind != BodyKind::Il && pou.body_kind != BodyKind::Network) return;
-    const FileId file = sources_.fileOf(pou.body_begin);
+    if (pou.body_kind != BodyKind::Il) return;
+    const Loc begin = sources_.originalLocation(pou.body_begin);
+    const Loc last = sources_.originalLocation({pou.body_end.offset - 1});
+    const FileId file = sources_.fileOf(begin);
     const uint32_t base = sources_.begin(file).offset;
-    format::Bodies& bodies = found_[file.index];
-    (pou.body_kind == BodyKind::Il ? bodies.il : bodies.kept)
-        .push_back({pou.body_begin.offset - base, pou.body_end.offset - base});
+    found_[file.index].il.push_back({begin.offset - base, last.offset + 1 - base});
   }
 
   const Tree& tree_;
@@ -114,14 +123,17 @@ class FileFormatter {
   FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
     const Sources& sources = compilation.sources;
     for (const Diagnostic& diagnostic : compilation.diagnostics.all())
-      if (diagnostic.severity == Severity::Error && diagnostic.loc)
+      if (diagnostic.severity == Severity::Error && diagnostic.loc && !isUnreadBody(diagnostic.diag))
         broken_.insert(std::string(sources.path(sources.fileOf(sources.originalLocation(diagnostic.loc)))));
   }
+
+  // It has no syntax errors.
+  bool canFormat(const InputFile& input) const { return broken_.count(input.below) == 0; }
 
   // The exit code.
   int run() {
     for (const InputFile& input : compilation_.inputs.files)
-      if (!input.is_library && broken_.count(input.below) == 0 && !format(input)) return kUsage;
+      if (!input.is_library && canFormat(input) && !format(input)) return kUsage;
     if (compilation_.options.only_checks && !compilation_.options.shows_changes) {
       const std::string error = sink_.output(listed_);
       if (!error.empty()) return usageError(sink_, error);
@@ -145,13 +157,18 @@ class FileFormatter {
       case FileKind::TwinCat:
       case FileKind::Plcopen:
       case FileKind::Iec10: return format::formattedXml(source, style, options.dialect);
+      case FileKind::Codesys2:
+      case FileKind::Multiprog: {
+        std::vector<format::Span> parts;
+        for (const importer::TextPart& part : importer::formatOf(input.kind).parts(source))
+          parts.push_back({part.begin, part.end});
+        return format::formattedParts(source, parts, bodies_.of(input.file), style, options.dialect);
+      }
       case FileKind::Unknown:
       case FileKind::Xml:
       case FileKind::Cam:
       case FileKind::PlcProject:
       case FileKind::Beremiz:
-      case FileKind::Codesys2:
-      case FileKind::Multiprog:
       case FileKind::Project:
       case FileKind::Binary: return std::string(source);
     }
@@ -161,9 +178,8 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
-    const bool is_xml =
-        input.kind == FileKind::TwinCat || input.kind == FileKind::Plcopen || input.kind == FileKind::Iec10;
-    if (is_xml && compilation_.options.lines.last != UINT32_MAX)
+    const bool is_text = input.kind == FileKind::St || input.kind == FileKind::Il || input.kind == FileKind::Nct;
+    if (!is_text && compilation_.options.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
@@ -216,11 +232,15 @@ int formatStandardInput(Options options, Sink& sink) {
   Compilation compilation(options, times, sink);
   compilation.parse();
   const int exit = compilation.finish();
-  if (exit != kSuccess || compilation.inputs.files.empty()) return exit;
+  if (exit == kUsage || exit == kInternal || compilation.inputs.files.empty()) return exit;
   FileFormatter formatter(compilation, sink);
-  const std::string result = formatter.text(compilation.inputs.files.front(), text);
-  if (options.only_checks) return result == text ? kSuccess : kInputErrors;
-  return printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : encoded(result, encoding));
+  const InputFile& input = compilation.inputs.files.front();
+  if (!formatter.canFormat(input)) return exit;
+  const std::string result = formatter.text(input, text);
+  if (options.only_checks) return result == text ? exit : kInputErrors;
+  const int printed =
+      printResult(sink, options.shows_changes ? changesOf(text, result, "stdin") : encoded(result, encoding));
+  return exit != kSuccess ? exit : printed;
 }
 
 }  // namespace
@@ -228,6 +248,7 @@ int formatStandardInput(Options options, Sink& sink) {
 int runFormat(const Options& given, Sink& sink) {
   Options options = given;
   options.warnings.push_back({"all", false});
+  options.max_errors = ~0u;  // beyond a limit a file would seem to have none
   const bool reads_input = std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
   if (reads_input && options.inputs.size() > 1)
     return usageError(sink, "`-` is standard input; name no file beside it");

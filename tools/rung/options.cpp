@@ -34,7 +34,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
-    {Command::Fmt, "fmt", "FILE|DIR|- ...", "format ST, IL, SFC and NCT, also in XML files, in place"},
+    {Command::Fmt, "fmt", "FILE|DIR|- ...", "format sources in place, also inside files of other tools"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/source_mapped_text.h"
@@ -47,11 +49,17 @@ class Codesys2Reader {
         changed_ = true;
       }
       if (sameIdentifier(word, "TYPE")) {
+        beginPart(begin);
         skipObject(scanner, "END_TYPE");
+        endPart(scanner.at());
       } else if (sameIdentifier(word, "VAR_GLOBAL") || sameIdentifier(word, "VAR_CONFIG")) {
+        beginPart(begin);
         skipObject(scanner, "END_VAR");
+        endPart(scanner.at());
       } else if (!endWordOf(word).empty()) {
+        beginPart(begin);
         skipPou(scanner, endWordOf(word));
+        endPart(scanner.at());
       } else if (sameIdentifier(word, "RESOURCE")) {
         readTasks(scanner, begin);
       } else if (sameIdentifier(word, "PLC_CONFIGURATION")) {
@@ -68,8 +76,17 @@ class Codesys2Reader {
   }
 
   xml::SourceMappedText& program() { return program_; }
+  std::vector<TextPart>& parts() { return parts_; }
 
  private:
+  // The first comment of an object says whether comments nest in it.
+  void beginPart(size_t begin) {
+    const size_t last = parts_.empty() ? 0 : parts_.back().end;
+    const size_t header = source_.substr(last, begin - last).rfind("(* @NESTEDCOMMENTS");
+    part_ = header == std::string_view::npos ? begin : last + header;
+  }
+  void endPart(size_t end) { parts_.push_back({static_cast<uint32_t>(part_), static_cast<uint32_t>(end)}); }
+
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
   void keep(size_t to) {
     if (to > kept_) program_.add(loc(kept_), loc(to));
@@ -192,6 +209,8 @@ class Codesys2Reader {
       size_t end = source_.find("\n" + std::string(closing), unit->begin);
       end = end == std::string_view::npos ? source_.size() : end + 1;
       exclude(unit->begin, end);
+      endPart(unit->begin);
+      part_ = end;
       scanner.moveTo(end);
     }
   }
@@ -202,6 +221,8 @@ class Codesys2Reader {
   xml::SourceMappedText program_;
   size_t kept_ = 0;  // everything before is copied or excluded
   bool changed_ = false;
+  std::vector<TextPart> parts_;
+  size_t part_ = 0;  // where the current one begins
 };
 
 }  // namespace
@@ -213,6 +234,16 @@ bool isCodesys2(std::string_view text) {
 FileId readProgram(ReadContext& context, FileId file) {
   Codesys2Reader reader(context.sources, file, context.diagnostics);
   return reader.run() ? reader.program().finish(context.sources, file) : file;
+}
+
+std::vector<TextPart> programParts(std::string_view text) {
+  Sources sources;
+  const FileId file = sources.add({}, std::string(text));
+  if (!file) return {};
+  Diagnostics unused(sources);  // readProgram reports what is wrong
+  Codesys2Reader reader(sources, file, unused);
+  reader.run();
+  return std::move(reader.parts());
 }
 
 }  // namespace rung::importer::codesys2

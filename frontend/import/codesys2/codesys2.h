@@ -12,4 +12,7 @@ bool isCodesys2(std::string_view text);
 
 FileId readProgram(ReadContext& context, FileId file);
 
+// POUs, types and lists of globals, each with the comments of its object before it; no drawn bodies.
+std::vector<TextPart> programParts(std::string_view text);
+
 }  // namespace rung::importer::codesys2

@@ -3,6 +3,8 @@
 #include "frontend/import/multiprog/multiprog.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/source_mapped_text.h"
@@ -22,22 +24,17 @@ std::string_view valueOf(std::string_view source, size_t comment, size_t end, st
   return value.substr(0, value.find_first_of("\r\n*"));
 }
 
-}  // namespace
-
-bool isMultiprog(std::string_view text) { return hasToolComment(text, {"@PROPERTIES_EX", "@KEY"}); }
-
-FileId readProgram(ReadContext& context, FileId file) {
-  Sources& sources = context.sources;
+// The parts that are source. Reports each drawn worksheet.
+std::vector<TextPart> partsOf(const Sources& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view source = sources.sourceText(file);
-  const uint32_t base = sources.begin(file).offset;
-  const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
-  xml::SourceMappedText program(sources);
-  size_t kept = 0;  // everything before is copied or excluded
+  std::vector<TextPart> parts;
+  size_t kept = 0;  // everything before is in a part or excluded
+  const auto keep = [&](size_t end) { parts.push_back({static_cast<uint32_t>(kept), static_cast<uint32_t>(end)}); };
   // Excludes the source up to the comment that contains `closing`.
   const auto exclude = [&](size_t begin, std::string_view closing) {
     const size_t word = std::min(source.find(closing, begin), source.size());
     const size_t comment = source.substr(begin, word - begin).rfind("(*");
-    program.add(loc(kept), loc(begin));
+    keep(begin);
     kept = comment == std::string_view::npos ? word : begin + comment;
     return kept;
   };
@@ -53,18 +50,38 @@ FileId readProgram(ReadContext& context, FileId file) {
       if (!language.empty() && language != "ST" && language != "IL") {
         const std::string_view name = valueOf(source, p, end, "NAME:");
         const std::string how = "drawn in " + std::string(language);
-        context.diagnostics
-            .report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - source.data())), {name, how})
-            .length(static_cast<uint32_t>(language.size()));
+        const Loc loc{sources.begin(file).offset + static_cast<uint32_t>(language.data() - source.data())};
+        diagnostics.report(diag::NetworkBody, loc, {name, how}).length(static_cast<uint32_t>(language.size()));
         p = exclude(end, "END_WORKSHEET");
         continue;
       }
     }
     p = end;
   }
-  if (kept == 0) return file;
-  program.add(loc(kept), loc(source.size()));
+  keep(source.size());
+  return parts;
+}
+
+}  // namespace
+
+bool isMultiprog(std::string_view text) { return hasToolComment(text, {"@PROPERTIES_EX", "@KEY"}); }
+
+FileId readProgram(ReadContext& context, FileId file) {
+  Sources& sources = context.sources;
+  const std::vector<TextPart> parts = partsOf(sources, file, context.diagnostics);
+  if (parts.size() == 1) return file;
+  xml::SourceMappedText program(sources);
+  const uint32_t base = sources.begin(file).offset;
+  for (const TextPart& part : parts) program.add({base + part.begin}, {base + part.end});
   return program.finish(sources, file);
+}
+
+std::vector<TextPart> programParts(std::string_view text) {
+  Sources sources;
+  const FileId file = sources.add({}, std::string(text));
+  if (!file) return {};
+  Diagnostics unused(sources);  // readProgram reports what is wrong
+  return partsOf(sources, file, unused);
 }
 
 }  // namespace rung::importer::multiprog

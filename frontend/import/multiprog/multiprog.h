@@ -12,4 +12,7 @@ bool isMultiprog(std::string_view text);
 
 FileId readProgram(ReadContext& context, FileId file);
 
+// All but the descriptions and drawn worksheets.
+std::vector<TextPart> programParts(std::string_view text);
+
 }  // namespace rung::importer::multiprog
