@@ -31,7 +31,7 @@ void RtuLine::open(const rung_channel_settings& settings) {
 void RtuLine::receive(const uint8_t* bytes, size_t count, int64_t now_ns) {
   if (size_ > 0 && now_ns - last_ns_ >= std::max(kDiscardNs, silence_ns_)) size_ = 0;
   const size_t taken = std::min(count, sizeof bytes_ - size_);
-  memcpy(bytes_ + size_, bytes, taken);
+  std::copy_n(bytes, taken, bytes_ + size_);  // nothing may be taken from a null pointer
   size_ += static_cast<uint32_t>(taken);
   is_too_long_ = is_too_long_ || taken < count;
   is_looked_at_ = false;
