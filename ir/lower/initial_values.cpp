@@ -1,5 +1,6 @@
 // Lowering of initial values. In: checked initialisers and type defaults. Out: assignments that give a place its
 // initial value; arrays of constants become one blob of bytes.
+#include <algorithm>
 #include <cstring>
 
 #include "ir/lower/lowering.h"
@@ -20,7 +21,7 @@ bool storeString(const TypeTable& types, TypeId type, std::string_view string, u
     size_t length = std::min<size_t>(string.size(), info.length);
     if (info.kind == TypeKind::UString && length < string.size())  // cut between characters
       while (length > 0 && (static_cast<unsigned char>(string[length]) & 0xc0) == 0x80) --length;
-    std::memcpy(to, string.data(), length);
+    std::copy_n(string.data(), length, to);  // an empty string may have no address
     return true;
   }
   uint32_t unit = 0;

@@ -56,7 +56,7 @@ int64_t FileWork::begin(const rung_file_work& work) {
   free->found = 0;
   const bool moves_bytes = work.kind == RUNG_WORK_WRITE || work.kind == RUNG_WORK_READ;
   if (moves_bytes && work.count > RUNG_WORK_BYTES) return RUNG_FILE_FAILED;
-  if (work.kind == RUNG_WORK_WRITE) memcpy(free->bytes, work.bytes, work.count);
+  if (work.kind == RUNG_WORK_WRITE) std::copy_n(static_cast<const char*>(work.bytes), work.count, free->bytes);
   free->order = ++begun_;
   free->state = Waiting;
   condition_.notify_one();
@@ -74,7 +74,7 @@ int64_t FileWork::result(int64_t number, void* bytes, uint64_t capacity) {
     oldest.state = Complete;
   }
   if (request.state != Complete) return RUNG_FILE_BUSY;
-  memcpy(bytes, request.bytes, std::min(capacity, request.found));
+  std::copy_n(request.bytes, std::min(capacity, request.found), static_cast<char*>(bytes));
   request.state = Free;
   return request.result;
 }

@@ -1,6 +1,7 @@
 // What simulated modules have in common: see simulated.h.
 #include "simulated.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace rung::host {
@@ -20,7 +21,7 @@ SimulatedModule::SimulatedModule(const ModuleType& type, uint32_t input_offset, 
 
 void SimulatedModule::read(uint8_t* inputs, int64_t now_ns) {
   readSignals(now_ns);
-  memcpy(inputs, inputs_.data(), inputs_.size());
+  std::copy(inputs_.begin(), inputs_.end(), inputs);  // a module may have none
 }
 
 void SimulatedModule::write(const uint8_t* outputs, int64_t now_ns) {
@@ -28,7 +29,7 @@ void SimulatedModule::write(const uint8_t* outputs, int64_t now_ns) {
     has_stopped_ = false;
     return driveSafeSignals(outputs, now_ns);
   }
-  memcpy(outputs_.data(), outputs, outputs_.size());
+  std::copy_n(outputs, outputs_.size(), outputs_.begin());
   driveSignals(now_ns);
 }
 
