@@ -6,7 +6,7 @@
 
 namespace rung::codegen {
 
-// Values of expressions: expressions.cpp, arithmetic.cpp, conversions.cpp.
+// Values of expressions: expressions.cpp, arithmetic.cpp, contacts.cpp, conversions.cpp.
 class ExpressionWriter : public BodyPart {
  public:
   using BodyPart::BodyPart;

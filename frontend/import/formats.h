@@ -64,8 +64,9 @@ struct Format {
   // The program in the file, as a separate file; the file itself if it can be parsed unchanged. No file: an error has
   // been reported. Null: the parser reads it unchanged, or nothing reads it.
   FileId (*read)(ReadContext& context, FileId file);
-  // The declarations and bodies in it, for the formatter. Null: all of the text, or nothing.
-  std::vector<TextPart> (*parts)(std::string_view text) = nullptr;
+  // The declarations and bodies in it, for the formatter; reports what `read` reports. Null: all of the text, or
+  // nothing.
+  std::vector<TextPart> (*parts)(Sources& sources, FileId file, Diagnostics& diagnostics) = nullptr;
 };
 
 const Format& formatOf(FileKind kind);

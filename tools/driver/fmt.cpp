@@ -77,6 +77,14 @@ bool isUnreadBody(Diag diag) {
          diag == diag::ArchiveIl;
 }
 
+// What is wrong has been reported when the file was read.
+std::vector<importer::TextPart> partsOf(FileKind kind, std::string_view text) {
+  Sources sources;
+  const FileId file = sources.add({}, std::string(text));
+  Diagnostics unused(sources);
+  return file ? importer::formatOf(kind).parts(sources, file, unused) : std::vector<importer::TextPart>();
+}
+
 // The bodies in IL of each file.
 class BodyFinder {
  public:
@@ -160,8 +168,7 @@ class FileFormatter {
       case FileKind::Codesys2:
       case FileKind::Multiprog: {
         std::vector<format::Span> parts;
-        for (const importer::TextPart& part : importer::formatOf(input.kind).parts(source))
-          parts.push_back({part.begin, part.end});
+        for (const importer::TextPart& part : partsOf(input.kind, source)) parts.push_back({part.begin, part.end});
         return format::formattedParts(source, parts, bodies_.of(input.file), style, options.dialect);
       }
       case FileKind::Unknown:

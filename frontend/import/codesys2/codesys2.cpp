@@ -236,12 +236,8 @@ FileId readProgram(ReadContext& context, FileId file) {
   return reader.run() ? reader.program().finish(context.sources, file) : file;
 }
 
-std::vector<TextPart> programParts(std::string_view text) {
-  Sources sources;
-  const FileId file = sources.add({}, std::string(text));
-  if (!file) return {};
-  Diagnostics unused(sources);  // readProgram reports what is wrong
-  Codesys2Reader reader(sources, file, unused);
+std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics) {
+  Codesys2Reader reader(sources, file, diagnostics);
   reader.run();
   return std::move(reader.parts());
 }

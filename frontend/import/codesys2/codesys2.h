@@ -13,6 +13,6 @@ bool isCodesys2(std::string_view text);
 FileId readProgram(ReadContext& context, FileId file);
 
 // POUs, types and lists of globals, each with the comments of its object before it; no drawn bodies.
-std::vector<TextPart> programParts(std::string_view text);
+std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics);
 
 }  // namespace rung::importer::codesys2

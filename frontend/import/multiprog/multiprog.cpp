@@ -24,8 +24,11 @@ std::string_view valueOf(std::string_view source, size_t comment, size_t end, st
   return value.substr(0, value.find_first_of("\r\n*"));
 }
 
-// The parts that are source. Reports each drawn worksheet.
-std::vector<TextPart> partsOf(const Sources& sources, FileId file, Diagnostics& diagnostics) {
+}  // namespace
+
+bool isMultiprog(std::string_view text) { return hasToolComment(text, {"@PROPERTIES_EX", "@KEY"}); }
+
+std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view source = sources.sourceText(file);
   std::vector<TextPart> parts;
   size_t kept = 0;  // everything before is in a part or excluded
@@ -62,26 +65,14 @@ std::vector<TextPart> partsOf(const Sources& sources, FileId file, Diagnostics& 
   return parts;
 }
 
-}  // namespace
-
-bool isMultiprog(std::string_view text) { return hasToolComment(text, {"@PROPERTIES_EX", "@KEY"}); }
-
 FileId readProgram(ReadContext& context, FileId file) {
   Sources& sources = context.sources;
-  const std::vector<TextPart> parts = partsOf(sources, file, context.diagnostics);
+  const std::vector<TextPart> parts = programParts(sources, file, context.diagnostics);
   if (parts.size() == 1) return file;
   xml::SourceMappedText program(sources);
   const uint32_t base = sources.begin(file).offset;
   for (const TextPart& part : parts) program.add({base + part.begin}, {base + part.end});
   return program.finish(sources, file);
-}
-
-std::vector<TextPart> programParts(std::string_view text) {
-  Sources sources;
-  const FileId file = sources.add({}, std::string(text));
-  if (!file) return {};
-  Diagnostics unused(sources);  // readProgram reports what is wrong
-  return partsOf(sources, file, unused);
 }
 
 }  // namespace rung::importer::multiprog

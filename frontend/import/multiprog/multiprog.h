@@ -13,6 +13,6 @@ bool isMultiprog(std::string_view text);
 FileId readProgram(ReadContext& context, FileId file);
 
 // All but the descriptions and drawn worksheets.
-std::vector<TextPart> programParts(std::string_view text);
+std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics);
 
 }  // namespace rung::importer::multiprog
