@@ -29,6 +29,7 @@ struct LibraryFile {
   const char* library;  // `Standard`
   const char* path;     // as diagnostics and faults print it
   std::string_view source;
+  FileId file = {};  // none: `source` is not in Sources yet
 };
 // Another name of a library, for qualified names: Tc2_Standard.TON.
 struct LibraryAlias {

@@ -33,6 +33,7 @@ constexpr Format kFormats[] = {
     {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram, codesys2::programParts},
     {FileKind::Plcopen, "", "", plcopen::isPlcopen, plcopen::readProgram},
     {FileKind::Iec10, "", "", iec10::isIec10, iec10::readProgram},
+    {FileKind::BeremizProject, "", "", beremiz::isProject, nullptr},
     {FileKind::Beremiz, "", "", beremiz::isExtension, beremiz::readProgram},
     {FileKind::Xml, "XML other than PLCopen's or that of IEC 61131-10", ".xml .cfc", isXml, nullptr},
     {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
@@ -67,7 +68,9 @@ bool hasExtension(std::string_view path, std::string_view extension) {
 }
 
 FileKind kindOfExtension(std::string_view path) {
-  if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  if (name == "rung.project") return FileKind::Project;
+  if (name == "beremiz.xml") return FileKind::BeremizProject;
   for (const Format& row : kFormats)
     if (hasOneOf(path, row.extensions)) return row.kind;
   return FileKind::Unknown;
@@ -102,7 +105,8 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   }
   if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
   // The extension claims XML, the content is not.
-  if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject)
+  if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject ||
+      by_name == FileKind::BeremizProject)
     return FileKind::Unknown;
   return by_name;
 }

@@ -16,17 +16,18 @@ enum class FileKind : uint8_t {
   Unknown,
   St,
   Il,
-  Xml,         // of an unknown kind
-  Nct,         // machine-tool ladder
-  Cam,         // cam tables
-  TwinCat,     // .TcPOU .TcDUT .TcGVL .TcIO .TcTTO
-  PlcProject,  // .plcproj of TwinCAT
-  Plcopen,     // TC6 XML
-  Iec10,       // XML of IEC 61131-10
-  Beremiz,     // Python and C extensions of Beremiz projects
-  Codesys2,    // exports of CODESYS 2.3
-  Multiprog,   // MULTIPROG and PC Worx
-  Project,     // rung.project
+  Xml,             // of an unknown kind
+  Nct,             // machine-tool ladder
+  Cam,             // cam tables
+  TwinCat,         // .TcPOU .TcDUT .TcGVL .TcIO .TcTTO
+  PlcProject,      // .plcproj of TwinCAT
+  Plcopen,         // TC6 XML
+  Iec10,           // XML of IEC 61131-10
+  BeremizProject,  // beremiz.xml: its folder is a project of Beremiz or OpenPLC
+  Beremiz,         // extensions of such projects
+  Codesys2,        // exports of CODESYS 2.3
+  Multiprog,       // MULTIPROG and PC Worx
+  Project,         // rung.project
   Binary
 };
 

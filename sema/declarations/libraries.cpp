@@ -167,6 +167,12 @@ Kind scanBase(Scanner& scan, std::string_view& base) {
   return kind;
 }
 
+// CODESYS 2.3 exports the actions of a POU after it.
+void skipActions(Scanner& scan) {
+  for (Scanner ahead = scan; ahead.next() == Kind::Word && ahead.is("ACTION") && skipTo(ahead, "END_ACTION");)
+    scan = ahead;
+}
+
 uint8_t standardsOf(std::string_view pragma) {
   uint8_t standards = 0;
   if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec2);
@@ -180,7 +186,7 @@ uint8_t standardsOf(std::string_view pragma) {
 std::vector<IndexedBlock> indexLibrary(std::string_view source) {
   std::vector<IndexedBlock> blocks;
   Scanner scan(source);
-  bool has_pragma = false, bare = true;
+  bool has_pragma = false, bare = true, is_configuration = false;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Pragma) {
@@ -201,19 +207,23 @@ std::vector<IndexedBlock> indexLibrary(std::string_view source) {
     }
     if (kind != Kind::Word) continue;
     if (!has_pragma) block.begin = scan.begin();
-    const char* end = scan.is("FUNCTION_BLOCK") ? "END_FUNCTION_BLOCK"
-                      : scan.is("FUNCTION")     ? "END_FUNCTION"
-                      : scan.is("PROGRAM")      ? "END_PROGRAM"
-                      : scan.is("INTERFACE")    ? "END_INTERFACE"
-                      : scan.is("CLASS")        ? "END_CLASS"
-                                                : nullptr;
+    // Of a project that is used as a library, the globals of its configuration count, but no program runs.
+    if (scan.is("CONFIGURATION") || scan.is("END_CONFIGURATION")) is_configuration = scan.is("CONFIGURATION");
+    const char* end = is_configuration            ? nullptr
+                      : scan.is("FUNCTION_BLOCK") ? "END_FUNCTION_BLOCK"
+                      : scan.is("FUNCTION")       ? "END_FUNCTION"
+                      : scan.is("PROGRAM")        ? "END_PROGRAM"
+                      : scan.is("INTERFACE")      ? "END_INTERFACE"
+                      : scan.is("CLASS")          ? "END_CLASS"
+                                                  : nullptr;
     if (end != nullptr) {
       if (scan.next() != Kind::Word) continue;
-      if (scan.is("FINAL") || scan.is("ABSTRACT")) scan.next();
+      while (scan.is("FINAL") || scan.is("ABSTRACT") || scan.is("PUBLIC") || scan.is("INTERNAL")) scan.next();
       block.names.push_back(scan.token());
       Kind after = scan.next();
       if (after == Kind::Word && scan.is("EXTENDS")) after = scanBase(scan, block.base);
       if (after != Kind::Word || !scan.is(end)) skipTo(scan, end);
+      skipActions(scan);
     } else if (scan.is("TYPE")) {
       scanTypes(scan, block.names, bare);
     } else if (scan.is("VAR_GLOBAL")) {
@@ -267,6 +277,7 @@ void indexLibraries(Context& context) {
       libraries.list.emplace_back().name = name;
     }
     libraries.library_of_file[f] = space.index;
+    libraries.sources[f] = files[f].file;
     for (const IndexedBlock& block : indexLibrary(files[f].source)) {
       if ((block.standards >> dialect & 1u) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());

@@ -209,6 +209,7 @@ void matchExternal(Context& context, VarId id) {
     found = space->globals.find(keyOf(context, name));
   if (!found)
     found = globalOfResource(context, keyOf(context, name), context.scopes.globals.find(keyOf(context, name)));
+  if (!found) found = lookUpLibrary(context, keyOf(context, name), kNoLibrary);
   if (found.entityKind() != EntityKind::Var) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(

@@ -107,6 +107,9 @@ bool Compilation::read() {
     usage_error_ = "the PLC period of an NCT program must be a multiple of its TimeSlice";
   const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
   if (ok) readPrograms(sources, diagnostics, inputs, for_pictures);
+  if (ok)
+    for (const LibraryInput& file : inputs.library_files)
+      libraries.addFile(file.library, file.path, file.file, sources.sourceText(file.file));
   noteLibraries();
   times_.end();
   return ok;
@@ -191,7 +194,7 @@ bool Compilation::check() {
       sema_options.library_projects.push_back({names, {}});
     for (const InputFile& input : inputs.files)
       if (input.is_library) sema_options.library_projects[input.library].files.push_back(input.file);
-    sema_options.free_subranges = !inputs.project_names.empty() || !inputs.library_names.empty();
+    sema_options.free_subranges = inputs.is_twincat;
     sema_options.pool_bytes = inputs.project.pool_bytes;
     sema_options.areas = inputs.project.areas;
     sema_options.aligned_globals = inputs.project.aligned_globals;

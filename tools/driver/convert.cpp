@@ -346,6 +346,7 @@ bool Converter::becomesFolder(const InputFile& input) const {
     case FileKind::Cam:
     case FileKind::TwinCat:
     case FileKind::PlcProject:
+    case FileKind::BeremizProject:
     case FileKind::Beremiz:
     case FileKind::Project:
     case FileKind::Binary: return compilation_.options.splits;

@@ -175,6 +175,7 @@ class FileFormatter {
       case FileKind::Xml:
       case FileKind::Cam:
       case FileKind::PlcProject:
+      case FileKind::BeremizProject:
       case FileKind::Beremiz:
       case FileKind::Project:
       case FileKind::Binary: return std::string(source);

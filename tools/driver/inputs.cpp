@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 
 #include "frontend/import/pairs.h"
 #include "frontend/import/twincat/twincat.h"
@@ -16,6 +17,7 @@
 #include "frontend/syntax/diagnostics.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/file_provider.h"
+#include "tools/driver/libraries.h"
 
 namespace rung::driver {
 namespace {
@@ -34,8 +36,8 @@ class Collector {
 
   void collect() {
     for (const std::string& word : options_.inputs) addInput(word);
-    for (const std::string& library : options_.library_paths)
-      if (importer::kindOfExtension(library) == FileKind::PlcProject) addPlcProject(library, true);
+    for (const std::string& written : options_.library_paths) addLibrary(libraryPath(written));
+    for (const std::string& written : libraryPaths(inputs_.project)) addLibrary(libraryPath(written));
     if (inputs_.io_error) return;
     findRoot();
     for (Candidate& candidate : candidates_)
@@ -91,7 +93,8 @@ class Collector {
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
       fail(diag::CannotRead, word, {word, "not a file or folder"});
-    } else if (importer::kindOfExtension(word) == FileKind::Project) {
+    } else if (const FileKind kind = importer::kindOfExtension(word);
+               kind == FileKind::Project || kind == FileKind::BeremizProject) {
       const std::string folder = folderOf(word);
       bases_.push_back(absolutePath(folder));
       addProjectFolder(folder);
@@ -154,6 +157,7 @@ class Collector {
     if (!importer::twincat::readProject(sources_, file, diagnostics_, project)) return;
     const size_t slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    inputs_.is_twincat = true;
     std::vector<std::string> names = std::move(project.names);
     names.insert(names.begin(), path.substr(folder.size(), path.rfind('.') - folder.size()));
     const auto library_index = static_cast<uint32_t>(inputs_.library_names.size());
@@ -176,6 +180,30 @@ class Collector {
       ++inputs_.missing_files;
     }
     for (importer::Library& library : project.libraries) inputs_.libraries.push_back(std::move(library));
+  }
+
+  // A library that is not in ST, which libraries.cpp reads: a file, or a folder whose files form one library and each
+  // folder in it another.
+  void addLibrary(const LibraryPath& library, bool with_folders = true) {
+    const std::string& path = library.path;
+    struct stat info;
+    if (stat(path.c_str(), &info) != 0) return;  // libraries.cpp reports it
+    if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path, true);
+    if (S_ISREG(info.st_mode)) return addLibraryFile(path, library.name(), true);
+    Content content;
+    if (!list(path, content)) return;
+    for (const std::string& project : content.plc_projects) addPlcProject(project, true);
+    if (!content.plc_projects.empty()) return;
+    for (const std::string& file : content.files) addLibraryFile(file, library.name(), false);
+    if (!with_folders || content.is_beremiz) return;
+    for (const std::string& folder : content.folders) addLibrary({{}, folder}, false);
+  }
+
+  void addLibraryFile(const std::string& path, const std::string& library, bool named) {
+    if (isLibraryInSt(path)) return;
+    SourceFile source;
+    if (!read(path, path, named, source)) return;
+    inputs_.library_files.push_back({path, library, source.kind, source.file});
   }
 
   // `path` below the folder, in the letter case on disk: project files may come from case-insensitive systems.
@@ -261,15 +289,19 @@ class Collector {
     return true;
   }
 
-  // A folder with a .plcproj takes the files that it lists.
-  void scan(const std::string& folder, int depth) {
+  // What a folder holds that may belong to a program, as paths.
+  struct Content {
+    std::vector<std::string> files, folders, plc_projects;
+    bool is_beremiz = false;  // it holds beremiz.xml
+  };
+
+  bool list(const std::string& folder, Content& content) {
     DIR* dir = opendir(folder.c_str());
     if (dir == nullptr) {
       const char* why = strerror(errno);
-      return fail(diag::CannotRead, folder, {folder, why});
+      fail(diag::CannotRead, folder, {folder, why});
+      return false;
     }
-    const size_t before = candidates_.size();
-    std::vector<std::string> folders, projects;
     const std::string prefix = folder.back() == '/' ? folder : folder + "/";
     while (const dirent* entry = readdir(dir)) {
       if (entry->d_name[0] == '.') continue;
@@ -286,29 +318,53 @@ class Collector {
           type = DT_DIR;
         }
       }
-      if (type == DT_DIR) {
-        folders.push_back(std::move(path));
-      } else if (type == DT_REG) {
-        const FileKind kind = importer::kindOfExtension(path);
-        if (kind == FileKind::Unknown || kind == FileKind::Project) continue;
-        if (kind == FileKind::PlcProject) {
-          projects.push_back(std::move(path));
-          continue;
-        }
-        candidates_.push_back({absolutePath(path), std::move(path), {}, false});
-      }
+      if (type == DT_DIR) content.folders.push_back(std::move(path));
+      if (type != DT_REG) continue;
+      const FileKind kind = importer::kindOfExtension(path);
+      if (kind == FileKind::PlcProject)
+        content.plc_projects.push_back(std::move(path));
+      else if (kind == FileKind::BeremizProject)
+        content.is_beremiz = true;
+      else if (kind != FileKind::Unknown && kind != FileKind::Project)
+        content.files.push_back(std::move(path));
     }
     closedir(dir);
-    if (!projects.empty()) {
-      candidates_.resize(before);
-      std::sort(projects.begin(), projects.end());
-      for (const std::string& project : projects) addPlcProject(project);
-      return;
-    }
-    for (const std::string& inner : folders) {
+    for (std::vector<std::string>* paths : {&content.files, &content.folders, &content.plc_projects})
+      std::sort(paths->begin(), paths->end());
+    if (content.is_beremiz) leaveGenerated(content);
+    return true;
+  }
+
+  // Of a project of Beremiz or OpenPLC remain its program and its extensions in folders such as `python_0@py_ext`. The
+  // others hold what the tool generated, among it the whole program as ST.
+  static void leaveGenerated(Content& content) {
+    const auto named = [](const std::string& path) { return std::string_view(path).substr(path.rfind('/') + 1); };
+    const auto program = std::find_if(content.files.begin(), content.files.end(),
+                                      [&](const std::string& path) { return named(path) == "plc.xml"; });
+    content.is_beremiz = program != content.files.end();
+    if (!content.is_beremiz) return;
+    content.files = {*program};
+    std::erase_if(content.folders, [&](const std::string& path) { return named(path).find('@') == std::string::npos; });
+  }
+
+  // Of the folder of an extension, the files that say what variables it has.
+  static bool declaresVariables(const std::string& path) {
+    const std::string_view name = std::string_view(path).substr(path.rfind('/') + 1);
+    return name == "pyfile.xml" || name == "cfile.xml" || name == "baseconfnode.xml";
+  }
+
+  // A folder with a .plcproj takes the files that it lists.
+  void scan(const std::string& folder, int depth, bool is_extension = false) {
+    Content content;
+    if (!list(folder, content)) return;
+    if (is_extension) std::erase_if(content.files, std::not_fn(declaresVariables));
+    for (const std::string& project : content.plc_projects) addPlcProject(project);
+    if (!content.plc_projects.empty()) return;
+    for (const std::string& file : content.files) candidates_.push_back({absolutePath(file), file, {}, false});
+    for (const std::string& inner : content.folders) {
       if (depth > 100) continue;
       inputs_.read.push_back(inner);
-      scan(inner, depth + 1);
+      scan(inner, depth + 1, is_extension || content.is_beremiz);
     }
   }
 
@@ -331,30 +387,61 @@ class Collector {
     inputs_.root = root;
   }
 
-  void addFile(const Candidate& candidate) {
+  struct SourceFile {
+    FileKind kind = FileKind::Unknown;
+    FileId file;
+  };
+
+  // Adds a file to the sources under a path; false: it holds no program, or an error was reported.
+  bool read(const std::string& path, const std::string& under, bool named, SourceFile& source) {
     // Checked before reading: such a file would not fit the memory either.
     struct stat info;
-    if (stat(candidate.path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
-      return fail(diag::TooMuchInput, candidate.path, {candidate.path});
-    ReadResult read = files_.read(candidate.path);
-    if (!read.error.empty()) return fail(diag::CannotRead, candidate.path, {candidate.path, read.error});
-    inputs_.read.push_back(candidate.path);
-    if (!decodeUtf16(read.content)) return fail(diag::Utf16File, candidate.path, {candidate.path});
-    const FileKind kind = importer::kindOf(candidate.path, read.content);
-    if (kind == FileKind::Binary) return fail(diag::BinaryFile, candidate.path, {candidate.path});
-    if (kind == FileKind::Unknown) return fail(diag::UnknownFileKind, candidate.path, {candidate.path});
-    if (kind == FileKind::PlcProject || kind == FileKind::Project) return;
-    if (!importer::holdsProgram(kind)) {
-      const std::string_view name = importer::formatOf(kind).name;
-      if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, name});
-      diagnostics_.report(diag::KindIgnored, {}, {candidate.path, name}).path(candidate.path);
-      return;
+    const auto failed = [&](Diag diag, std::initializer_list<std::string_view> args) {
+      fail(diag, path, args);
+      return false;
+    };
+    if (stat(path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
+      return failed(diag::TooMuchInput, {path});
+    ReadResult read = files_.read(path);
+    if (!read.error.empty()) return failed(diag::CannotRead, {path, read.error});
+    inputs_.read.push_back(path);
+    if (!decodeUtf16(read.content)) return failed(diag::Utf16File, {path});
+    source.kind = importer::kindOf(path, read.content);
+    switch (source.kind) {
+      case FileKind::Binary: return failed(diag::BinaryFile, {path});
+      case FileKind::Unknown: return failed(diag::UnknownFileKind, {path});
+      case FileKind::PlcProject:
+      case FileKind::BeremizProject:
+      case FileKind::Project: return false;
+      case FileKind::St:
+      case FileKind::Il:
+      case FileKind::Xml:
+      case FileKind::Nct:
+      case FileKind::Cam:
+      case FileKind::TwinCat:
+      case FileKind::Plcopen:
+      case FileKind::Iec10:
+      case FileKind::Beremiz:
+      case FileKind::Codesys2:
+      case FileKind::Multiprog: break;
     }
-    FileId file = sources_.add(candidate.below, std::move(read.content));
-    if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
-    sources_.setDisplayPath(file, candidate.path);
-    inputs_.files.push_back(
-        {candidate.path, candidate.path, candidate.below, kind, file, candidate.is_library, candidate.library});
+    if (!importer::holdsProgram(source.kind)) {
+      const std::string_view name = importer::formatOf(source.kind).name;
+      if (named) return failed(diag::KindNotRead, {path, name});
+      diagnostics_.report(diag::KindIgnored, {}, {path, name}).path(path);
+      return false;
+    }
+    source.file = sources_.add(under, std::move(read.content));
+    if (!source.file) return failed(diag::TooMuchInput, {path});
+    sources_.setDisplayPath(source.file, path);
+    return true;
+  }
+
+  void addFile(const Candidate& candidate) {
+    SourceFile source;
+    if (!read(candidate.path, candidate.below, candidate.named, source)) return;
+    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, source.kind, source.file,
+                             candidate.is_library, candidate.library});
   }
 
   const Options& options_;
@@ -413,6 +500,11 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bo
     if (!input.file) inputs.unread = true;
   }
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
+  for (LibraryInput& input : inputs.library_files) {
+    const importer::Format& format = importer::formatOf(input.kind);
+    if (format.read != nullptr) input.file = format.read(context, input.file);
+  }
+  std::erase_if(inputs.library_files, [](const LibraryInput& input) { return !input.file; });
 }
 
 }  // namespace rung::driver

@@ -27,6 +27,13 @@ struct InputFile {
   uint32_t library = 0;     // then: its index in Inputs::library_names
 };
 
+// A file of a library given with -I that is not in ST.
+struct LibraryInput {
+  std::string path, library;
+  FileKind kind = FileKind::Unknown;
+  FileId file;
+};
+
 struct Inputs {
   std::string root;                  // absolute
   std::vector<InputFile> files;      // the ones to compile, sorted by `below`
@@ -36,6 +43,8 @@ struct Inputs {
   std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
   std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
   std::vector<std::vector<std::string>> library_names;  // of each .plcproj given with -I
+  std::vector<LibraryInput> library_files;
+  bool is_twincat = false;     // a .plcproj was read
   bool unread = false;         // a vendor's file could not be understood: its declarations are missing
   uint32_t missing_files = 0;  // that a .plcproj lists: one error each, and the others are checked
   bool io_error = false;       // something could not be read: exit 2

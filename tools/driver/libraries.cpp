@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "frontend/import/formats.h"
 #include "frontend/source/files.h"
 #include "library_sources.h"
 #include "tools/driver/namespaces.h"
@@ -33,10 +34,15 @@ std::string LibrarySet::load(const Options& options) {
     files_.push_back({library, contents_.back().c_str(), file.text});
   }
   for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
-  for (const std::string& path : options.library_paths) {
-    if (path.ends_with(".plcproj")) continue;  // read with the inputs
-    const LibraryPath library = libraryPath(path);
-    if (std::string error = addFolder(library.folder, library.called, true); !error.empty()) return error;
+  for (const std::string& written : options.library_paths) {
+    const LibraryPath library = libraryPath(written);
+    struct stat info;
+    if (stat(library.path.c_str(), &info) != 0 || S_ISDIR(info.st_mode)) {
+      if (std::string error = addFolder(library, true); !error.empty()) return error;
+    } else if (isLibraryInSt(library.path)) {
+      contents_.push_back(library.name());
+      if (std::string error = addFile(contents_.back().c_str(), library.path); !error.empty()) return error;
+    }
   }
   return {};
 }
@@ -46,6 +52,24 @@ LibraryPath libraryPath(const std::string& written) {
   const std::string_view name = std::string_view(written).substr(0, equal);
   if (equal == std::string::npos || !isModuleName(name)) return {{}, written};
   return {std::string(name), written.substr(equal + 1)};
+}
+
+std::string LibraryPath::name() const {
+  if (!called.empty()) return called;
+  std::string_view last = path;
+  while (last.size() > 1 && last.back() == '/') last.remove_suffix(1);
+  last = last.substr(last.rfind('/') + 1);
+  const bool is_file = importer::kindOfExtension(last) != importer::FileKind::Unknown;
+  return std::string(is_file ? last.substr(0, last.rfind('.')) : last);
+}
+
+bool isLibraryInSt(const std::string& path) { return path.ends_with(".st") || path.ends_with(".iecst"); }
+
+void LibrarySet::addFile(const std::string& library, const std::string& path, FileId file, std::string_view text) {
+  contents_.push_back(library);
+  const char* name = contents_.back().c_str();
+  contents_.push_back(path);
+  files_.push_back({name, contents_.back().c_str(), text, file});
 }
 
 void LibrarySet::prefer(const std::vector<std::string>& names) {
@@ -63,9 +87,10 @@ void LibrarySet::addAlias(const std::string& alias, const std::string& library) 
 }
 
 // Files of the folder are one library of its name; so is each folder inside.
-std::string LibrarySet::addFolder(const std::string& folder, std::string_view called, bool with_folders) {
+std::string LibrarySet::addFolder(const LibraryPath& of, bool with_folders) {
+  const std::string& folder = of.path;
   DIR* dir = opendir(folder.c_str());
-  if (dir == nullptr) return "cannot read the library folder `" + folder + "`: " + strerror(errno);
+  if (dir == nullptr) return "cannot read the library `" + folder + "`: " + strerror(errno);
   std::vector<std::string> names;
   while (const dirent* entry = readdir(dir))
     if (entry->d_name[0] != '.') names.emplace_back(entry->d_name);
@@ -73,27 +98,31 @@ std::string LibrarySet::addFolder(const std::string& folder, std::string_view ca
   std::sort(names.begin(), names.end());
   read_.push_back(folder);
 
-  std::string_view name = folder;
-  while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
-  contents_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
+  contents_.push_back(of.name());
   const char* library = contents_.back().c_str();
   folders_.emplace_back(library, folder);
   for (const std::string& entry : names) {
     const std::string path = folder + "/" + entry;
     struct stat info;
     if (stat(path.c_str(), &info) != 0) continue;
-    if (S_ISDIR(info.st_mode) && with_folders) {
-      if (std::string error = addFolder(path, {}, false); !error.empty()) return error;
-    } else if (S_ISREG(info.st_mode) && (entry.ends_with(".st") || entry.ends_with(".iecst"))) {
-      ReadResult read = readFile(path);
-      if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;
-      read_.push_back(path);
-      contents_.push_back(path);
-      const char* shown = contents_.back().c_str();
-      contents_.push_back(std::move(read.content));
-      files_.push_back({library, shown, contents_.back()});
-    }
+    std::string error;
+    if (S_ISDIR(info.st_mode) && with_folders)
+      error = addFolder({{}, path}, false);
+    else if (S_ISREG(info.st_mode) && isLibraryInSt(entry))
+      error = addFile(library, path);
+    if (!error.empty()) return error;
   }
+  return {};
+}
+
+std::string LibrarySet::addFile(const char* library, const std::string& path) {
+  ReadResult read = readFile(path);
+  if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;
+  read_.push_back(path);
+  contents_.push_back(path);
+  const char* shown = contents_.back().c_str();
+  contents_.push_back(std::move(read.content));
+  files_.push_back({library, shown, contents_.back()});
   return {};
 }
 

@@ -1,5 +1,5 @@
 // The libraries that a program may use: those built into the tool (stdlib/*/*.st and, by family, stdlib/*/*/*.st) and
-// those of -I folders. In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and
+// those of -I in ST. In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and
 // list.cpp.
 #pragma once
 
@@ -13,30 +13,37 @@
 
 namespace rung::driver {
 
+// `-I PATH` and `-I NAME=PATH`.
 struct LibraryPath {
-  std::string called;  // empty: the name of the folder
-  std::string folder;
+  std::string called;  // empty: after the folder or file
+  std::string path;
+
+  std::string name() const;
 };
-// `-I DIR` and `-I NAME=DIR`.
 LibraryPath libraryPath(const std::string& written);
+
+// Whether a LibrarySet reads this file; inputs.cpp reads those of other formats.
+bool isLibraryInSt(const std::string& path);
 
 class LibrarySet {
  public:
   // The error names the file that could not be read.
   [[nodiscard]] std::string load(const Options& options);
+  // A file of a library that was read from another format.
+  void addFile(const std::string& library, const std::string& path, FileId file, std::string_view text);
   // Another name for a library: `Std.TON` when a project refers to Tc2_Standard as Std.
   void addAlias(const std::string& alias, const std::string& library);
   // A bare name that several libraries have means that of these.
   void prefer(const std::vector<std::string>& names);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }
-  // The folders of -I: a library and where it is.
+  // What -I names: a library and where it is.
   const std::vector<std::pair<std::string, std::string>>& folders() const { return folders_; }
   const std::vector<std::string>& read() const { return read_; }  // files and folders of -I, for depfiles
 
  private:
-  // `called`: the library's name, or empty for that of the folder.
-  [[nodiscard]] std::string addFolder(const std::string& folder, std::string_view called, bool with_folders);
+  [[nodiscard]] std::string addFolder(const LibraryPath& library, bool with_folders);
+  [[nodiscard]] std::string addFile(const char* library, const std::string& path);
 
   std::vector<sema::LibraryFile> files_;
   std::vector<sema::LibraryAlias> aliases_;

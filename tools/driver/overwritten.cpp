@@ -43,7 +43,8 @@ bool holdsSource(const std::string& path) {
   file.read(text.data(), kBeginning);
   text.resize(static_cast<size_t>(file.gcount()));
   const importer::FileKind kind = importer::kindOf(path, text);
-  return importer::holdsProgram(kind) || kind == importer::FileKind::Project || kind == importer::FileKind::PlcProject;
+  return importer::holdsProgram(kind) || kind == importer::FileKind::Project ||
+         kind == importer::FileKind::PlcProject || kind == importer::FileKind::BeremizProject;
 }
 
 }  // namespace

@@ -450,11 +450,17 @@ void applyProjectFile(const ProjectFile& project, Options& options) {
   options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
   // The last of two defines with one name counts: the command line's.
   options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
+  for (std::string& library : libraryPaths(project)) options.library_paths.push_back(std::move(library));
+}
+
+std::vector<std::string> libraryPaths(const ProjectFile& project) {
+  std::vector<std::string> paths;
   for (const std::string& written : project.libraries) {
     const LibraryPath library = libraryPath(written);
     const std::string called = library.called.empty() ? std::string() : library.called + "=";
-    options.library_paths.push_back(called + project.folder + "/" + library.folder);
+    paths.push_back(called + project.folder + "/" + library.path);
   }
+  return paths;
 }
 
 }  // namespace rung::driver

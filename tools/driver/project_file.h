@@ -58,6 +58,9 @@ struct ProjectFile {
 
 void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
 
+// The libraries of the file, as -I takes them.
+std::vector<std::string> libraryPaths(const ProjectFile& project);
+
 // Applies the settings of the file that the command line does not have.
 void applyProjectFile(const ProjectFile& project, Options& options);
 

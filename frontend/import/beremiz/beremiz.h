@@ -1,6 +1,7 @@
-// Extensions of Beremiz projects in Python and C, `pyfile.xml` and `cfile.xml`: the variables that they share with the
-// PLC. In: a source file with the root <PyFile> or <CFile>. Out: a VAR_GLOBAL with its <variables>, which the programs
-// of the project reach by VAR_EXTERNAL. The code of the extension is not read. A row of the table of formats.
+// Extensions of projects of Beremiz and OpenPLC, each in a folder `NAME@TYPE`: the variables that they share with the
+// PLC. In: a source file with the root <PyFile> or <CFile>, or with the root <BaseParams>, which says the channel of
+// any extension. Out: a VAR_GLOBAL that the programs of the project reach by VAR_EXTERNAL. The code of the extension is
+// not read. Rows of the table of formats.
 #pragma once
 
 #include <string_view>
@@ -9,7 +10,9 @@
 
 namespace rung::importer::beremiz {
 
-bool isExtension(std::string_view text);  // by content alone
+// By content alone.
+bool isProject(std::string_view text);
+bool isExtension(std::string_view text);
 
 FileId readProgram(ReadContext& context, FileId file);
 

@@ -160,10 +160,10 @@ TEST_F(InputsTest, ProjectOfTwinCatAsLibrary) {
 
 TEST(LibraryPath, MayBeCalledAnotherName) {
   EXPECT_EQ(libraryPath("lib/oscat").called, "");
-  EXPECT_EQ(libraryPath("lib/oscat").folder, "lib/oscat");
+  EXPECT_EQ(libraryPath("lib/oscat").path, "lib/oscat");
   EXPECT_EQ(libraryPath("OSCAT_BASIC=lib/oscat").called, "OSCAT_BASIC");
-  EXPECT_EQ(libraryPath("OSCAT_BASIC=lib/oscat").folder, "lib/oscat");
-  EXPECT_EQ(libraryPath("lib/a=b").folder, "lib/a=b");
+  EXPECT_EQ(libraryPath("OSCAT_BASIC=lib/oscat").path, "lib/oscat");
+  EXPECT_EQ(libraryPath("lib/a=b").path, "lib/a=b");
 }
 
 TEST_F(InputsTest, ListedFileThatIsGone) {
