@@ -1,7 +1,7 @@
 # rung_precompile(<target> [HEADERS <header>...])      makes the precompiled header that others reuse
 # rung_precompile(<target> REUSE <owner>)               uses that of <owner>, whose flags must be the same
-# Without it two thirds of a build go into parsing standard headers. Off (RUNG_PRECOMPILE) in the presets that check
-# that each file includes what it uses.
+# Without it two thirds of a build go into parsing standard headers. Off (RUNG_PRECOMPILE) in the preset fuzz,
+# which so checks that each file includes what it uses.
 function(rung_precompile target)
   cmake_parse_arguments(ARG "" "REUSE" "HEADERS" ${ARGN})
   if(NOT RUNG_PRECOMPILE)

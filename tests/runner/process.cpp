@@ -13,6 +13,12 @@
 namespace rung::tests {
 namespace {
 
+#ifdef RUNG_SANITIZED
+constexpr int kSlowness = 10;
+#else
+constexpr int kSlowness = 1;
+#endif
+
 constexpr size_t kMaxOutput = size_t{16} << 20;  // a test that prints more than this is broken
 
 // Reads both pipes until they close or time runs out; false: out of time.
@@ -72,7 +78,8 @@ Output run(const Command& command) {
   close(out[1]);
   close(err[1]);
   if (child > 0) {
-    const bool in_time = drain(out[0], err[0], command.seconds, output);
+    const int seconds = command.seconds * kSlowness;
+    const bool in_time = drain(out[0], err[0], seconds, output);
     if (!in_time) kill(-child, SIGKILL);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -80,7 +87,7 @@ Output run(const Command& command) {
     output.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (!in_time) {
       output.exit_code = 124;
-      output.err += "killed after " + std::to_string(command.seconds) + " s\n";
+      output.err += "killed after " + std::to_string(seconds) + " s\n";
     }
   }
   close(out[0]);

@@ -10,7 +10,7 @@ namespace rung::tests {
 struct Command {
   std::vector<std::string> arguments;  // [0]: the program, a path
   std::string folder;
-  int seconds = 120;    // then it and its children are killed
+  int seconds = 120;    // ten times as many with sanitizers; then it and its children are killed
   bool merged = false;  // stderr goes to stdout
 };
 
