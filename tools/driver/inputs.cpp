@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 
 #include "frontend/import/pairs.h"
 #include "frontend/import/twincat/twincat.h"
@@ -17,6 +16,7 @@
 #include "frontend/syntax/diagnostics.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/file_provider.h"
+#include "tools/driver/folder.h"
 #include "tools/driver/libraries.h"
 
 namespace rung::driver {
@@ -190,13 +190,14 @@ class Collector {
     if (stat(path.c_str(), &info) != 0) return;  // libraries.cpp reports it
     if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path, true);
     if (S_ISREG(info.st_mode)) return addLibraryFile(path, library.name(), true);
-    Content content;
-    if (!list(path, content)) return;
-    for (const std::string& project : content.plc_projects) addPlcProject(project, true);
-    if (!content.plc_projects.empty()) return;
-    for (const std::string& file : content.files) addLibraryFile(file, library.name(), false);
-    if (!with_folders || content.is_beremiz) return;
-    for (const std::string& folder : content.folders) addLibrary({{}, folder}, false);
+    Folder folder;
+    setScannedRoot(path);
+    if (!list(path, folder)) return;
+    for (const std::string& project : folder.plc_projects) addPlcProject(project, true);
+    if (!folder.plc_projects.empty()) return;
+    for (const std::string& file : folder.files) addLibraryFile(file, library.name(), false);
+    if (!with_folders || folder.is_beremiz) return;
+    for (const std::string& inner : folder.folders) addLibrary({{}, inner}, false);
   }
 
   void addLibraryFile(const std::string& path, const std::string& library, bool named) {
@@ -264,12 +265,14 @@ class Collector {
     }
   }
 
-  // Hidden entries and links to folders are skipped: loops and `.git` do not belong to a project.
-  void addFolder(const std::string& folder) {
-    const size_t before = candidates_.size();
-    inputs_.read.push_back(folder);
+  void setScannedRoot(const std::string& folder) {
     std::error_code ignored;
     scanned_root_ = fs::canonical(folder, ignored).string();
+  }
+
+  void addFolder(const std::string& folder) {
+    const size_t before = candidates_.size();
+    setScannedRoot(folder);
     scan(folder, 0);
     const std::string prefix = folder.back() == '/' ? folder : folder + "/";
     for (const std::string& below : files_.newFilesIn(folder))
@@ -278,94 +281,30 @@ class Collector {
     if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(diag::EmptyFolder, folder, {folder});
   }
 
-  // A link to a file elsewhere would make the project depend on what its folder does not hold.
-  bool leavesFolder(const std::string& path) {
-    std::error_code error;
-    const std::string target = fs::canonical(path, error).string();
-    const std::string root = scanned_root_ == "/" ? "/" : scanned_root_ + '/';
-    if (error || target.starts_with(root)) return false;
-    const FileKind kind = importer::kindOfExtension(path);
-    if (kind != FileKind::Unknown) diagnostics_.report(diag::LinkOutside, {}, {path, target}).path(path);
-    return true;
-  }
-
-  // What a folder holds that may belong to a program, as paths.
-  struct Content {
-    std::vector<std::string> files, folders, plc_projects;
-    bool is_beremiz = false;  // it holds beremiz.xml
-  };
-
-  bool list(const std::string& folder, Content& content) {
-    DIR* dir = opendir(folder.c_str());
-    if (dir == nullptr) {
-      const char* why = strerror(errno);
-      fail(diag::CannotRead, folder, {folder, why});
+  // Reports links that lead out of the folder that is read; false: it cannot be read.
+  bool list(const std::string& path, Folder& folder) {
+    if (const std::string error = readFolder(path, scanned_root_, folder); !error.empty()) {
+      fail(diag::CannotRead, path, {path, error});
       return false;
     }
-    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
-    while (const dirent* entry = readdir(dir)) {
-      if (entry->d_name[0] == '.') continue;
-      std::string path = prefix + entry->d_name;
-      if (!options_.junit.empty() && absolutePath(path) == absolutePath(options_.junit)) continue;
-      unsigned char type = entry->d_type;
-      if (type == DT_UNKNOWN || type == DT_LNK) {
-        struct stat info;
-        if (stat(path.c_str(), &info) != 0) continue;  // a dangling link
-        if (S_ISREG(info.st_mode)) {
-          if (leavesFolder(path)) continue;
-          type = DT_REG;
-        } else if (S_ISDIR(info.st_mode) && type == DT_UNKNOWN) {
-          type = DT_DIR;
-        }
-      }
-      if (type == DT_DIR) content.folders.push_back(std::move(path));
-      if (type != DT_REG) continue;
-      const FileKind kind = importer::kindOfExtension(path);
-      if (kind == FileKind::PlcProject)
-        content.plc_projects.push_back(std::move(path));
-      else if (kind == FileKind::BeremizProject)
-        content.is_beremiz = true;
-      else if (kind != FileKind::Unknown && kind != FileKind::Project)
-        content.files.push_back(std::move(path));
-    }
-    closedir(dir);
-    for (std::vector<std::string>* paths : {&content.files, &content.folders, &content.plc_projects})
-      std::sort(paths->begin(), paths->end());
-    if (content.is_beremiz) leaveGenerated(content);
+    inputs_.read.push_back(path);
+    for (const auto& [link, target] : folder.outside)
+      diagnostics_.report(diag::LinkOutside, {}, {link, target}).path(link);
     return true;
-  }
-
-  // Of a project of Beremiz or OpenPLC remain its program and its extensions in folders such as `python_0@py_ext`. The
-  // others hold what the tool generated, among it the whole program as ST.
-  static void leaveGenerated(Content& content) {
-    const auto named = [](const std::string& path) { return std::string_view(path).substr(path.rfind('/') + 1); };
-    const auto program = std::find_if(content.files.begin(), content.files.end(),
-                                      [&](const std::string& path) { return named(path) == "plc.xml"; });
-    content.is_beremiz = program != content.files.end();
-    if (!content.is_beremiz) return;
-    content.files = {*program};
-    std::erase_if(content.folders, [&](const std::string& path) { return named(path).find('@') == std::string::npos; });
-  }
-
-  // Of the folder of an extension, the files that say what variables it has.
-  static bool declaresVariables(const std::string& path) {
-    const std::string_view name = std::string_view(path).substr(path.rfind('/') + 1);
-    return name == "pyfile.xml" || name == "cfile.xml" || name == "baseconfnode.xml";
   }
 
   // A folder with a .plcproj takes the files that it lists.
-  void scan(const std::string& folder, int depth, bool is_extension = false) {
-    Content content;
-    if (!list(folder, content)) return;
-    if (is_extension) std::erase_if(content.files, std::not_fn(declaresVariables));
-    for (const std::string& project : content.plc_projects) addPlcProject(project);
-    if (!content.plc_projects.empty()) return;
-    for (const std::string& file : content.files) candidates_.push_back({absolutePath(file), file, {}, false});
-    for (const std::string& inner : content.folders) {
-      if (depth > 100) continue;
-      inputs_.read.push_back(inner);
-      scan(inner, depth + 1, is_extension || content.is_beremiz);
-    }
+  void scan(const std::string& path, int depth, bool is_extension = false) {
+    Folder folder;
+    if (!list(path, folder)) return;
+    if (is_extension) keepVariables(folder);
+    for (const std::string& project : folder.plc_projects) addPlcProject(project);
+    if (!folder.plc_projects.empty()) return;
+    for (const std::string& file : folder.files)
+      if (options_.junit.empty() || absolutePath(file) != absolutePath(options_.junit))
+        candidates_.push_back({absolutePath(file), file, {}, false});
+    if (depth > 100) return;
+    for (const std::string& inner : folder.folders) scan(inner, depth + 1, is_extension || folder.is_beremiz);
   }
 
   void findRoot() {
