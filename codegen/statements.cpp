@@ -318,9 +318,13 @@ void StatementWriter::switchStatement(const ir::SwitchStmt& stmt) {
   checks().prepare(stmt.selector);
   const TypeKind kind = kindOf(stmt.selector);
   const bool is_unsigned = !types_.isSigned(kind);
+  // A conversion to an integer may be written as the bool itself, which compilers warn of as a selector.
+  ir::ExprId origin = stmt.selector;
+  while (const auto* conversion = expr(origin).tryAs<ir::ConvertExpr>()) origin = conversion->operand;
+  const bool is_bool = kindOf(origin) == TypeKind::Bool;
   out_ += "switch (";
-  if (kind == TypeKind::Bool) out_ += "(int)";
-  values().value(stmt.selector, kind == TypeKind::Bool ? Prec::Unary : Prec::Comma);
+  if (is_bool) out_ += "(int)";
+  values().value(stmt.selector, is_bool ? Prec::Unary : Prec::Comma);
   out_ += ')';
   open();
   const bool had_loop = !loops_.empty();
