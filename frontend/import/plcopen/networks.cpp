@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "frontend/import/diagnostics.h"
 #include "frontend/import/plcopen/import.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/standard_names.h"
@@ -72,6 +73,8 @@ class DiagramReader {
   void readBoxName(const Element& e, NetworkElement& out) const;
   void readPins(const Element& e, NetworkElement& out) const;
   std::vector<WireSource> wiresOf(const Element* point) const;
+  std::vector<WireSource> wiresOfInput(const Element& pin) const;
+  const Element* sourceOf(const Element& connection) const;
   xml::Excerpt sourcePin(const Element& connection) const;
   xml::Excerpt operandOf(const Element& e) const;
   xml::Excerpt valueOf(const Element& e, std::string_view attribute) const;
@@ -162,18 +165,22 @@ xml::Excerpt DiagramReader::idOf(const Element& e) {
   return {e.loc, std::to_string(next_own_++)};
 }
 
-// The output of a box that the wire comes from.
-xml::Excerpt DiagramReader::sourcePin(const Element& connection) const {
+const Element* DiagramReader::sourceOf(const Element& connection) const {
   uint64_t number = 0;
   const std::string text = value(connection, "refLocalId");
   std::from_chars(text.data(), text.data() + text.size(), number);
   const auto found = by_number_.find(number);
-  if (found == by_number_.end() || (found->second->name != "block" && found->second->name != "vendorElement"))
-    return {};
+  return found == by_number_.end() ? nullptr : found->second;
+}
+
+// The output of a box that the wire comes from.
+xml::Excerpt DiagramReader::sourcePin(const Element& connection) const {
+  const Element* const source = sourceOf(connection);
+  if (source == nullptr || (source->name != "block" && source->name != "vendorElement")) return {};
   const xml::Attribute* pin = document_.attribute(connection, "formalParameter");
   const std::string name = pin == nullptr ? std::string() : document_.decoded(*pin);
-  if (isIdentifier(name) && hasOutput(*found->second, name)) return {document_, *pin};
-  if (const std::string only = onlyOutput(*found->second); isIdentifier(only)) return xml::Excerpt(only);
+  if (isIdentifier(name) && hasOutput(*source, name)) return {document_, *pin};
+  if (const std::string only = onlyOutput(*source); isIdentifier(only)) return xml::Excerpt(only);
   if (isIdentifier(name)) return {document_, *pin};  // the parser or the scheduler reports it at its location
   return {};
 }
@@ -186,6 +193,21 @@ std::vector<WireSource> DiagramReader::wiresOf(const Element* point) const {
     if (from != nullptr) wires.push_back({{document_, *from}, sourcePin(c)});
   }
   return wires;
+}
+
+// Warns of an input whose wire starts nowhere: OpenPLC Editor 4 draws an empty box for each input that is not used,
+// and does not save the box. Its compiler leaves such inputs out of the call.
+//   warns  <connection refLocalId="99"/>, without an element 99          W1094
+std::vector<WireSource> DiagramReader::wiresOfInput(const Element& pin) const {
+  const Element* const point = document_.child(pin, "connectionPointIn");
+  std::vector<WireSource> wires = wiresOf(point);
+  if (wires.size() != 1) return wires;
+  const Element& connection = *document_.child(*point, "connection");
+  const xml::Attribute* const from = document_.attribute(connection, "refLocalId");
+  if (from == nullptr || sourceOf(connection) != nullptr) return wires;
+  reading_.diagnostics.report(diag::XmlInputFromNothing, from->loc, {value(pin, "formalParameter"), from->raw})
+      .length(static_cast<uint32_t>(from->raw.size()));
+  return {};
 }
 
 Modifiers DiagramReader::modifiersOf(const Element& e, std::string_view negated) const {
@@ -231,7 +253,8 @@ void DiagramReader::readPins(const Element& e, NetworkElement& out) const {
         pin.name = {p.loc, unnamedPin(list.direction, count)};
       pin.direction = list.direction;
       pin.modifiers = modifiersOf(p);
-      if (list.direction != PinDirection::Output) pin.wires = wiresOf(document_.child(p, "connectionPointIn"));
+      if (list.direction == PinDirection::Input) pin.wires = wiresOfInput(p);
+      if (list.direction == PinDirection::InOut) pin.wires = wiresOf(document_.child(p, "connectionPointIn"));
     }
   }
 }
