@@ -87,6 +87,7 @@ Command testCommand(const Setting& setting, const std::vector<File>& files, cons
   for (const std::string& word : splitWords(options)) c.arguments.push_back(word);
   if (files.size() > 1) c.arguments.push_back("--separate");
   c.arguments.insert(c.arguments.end(), {"--root", "."});
+  if (kSanitized) c.arguments.insert(c.arguments.end(), {"--timeout", "T#10m"});
   if (!junit.empty()) c.arguments.insert(c.arguments.end(), {"--junit", junit});
   for (const File& file : files) {
     c.arguments.push_back(file.path);

@@ -13,12 +13,6 @@
 namespace rung::tests {
 namespace {
 
-#ifdef RUNG_SANITIZED
-constexpr int kSlowness = 10;
-#else
-constexpr int kSlowness = 1;
-#endif
-
 constexpr size_t kMaxOutput = size_t{16} << 20;  // a test that prints more than this is broken
 
 // Reads both pipes until they close or time runs out; false: out of time.
@@ -78,7 +72,7 @@ Output run(const Command& command) {
   close(out[1]);
   close(err[1]);
   if (child > 0) {
-    const int seconds = command.seconds * kSlowness;
+    const int seconds = command.seconds * (kSanitized ? 10 : 1);
     const bool in_time = drain(out[0], err[0], seconds, output);
     if (!in_time) kill(-child, SIGKILL);
     int status = 0;

@@ -7,10 +7,16 @@
 
 namespace rung::tests {
 
+#ifdef RUNG_SANITIZED
+constexpr bool kSanitized = true;  // everything takes about ten times as long
+#else
+constexpr bool kSanitized = false;
+#endif
+
 struct Command {
   std::vector<std::string> arguments;  // [0]: the program, a path
   std::string folder;
-  int seconds = 120;    // ten times as many with sanitizers; then it and its children are killed
+  int seconds = 120;    // with sanitizers ten times as many; then it and its children are killed
   bool merged = false;  // stderr goes to stdout
 };
 
