@@ -387,7 +387,8 @@ BodyId ModuleLowering::initOf(TypeId type) {
                                       false);
       return;
     }
-    if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
+    // A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
+    if (var.storage != (pou ? sema::Storage::Field : sema::Storage::Global)) return;
     if (var.section == SectionKind::InOut || var.bits.is_bit) return;
     if (!var.init && isZero(var.type)) return;
     lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
