@@ -75,7 +75,7 @@ void ExpressionWriter::bits(ExprId id, uint32_t position, Op within) {
     return bits(e.as<ir::UnaryExpr>().operand, position, Op::Not);
   }
   if (position != 0) out_ += '(';
-  value(id, Prec::Unary);
+  value(id, ir::isNot(e) ? Prec::Postfix : Prec::Unary);  // g++ warns of `!a | b`
   if (position == 0) return;
   out_ += " << ";
   appendUnsigned(out_, position);
