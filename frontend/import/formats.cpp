@@ -111,6 +111,10 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   return by_name;
 }
 
+bool isProject(FileKind kind) {
+  return kind == FileKind::Project || kind == FileKind::PlcProject || kind == FileKind::BeremizProject;
+}
+
 bool holdsProgram(FileKind kind) {
   return kind == FileKind::St || kind == FileKind::Il || formatOf(kind).read != nullptr;
 }

@@ -79,6 +79,9 @@ FileKind kindOfExtension(std::string_view path);
 // Whether sources of this kind end in the parser.
 bool holdsProgram(FileKind kind);
 
+// Whether a file of this kind says which other files belong to a program.
+bool isProject(FileKind kind);
+
 bool hasExtension(std::string_view path, std::string_view extension);  // in lower case, with its dot
 
 // The beginning of a file is not source in any encoding that editors of PLC code write.

@@ -107,9 +107,8 @@ bool Compilation::read() {
     usage_error_ = "the PLC period of an NCT program must be a multiple of its TimeSlice";
   const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
   if (ok) readPrograms(sources, diagnostics, inputs, for_pictures);
-  if (ok)
-    for (const LibraryInput& file : inputs.library_files)
-      libraries.addFile(file.library, file.path, file.file, sources.sourceText(file.file));
+  for (const LibraryInput& file : inputs.library_files)
+    if (ok) libraries.addFile(file.library, file.path, file.file, sources.sourceText(file.file));
   noteLibraries();
   times_.end();
   return ok;

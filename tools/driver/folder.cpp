@@ -39,24 +39,13 @@ void leaveGenerated(Folder& folder) {
 }
 
 void add(std::string path, Folder& folder) {
-  switch (importer::kindOfExtension(path)) {
-    case FileKind::PlcProject: folder.plc_projects.push_back(std::move(path)); break;
-    case FileKind::BeremizProject: folder.is_beremiz = true; break;
-    case FileKind::St:
-    case FileKind::Il:
-    case FileKind::Xml:
-    case FileKind::Nct:
-    case FileKind::Cam:
-    case FileKind::TwinCat:
-    case FileKind::Plcopen:
-    case FileKind::Iec10:
-    case FileKind::Beremiz:
-    case FileKind::Codesys2:
-    case FileKind::Multiprog: folder.files.push_back(std::move(path)); break;
-    case FileKind::Unknown:
-    case FileKind::Project:
-    case FileKind::Binary: break;
-  }
+  const FileKind kind = importer::kindOfExtension(path);
+  if (kind == FileKind::PlcProject)
+    folder.plc_projects.push_back(std::move(path));
+  else if (kind == FileKind::BeremizProject)
+    folder.is_beremiz = true;
+  else if (kind != FileKind::Unknown && kind != FileKind::Project)
+    folder.files.push_back(std::move(path));
 }
 
 }  // namespace

@@ -346,24 +346,9 @@ class Collector {
     inputs_.read.push_back(path);
     if (!decodeUtf16(read.content)) return failed(diag::Utf16File, {path});
     source.kind = importer::kindOf(path, read.content);
-    switch (source.kind) {
-      case FileKind::Binary: return failed(diag::BinaryFile, {path});
-      case FileKind::Unknown: return failed(diag::UnknownFileKind, {path});
-      case FileKind::PlcProject:
-      case FileKind::BeremizProject:
-      case FileKind::Project: return false;
-      case FileKind::St:
-      case FileKind::Il:
-      case FileKind::Xml:
-      case FileKind::Nct:
-      case FileKind::Cam:
-      case FileKind::TwinCat:
-      case FileKind::Plcopen:
-      case FileKind::Iec10:
-      case FileKind::Beremiz:
-      case FileKind::Codesys2:
-      case FileKind::Multiprog: break;
-    }
+    if (source.kind == FileKind::Binary) return failed(diag::BinaryFile, {path});
+    if (source.kind == FileKind::Unknown) return failed(diag::UnknownFileKind, {path});
+    if (importer::isProject(source.kind)) return false;
     if (!importer::holdsProgram(source.kind)) {
       const std::string_view name = importer::formatOf(source.kind).name;
       if (named) return failed(diag::KindNotRead, {path, name});

@@ -43,8 +43,7 @@ bool holdsSource(const std::string& path) {
   file.read(text.data(), kBeginning);
   text.resize(static_cast<size_t>(file.gcount()));
   const importer::FileKind kind = importer::kindOf(path, text);
-  return importer::holdsProgram(kind) || kind == importer::FileKind::Project ||
-         kind == importer::FileKind::PlcProject || kind == importer::FileKind::BeremizProject;
+  return importer::holdsProgram(kind) || importer::isProject(kind);
 }
 
 }  // namespace

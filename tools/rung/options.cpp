@@ -199,7 +199,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Color, "--color", "auto|always|never", kReads | bit(Command::Explain),
      "use colours (auto: on a terminal; default: auto)"},
     {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
-    {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
+    {Key::Library, "-I", "PATH", kReads, "folder or file with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "make paths in the output relative to DIR"},
     {Key::Name, "--name", "ID", kCompile | bit(Command::Cam), "prefix of the module's symbols, or name of the cam"},
     {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),

@@ -21,7 +21,7 @@ void addVariable(const xml::Document& document, const xml::Element& variable, xm
   program.word(";\n");
 }
 
-// A variable that Beremiz adds for each extension of this type; CHANNEL stands for its IEC_Channel.
+// A variable that Beremiz adds for each extension of this type; its name ends with the IEC_Channel.
 struct Added {
   std::string_view type, name, of_type;
 };
