@@ -399,8 +399,11 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isFirstReport(context, name))
-    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestCallable(context, name));
+  if (isFirstReport(context, name)) {
+    std::string_view near = nearestCallable(context, name);
+    if (near.empty()) near = nearestPseudoFunction(context, name);
+    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(near);
+  }
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }

@@ -254,6 +254,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       if (options.command == Command::Cam) return setCamOption(row.name, value, options.cam);
       if (!isModuleName(value))
         return backquoted(value) + " is not a C identifier; `--name` takes letters, digits and `_`";
+      if (value == "rung" || value.starts_with("rung_"))
+        return "the names of the runtime begin with `rung_`; choose another `--name` than " + backquoted(value);
       options.name = value;
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
