@@ -110,7 +110,7 @@ int64_t Files::open(const char* name, uint32_t mode) {
   const int descriptor = openat(place.folder(), place.leaf(), flags, 0666);
   if (descriptor < 0) return fileErrorOf(errno);
   struct stat info;  // a pipe or device would block whoever reads it
-  if (fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode)) {
+  if (fstat(descriptor, &info) != 0 || (!S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
     ::close(descriptor);
     return RUNG_FILE_FAILED;
   }
