@@ -494,6 +494,12 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
   };
   if (!checkFormality(context, node, pou)) out.ok = false;
+  if (context.symbols.pou(pou).extensible && node.arguments.count > kMaxOperands) {
+    context.report(diag::TooManyArguments, context.tree().list(node.arguments)[kMaxOperands].loc,
+                   {string(context, context.symbols.pou(pou).name), std::to_string(kMaxOperands)});
+    out.ok = false;
+    return out;
+  }
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument& argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
