@@ -678,7 +678,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::Property:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::Call), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
     TypeId type = check(context, node.callee, {}, Access::Qualifier);
@@ -691,7 +691,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
-  const TypeId type = check(context, node.callee, {}, Access::ReadWrite);
+  const TypeId type = check(context, node.callee, {}, Access::Call);
   return callValue(context, expr, throughObject(context, node.callee, type), as_statement);
 }
 

@@ -231,7 +231,8 @@ void checkObjectMembers(Context& context, PouId object) {
     const Var& var = context.symbols.var(id);
     if (!var.decl || !var.name || var.of_chart) continue;  // each of two charts has its own
     const Entity first = findInObject(context, pou.base, var.name);
-    if (first.entityKind() == EntityKind::Var)
+    // The VAR_TEMP of a base is only known to its body and actions. CODESYS, "Extension of Function Blocks".
+    if (first.entityKind() == EntityKind::Var && context.symbols.vars[first.index].section != SectionKind::Temp)
       reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
   }
 }
