@@ -157,6 +157,7 @@ struct Pou {
     bool no_copy = false;             // {no_copy}: an instance cannot be copied
     bool bytes = false;               // {bytes}: its generic type is ARRAY OF BYTE
     bool call_after_init = false;     // {attribute 'call_after_init'}
+    bool no_virtual_actions = false;  // {attribute 'no_virtual_actions'}: a derived block does not replace its actions
     bool no_check = false;            // {attribute 'no_check'}: without the implicit checks of the project
     bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: marked inputs have their initial values
     bool reflection = false;          // {attribute 'reflection'}: marked variables tell which inputs are connected
@@ -206,6 +207,7 @@ struct Pou {
     VarId in_body;          // the hidden BOOL that is TRUE while the body runs, where actions use its VAR_TEMP
     uint8_t modifiers = 0;  // Modifier
     AccessorKind accessor = AccessorKind::None;  // of a property
+    bool unresolved = false;                     // extends something that is not known, which was reported
     bool extended = false;                       // another block of the project extends it
     bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
   } object;

@@ -323,6 +323,7 @@ class ObjectLowering : public BodyPart {
   void storeBytes(ExprId place, TypeId declared, std::span<const uint8_t> bytes);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
+  bool setProperty(ExprId place, const FieldInit& given);
   void construct(ExprId place, TypeId type);
   bool isBasePart(ExprId place) const;
   void callAfterInit(ExprId place, TypeId type);
