@@ -13,7 +13,7 @@ void StatementLowering::saveField(sema::VarId field, Loc loc) {
   state_.saved_fields.push_back({field, *localOf(body_.expr(saved))});
 }
 
-// The instances in a VAR_TEMP begin anew in each call, so nothing is saved.
+// The instances in a VAR_TEMP begin again in each call, so nothing is saved.
 bool StatementLowering::holdsInstance(TypeId type) const {
   type = strip(type);
   while (types_.kind(type) == TypeKind::Array) type = strip(types_.info(type).base);

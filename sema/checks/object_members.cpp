@@ -96,7 +96,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
 // FB_Reinit, FB_Exit"; TwinCAT, "Methods FB_init, FB_reinit and FB_exit".
 //   passes  VAR_INPUT bInitRetains, bInCopyCode : BOOL; size : INT; name : STRING; END_VAR (size in the base too)
 //   fails   VAR_INPUT size : INT; END_VAR                                                             E0779
-constexpr size_t kImplicit = 2;
+constexpr size_t kGivenBySystem = 2;
 
 bool isConstructor(const Context& context, const Pou& method) {
   return sameIdentifier(context.names().string(method.name), "FB_Init");
@@ -107,7 +107,7 @@ void checkConstructor(Context& context, PouId id) {
     return;
   resolvePou(context, id);
   const std::span<const VarId> pins = pinsOf(context, id);
-  for (size_t i = 0; i < kImplicit; ++i) {
+  for (size_t i = 0; i < kGivenBySystem; ++i) {
     const Var* pin = i < pins.size() ? &context.symbols.var(pins[i]) : nullptr;
     if (pin != nullptr && pin->type == types::kError) return;
     if (pin != nullptr && pin->section == SectionKind::Input &&
@@ -124,9 +124,10 @@ void checkConstructorOfBase(Context& context, PouId id, PouId replaced) {
   if (!isConstructor(context, method) || isBroken(context, id) || isBroken(context, replaced) || method.library) return;
   resolvePou(context, replaced);
   const std::span<const VarId> pins = pinsOf(context, id), wanted = pinsOf(context, replaced);
-  for (size_t i = kImplicit; i < wanted.size(); ++i) {
+  for (size_t i = kGivenBySystem; i < wanted.size(); ++i) {
     const Var& there = context.symbols.var(wanted[i]);
-    if (there.section == SectionKind::Output) continue;
+    const bool has_default = there.decl && context.tree().as<VarDecl>(there.decl).init;
+    if (there.section == SectionKind::Output || (i >= pins.size() && has_default)) continue;
     const Var* pin = i < pins.size() ? &context.symbols.var(pins[i]) : nullptr;
     if (pin != nullptr && (pin->type == types::kError || there.type == types::kError)) return;
     if (pin != nullptr && pin->section == there.section && context.names().same(pin->name, there.name) &&

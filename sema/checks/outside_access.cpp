@@ -31,6 +31,13 @@ bool refuseTemporary(Context& context, const Var& var, Loc loc) {
   return false;
 }
 
+// A test sets what a person would set with the programming system.
+bool isInTest(const Context& context) {
+  if (!context.pou) return false;
+  const auto& pragmas = context.symbols.pou(context.pou).pragmas;
+  return pragmas.test || pragmas.test_only;
+}
+
 // A local variable of a block or program may be read in codesys. One that is or holds an instance may be passed on:
 // the inputs of that instance can be set anyway.
 bool mayUseLocal(Context& context, const Var& var, Access access) {
@@ -42,7 +49,7 @@ bool mayUseLocal(Context& context, const Var& var, Access access) {
   while (type && context.types().kind(type) == TypeKind::Array)
     type = context.types().info(context.types().resolve(type)).base;
   if (type && isInstance(context, type)) writes = access == Access::Write && type == var.type;
-  if (writes) return false;
+  if (writes && !(!context.iec() && isInTest(context))) return false;
   return is_program || (!context.iec() && !context.symbols.pou(var.pou).library);
 }
 
