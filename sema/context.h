@@ -72,7 +72,7 @@ std::string_view nearestName(Context& context, NameId written);
 // The same among what a call can name: functions, programs, methods and variables.
 std::string_view nearestCallable(Context& context, NameId written);
 
-// Syntax errors took declarations from this POU: a missing name is not a second mistake.
+// Syntax errors took declarations from this POU, or its base is not known: a missing name is not a second mistake.
 bool isBroken(const Context& context, PouId pou);
 // Whether to report that a name, or a member of a record, is not declared: once per POU, and only where no declaration
 // was lost to a syntax error.

@@ -378,6 +378,16 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
   return types::kError;
 }
 
+// The property whose value a callee is; none: it is something else.
+NameId calledProperty(const Context& context, ExprId callee) {
+  const Tree& tree = context.tree();
+  while (tree.kind(callee) == ExprKind::Deref) callee = tree.as<DerefExpr>(callee).base;
+  if (tree.kind(callee) != ExprKind::Call || tree.as<CallExpr>(callee).call.index == 0) return {};
+  const PouId called = context.symbols.call(tree.as<CallExpr>(callee).call).pou;
+  return called && context.symbols.pou(called).object.accessor != AccessorKind::None ? context.symbols.pou(called).name
+                                                                                     : NameId{};
+}
+
 // The callee is a value: an instance, or a value that cannot be called.
 TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
@@ -385,6 +395,10 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   const PouId pou = pouOf(context, type);
   if (pou && context.symbols.pou(pou).kind == PouKind::FunctionBlock) {
     return callBlock(context, expr, pou, CallKind::Instance, as_statement);
+  }
+  if (const NameId property = calledProperty(context, node.callee)) {
+    context.report(diag::PropertyCalled, context.tree().loc(node.callee), {string(context, property)});
+    return refuse(context, node);
   }
   const NameId name = nameOf(context, node.callee);
   const Entity called = entityOf(context, node.callee);
@@ -687,7 +701,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::Property:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::Call), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
     TypeId type = check(context, node.callee, {}, Access::Qualifier);
@@ -700,7 +714,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
-  const TypeId type = check(context, node.callee, {}, Access::ReadWrite);
+  const TypeId type = check(context, node.callee, {}, Access::Call);
   return callValue(context, expr, throughObject(context, node.callee, type), as_statement);
 }
 

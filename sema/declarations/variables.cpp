@@ -610,6 +610,7 @@ void resolvePou(Context& context, PouId id) {
     symbols.var(pou.result_var).type = result;
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
+  shareTemporaries(there, id);
   std::vector<VarId> edges, open_arrays;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];
