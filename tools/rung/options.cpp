@@ -402,9 +402,7 @@ std::string checkCombination(const Options& options) {
     case Command::Build:
     case Command::Convert:
     case Command::Graph:
-    case Command::Fmt:
-      if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
-      break;
+    case Command::Fmt: break;  // without inputs: the project around the current folder
     case Command::Explain:
       if (options.inputs.size() != 1) return "`rung explain` takes one code, such as E0401";
       break;
@@ -478,6 +476,8 @@ std::string synopsis(const OptionRow& row) {
 }
 
 }  // namespace
+
+bool readsProject(Command command) { return command >= Command::Check && command <= Command::Fmt; }
 
 const char* commandName(Command command) {
   for (const CommandRow& row : kCommands)
