@@ -14,6 +14,7 @@
 
 #include "frontend/export/plcopen.h"
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 #include "sema/project.h"
@@ -60,6 +61,27 @@ std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t en
   return comments;
 }
 
+// The titles of networks and the comments drawn in them, as comments of ST.
+std::vector<std::pair<Loc, std::string>> drawnComments(const Tree& tree, const Diagram& diagram) {
+  std::vector<std::pair<Loc, std::string>> drawn;
+  const auto add = [&](Loc at, std::string_view text) {
+    if (std::all_of(text.begin(), text.end(), isBlankCharacter)) return;
+    std::string comment = "// ";
+    for (const char c : text)
+      if (c == '\n') {
+        comment.erase(comment.find_last_not_of(' ') + 1);
+        comment += "\n// ";
+      } else if (c != '\r') {
+        comment += c;
+      }
+    drawn.emplace_back(at, std::move(comment));
+  };
+  for (const DiagramNetwork& n : tree.list(diagram.networks)) add(n.loc, tree.string({n.title, n.title_length}));
+  for (const DiagramElement& e : tree.list(diagram.elements))
+    if (e.kind == ElementKind::Comment) add(e.loc, tree.string({e.comment, e.comment_length}));
+  return drawn;
+}
+
 class Converter {
  public:
   explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
@@ -79,6 +101,7 @@ class Converter {
   std::string withComments(FileId created, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
   void printHidden(sema::PouId id);
+  std::string typeOf(sema::PouId id, NameId variable) const;
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
   std::string action(DeclId id) const;
@@ -106,7 +129,10 @@ void Converter::print(sema::PouId id) {
   const bool own_line = text.substr(line, begin - line).find_first_not_of(" \t") == std::string_view::npos;
   const size_t from = own_line ? line : begin;
   const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - from, 8));
-  const std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  const auto drawn = drawnComments(compilation_.tree, decl.diagram);
+  for (const auto& [at, comment] : drawn) comments.push_back({at, comment});
+  std::stable_sort(comments.begin(), comments.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
   Body body{id, {base + static_cast<uint32_t>(from)}, decl.body_end, {}, own_line, own_line ? "" : "\n"};
   body.declarations = body.begin;
   for (const DeclId member : compilation_.tree.list(decl.members)) {
@@ -116,6 +142,13 @@ void Converter::print(sema::PouId id) {
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
   bodies_.push_back(std::move(body));
+}
+
+std::string Converter::typeOf(sema::PouId id, NameId variable) const {
+  const sema::Project& project = *compilation_.project;
+  for (const sema::VarId v : project.pou(id).vars)
+    if (project.var(v).name == variable) return project.types.toString(project.var(v).type);
+  return {};
 }
 
 // Declares the variables that the networks of a POU and its actions need, before its first member or its body.
@@ -128,10 +161,8 @@ void Converter::printHidden(sema::PouId id) {
     if ((section.h.bits & kHidden) == 0) continue;
     for (const DeclId v : tree.list(section.vars)) {
       const VarDecl& var = tree.as<VarDecl>(v);
-      std::string type;
-      for (const Ident& part : tree.list(tree.as<NamedTypeExpr>(var.type).path))
-        type += (type.empty() ? "" : ".") + std::string(compilation_.names.string(part.name));
-      lines += "  " + std::string(compilation_.names.string(tree.list(var.names)[0].name)) + " : " + type + ";\n";
+      const NameId name = tree.list(var.names)[0].name;
+      lines += "  " + std::string(compilation_.names.string(name)) + " : " + typeOf(id, name) + ";\n";
     }
   }
   if (lines.empty()) return;
