@@ -6,6 +6,7 @@
 // are errors.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -34,8 +35,10 @@ struct Body {
   Loc declarations;  // where the temporaries are declared: before the first member or the body
   bool own_line;
   std::string text;
-  std::string sections = {};         // of a chart: its variables
-  std::vector<DeclId> actions = {};  // … and the actions inside it
+  std::string sections = {};            // of a chart: its variables
+  std::vector<DeclId> actions = {};     // … and the actions inside it
+  std::vector<std::string> taken = {};  // names that a base has, which get a suffix
+  std::string_view suffix = {};
 };
 struct Edit {
   Loc begin, end;
@@ -82,6 +85,20 @@ std::vector<std::pair<Loc, std::string>> drawnComments(const Tree& tree, const D
   return drawn;
 }
 
+// The lines `name : type;` of the sections of a chart, and whether they are in VAR_TEMP.
+template <class Visit>
+void forEachVariableLine(std::string_view sections, const Visit& visit) {
+  bool temporary = false;
+  for (size_t p = 0, end = 0; p < sections.size(); p = end) {
+    end = std::min(sections.find('\n', p), sections.size() - 1) + 1;
+    const std::string_view line = sections.substr(p, end - p);
+    if (line.starts_with("VAR")) temporary = line.starts_with("VAR_TEMP");
+    const size_t colon = line.find(" : ");
+    if (line.starts_with("  ") && colon != std::string_view::npos)
+      visit(upper(line.substr(2, colon - 2)), line, temporary);
+  }
+}
+
 class Converter {
  public:
   explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
@@ -102,6 +119,7 @@ class Converter {
   std::string temporaries(const Body& body) const;
   void printHidden(sema::PouId id);
   std::string typeOf(sema::PouId id, NameId variable) const;
+  std::map<std::string, std::string_view> chartVariablesOfBases(sema::PouId id) const;
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
   std::string action(DeclId id) const;
@@ -113,6 +131,37 @@ class Converter {
   std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
   bool is_split_ = false;                         // some file became a folder
 };
+
+// The variables of charts in the blocks that it extends, by name; the first one that declares it counts.
+std::map<std::string, std::string_view> Converter::chartVariablesOfBases(sema::PouId id) const {
+  std::map<std::string, std::string_view> lines;
+  const sema::Project& project = *compilation_.project;
+  for (sema::PouId base = project.pou(id).base; base; base = project.pou(base).base) {
+    const PouDecl* decl = project.pou(base).decl ? &compilation_.tree.as<PouDecl>(project.pou(base).decl) : nullptr;
+    if (decl == nullptr || !decl->chart_sections) continue;
+    forEachVariableLine(sources_.original(decl->chart_sections),
+                        [&](const std::string& name, std::string_view line, bool) { lines[name] = line; });
+  }
+  return lines;
+}
+
+// `A.x` as `A_Derived.x`, for each of these names.
+std::string renamed(std::string_view text, const std::vector<std::string>& names, std::string_view suffix) {
+  std::string out;
+  size_t done = 0;
+  bool member = false;
+  Scanner scanner(text);
+  for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next()) {
+    const std::string_view word = scanner.textOf(unit);
+    if (unit.kind == UnitKind::Name && !member && std::binary_search(names.begin(), names.end(), upper(word))) {
+      out += text.substr(done, unit.end - done);
+      out += "_" + std::string(suffix);
+      done = unit.end;
+    }
+    member = unit.kind == UnitKind::Other && word == ".";
+  }
+  return out + std::string(text.substr(done));
+}
 
 // Called while sema is running, before it changes the statements of the scheduler.
 void Converter::print(sema::PouId id) {
@@ -229,6 +278,21 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   Body body{
       id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
   body.sections = sources_.original(decl.chart_sections);
+  const auto inherited = chartVariablesOfBases(id);
+  std::string sections(body.sections);
+  forEachVariableLine(body.sections, [&](const std::string& name, std::string_view line, bool temporary) {
+    const auto known = inherited.find(name);
+    if (known == inherited.end()) return;
+    if (known->second == line && !temporary)  // the same variable does for both: only one of the charts runs
+      sections.erase(sections.find(line), line.size());
+    else
+      body.taken.push_back(name);
+  });
+  body.sections = std::move(sections);
+  std::sort(body.taken.begin(), body.taken.end());
+  body.suffix = compilation_.names.string(decl.name);
+  body.text = renamed(body.text, body.taken, body.suffix);
+  body.sections = renamed(body.sections, body.taken, body.suffix);
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
@@ -320,6 +384,7 @@ std::string Converter::convert(Loc begin, Loc end) const {
     if (!body->sections.empty() || !body->actions.empty()) {
       std::string actions;
       for (const DeclId member : body->actions) actions += action(member);
+      if (!body->taken.empty()) actions = renamed(actions, body->taken, body->suffix);
       declared.insert(0, body->sections);
       if (body->declarations != body->begin)
         edits.push_back({body->declarations, body->declarations, std::exchange(declared, {}), true});
