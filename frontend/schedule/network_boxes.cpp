@@ -191,6 +191,12 @@ ExprId Scheduler::targetOf(uint32_t element, uint32_t result) {
   return build_.name(s.temporary, loc);
 }
 
+bool Scheduler::hasTargets(uint32_t element) const {
+  for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next)
+    if (target_of_[s] && !(graph_.sources[s].pin.name && isControl(names_, graph_.sources[s].pin.name))) return true;
+  return false;
+}
+
 // Variables that read the outputs of the box keep their values while `condition` is FALSE.
 void Scheduler::guard(uint32_t element, NameId condition) {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
@@ -250,7 +256,7 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
     return assign(build_.name(unread, e.loc), value, e.loc);
   }
   ExprId condition = valueOf(e, call.en);
-  const bool guards = result != kNone && soleTarget(result) == kNone;
+  const bool guards = soleTarget(result) == kNone && hasTargets(element);
   if (eno != kNone) {
     keep(eno, condition, wireName(element) + "_ENO");
     condition = plainValue(eno);
@@ -305,7 +311,7 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
   addControl(element, call, eno);
   bool outputs = false;
   for (uint32_t s = function ? graph_.first_source[element] : kNone; s != kNone; s = graph_.sources[s].next) {
-    if (s == result || s == eno) continue;
+    if (s == result || s == eno || graph_.sources[s].uses == 0) continue;
     if (pinNamed(e, names_.string(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
     Source& source = graph_.sources[s];
     if (!source.temporary)
@@ -316,7 +322,7 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
   const bool sole = soleTarget(result) != kNone;
   if (function && reads_eno) {
     guard(element, graph_.sources[eno].temporary);
-  } else if (function && call.has_en && (outputs || (result != kNone && !sole))) {
+  } else if (function && call.has_en && (outputs || !sole) && hasTargets(element)) {
     const NameId name = keptEnable(element, call.arguments[0].value);
     call.arguments[0].value = build_.name(name, e.loc);
     guard(element, name);

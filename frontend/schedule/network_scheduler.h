@@ -71,6 +71,7 @@ class Scheduler {
   void callWithEno(uint32_t element, Call& call, uint32_t eno, uint32_t result);
   void addControl(uint32_t element, Call& call, uint32_t eno);
   NameId keptEnable(uint32_t element, ExprId condition);
+  bool hasTargets(uint32_t element) const;
   void guard(uint32_t element, NameId condition);
   ExprId targetOf(uint32_t element, uint32_t result);
   bool fillArguments(uint32_t element, Call& call);

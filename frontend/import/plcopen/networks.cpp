@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -17,8 +18,8 @@
 namespace rung::importer::plcopen {
 namespace {
 
-// Numbers for elements without a localId, larger than those of editors.
 constexpr int32_t kVariableGap = 40;  // from a box to the variable at its output
+// Numbers for elements without a localId, larger than those of editors.
 constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
 
 struct Row {
@@ -51,8 +52,8 @@ std::string_view timerOf(std::string_view symbol) {
 }
 
 bool hasWires(ElementKind kind) {
-  return kind != ElementKind::Rail && kind != ElementKind::RightRail && kind != ElementKind::Input &&
-         kind != ElementKind::Comment && kind != ElementKind::Continuation;
+  return kind != ElementKind::Rail && kind != ElementKind::Input && kind != ElementKind::Comment &&
+         kind != ElementKind::Continuation;
 }
 
 class DiagramReader {
@@ -74,6 +75,9 @@ class DiagramReader {
   void readBoxName(const Element& e, NetworkElement& out) const;
   void readPins(const Element& e, NetworkElement& out) const;
   std::vector<WireSource> wiresOf(const Element* point, std::string_view reader = {}) const;
+  std::vector<WireSource> wiresOfRail(const Element& rail) const;
+  void beginNetwork(Loc loc, uint64_t network);
+  bool isTitle(const Element& e) const;
   void writeVariablesAtOutputs(const Element& box, const xml::Excerpt& number);
   std::vector<WireSource> wiresOfInput(const Element& pin) const;
   const Element* sourceOf(const Element& connection) const;
@@ -97,7 +101,8 @@ class DiagramReader {
   NetworkWriter writer_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
-  uint64_t network_ = 0;  // current network, derived from element numbers (CODESYS)
+  std::map<uint64_t, std::string> titles_;  // by network, without empty ones
+  uint64_t network_ = 0;                    // current network, derived from element numbers (CODESYS)
   uint64_t next_own_ = kOwnNumbers;
   bool counts_from_zero_ = false;  // executionOrderId 0 is a valid number
 };
@@ -125,6 +130,12 @@ void DiagramReader::collect(const Element& body) {
   std::vector<uint64_t> execution_orders;
   for (const Element& e : document_.children(body)) {
     if (rowOf(e) == nullptr) continue;
+    if (isTitle(e)) {
+      const Element* text = document_.child(e, "alternativeText");
+      const std::string title = text == nullptr ? std::string() : document_.text(*text, reading_.sources);
+      const uint64_t number = numberOf(e);
+      if (number != UINT64_MAX && !isBlank(title)) titles_.emplace(number / kNumbersPerNetwork, trimmed(title));
+    }
     by_number_.emplace(numberOf(e), &e);
     if (e.name == "step") continue;
     elements_.push_back(&e);
@@ -315,8 +326,19 @@ void DiagramReader::readNetworkOf(const Element& e) {
   if (number == UINT64_MAX || number < kNumbersPerNetwork) return;
   const uint64_t network = number / kNumbersPerNetwork;
   if (network == network_ || network > UINT32_MAX) return;
+  beginNetwork(e.loc, network);
+}
+
+void DiagramReader::beginNetwork(Loc loc, uint64_t network) {
   network_ = network;
-  writer_.beginNetwork(e.loc, network);
+  const auto title = titles_.find(network);
+  const uint64_t first = titles_.count(0);  // the title of the first network has a number below ten thousand million
+  writer_.beginNetwork(loc, network + first, false, title == titles_.end() ? std::string_view{} : title->second);
+}
+
+bool DiagramReader::isTitle(const Element& e) const {
+  const Element* type = e.name == "vendorElement" ? dataOf(reading_, e, "fbdelementtype") : nullptr;
+  return type != nullptr && document_.text(*type, reading_.sources) == "networktitle";
 }
 
 // Elements of CODESYS other than those of TC6. False: they are not part of the network.
@@ -383,13 +405,28 @@ void DiagramReader::read(const Element& e) {
     readParts(e, out);
   if (out.kind != ElementKind::Input) out.order = orderOf(e);
   out.area = areaOf(document_, e);
-  if (hasWires(out.kind) && !out.has_pins) {
+  if (out.kind == ElementKind::RightRail) {
+    out.input = wiresOfRail(e);
+  } else if (hasWires(out.kind) && !out.has_pins) {
     const Element* variable = out.kind == ElementKind::Coil ? document_.child(e, "variable") : nullptr;
     out.input = wiresOf(document_.child(e, "connectionPointIn"),
                         variable == nullptr ? std::string() : document_.text(*variable, reading_.sources));
   }
   writer_.write(out);
   if (out.kind == ElementKind::Box) writeVariablesAtOutputs(e, out.number);
+}
+
+// The rail has a point for each wire. A wire from nowhere is left out: it does nothing.
+std::vector<WireSource> DiagramReader::wiresOfRail(const Element& rail) const {
+  std::vector<WireSource> wires;
+  for (const Element& point : document_.children(rail)) {
+    if (point.name != "connectionPointIn") continue;
+    for (const Element& c : document_.children(point)) {
+      const xml::Attribute* from = c.name == "connection" ? document_.attribute(c, "refLocalId") : nullptr;
+      if (from != nullptr && sourceOf(c) != nullptr) wires.push_back({{document_, *from}, sourcePin(c, {})});
+    }
+  }
+  return wires;
 }
 
 // In ladders CODESYS writes the variable at an output into the output itself.
@@ -436,6 +473,7 @@ void DiagramReader::readActions(const Element& body) {
 void DiagramReader::readBody(const DrawnBody& diagram) {
   collect(diagram.body);
   writer_.beginBody(diagram.body.loc, diagram.language);
+  if (titles_.count(0) != 0) beginNetwork(diagram.body.loc, 0);
   for (const Element* e : elements_) read(*e);
   readActions(diagram.body);
   writer_.endBody(diagram.body.end);

@@ -215,7 +215,7 @@ bool hasCommentInComment(std::string_view code) {
 
 // Comments of Beremiz and OpenPLC end at the first `*)`.
 void writeCode(Import& import, const xml::Element& code) {
-  const bool is_flat = import.unquoted_strings && hasCommentInComment(textOf(import, code));
+  const bool is_flat = import.unquoted_strings && !import.is_rung && hasCommentInComment(textOf(import, code));
   if (is_flat) import.out.word(kCommentsDoNotNest);
   writeLines(import, code);
   if (is_flat) import.out.word(kCommentsNest);
