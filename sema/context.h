@@ -116,6 +116,8 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
 void allocateHierarchical(Context& context);
 // BOOL, BYTE, WORD, DWORD or LWORD, by the size letter.
 TypeId addressType(const DirectAddress& address);
+// The type that `VAR AT %QW5 : INT; END_VAR` without a name gives to an address of this size; none: it gives none.
+TypeId declaredAddressType(Context& context, const DirectAddress& address);
 
 // The value of an expression that was checked, when it is constant (literals, constants, operators on them,
 // conversions, SIZEOF). Faults in it (1/0, overflow) are reported once.

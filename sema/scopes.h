@@ -159,6 +159,7 @@ struct Scopes {
     std::vector<VarId> users;
   };
   std::vector<HierarchicalAddress> hierarchical;
+  std::unordered_map<uint64_t, std::vector<VarId>> unnamed_addresses;  // VAR AT %QW5 : INT: by addressKey
   NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
   struct LiteralStorage {      // whose address is taken (bodies/literal_storage.cpp)
     struct Entry {

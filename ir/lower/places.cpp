@@ -73,12 +73,12 @@ ExprId PlaceLowering::memberPlace(rung::ExprId id) {
 
 TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }
 
-// The memory of a place as a variable of another type: a structure as the one that it extends, an enumeration as its
-// base.
+// The memory of a place as a variable of another type: a structure as the one that it extends, an array as one with
+// other bounds, an enumeration as its base.
 ExprId PlaceLowering::seenAs(ExprId place, TypeId type, Loc loc) {
   const TypeKind from = types_.kind(typeOf(place)), to = types_.kind(type);
-  const bool structure = from == TypeKind::Record && to == TypeKind::Record && typeOf(place) != type;
-  if (!structure && (from != TypeKind::Enum || to == TypeKind::Enum)) return place;
+  const bool is_part = from == to && (to == TypeKind::Record || to == TypeKind::Array) && typeOf(place) != type;
+  if (!is_part && (from != TypeKind::Enum || to == TypeKind::Enum)) return place;
   const TypeId own = types_.pointer(typeOf(place)), wanted = types_.pointer(type);
   types_.layout(own);
   types_.layout(wanted);

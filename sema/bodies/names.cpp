@@ -293,6 +293,7 @@ static bool isMember(const Context& context, Entity entity, TypeId wanted) {
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
+  const bool several = isAmbiguousItem(context, entity);
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
     const bool other_item = entity.entityKind() == EntityKind::EnumValue &&
                             context.types().resolve(context.symbols.enum_values[entity.index].type) != wanted;
@@ -303,7 +304,9 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   if (entity) {
     const bool decided = wanted && entity.entityKind() == EntityKind::EnumValue &&
                          context.types().resolve(context.symbols.enum_values[entity.index].type) == wanted;
-    if (!decided && isAmbiguousItem(context, entity)) {
+    // iec: a value of two enumerations always needs its type. ed. 3, 6.4.4.3; ed. 2, 2.3.3.1.
+    if ((context.iec() && several && entity.entityKind() == EntityKind::EnumValue) ||
+        (!decided && isAmbiguousItem(context, entity))) {
       const TypeId type = context.symbols.enum_values[entity.index].type;
       context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)});
       return Entity::of(EntityKind::Error, 0);

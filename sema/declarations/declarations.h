@@ -152,6 +152,8 @@ void shareTemporaries(Context& context, PouId pou);
 // ---- addresses.cpp: see resolveAddress in context.h
 // None: no area has that letter, which was reported.
 std::optional<types::AreaId> areaOf(Context& context, const DirectAddress& address, Loc loc);
+// Equal for addresses that are written alike.
+uint64_t addressKey(const Context& context, const DirectAddress& address);
 // How many bytes an area may have.
 uint64_t areaLimit(const Context& context, types::AreaId area);
 
