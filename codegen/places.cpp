@@ -58,7 +58,8 @@ void PlaceWriter::place(ExprId id) {
       out_ += "))";
       return;
     }
-    case ExprKind::Image:  // as an aggregate: in place
+    case ExprKind::Image:  // as an aggregate: in place; a string is its characters
+      if (isString(e.type)) return strings().stringValue(id);
       out_ += "(*(";
       appendPointer(out_, types_, e.type, "");
       out_ += ")(";

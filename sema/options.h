@@ -30,6 +30,8 @@ struct LibraryFile {
   const char* path;     // as diagnostics and faults print it
   std::string_view source;
   FileId file = {};  // none: `source` is not in Sources yet
+  // A library of the project that has other blocks of the same names: those of this file are not known.
+  const char* hidden_by = nullptr;
 };
 // Another name of a library, for qualified names: Tc2_Standard.TON.
 struct LibraryAlias {

@@ -126,6 +126,7 @@ struct Libraries {
   std::vector<LibraryName> names{1};
   NameMap index;           // name -> LibraryName (the entity's index; its kind is unused)
   NameMap namespaces;      // name or alias of a library -> Namespace
+  NameMap hidden;          // name -> Options::libraries, of a file that another library hides
   NameMap extended;        // names of blocks that a library block extends: a set
   uint32_t project = ~0u;  // the index of the Namespace of the project itself
 };

@@ -147,7 +147,7 @@ class Cursor {
   const Token* last_error_ = nullptr;
 
  private:
-  bool inBrackets(const Token* t) const;
+  bool inBrackets(const Token* t, bool otherwise) const;
   const Token* lineOf(const Token* t) const;
   uint32_t columnOf(const Token* t) const;
   Report reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, bool& unfinished);

@@ -103,14 +103,16 @@ bool Cursor::isVariable(const Token* t) const {
   return false;
 }
 
-// Whether a bracket of the statement or declaration is open before t.
-bool Cursor::inBrackets(const Token* t) const {
+// Whether a bracket of the statement or declaration is open before t; `otherwise` where its beginning is too far away,
+// as in a long list.
+bool Cursor::inBrackets(const Token* t, bool otherwise) const {
   uint32_t closed = 0;
   for (const Token* p = t; p > tokens_.data() && t - p < kMaxScan;) {
     --p;
     if (closesBracket(p->kind)) ++closed;
     if (opensBracket(p->kind) && closed-- == 0) return true;
     if (p->kind == Tok::Semicolon || (isBoundary(p->kind) && p->kind != Tok::Of)) return false;
+    if (t - p == kMaxScan) return otherwise;
   }
   return false;
 }
@@ -125,8 +127,8 @@ Cursor::Begins Cursor::begins(const Token* t) const {
   if (!isName(t->kind) || ends == Ends::InHeader || ends == Ends::Unknown) return Begins::Nothing;
   const Token* const next = pastPath(t);
   const bool assigns = isAssignSign(next->kind) || isLetterAssign(next);
-  if (declares_ && t[1].kind == Tok::Comma && !inBrackets(t)) return Begins::New;
-  if (ends == Ends::InList || (declares_ && assigns && inBrackets(t))) {
+  if (declares_ && t[1].kind == Tok::Comma && !inBrackets(t, true)) return Begins::New;
+  if (ends == Ends::InList || (declares_ && assigns && inBrackets(t, true))) {
     const Tok before = t[-1].kind;
     const bool separated = before == Tok::Comma || opensBracket(before) || before == Tok::Dot;
     const bool binds = next->kind == Tok::Assign || next->kind == Tok::Arrow;
@@ -140,7 +142,8 @@ Cursor::Begins Cursor::begins(const Token* t) const {
     return Begins::New;
   if ((isName(t[1].kind) || t[1].kind == Tok::Number) && (t[1].flags & kLineStart) == 0) return Begins::New;
   if (next->kind != Tok::LeftParen) return Begins::Nothing;
-  return (next == t + 1 && t[-1].kind != Tok::Dot && isVariable(t)) || inBrackets(t) ? Begins::New : Begins::Nothing;
+  return (next == t + 1 && t[-1].kind != Tok::Dot && isVariable(t)) || inBrackets(t, false) ? Begins::New
+                                                                                            : Begins::Nothing;
 }
 
 const Token* Cursor::lineOf(const Token* t) const {

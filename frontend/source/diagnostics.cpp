@@ -112,7 +112,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
       return Report(nullptr);
     }
   } else if (severity == Severity::Warning) {
-    if (warning_count_++ >= uint64_t{max_errors} * 10) {
+    if (warning_count_++ >= uint64_t{max_errors} * 10 && !keeps_all_warnings) {
       ++dropped_warning_count_;
       return Report(nullptr);
     }

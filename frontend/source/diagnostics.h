@@ -122,6 +122,7 @@ class Diagnostics {
   void sort();
 
   uint32_t max_errors = 100;
+  bool keeps_all_warnings = false;  // beyond ten times max_errors
   bool warnings_are_errors = false;
   // -W options such as "no-W0101" or "no-unused-variable", see docs/cli.md. False when the name is unknown.
   bool setWarning(std::string_view name, bool on);

@@ -3,6 +3,7 @@
 #include "frontend/source/render.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 namespace rung {
@@ -131,6 +132,9 @@ class TextRenderer {
     if (count == 0) return;
     out_ += std::to_string(count) + " more " + what + (count == 1 ? "" : "s") + " not shown (--max-errors)\n";
   }
+  void notShownOf(std::string_view code, uint32_t count) {
+    out_ += std::to_string(count) + " more " + std::string(code) + " not shown (--max-warnings=0 shows all)\n";
+  }
 
   std::string take() { return std::move(out_); }
 
@@ -211,9 +215,16 @@ class TextRenderer {
   std::string out_;
 };
 
-std::string renderText(const Diagnostics& diagnostics, const Sources& sources, bool color) {
-  TextRenderer text(sources, color);
-  for (const Diagnostic& diagnostic : diagnostics.all()) text.add(diagnostic);
+std::string renderText(const Diagnostics& diagnostics, const Sources& sources, const RenderOptions& options) {
+  TextRenderer text(sources, options.color);
+  std::map<std::string_view, uint32_t> counts;  // of warnings by code
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    const bool is_warning = diagnostic.severity == Severity::Warning && options.max_warnings != 0;
+    if (is_warning && ++counts[diagInfo(diagnostic.diag).code] > options.max_warnings) continue;
+    text.add(diagnostic);
+  }
+  for (const auto& [code, count] : counts)
+    if (count > options.max_warnings) text.notShownOf(code, count - options.max_warnings);
   text.notShown(diagnostics.droppedWarningCount(), "warning");
   text.notShown(diagnostics.droppedCount(), "error");
   return text.take();
@@ -390,7 +401,7 @@ std::string jsonQuote(std::string_view text) {
 
 std::string render(const Diagnostics& diagnostics, const Sources& sources, const RenderOptions& options) {
   switch (options.format) {
-    case DiagnosticFormat::Text: return renderText(diagnostics, sources, options.color);
+    case DiagnosticFormat::Text: return renderText(diagnostics, sources, options);
     case DiagnosticFormat::Json: return renderJson(diagnostics, sources);
     case DiagnosticFormat::Sarif: return renderSarif(diagnostics, sources, options.page);
   }

@@ -90,6 +90,10 @@ struct BodyState {
     std::vector<AssignStmt*> assigns = {};
     bool busy = false;
   };
+  struct Served {  // checks/served_object.cpp: what an in-out of an instance was bound to first
+    VarId instance, pin, object;
+  };
+  std::vector<Served> served;
   std::vector<Temporary> temporaries;  // all declared before the first statement is checked
   Slice<StmtId> statements;
   bool assigns_known = false;

@@ -12,6 +12,7 @@
 #include "sema/bodies/pseudo_functions.h"
 #include "sema/checks/obsolete.h"
 #include "sema/checks/required_pins.h"
+#include "sema/checks/served_object.h"
 #include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
 #include "sema/declarations/declarations.h"
@@ -339,6 +340,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
+  checkServedObject(context, node, call);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
     context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});

@@ -268,6 +268,12 @@ void indexLibraries(Context& context) {
   libraries.library_of_file.resize(files.size());
   libraries.sources.resize(files.size());
   for (uint32_t f = 0; f < files.size(); ++f) {
+    if (files[f].hidden_by != nullptr) {
+      for (const IndexedBlock& block : indexLibrary(files[f].source))
+        for (const std::string_view name : block.names)
+          libraries.hidden.insert(keyOf(context, context.names().intern(name)), Entity::of(EntityKind::Namespace, f));
+      continue;
+    }
     const NameId name = context.names().intern(files[f].library);
     const NameId key = keyOf(context, name);
     Entity space = libraries.namespaces.find(key);

@@ -37,6 +37,10 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     return;
   }
   if (!isFirstReport(context, name)) return;
+  if (const Entity hidden = context.scopes.libraries.hidden.find(keyOf(context, name))) {
+    context.report(diag::NotInLibrary, loc, {text, context.project.options.libraries[hidden.index].hidden_by});
+    return;
+  }
   if (context.symbols.diagnostics.full()) {
     context.report(diag::UnknownType, loc, {text});
     return;

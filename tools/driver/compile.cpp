@@ -83,6 +83,7 @@ Compilation::~Compilation() = default;
 Compilation::Compilation(const Options& given, PhaseTimes& times, Sink& sink)
     : options(given), diagnostics(sources), times_(times), sink_(sink) {
   diagnostics.max_errors = options.max_errors;
+  diagnostics.keeps_all_warnings = options.max_warnings == 0;
   diagnostics.warnings_are_errors = options.werror;
 }
 
@@ -149,6 +150,20 @@ void Compilation::noteLibraries() {
   libraries.prefer(named);
 }
 
+// A block's name means that of the library that the project refers to, never another vendor's block of the same name.
+void Compilation::hideOtherVendors(std::vector<sema::LibraryFile>& files) const {
+  static constexpr struct { const char *referred, *hidden; } kVendors[] = {{"Tc2_MC2", "SM3_Basic"}};
+  const auto isReferred = [&](std::string_view name) {
+    return std::any_of(inputs.libraries.begin(), inputs.libraries.end(),
+                       [&](const importer::Library& library) { return sameIdentifier(library.name, name); });
+  };
+  for (const auto& row : kVendors) {
+    if (!isReferred(row.referred) || isReferred(row.hidden)) continue;
+    for (sema::LibraryFile& file : files)
+      if (std::string_view(file.library) == row.hidden) file.hidden_by = row.referred;
+  }
+}
+
 bool Compilation::parse() {
   if (!read()) return false;
   times_.begin("parse");
@@ -186,6 +201,7 @@ bool Compilation::check() {
     if (!types::findArea(inputs.project.areas, 'N'))
       std::erase_if(library_files,
                     [](const auto& file) { return std::string_view(file.path).ends_with("nct/symbols.st"); });
+    hideOtherVendors(library_files);
     sema_options.libraries = library_files;
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;
@@ -320,6 +336,7 @@ RenderOptions Compilation::renderOptions() const {
   RenderOptions render_options;
   render_options.format = options.format;
   render_options.color = options.color;
+  render_options.max_warnings = options.max_warnings;
   render_options.page = errorPage;
   return render_options;
 }

@@ -87,6 +87,7 @@ class Compilation {
 
  private:
   void noteLibraries();
+  void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
   std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;
   void prepare(Diagnostics& own) const;

@@ -56,6 +56,7 @@ struct Options {
   std::vector<WarningSwitch> warnings;
   bool werror = false;
   uint32_t max_errors = 100;
+  uint32_t max_warnings = 20;  // of one code, in text; 0: all
   DiagnosticFormat format = DiagnosticFormat::Text;
   std::string diagnostics_path;  // --diagnostics; empty: to the sink, in `format`
   uint32_t jobs = 0;             // 0: one per processor

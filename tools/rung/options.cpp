@@ -59,6 +59,7 @@ enum class Key : uint8_t {
   Warning,
   Werror,
   MaxErrors,
+  MaxWarnings,
   Format,
   Diagnostics,
   Jobs,
@@ -194,6 +195,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME disables"},
     {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},
     {Key::MaxErrors, "--max-errors", "N", kReads, "list at most N errors; 0: all (default: 100)"},
+    {Key::MaxWarnings, "--max-warnings", "N", kReads, "list at most N warnings of one code; 0: all (default: 20)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics and lists (default: text)"},
     {Key::Diagnostics, "--diagnostics", "FILE", kReads, "write diagnostics to FILE in that format, too"},
     {Key::Color, "--color", "auto|always|never", kReads | bit(Command::Explain),
@@ -276,6 +278,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       }
       return {};
     case Key::Werror: options.werror = true; return {};
+    case Key::MaxWarnings: return parseNumber(row.name, value, 0, 1'000'000'000, options.max_warnings);
     case Key::MaxErrors:
       error = parseNumber(row.name, value, 0, 1'000'000'000, options.max_errors);
       if (error.empty() && options.max_errors == 0) options.max_errors = ~0u;

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Constants, ExpressionTest,
     testing::Values(Row{"counter := 70000;", "1:12 E0504"}, Row{"counter := -32769;", "1:12 E0504"},
-                    Row{"counter := -32768;", ""}, Row{"counter := 30000 + 30000;", "1:12 E0504"},
+                    Row{"counter := -32768;", ""}, Row{"counter := 30000 + 30000;", "1:12 W0583"},
                     Row{"bt := 256;", "1:7 E0504"}, Row{"u := -1;", "1:6 W0562"},
                     Row{"counter := SINT#200;", "1:12 E0504"}, Row{"counter := 5 / 0;", "1:16 E0505"},
                     Row{"counter := counter MOD 0;", "1:24 E0505"}, Row{"r := r / 0.0;", "1:10 W0582"},
