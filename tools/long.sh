@@ -18,7 +18,8 @@
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
 # tidy          clang-tidy over every file
-# conversions   every conformance program converted to ST and to PLCopen XML: its tests pass as before
+# conversions   every conformance program converted to ST and to PLCopen XML: its tests pass as before; every keyword and
+#               library word as a name
 # conformance   the conformance suite exported, every row of edition 3 or its reason, and run with Rung, interpreted and compiled
 # compilers     every conformance program's C++ compiled by clang++ too (needs clang++)
 set -eu
@@ -125,6 +126,7 @@ conversions() {
   files=$(ls tests/conformance/*/*.st tests/conformance/plcopen/*.xml | grep -v 'pointers/what_is_known\|dialects/keywords_as_names\|/nct')
   # shellcheck disable=SC2086
   PATH=$bin:$PATH python3 tests/programs/convert_st/tests_pass.py $files
+  PATH=$bin:$PATH python3 tests/programs/convert_st/names.py
 }
 
 conformance() {
@@ -158,7 +160,7 @@ parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
     differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|compilers) ;;
-    *) sed -n '2,23s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,24s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -78,9 +78,13 @@ Rows rowsOf(const Body& body, const DiagramElement& e, std::span<const NameId> u
   return rows;
 }
 
+constexpr int32_t kInOutMark = 13;
+bool isInOut(const DiagramPin& pin) { return pin.direction == PinDirection::InOut; }
+
 int32_t labelWidth(const Body& body, const DiagramElement& e, const Terminal& t) {
   const DiagramPin* pin = pinOf(body, e, t);
-  return textWidth(body.names.string(t.name)) + (pin != nullptr && pin->edge != EdgeKind::None ? 8 : 0);
+  const int32_t mark = pin == nullptr ? 0 : isInOut(*pin) ? kInOutMark : pin->edge != EdgeKind::None ? 8 : 0;
+  return textWidth(body.names.string(t.name)) + mark;
 }
 
 void measureBox(const Body& body, const DiagramElement& e, std::span<const NameId> unlisted_outputs, Item& item) {
@@ -148,6 +152,15 @@ void drawModifiers(Svg& svg, const DiagramPin& pin, Point border, bool left) {
   svg.path(route(points, 3) + (inwards ? "" : "Z"));
 }
 
+// A double arrow at the pin of an in-out variable: it is read and written.
+void drawInOut(Svg& svg, Point border) {
+  const int32_t from = border.x + 3, to = border.x + 14, y = border.y;
+  const Point line[] = {{from, y}, {to, y}};
+  const Point left[] = {{from + 3, y - 3}, {from, y}, {from + 3, y + 3}};
+  const Point right[] = {{to - 3, y - 3}, {to, y}, {to - 3, y + 3}};
+  svg.path(route(line, 2) + route(left, 3) + route(right, 3));
+}
+
 void drawOrder(Svg& svg, const DiagramElement& e, Point corner) {
   if (e.order == 0) return;
   const std::string text = std::to_string(e.order);
@@ -171,7 +184,9 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     const Point border{left ? frame.x : frame.right(), end.y};
     svg.line(end, border);
     const DiagramPin* pin = pinOf(body, e, t);
-    const int32_t inset = pin != nullptr && pin->edge != EdgeKind::None ? 12 : 4;
+    const bool in_out = pin != nullptr && isInOut(*pin);
+    if (in_out) drawInOut(svg, border);
+    const int32_t inset = in_out ? 4 + kInOutMark : pin != nullptr && pin->edge != EdgeKind::None ? 12 : 4;
     svg.text({border.x + (left ? inset : -inset), end.y + 4}, left ? Anchor::Start : Anchor::End,
              body.names.string(t.name));
     if (pin != nullptr) drawModifiers(svg, *pin, border, left);
@@ -248,8 +263,12 @@ void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& i
   modifiers.negated = e.negated;
   modifiers.edge = e.edge;
   modifiers.storage = e.storage;
-  const bool writes = e.kind == ElementKind::Output || e.kind == ElementKind::Jump || e.kind == ElementKind::Return;
+  const bool writes = e.kind == ElementKind::Output || e.kind == ElementKind::InOut || e.kind == ElementKind::Jump ||
+                      e.kind == ElementKind::Return;
   if (!item.terminals.empty()) drawModifiers(svg, modifiers, {writes ? frame.x : frame.right(), y}, writes);
+  if (e.kind == ElementKind::InOut)
+    for (const DiagramPin& pin : body.tree.list(e.pins))
+      if (pin.direction == PinDirection::Output) drawModifiers(svg, pin, {frame.right(), y}, false);
   drawOrder(svg, e, {frame.right(), frame.y + 1});
 }
 

@@ -63,20 +63,17 @@ Allowed ofPin(ElementKind kind, PinDirection direction) {
   return {false, false};
 }
 
-// Takes the modifiers that are not allowed away. Their words; empty: none.
+// The words of the modifiers that are not allowed; empty: none.
 template <class Modifiable>
-std::string takeForbidden(Modifiable& m, const Allowed& allowed) {
+std::string forbidden(const Modifiable& m, const Allowed& allowed) {
   std::string words;
   const auto add = [&](const char* word) { words += (words.empty() ? "" : " ") + std::string(word); };
   if (!allowed.logic) {
     if (m.negated) add("NOT");
     if (m.edge != EdgeKind::None) add(m.edge == EdgeKind::Rising ? "RISING" : "FALLING");
-    m.negated = false;
-    m.edge = EdgeKind::None;
   }
   if (!allowed.storage) {
     if (m.storage != PinStorage::None) add(m.storage == PinStorage::Set ? "SET" : "RESET");
-    m.storage = PinStorage::None;
   }
   return words;
 }
@@ -90,12 +87,17 @@ void Scheduler::checkModifiers() {
   for (uint32_t k = 0; k < graph_.elements.size(); ++k) {
     DiagramElement& e = graph_.elements[k];
     const DiagramPin* input = graph_.inputPin(k);
-    const std::string words = takeForbidden(e, ofElement(e, input != nullptr && !input->wires.empty()));
-    if (!words.empty()) diagnostics_.report(diag::ModifierIdle, e.loc, {words, describe(tree_, names_, e)});
-    for (DiagramPin& pin : tree_.list(e.pins)) {
+    const std::string words = forbidden(e, ofElement(e, input != nullptr && !input->wires.empty()));
+    if (!words.empty()) {
+      diagnostics_.report(diag::ModifierIdle, e.loc, {words, describe(tree_, names_, e)});
+      e.negated = false;
+      e.edge = EdgeKind::None;
+      e.storage = PinStorage::None;
+    }
+    for (const DiagramPin& pin : tree_.list(e.pins)) {
       Allowed allowed = ofPin(e.kind, pin.direction);
       if (pin.storage != PinStorage::None && allowed.storage) allowed.storage = isStored(k, pin);
-      const std::string idle = takeForbidden(pin, allowed);
+      const std::string idle = forbidden(pin, allowed);
       if (idle.empty()) continue;
       const char* const side = pin.direction == PinDirection::Output  ? "output"
                                : pin.direction == PinDirection::InOut ? "in-out"

@@ -69,6 +69,8 @@ const DiagramPin* Graph::inputPin(uint32_t element) const {
 // For a wire without a pin name the only one besides ENO.
 const DiagramPin* Graph::outputPin(uint32_t source) const {
   const Source& s = sources[source];
+  const ElementKind kind = elements[s.element].kind;
+  if (kind == ElementKind::Rail || kind == ElementKind::Compose) return nullptr;  // without modifiers
   const DiagramPin* only = nullptr;
   for (const DiagramPin& pin : tree_->list(elements[s.element].pins)) {
     if (pin.direction != PinDirection::Output) continue;

@@ -121,6 +121,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
     }
     value = joined(pin, 0, pin.wires.count);
   }
+  if (pin.direction == PinDirection::InOut) return value;  // modifiers are an error
   if (pin.edge != EdgeKind::None) value = sensed(pin.hidden, value, e.loc);
   return pin.negated ? inverted(value, e.loc) : value;
 }
