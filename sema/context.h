@@ -29,7 +29,7 @@ struct Context {
   Scopes& scopes;
   PouId pou;    // whose declarations or body are being checked; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
-  uint32_t loop_depth = 0;
+  uint32_t loop_depth = 0, try_depth = 0;
   uint32_t depth = 0;         // of the current expression, limits nesting in the input
   BodyState* body = nullptr;  // none outside of a body
   TypeId items_of = {};       // an enumeration that is being declared: its items need no qualifier

@@ -36,6 +36,10 @@ void StatementParser::finishHeader(Tok connective) {
       return;
     }
   }
+  if (panic_ && atUnfinished()) {
+    panic_ = false;
+    return;
+  }
   // If the keyword still follows, the tokens before it are wrong; otherwise it is missing here.
   const Token* t = t_;
   while (t->kind != connective && t->kind != Tok::Semicolon && !isEndWord(t->kind) && !isStatementWord(t->kind) &&

@@ -92,7 +92,7 @@ DeclId Parser::parseResource() {
   }
   if (!panic_) {
     if (atLineStart())
-      missing(diag::MissingName, {describe(t_)});
+      missing(diag::MissingNameAfter, {describe(t_ - 1)});
     else if (parseName(target))
       d.target = target.name;
   }

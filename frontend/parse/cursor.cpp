@@ -97,17 +97,17 @@ bool Cursor::mayReport(const Token* t) {
 }
 
 Report Cursor::fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
-  const bool report = mayReport(t);
+  bool unfinished = false;
+  Report report = reportMissing(diag, t, args, unfinished);
   panic_ = true;
-  if (!report) return Report(nullptr);
-  last_error_ = t;
-  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+  return report;
 }
 
 Report Cursor::slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
-  if (!mayReport(t)) return Report(nullptr);
-  last_error_ = t;
-  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+  bool unfinished = false;
+  Report report = reportMissing(diag, t, args, unfinished);
+  panic_ = panic_ || unfinished;
+  return report;
 }
 
 Report Cursor::missing(Diag diag, std::initializer_list<std::string_view> args) {
@@ -128,13 +128,18 @@ bool Cursor::expect(Tok wanted) {
     advance();
     return false;
   }
-  if (atLineStart() || at(Tok::End))
+  if (atLineStart() || at(Tok::End)) {
     missing(diag::MissingToken, {spelling(wanted), describe(t_)});
-  else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) ||
-           at(Tok::Semicolon))
+    if (begins(t_) == Begins::New) {
+      panic_ = true;
+      unfinished_ = t_;
+    }
+  } else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) ||
+             at(Tok::Semicolon)) {
     slip(diag::MissingToken, t_, {spelling(wanted), describe(t_)});
-  else
+  } else {
     fail(diag::WrongKeyword, t_, {textOf(t_), spelling(wanted)});
+  }
   return false;
 }
 

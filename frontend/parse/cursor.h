@@ -44,7 +44,9 @@ class Cursor {
   uint32_t index() const { return static_cast<uint32_t>(t_ - tokens_.data()); }
   Loc loc(const Token* t) const { return {base_ + t->offset}; }
   Loc here() const { return loc(t_); }
-  NameId nameOf(const Token* t) const { return {t->value}; }
+  NameId nameOf(const Token* t) const {
+    return t->kind == Tok::Null ? names_.intern(textOf(t)) : NameId{t->value};  // its value is its length
+  }
   Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
   uint32_t lengthOf(const Token* t) const {
     if (t->name_length != 0) return t->name_length;
@@ -71,6 +73,17 @@ class Cursor {
   Tok nearKeyword(const Token* t, std::span<const Tok> candidates) const;
   bool correctSpelling(Tok wanted);  // t_ is a misspelled `wanted`: reports and corrects it
   void tooDeep(const char* what, uint32_t limit);
+
+  // ---- unfinished lines (unfinished.cpp)
+  enum class Begins : uint8_t { Nothing, Element, New };
+  Begins begins(const Token* t) const;
+  // Whether the line above needs something that the first token of this one cannot be.
+  bool lineEnds();
+  // After `:=` in codesys: the line below begins with the second target of a chain, which draws a warning.
+  void acceptChainOverLines();
+  bool isVariable(const Token* t) const;
+  // t_ begins something new after an error at the end of the line above: recovery ends here.
+  bool atUnfinished() const { return t_ == unfinished_; }
 
   // END_… of what begins at `open` is missing.
   void skipStructOfC();
@@ -126,9 +139,18 @@ class Cursor {
   std::vector<Token> tokens_;
   Token* t_ = nullptr;
   bool panic_ = false;
+  bool declares_ = false;                // in a section, a structure or TYPE
+  bool in_il_ = false;                   // in a list of instructions
+  std::vector<NameId> variables_;        // of the current POU
+  const Token* unfinished_ = nullptr;    // the first token after the last unfinished line
+  const Token* chain_target_ = nullptr;  // the second target of a chain, first on its line
   const Token* last_error_ = nullptr;
 
  private:
+  bool inBrackets(const Token* t) const;
+  const Token* lineOf(const Token* t) const;
+  uint32_t columnOf(const Token* t) const;
+  Report reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, bool& unfinished);
   uint32_t lengthOfRareName(const Token* t) const;  // one that recovery made, or a very long one
   Loc endOfRead() const;                            // where tokens that recovery inserted are in between
 };

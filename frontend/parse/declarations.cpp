@@ -52,7 +52,7 @@ bool isKeywordIn(Dialect dialect, std::string_view name) {
 
 // Reports and skips one token that is not allowed here when the token after it is.
 void DeclarationParser::skipStray(bool fits_after, Diag diag) {
-  if (panic_ || !fits_after || endsDeclarations(kind())) return;
+  if (panic_ || !fits_after || endsDeclarations(kind()) || begins(t_) != Begins::Nothing) return;
   if (at(Tok::Error))
     last_error_ = t_;
   else
@@ -71,6 +71,10 @@ bool DeclarationParser::parseNewName(Ident& out) {
 }
 
 bool DeclarationParser::parseName(Ident& out) {
+  if (atLineStart() && lineEnds()) {
+    fail(diag::MissingName, t_, {describe(t_)});
+    return false;
+  }
   if (isName(kind()) || isNullName(t_)) {
     out = ident(t_);
     advance();
@@ -80,7 +84,7 @@ bool DeclarationParser::parseName(Ident& out) {
     const Tok next = peek();
     if ((next == Tok::Colon || next == Tok::Comma || next == Tok::At || next == Tok::Assign ||
          next == Tok::RightParen || next == Tok::Semicolon) ||
-        (t_[1].flags & kLineStart) != 0) {
+        ((t_[1].flags & kLineStart) != 0 && !atLineStart())) {
       slip(diag::ReservedName, t_, {textOf(t_)});
       lost_ = true;
       out = {names_.intern(textOf(t_)), here()};
@@ -95,7 +99,7 @@ bool DeclarationParser::parseName(Ident& out) {
 void DeclarationParser::parseNamePath(Slice<Ident>& out) {
   const size_t first = idents_.size();
   do {
-    if (isName(kind()) || isTypeWord(kind())) {
+    if ((isName(kind()) || isTypeWord(kind())) && !(atLineStart() && lineEnds())) {
       idents_.push_back(ident(t_));
       advance();
     } else {
@@ -143,6 +147,7 @@ DeclId DeclarationParser::parseSection() {
 
 void DeclarationParser::syncDeclaration(Tok end) {
   panic_ = false;
+  if (atUnfinished()) return;
   uint32_t structures = 0;  // their fields are not declarations of this list
   for (;; advance()) {
     if (at(Tok::Struct) || at(Tok::Union)) ++structures;

@@ -74,11 +74,6 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
       slip(diag::ForeignOperator, op, {spelling(op->kind), kNativeOperators[op->kind]});
     advance();
-    // The value is missing: the next line begins with a new statement.
-    if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
-      fail(diag::MissingValueAfter, op, {describe(op)});
-      return build_.error(loc(op));
-    }
     const ExprId right = parseExpr(row.precedence + 1u);
     height = std::max(height, height_) + 1;
     if (height > kMaxExprHeight + 1) {
@@ -152,6 +147,7 @@ ExprId ExpressionParser::parseUnary() {
 ExprId ExpressionParser::parsePrimary() {
   const Loc start = here();
   height_ = 1;
+  if (atLineStart() && lineEnds()) return missingOperand();
   if (isName(kind()) || isTypeWord(kind())) return parseOperandName();
   if (at(Tok::Number)) return ended(parseNumber({}, false, start));
   if (at(Tok::StringLiteral) || at(Tok::WideStringLiteral)) return ended(parseStringLiteral({}, start));
@@ -218,13 +214,12 @@ ExprId ExpressionParser::missingOperand() {
     panic_ = true;
     return build_.error(start);
   }
-  // At the start of a line, the error is at the end of the line above.
-  const Token* before = t_ - 1;
-  const bool is_punctuation = kind() > Tok::Semicolon && kind() <= Tok::EqualLess;
-  if (((atLineStart() && !is_punctuation) || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
-    fail(diag::MissingValueAfter, before, {describe(before)});
-  else
-    fail(diag::MissingValue, t_, {describe(t_)});
+  if (begins(t_) == Begins::Element) {  // the list goes on
+    slip(diag::MissingValue, t_, {describe(t_)});
+    unfinished_ = t_;
+    return build_.error(start);
+  }
+  fail(diag::MissingValue, t_, {describe(t_)});
   return build_.error(start);
 }
 
@@ -269,6 +264,10 @@ ExprId ExpressionParser::parseDot(ExprId base) {
   advance();
   const Loc at_member = here();
   const bool same_line = !atLineStart();
+  if (!same_line && lineEnds()) {
+    fail(diag::MissingName, t_, {describe(t_)});
+    return build_.error(loc(dot));
+  }
   if (isName(kind()) || isNullName(t_) || (isTypeWord(kind()) && same_line)) {
     base = build_.member(base, nameOf(t_), at_member);
   } else if (at(Tok::Number)) {
@@ -412,6 +411,10 @@ Slice<Argument> ExpressionParser::parseArguments(Loc& end) {
 Argument ExpressionParser::parseArgument(size_t first) {
   Argument a{};
   a.loc = here();
+  if (atLineStart() && lineEnds()) {
+    a.value = missingOperand();
+    return a;
+  }
   const bool negated = at(Tok::Not) && (isName(peek()) || isTypeWord(peek())) && peek(2) == Tok::Arrow;
   const Token* pin = negated ? t_ + 1 : t_;
   Tok binder = pin[1].kind;
@@ -532,7 +535,8 @@ void ExpressionParser::closeParen(Tok close, bool is_arguments) {
   if (!panic_) {
     if (accept(close)) return;
     const Tok k = kind();
-    const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_);
+    const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_) ||
+                      begins(t_) == Begins::New;
     if (ends) {
       if (atLineStart() || k == Tok::End)
         missing(diag::MissingToken, {spelling(close), describe(t_)});
@@ -552,6 +556,7 @@ void ExpressionParser::closeParen(Tok close, bool is_arguments) {
     else
       fail(diag::MissingToken, t_, {spelling(close), describe(t_)});
   }
+  if (atUnfinished()) return;
   // The closing partner, even on a later line, within the statement.
   uint32_t depth = 0;
   for (Token* t = t_; t - t_ < 5000; ++t) {

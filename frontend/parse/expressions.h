@@ -38,7 +38,6 @@ class ExpressionParser : public Cursor {
   bool in_variable_ = false;          // in the type of a variable, which may have arguments
   bool in_program_instance_ = false;  // in PROGRAM p : Main (…) of a resource
   std::vector<Ident> block_tasks_;    // its blocks with separate tasks, each followed by the task
-  bool in_il_ = false;                // in a list of instructions
   bool eno_used_ = false;             // ENO is an operand in the current POU
   // Scratch stacks of lists that are being built.
   std::vector<ExprId> exprs_;

@@ -14,6 +14,7 @@ ExprId ExpressionParser::parseTyped() {
   const NameId prefix = nameOf(t_);
   advance();
   advance();
+  if (atLineStart() && lineEnds()) return missingOperand();
   bool negative = false;
   if ((at(Tok::Minus) || at(Tok::Plus)) && peek() == Tok::Number) {
     negative = at(Tok::Minus);

@@ -57,7 +57,7 @@ bool NetworkParser::takeWord(Ident& out) {
     advance();
     return true;
   }
-  const bool word = isName(kind()) || nameReserved(t_);
+  const bool word = (isName(kind()) || nameReserved(t_)) && !(atLineStart() && lineEnds());
   if (!word) {
     fail(diag::MissingName, t_, {describe(t_)});
     return false;
@@ -172,7 +172,8 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
   std::vector<DiagramPin> pins;
   const bool attribute = is(t_, "AT") || is(t_, "ORDER");
   const bool begins_name = isName(kind()) || nameReserved(t_) || at(Tok::StringLiteral);
-  if (isNamed(e.kind) && begins_name && !(attribute && peek() == Tok::Number)) e.path = parseElementPath(e.name);
+  if (isNamed(e.kind) && begins_name && begins(t_) == Begins::Nothing && !(attribute && peek() == Tok::Number))
+    e.path = parseElementPath(e.name);
   while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
     if (takeModifier(e)) continue;
     if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
@@ -302,7 +303,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
       parseElement(elements, network);
     }
     if (!panic_) expect(Tok::Semicolon);
-    if (panic_) {
+    if (panic_ && !atUnfinished()) {
       while (!at(Tok::Semicolon) && !at(Tok::EndNetwork) && !at(Tok::End) && !endsPart(kind())) advance();
       accept(Tok::Semicolon);
     }

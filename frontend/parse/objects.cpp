@@ -76,7 +76,14 @@ Ident Parser::parsePropertyHeader(PropertyDecl& d) {
     d.name = name.name;
     d.h.loc = name.loc;
   }
-  if (!panic_ && expect(Tok::Colon)) d.type = parseType();
+  declares_ = true;
+  if (!panic_ && expect(Tok::Colon)) {
+    if (atLineStart() && atAccessor())
+      missing(diag::MissingTypeAfter, {describe(t_ - 1)});
+    else
+      d.type = parseType();
+  }
+  declares_ = false;
   if (panic_) {
     while (!atLineStart() && !at(Tok::End)) advance();
     panic_ = false;
@@ -161,6 +168,7 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
     d.result = of.type;
   }
   declared_in_body_ = lost_ = false;
+  const size_t outer_variables = variables_.size();
   pou_end_ = end;
   pou_closes_ = Known::Yes;
   while (atSection()) {
@@ -169,6 +177,7 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
   }
   d.sections = listFrom(decls_, first);
   parseBody(d);
+  variables_.resize(outer_variables);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.closed = true;
   if (accept(end)) accept(Tok::Semicolon);

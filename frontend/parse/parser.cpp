@@ -1,6 +1,8 @@
 // Files and POUs; the interface of the parser.
 #include "frontend/parse/parser.h"
 
+#include <algorithm>
+
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/recover.h"
 #include "frontend/source/dialect.h"
@@ -137,6 +139,9 @@ DeclId Parser::parsePou() {
   const Tok end = keywords->end;
   if (!d.h.pragmas.empty()) d.h.begin = tree_.list(d.h.pragmas)[0].loc;
   advance();
+  const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
+  if (!is_member) variables_.clear();
+  const size_t outer_variables = variables_.size();
   parseModifiers(d.access, d.modifiers, true);
   parsePouName(d);
   std::vector<DeclId> usings;
@@ -154,6 +159,7 @@ DeclId Parser::parsePou() {
   d.uses_eno = eno_used_;
   if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   closePou(d, open, word, end);
+  variables_.resize(std::min(outer_variables, variables_.size()));
   return tree_.add<DeclId>(d);
 }
 
@@ -166,7 +172,7 @@ void Parser::parseBases(PouDecl& d) {
 void Parser::parsePouName(PouDecl& d) {
   Ident name{{}, here()};
   if (atLineStart()) {
-    missing(diag::MissingName, {describe(t_)});
+    missing(diag::MissingNameAfter, {describe(t_ - 1)});
   } else if (peek() == Tok::Colon && ((kind() >= Tok::And && kind() <= Tok::Mod) ||
                                       (isTypeWord(kind()) && pragmaNamed(d.h.pragmas, "native")))) {
     // The functional form of an operator, FUNCTION AND : ANY_BIT, and the library's FUNCTION TIME : TIME.
@@ -193,7 +199,10 @@ void Parser::parsePouResult(PouDecl& d, Tok word) {
     accept(Tok::Colon);
   } else if (at(Tok::Colon)) {
     advance();
+    declares_ = true;
     d.result = parseType();
+    declares_ = false;
+    if (!d.result) d.result = build_.errorType(d.h.loc);
   } else if ((isTypeWord(kind()) || (isName(kind()) && word == Tok::Function)) && !atLineStart() && !atMember()) {
     slip(diag::MissingToken, t_, {":", describe(t_)});
     d.result = parseType();

@@ -97,12 +97,14 @@ class Balancer {
     Tok kind;
     uint32_t index;
     uint32_t column;
-    bool line_start;       // the first token of its line
-    bool is_chain;         // the IF of an ELSE IF
-    uint32_t suspect;      // where its END_… seems to be missing; 0: not known
-    uint32_t chain_child;  // index of the IF of an inner ELSE IF that took its END_IF; 0: none
-    Tok connective;        // THEN, DO or OF of its header
-    uint32_t line;         // of the keyword; computed on demand
+    bool line_start;           // the first token of its line
+    bool is_chain;             // the IF of an ELSE IF
+    uint32_t suspect;          // where its END_… seems to be missing; 0: not known
+    uint32_t chain_child;      // index of the IF of an inner ELSE IF that took its END_IF; 0: none
+    Tok connective;            // THEN, DO or OF of its header
+    uint32_t line;             // of the keyword; computed on demand
+    uint32_t until = 0;        // of REPEAT
+    bool after_until = false;  // the suspect is the line after its condition
   };
   struct Orphan {  // THEN, DO or OF without its IF, WHILE, CASE, …
     uint32_t index, line_first, column;
@@ -122,6 +124,11 @@ class Balancer {
       return true;
     if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::With) return true;
     if (!in_configuration_) return false;
+    // An instance without its name or task: the configuration ends before any END_PROGRAM.
+    for (uint32_t k = n; k < count_ && k < n + 2000; ++k) {
+      if (tokens_[k].kind == Tok::EndResource || tokens_[k].kind == Tok::EndConfiguration) return true;
+      if (tokens_[k].kind == Tok::EndProgram) break;
+    }
     // An instance ends with `;` on its line or has arguments, a POU's header does not.
     if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::Colon && isName(tokens_[n + 2].kind) &&
         tokens_[n + 3].kind == Tok::LeftParen)
@@ -131,7 +138,11 @@ class Balancer {
     return false;
   }
   bool isResource(uint32_t i) const {
-    return isName(tokens_[i + 1].kind) &&
+    const Tok next = tokens_[i + 1].kind;
+    if (in_configuration_ && atLineStart(i) && next != Tok::Colon && next != Tok::Comma && next != Tok::At &&
+        next != Tok::Assign)
+      return true;
+    return isName(next) &&
            (tokens_[i + 2].kind == Tok::On || (atLineStart(i) && isName(tokens_[i + 2].kind) && !atLineStart(i + 2)));
   }
   bool opens(uint32_t i) const {
@@ -323,6 +334,11 @@ void Balancer::visit(uint32_t i) {
   // A line that is not indented deeper than the block it should be in: the block's end is likely missing before it.
   if (i == line_first_ && !stack_.empty()) {
     Open& top = stack_.back();
+    // After UNTIL and its condition only END_REPEAT is left to write.
+    if (top.kind == Tok::Repeat && top.until != 0 && !top.after_until && !isCloser(k)) {
+      top.suspect = i;
+      top.after_until = true;
+    }
     if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration &&
         top.kind != Tok::Resource) {
       const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon ||
@@ -348,6 +364,7 @@ void Balancer::visit(uint32_t i) {
       if (suspicious) top.suspect = i;
     }
   }
+  if (k == Tok::Until && !stack_.empty() && stack_.back().kind == Tok::Repeat) stack_.back().until = i;
   if (k == Tok::Elsif || k == Tok::Elseif || k == Tok::Array) {
     pending_header_ = i + 1;
     return;
@@ -451,6 +468,10 @@ void Balancer::close(uint32_t i, Tok closer) {
   }
   // The nearest block closed by this keyword, within the POU.
   size_t found = stack_.size();
+  if ((closer == Tok::EndStruct || closer == Tok::EndUnion) && !stack_.empty() &&
+      (stack_.back().kind == Tok::Type || isVarWord(stack_.back().kind)) &&
+      openAtContent(i, stack_.back().index + 1, closer))
+    return;
   while (found > 0) {
     const Tok k = stack_[found - 1].kind;
     if (closerOf(k) == closer) break;
@@ -547,7 +568,12 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   }
   const uint32_t at = open.suspect != 0 && open.suspect < forced ? open.suspect : forced;
   uint32_t length = 1;
-  const Loc gap = gapBefore(at, length);
+  Loc gap = gapBefore(at, length);
+  if (open.after_until && at == open.suspect) {
+    gap = {loc(at - 1).offset + static_cast<uint32_t>(textOf(at - 1).size())};
+    length = 1;
+    markReported(at - 1);
+  }
   diagnostics_.report(diag::MissingEnd, gap, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
   markReported(at);
   if (at == count_ && at > 0) markReported(at - 1);
@@ -616,7 +642,8 @@ bool Balancer::openAtContent(uint32_t i, uint32_t low, Tok closer) {
         at = k + 1;
         while (at < until && !atLineStart(at)) ++at;
       }
-    } else if (tokens_[k].kind == Tok::Colon && atLineStart(k + 1)) {
+    } else if (atLineStart(k + 1) && isName(tokens_[k + 1].kind) && tokens_[k + 2].kind == Tok::Colon &&
+               (tokens_[k].kind == Tok::Colon || (isName(tokens_[k].kind) && atLineStart(k)))) {
       at = k + 1;
     }
   }

@@ -27,7 +27,8 @@ constexpr Qualifier kQualifiers[] = {{"N", SfcQualifier::N},   {"R", SfcQualifie
 
 // `INITIAL_STEP a`, `STEP a:`, `TRANSITION FROM`, which cannot begin a statement. STEP is a name elsewhere.
 bool ChartParser::atSfc() const {
-  if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
+  if (!isName(kind())) return false;
+  if ((t_[1].flags & kLineStart) != 0) return is(t_, "INITIAL_STEP") && (isName(peek()) || peek() == Tok::EndStep);
   if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
   if (is(t_, "STEP") || is(t_, "MACRO_STEP"))
     return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && (peek(2) == Tok::LeftParen || is(t_ + 2, "AT")));
@@ -139,7 +140,10 @@ void ChartParser::parseStep(std::vector<SfcStep>& out) {
   step.initial = is(t_, "INITIAL_STEP");
   advance();
   std::vector<SfcAssociation> actions;
-  if (parseNewName(step.name)) {
+  if (atLineStart()) {
+    missing(diag::MissingNameAfter, {describe(t_ - 1)});
+    panic_ = true;
+  } else if (parseNewName(step.name)) {
     parsePosition(step.position);
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
@@ -147,7 +151,7 @@ void ChartParser::parseStep(std::vector<SfcStep>& out) {
       if (!accept(Tok::Semicolon) && !parseAssociation(actions)) {
         const Token* before = t_;
         syncStatement();
-        if (t_ == before && !at(Tok::EndStep)) advance();
+        if (t_ == before && !at(Tok::EndStep) && !atUnfinished()) advance();
       }
   }
   if (panic_) syncChart(Tok::EndStep);
@@ -216,7 +220,9 @@ bool ChartParser::parseAssociation(std::vector<SfcAssociation>& out) {
   bool timed = false;
   std::vector<Ident> indicators;
   if (accept(Tok::LeftParen)) {
-    if (isName(kind()) && !at(Tok::RightParen)) {
+    if (atLineStart() && lineEnds()) {
+      fail(diag::MissingToken, t_, {")", describe(t_)});
+    } else if (isName(kind())) {
       const Qualifier* found = nullptr;
       for (const Qualifier& row : kQualifiers)
         if (is(t_, row.word)) found = &row;

@@ -287,6 +287,7 @@ bool StatementParser::acceptAssign(AssignOp& op) {
 
 // The value after the operator.
 void StatementParser::finishAssign(Token* first, ExprId target, AssignOp assign, const Token* op) {
+  if (assign == AssignOp::Assign) acceptChainOverLines();
   Token* const value_start = t_;
   const ExprId value = parseExpr();
   if (at(Tok::Assign) && !panic_) {
@@ -341,6 +342,7 @@ void StatementParser::parseChain(ExprId target, ExprId value, Token* value_start
       }
     links.push_back({value, value_start, here()});
     advance();
+    acceptChainOverLines();
     value_start = t_;
     value = parseExpr();
   }
@@ -350,6 +352,7 @@ void StatementParser::parseChain(ExprId target, ExprId value, Token* value_start
     stmts_.push_back(build_.assign(AssignOp::Assign, links[i].target, value, links[i].op));
     if (i == 0) break;
     t_ = links[i].start;
+    chain_target_ = t_;
     value = parseExpr();
   }
   t_ = end;
@@ -402,6 +405,7 @@ void StatementParser::endStatement() {
 
 void StatementParser::syncStatement() {
   panic_ = false;
+  if (atUnfinished()) return;
   // A list without its `(`, perhaps over several lines: up to its `;`.
   if (at(Tok::Comma)) {
     const Token* t = t_;

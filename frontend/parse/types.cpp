@@ -17,6 +17,7 @@ void DeclarationParser::parseTypes(std::vector<DeclId>& out) {
   const Token* open = t_;
   Slice<Pragma> pragmas = takePragmas();
   Loc doc = takeDoc();
+  declares_ = true;
   advance();
   AccessLevel access{};
   uint8_t modifiers = 0;
@@ -24,10 +25,12 @@ void DeclarationParser::parseTypes(std::vector<DeclId>& out) {
   for (;;) {
     if (accept(Tok::Semicolon)) continue;
     if (accept(Tok::EndType)) {
+      declares_ = false;
       accept(Tok::Semicolon);
       return;
     }
     if (endsDeclarations(kind())) {
+      declares_ = false;
       missingEnd("END_TYPE", open, "TYPE");
       return;
     }
@@ -110,6 +113,11 @@ TypeExprId DeclarationParser::parseType() {
     return {};
   }
   TypeExprId type;
+  if (atLineStart() && lineEnds()) {
+    fail(diag::MissingType, t_, {describe(t_)});
+    --type_depth_;
+    return {};
+  }
   if (!beginsType(t_) && (!isName(kind()) || atLineStart()) && !at(Tok::Union) && !at(Tok::Semicolon))
     skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, diag::MissingType);
   const Loc start = here();
@@ -301,11 +309,13 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
     }
     break;
   }
-  lost_ = lost_ || panic_;
+  bool lost = panic_;
   closeParen(Tok::RightParen, true);
-  lost_ = lost_ || panic_;
+  lost = lost || panic_ || t_[-1].kind != Tok::RightParen;
+  lost_ = lost_ || lost;
   d.items = tree_.addList<EnumItem>(items);
-  if (!panic_ && !d.base && (isName(kind()) || isTypeWord(kind())) && !atLineStart()) d.base = parseNamedType();
+  if (lost) return build_.errorType(d.h.loc);  // with items that are not known
+  if (!d.base && (isName(kind()) || isTypeWord(kind())) && !atLineStart()) d.base = parseNamedType();
   return tree_.add<TypeExprId>(d);
 }
 

@@ -9,9 +9,9 @@
 namespace rung::text {
 
 void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
-  for (;;) {
+  const bool outer = std::exchange(declares_, true);
+  while (!at(end) && !endsDeclarations(kind())) {
     if (accept(Tok::Semicolon)) continue;
-    if (at(end) || endsDeclarations(kind())) return;
     const Token* before = t_;
     if (at(Tok::Comma)) lost_ = true;  // the name before it is missing
     skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), diag::NotADeclaration);
@@ -19,6 +19,7 @@ void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<Decl
     if (var) out.push_back(var);
     if (t_ == before) advance();
   }
+  declares_ = outer;
 }
 
 // variable = names [AT address] ":" type [R_EDGE | F_EDGE] [":=" init] ";"
@@ -48,7 +49,9 @@ void DeclarationParser::parseVarNames(SectionKind section) {
   do {
     Ident name;
     if (!isName(kind()) && !isNullName(t_) && !nameReserved(t_)) return reportNoName(idents_.size() > first);
+    if (isName(kind())) chain_target_ = t_;  // a name of the list, also on a line of its own
     if (!parseNewName(name)) return;
+    if (!in_structure_) variables_.push_back(name.name);
     idents_.push_back(name);
   } while (nameFollows(dotted));
 }

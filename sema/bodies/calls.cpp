@@ -414,8 +414,11 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isFirstReport(context, name))
-    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestCallable(context, name));
+  if (isFirstReport(context, name)) {
+    std::string_view near = nearestCallable(context, name);
+    if (near.empty()) near = nearestPseudoFunction(context, name);
+    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(near);
+  }
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
@@ -528,6 +531,12 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     return context.iec() && isControl(string(context, context.symbols.var(pins[i]).name));
   };
   if (!checkFormality(context, node, pou)) out.ok = false;
+  if (context.symbols.pou(pou).extensible && node.arguments.count > kMaxOperands) {
+    context.report(diag::TooManyArguments, context.tree().list(node.arguments)[kMaxOperands].loc,
+                   {string(context, context.symbols.pou(pou).name), std::to_string(kMaxOperands)});
+    out.ok = false;
+    return out;
+  }
   if (out.ok && passesEnable(context, node, pou)) {
     for (uint32_t i = 0; i < node.arguments.count; ++i) checkLoose(context, node, i);
     out.ok = false;

@@ -37,8 +37,10 @@ bool sameQuantity(TypeKind a, TypeKind b) {
   return group(a) != 0 && group(a) == group(b);
 }
 
-// The name of the function that converts, if there is one.
-std::string conversionName(const Context& context, TypeId from, TypeId to) {
+// The name of the function that converts, if there is one: from characters and strings those that the library declares,
+// otherwise a rule for each pair.
+std::string conversionName(const Context& constant, TypeId from, TypeId to) {
+  Context context = constant;
   const auto word = [&](TypeId type) -> std::string {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
     if (own.kind == TypeKind::Enum) return own.name ? std::string(string(context, own.name)) : std::string("ANY");
@@ -49,7 +51,12 @@ std::string conversionName(const Context& context, TypeId from, TypeId to) {
   };
   const std::string source = word(from), target = word(to);
   if (source.empty() || target.empty() || source == target) return {};
-  return source + "_TO_" + target;
+  const std::string name = source + "_TO_" + target;
+  const TypeKind a = context.types().plainKind(from), b = context.types().plainKind(to);
+  const auto isText = [](TypeKind kind) { return TypeTable::isString(kind) || TypeTable::isCharacter(kind); };
+  const bool is_declared = isText(a) && !isText(b);
+  if (is_declared && lookUp(context, context.names().intern(name)).entityKind() != EntityKind::Pou) return {};
+  return name;
 }
 
 }  // namespace

@@ -66,8 +66,11 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
           context.names().same(context.symbols.pou(member).name, pou.name))
         return;
   }
+  const auto same = [&](TypeId a, TypeId b) {  // an unknown type was reported
+    return a == types::kError || b == types::kError || sameType(context, a, b);
+  };
   const auto toString = [&](TypeId type) { return type ? context.types().toString(type) : std::string("nothing"); };
-  if (!pou.result != !other.result || (pou.result && !sameType(context, pou.result, other.result)))
+  if (!pou.result != !other.result || (pou.result && !same(pou.result, other.result)))
     difference = other.result ? "the result is `" + toString(other.result) + "` there" : "there is no result there";
   for (size_t i = 0; difference.empty() && i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= wanted.size()) {
@@ -79,7 +82,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
     if (i >= pins.size() || context.symbols.var(pins[i]).section != there.section ||
         !context.names().same(context.symbols.var(pins[i]).name, there.name)) {
       difference = "the next parameter is `" + name + "` there";
-    } else if (!sameType(context, context.symbols.var(pins[i]).type, there.type)) {
+    } else if (!same(context.symbols.var(pins[i]).type, there.type)) {
       difference = "`" + name + "` is `" + toString(there.type) + "` there";
     }
   }

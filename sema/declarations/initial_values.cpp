@@ -428,6 +428,14 @@ struct Initializer {
 }  // namespace
 
 bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what, InitialReads may) {
+  constexpr uint64_t kMostBytes = uint64_t{256} << 20;  // the emitted data is as small as its text, the work is not
+  const uint64_t bytes = context.types().info(context.types().resolve(type)).size;
+  if (bytes > kMostBytes && context.tree().kind(init) == ExprKind::ArrayInit) {
+    context.report(diag::InitialValueTooLarge, context.tree().begin(init),
+                   {std::to_string(bytes), std::to_string(kMostBytes)});
+    context.tree().expr(init).type = types::kError;
+    return false;
+  }
   Initializer initializer{.context = context, .what = what, .may = may};
   initializer.value(init, type);
   return initializer.reads;

@@ -97,12 +97,14 @@ int emitCpp(Compilation& compilation, PhaseTimes& times, Sink& sink) {
 
 int emitText(Compilation& compilation, Sink& sink) {
   std::string out;
-  if (compilation.options.emit == EmitKind::Tree) {
-    if (compilation.parse() && !compilation.diagnostics.hasErrors())
+  if (compilation.options.emit == EmitKind::Tree) {  // also of a file with errors, whose nodes are `error`
+    if (compilation.parse())
       for (const FileUnit& unit : compilation.tree.files) out += printTree(compilation.tree, compilation.names, unit);
-  } else if (compilation.lower()) {
-    out = ir::print(*compilation.module);
+    const int printed = out.empty() ? kSuccess : printResult(sink, out);
+    const int exit = compilation.finish();
+    return exit == kSuccess ? printed : exit;
   }
+  if (compilation.lower()) out = ir::print(*compilation.module);
   int exit = compilation.finish();
   return exit == kSuccess ? printResult(sink, out) : exit;
 }
