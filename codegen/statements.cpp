@@ -318,13 +318,16 @@ void StatementWriter::switchStatement(const ir::SwitchStmt& stmt) {
   checks().prepare(stmt.selector);
   const TypeKind kind = kindOf(stmt.selector);
   const bool is_unsigned = !types_.isSigned(kind);
-  // A conversion to an integer may be written as the bool itself, which compilers warn of as a selector.
+  // A conversion to an integer may be written as the bool itself, which compilers warn of as a selector, or in a
+  // narrower type, which does not hold all labels.
   ir::ExprId origin = stmt.selector;
   while (const auto* conversion = expr(origin).tryAs<ir::ConvertExpr>()) origin = conversion->operand;
-  const bool is_bool = kindOf(origin) == TypeKind::Bool;
+  const bool is_narrow =
+      origin != stmt.selector && types::TypeTable::bitWidth(types_.plainKind(expr(origin).type)) <
+                                     types::TypeTable::bitWidth(types_.plainKind(expr(stmt.selector).type));
   out_ += "switch (";
-  if (is_bool) out_ += "(int)";
-  values().value(stmt.selector, is_bool ? Prec::Unary : Prec::Comma);
+  if (is_narrow) out_.append("(").append(scalarType(types_, expr(stmt.selector).type)).append(")");
+  values().value(stmt.selector, is_narrow ? Prec::Unary : Prec::Comma);
   out_ += ')';
   open();
   const bool had_loop = !loops_.empty();

@@ -188,6 +188,7 @@ struct Pou {
   // (`LIMIT__REAL`).
   bool generic = false;
   PouId generic_of;
+  uint32_t generic_depth = 0;  // of a block with VAR_GENERIC CONSTANT: instances that need this one, in a row
   NameId
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)

@@ -77,7 +77,16 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
 void checkAttempt(Context& context, AssignStmt& node) {
   const TypeId type = checkTaker(context, node.target);
   const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
-  if (!wanted) refuseTaker(context, node.target, type, "?=", kObjectKinds);
+  if (!wanted) {  // two references to one type other than an object: an assignment. IEC 61131-3 ed. 3, 6.4.4.10.3
+    const TypeId source = check(context, node.value, type, Access::Read);
+    const TypeKind kind = context.types().kind(type);
+    const bool is_reference = kind == TypeKind::Pointer || kind == TypeKind::Reference;
+    if (is_reference && source && sameType(context, source, type))
+      node.setEffect(AssignOp::Assign);
+    else if (source != types::kError)
+      refuseTaker(context, node.target, type, "?=", kObjectKinds);
+    return;
+  }
   const PouId given = checkSource(context, node.value, "?=");
   if (!wanted || !given) return;
   const ExprId call = makeAttempt(context, node.value, given, node.target, wanted, node.h.loc);

@@ -97,7 +97,12 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   if (type == types::kError) return std::nullopt;
   if (type) {
     const bool is_bool = context.types().kind(type) == types::TypeKind::Bool;
-    if (is_bit && !is_bool) {
+    // Beremiz: a structure or array AT %I3.0, without a size, begins with that byte.
+    const types::TypeKind kind = context.types().kind(type);
+    const bool is_aggregate = kind == types::TypeKind::Record || kind == types::TypeKind::Array;
+    if (is_aggregate && !address.size_given && path.size() == 2 && path[1] == 0) {
+      view.is_bit = false;
+    } else if (is_bit && !is_bool) {
       context.report(diag::AddressType, loc, {text, context.types().toString(type)});
       return std::nullopt;
     }

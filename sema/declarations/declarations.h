@@ -9,8 +9,9 @@
 namespace rung::sema {
 
 inline constexpr uint32_t kMaxDeclarationDepth = 500;
-inline constexpr uint32_t kMaxTypeDepth = 2500;  // structures and blocks inside each other, arrays of arrays
-inline constexpr uint32_t kMaxBases = 500;       // bases of bases
+inline constexpr uint32_t kMaxTypeDepth = 2500;    // structures and blocks inside each other, arrays of arrays
+inline constexpr uint32_t kMaxGenericDepth = 100;  // blocks with other generic constants inside each other
+inline constexpr uint32_t kMaxBases = 500;         // bases of bases
 
 // The same project seen from another location.
 inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {

@@ -142,6 +142,12 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   const NameId key = context.names().key(context.names().intern(toString(context, block.unique_name) + "<" + unique));
   if (const Entity known = context.scopes.instances.find(key)) return PouId{known.index};
 
+  const uint32_t depth = around ? symbols.pou(around).generic_depth + 1 : 1;
+  if (depth > kMaxGenericDepth) {
+    context.report(diag::GenericsTooDeep, written.h.loc,
+                   {context.names().string(block.name), std::to_string(kMaxGenericDepth)});
+    return {};
+  }
   const PouDecl& source = tree.as<PouDecl>(block.decl);
   const Slice<DeclId> decls = text::parseDeclarations(tree, symbols.names, symbols.sources, source.h.begin,
                                                       endOfBlock(tree, source), Dialect::Codesys, symbols.diagnostics);
@@ -154,6 +160,7 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
     Context there = at(context, {}, block.file, block.library, context.scopes.pous[block_id.index].region);
     collectDecl(there, decl, block.file, block.library ? libraryNamed(context, block.library_name) : kNoLibrary);
     symbols.pou(id).generic_of = block_id;
+    symbols.pou(id).generic_depth = depth;
     return id;
   }
   return block_id;
