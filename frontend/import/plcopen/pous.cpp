@@ -116,7 +116,9 @@ void writeProperty(Import& import, const xml::Element& property, const xml::Elem
     import.out.put(accessor->loc, begin);
     writeModifiers(import, *accessor);
     if (const xml::Element* plain = plainText(import, *accessor)) {
-      writeText(import, *plain);
+      // Its first word may be the access level; the white space around the text's element is not part of it.
+      const xml::Element* const text = import.document.firstChild(*plain);
+      writeText(import, text != nullptr ? *text : *plain);
       import.out.word("\n");
     } else {
       import.out.word("\n");
