@@ -44,7 +44,9 @@ class Cursor {
   uint32_t index() const { return static_cast<uint32_t>(t_ - tokens_.data()); }
   Loc loc(const Token* t) const { return {base_ + t->offset}; }
   Loc here() const { return loc(t_); }
-  NameId nameOf(const Token* t) const { return {t->value}; }
+  NameId nameOf(const Token* t) const {
+    return t->kind == Tok::Null ? names_.intern(textOf(t)) : NameId{t->value};  // NULL, where it is a name
+  }
   Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
   uint32_t lengthOf(const Token* t) const {
     if (t->name_length != 0) return t->name_length;

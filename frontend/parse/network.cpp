@@ -184,7 +184,9 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
     if (is(t_, "ORDER") && peek() == Tok::Number) {
       advance();
       uint64_t order = 0;
-      if (takeNumber(order)) e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
+      const Token* const number = t_;
+      if (takeNumber(order) && order == 0) slip(diag::OrderZero, number);
+      e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
     } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
       advance();
       int32_t* const coordinates[] = {&e.x, &e.y, &e.width, &e.height};
