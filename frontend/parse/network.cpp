@@ -281,6 +281,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
   uint32_t network = 0;
   while (!at(Tok::EndNetwork) && !at(Tok::End) && !atBlockEnd()) {
     panic_ = false;
+    const Token* const first = t_;
     if (is(t_, "NETWORK")) {
       advance();
       DiagramNetwork n{};
@@ -305,7 +306,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
       parseElement(elements, network);
     }
     if (!panic_) expect(Tok::Semicolon);
-    if (panic_ && !atUnfinished()) {
+    if (panic_ && (!atUnfinished() || t_ == first)) {
       while (!at(Tok::Semicolon) && !at(Tok::EndNetwork) && !at(Tok::End) && !endsPart(kind())) advance();
       accept(Tok::Semicolon);
     }
