@@ -503,7 +503,7 @@ void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
 void StatementWriter::assertStatement(const Stmt& stmt) {
   const ir::AssertStmt& node = stmt.as<ir::AssertStmt>();
   const ExprId first = node.first, second = node.second, third = node.third;
-  for (const ExprId operand : {first, second, third}) {
+  for (const ExprId operand : {first, second, third, node.message}) {
     if (operand) checks().prepare(operand);
   }
   const ir::AssertionReport report = ir::assertionReport(module_, *body_, stmt);
@@ -514,13 +514,20 @@ void StatementWriter::assertStatement(const Stmt& stmt) {
       appendQuoted(out_, string);
     }
   };
-  out_ += "{ static const rung_assertion assertion = {";
+  out_ += node.message ? "{ const rung_assertion assertion = {" : "{ static const rung_assertion assertion = {";
   appendQuoted(out_, report.position.path);
   out_ += ", ";
   appendUnsigned(out_, report.position.line);
   out_ += ", ";
   appendUnsigned(out_, report.position.column);
-  for (const std::string_view string : {report.source, report.message, report.shown, std::string_view(report.items)}) {
+  out_ += ", ";
+  quotedOrNull(report.source);
+  out_ += ", ";
+  if (node.message)
+    strings().stringValue(node.message);
+  else
+    quotedOrNull(report.message);
+  for (const std::string_view string : {report.shown, std::string_view(report.items)}) {
     out_ += ", ";
     quotedOrNull(string);
   }

@@ -14,7 +14,6 @@ namespace rung::codegen {
 
 namespace {
 
-constexpr uint32_t kCopiedWhole = 128;   // bytes of a string that are copied without looking for its end
 constexpr uint32_t kComparedWhole = 32;  // bytes of a literal that memcmp compares inline
 constexpr uint32_t kComparedByUnit = 3;  // units of a literal that are compared one by one where memory may end
 
@@ -189,28 +188,8 @@ void StringWriter::copyVariable(const StringTarget& target, ExprId from) {
   const std::string source = captured([&] { stringValue(from); });
   if (source == target.name && target.capacity >= capacityOf(type)) return;
   const bool is_measured = isKnown(from);
-  uint32_t room;
   if (isWide(type) != wide) {
     beginCopy(target, wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target.capacity);
-  } else if (isBuffer(from, room) && room <= target.capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
-    out_ += "memcpy(";
-    out_ += target.name;
-    out_ += ", " + source + ", ";
-    appendUnsigned(out_, (uint64_t{room} + 1) * (wide ? 2 : 1));
-    out_ += ");";
-    if (target.length.empty()) return;
-    out_ += ' ';
-    out_ += target.length;
-    out_ += " = ";
-    if (is_measured) {
-      lengthName(from);
-    } else {
-      out_ += "rung_string_length(";
-      out_ += target.name;
-      out_ += ')';
-    }
-    out_ += ';';
-    return;
   } else if (is_measured && !wide) {
     beginCopy(target, "rung_string_put", target.capacity);
     out_ += source + ", ";

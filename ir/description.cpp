@@ -144,10 +144,17 @@ class Describer {
 
   // ---- blocks and the ranges of them that are kept
 
+  // What keeps a variable: nothing, warm starts, or downloads too. The stronger one holds where two meet.
+  enum class Keeping : uint8_t { None, Retain, Persistent };
+
   // What the variables in a type ask for themselves: to be kept, or not to be.
   struct Kept {
-    bool keeps = false, excludes = false;
+    Keeping keeps = Keeping::None;
+    bool excludes = false;
   };
+  static Keeping keepingOf(const Field& field) {
+    return field.persistent ? Keeping::Persistent : field.retain ? Keeping::Retain : Keeping::None;
+  }
   Kept keptIn(TypeId id) {
     id = types_.resolve(id);
     const TypeInfo& info = types_.info(id);
@@ -159,7 +166,7 @@ class Describer {
     Kept found;
     for (const Field& field : info.fields) {
       const Kept inside = field.by_reference ? Kept{} : keptIn(field.type);
-      found.keeps = found.keeps || field.retain || field.persistent || inside.keeps;
+      found.keeps = std::max({found.keeps, keepingOf(field), inside.keeps});
       found.excludes = found.excludes || field.non_retain || inside.excludes;
     }
     return kept_[id.index] = found;
@@ -172,25 +179,27 @@ class Describer {
       ranges.push_back({block, static_cast<uint32_t>(offset), static_cast<uint32_t>(size)});
     }
   }
+  std::vector<rung_range>& rangesOf(Keeping keeping) {
+    return keeping == Keeping::Persistent ? out_.persistent : out_.retain;
+  }
 
-  // RETAIN and NON_RETAIN of a variable hold for what is in it, except where a variable of a block says otherwise.
-  void collectKept(TypeId id, uint32_t block, uint64_t offset, bool is_retained) {
+  // RETAIN, PERSISTENT and NON_RETAIN of a variable hold for what is in it, except where a variable of a block says
+  // otherwise; what is RETAIN in something PERSISTENT is PERSISTENT. No byte is in two ranges.
+  void collectKept(TypeId id, uint32_t block, uint64_t offset, Keeping keeping) {
     id = types_.resolve(id);
     const TypeInfo& info = types_.info(id);
     const Kept inside = keptIn(id);
-    if (is_retained && !inside.excludes) return add(out_.retain, block, offset, info.size);
-    if (!is_retained && !inside.keeps) return;
+    if (keeping == Keeping::None && inside.keeps == Keeping::None) return;
+    if (keeping != Keeping::None && keeping >= inside.keeps && !inside.excludes)
+      return add(rangesOf(keeping), block, offset, info.size);
     if (info.kind == TypeKind::Array) {
       const uint64_t size = types_.info(types_.resolve(info.base)).size;
-      for (uint64_t at = 0; size > 0 && at < info.size; at += size)
-        collectKept(info.base, block, offset + at, is_retained);
+      for (uint64_t at = 0; size > 0 && at < info.size; at += size) collectKept(info.base, block, offset + at, keeping);
       return;
     }
     for (const Field& field : info.fields) {
       if (field.by_reference) continue;
-      const uint64_t size = types_.info(types_.resolve(field.type)).size;
-      if (field.persistent) add(out_.persistent, block, offset + field.offset, size);
-      const bool kept = field.retain || (is_retained && !field.non_retain);
+      const Keeping kept = field.non_retain ? Keeping::None : std::max(keeping, keepingOf(field));
       collectKept(field.type, block, offset + field.offset, kept);
     }
   }
@@ -199,7 +208,7 @@ class Describer {
   void keepLocated(const Located& located) {
     const bool is_input = module_.areas[located.area].owner == types::AreaOwner::Input;
     if (is_input || (!located.retain && !located.persistent)) return;
-    std::vector<rung_range>& ranges = located.persistent ? out_.persistent : out_.retain;
+    std::vector<rung_range>& ranges = rangesOf(located.persistent ? Keeping::Persistent : Keeping::Retain);
     const uint32_t area = RUNG_RANGE_AREA | located.area;
     if (located.bit != kNoBit)
       ranges.push_back({area | RUNG_RANGE_BIT, located.byte * 8 + located.bit, 1});
@@ -212,7 +221,7 @@ class Describer {
     const TypeInfo& info = types_.info(types_.resolve(block.record));
     out_.blocks.push_back({string(block.name), static_cast<uint32_t>(info.size), info.align});
     type(block.record);
-    collectKept(block.record, index, 0, block.retain);
+    collectKept(block.record, index, 0, block.retain ? Keeping::Retain : Keeping::None);
   }
 
   // ---- symbols

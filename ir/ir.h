@@ -175,11 +175,11 @@ struct Expr : Node<ExprKind, 12> {
 };
 static_assert(sizeof(Expr) == 24 && std::is_trivially_copyable_v<Expr>);
 
-struct Stmt : Node<StmtKind, 24> {
+struct Stmt : Node<StmtKind, 28> {
   Loc loc;
   StmtId next;
 };
-static_assert(sizeof(Stmt) == 36 && std::is_trivially_copyable_v<Stmt>);
+static_assert(sizeof(Stmt) == 40 && std::is_trivially_copyable_v<Stmt>);
 
 inline bool isConst(const Expr& e) { return e.kind == ExprKind::Const; }
 inline uint64_t bitsOf(const Expr& constant) { return constant.as<ConstExpr>().bits; }

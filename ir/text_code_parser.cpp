@@ -169,7 +169,7 @@ void Reader::faultStmt() {
   append(loc, node);
 }
 
-// assert x shows a, b as '…' text '…'   assert_eq a, b   assert_near a, b, c
+// assert x shows a, b as '…' text '…'   assert_eq a, b message s   assert_near a, b, c
 void Reader::assertion(Assertion kind) {
   const Loc loc = builder_->loc;
   AssertStmt node{.assertion = kind};
@@ -192,7 +192,10 @@ void Reader::assertion(Assertion kind) {
     expect(",");
     node.third = expr(first_type);
   }
-  if (accept("text")) node.text = module_.names.intern(quotedText(TokenKind::Text));
+  if (accept("text"))
+    node.text = module_.names.intern(quotedText(TokenKind::Text));
+  else if (accept("message"))
+    node.message = expr({});
   append(loc, node);
 }
 

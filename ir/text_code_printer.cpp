@@ -152,6 +152,9 @@ void Printer::assertStmt(const AssertStmt& node) {
   if (node.text) {
     put(" text ");
     quoted(module_.names.string(node.text), '\'');
+  } else if (node.message) {
+    put(" message ");
+    expr(node.message, {});
   }
 }
 

@@ -20,12 +20,12 @@ constexpr TypeKeyword kTypeKeywords[] = {
 };
 // Beside the words of instructions.def.
 constexpr const char* kReserved[] = {
-    "array",       "assert_eq",   "assert_near",  "base",    "by",     "case",  "catch", "class",
-    "constant",    "else",        "false",        "finally", "in",     "inf",   "init",  "inout",
-    "nan",         "next",        "non_retain",   "null",    "of",     "on",    "out",   "persistent",
-    "pointer",     "ref",         "reference",    "result",  "retain", "round", "shows", "string",
-    "symbol_none", "symbol_read", "symbol_write", "temp",    "text",   "to",    "true",  "ustring",
-    "value",       "var",         "wstring"};
+    "array",      "assert_eq",   "assert_near", "base",         "by",     "case",   "catch", "class",
+    "constant",   "else",        "false",       "finally",      "in",     "inf",    "init",  "inout",
+    "message",    "nan",         "next",        "non_retain",   "null",   "of",     "on",    "out",
+    "persistent", "pointer",     "ref",         "reference",    "result", "retain", "round", "shows",
+    "string",     "symbol_none", "symbol_read", "symbol_write", "temp",   "text",   "to",    "true",
+    "ustring",    "value",       "var",         "wstring"};
 constexpr const char* kExprWords[] = {
 #define RUNG_EXPR(kind, word, fields) word,
 #include "ir/instructions.def"

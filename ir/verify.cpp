@@ -417,6 +417,9 @@ void Verifier::assertStmt(const AssertStmt& s) {
     require(types_.kind(typeOf(s.first)) == TypeKind::Bool, 23, "the condition of an assertion is not a BOOL");
   if (s.second) value(s.second);
   if (s.third) value(s.third);
+  if (s.message && value(s.message))
+    require(types::TypeTable::isString(types_.kind(typeOf(s.message))) && !s.text, 23,
+            "the message of an assertion is a string");
   found_effect_ = true;
 }
 

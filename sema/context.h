@@ -29,7 +29,7 @@ struct Context {
   Scopes& scopes;
   PouId pou;    // whose declarations or body are being checked; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
-  uint32_t loop_depth = 0;
+  uint32_t loop_depth = 0, try_depth = 0;
   uint32_t depth = 0;         // of the current expression, limits nesting in the input
   BodyState* body = nullptr;  // none outside of a body
   TypeId items_of = {};       // an enumeration that is being declared: its items need no qualifier
@@ -72,7 +72,7 @@ std::string_view nearestName(Context& context, NameId written);
 // The same among what a call can name: functions, programs, methods and variables.
 std::string_view nearestCallable(Context& context, NameId written);
 
-// Syntax errors took declarations from this POU: a missing name is not a second mistake.
+// Syntax errors took declarations from this POU, or its base is not known: a missing name is not a second mistake.
 bool isBroken(const Context& context, PouId pou);
 // Whether to report that a name, or a member of a record, is not declared: once per POU, and only where no declaration
 // was lost to a syntax error.
@@ -116,6 +116,8 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
 void allocateHierarchical(Context& context);
 // BOOL, BYTE, WORD, DWORD or LWORD, by the size letter.
 TypeId addressType(const DirectAddress& address);
+// The type that `VAR AT %QW5 : INT; END_VAR` without a name gives to an address of this size; none: it gives none.
+TypeId declaredAddressType(Context& context, const DirectAddress& address);
 
 // The value of an expression that was checked, when it is constant (literals, constants, operators on them,
 // conversions, SIZEOF). Faults in it (1/0, overflow) are reported once.

@@ -61,6 +61,9 @@ struct Var {
   TypeId any;              // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   bool of_chart = false;   // a step, or other state of a chart
   uint32_t temporary = 0;  // created by the compiler, without declared type: its number in the body; 0: none
+  VarId shared;            // VAR_TEMP that actions use: the hidden field that holds it (shared_temporaries.cpp)
+  VarId holds;             // such a field: its VAR_TEMP
+  VarId copy_of;           // VAR_TEMP of a base, as the body of a derived block has it: the one that was declared
   VarId tells_input;       // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   struct Pragmas {         // of the declaration
@@ -154,6 +157,7 @@ struct Pou {
     bool no_copy = false;             // {no_copy}: an instance cannot be copied
     bool bytes = false;               // {bytes}: its generic type is ARRAY OF BYTE
     bool call_after_init = false;     // {attribute 'call_after_init'}
+    bool no_virtual_actions = false;  // {attribute 'no_virtual_actions'}: a derived block does not replace its actions
     bool no_check = false;            // {attribute 'no_check'}: without the implicit checks of the project
     bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: marked inputs have their initial values
     bool reflection = false;          // {attribute 'reflection'}: marked variables tell which inputs are connected
@@ -200,8 +204,10 @@ struct Pou {
     std::vector<uint32_t> properties;
     VarId base_var;         // the hidden field that holds the base
     VarId id_var;           // the hidden type id, where this object is the first of its line to have one
+    VarId in_body;          // the hidden BOOL that is TRUE while the body runs, where actions use its VAR_TEMP
     uint8_t modifiers = 0;  // Modifier
     AccessorKind accessor = AccessorKind::None;  // of a property
+    bool unresolved = false;                     // extends something that is not known, which was reported
     bool extended = false;                       // another block of the project extends it
     bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
   } object;

@@ -159,6 +159,7 @@ struct Scopes {
     std::vector<VarId> users;
   };
   std::vector<HierarchicalAddress> hierarchical;
+  std::unordered_map<uint64_t, std::vector<VarId>> unnamed_addresses;  // VAR AT %QW5 : INT: by addressKey
   NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
   struct LiteralStorage {      // whose address is taken (bodies/literal_storage.cpp)
     struct Entry {
@@ -191,9 +192,10 @@ struct Scopes {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, skip,
         setup, teardown, test_case, safe_values, before_task, after_task, alias, required, optional, lazy, extensible,
         long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy, bytes,
-        attribute_no_check, attribute_obsolete, attribute_to_string, attribute_call_after_init, attribute_pack_mode,
-        attribute_global_init_slot, attribute_after_globals, attribute_initialize_on_call, attribute_is_connected,
-        attribute_no_exit, attribute_reflection, attribute_symbol, attribute_unique_name;
+        attribute_no_check, attribute_no_virtual_actions, attribute_obsolete, attribute_to_string,
+        attribute_call_after_init, attribute_pack_mode, attribute_global_init_slot, attribute_after_globals,
+        attribute_initialize_on_call, attribute_is_connected, attribute_no_exit, attribute_reflection, attribute_symbol,
+        attribute_unique_name;
   } known_names;
 
   std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> implicit_checks;  // the project's functions

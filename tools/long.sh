@@ -18,6 +18,7 @@
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
 # tidy          clang-tidy over every file
+# conversions   every conformance program converted to ST and to PLCopen XML: its tests pass as before
 # conformance   the conformance suite exported, every row of edition 3 or its reason, and run with Rung, interpreted and compiled
 # compilers     every conformance program's C++ compiled by clang++ too (needs clang++)
 set -eu
@@ -117,6 +118,15 @@ debug() { suite debug; }
 
 tidy() { tools/clang_tidy.sh; }
 
+# Not the programs that show their own line numbers, nor names that are declared in another file after --split.
+conversions() {
+  needs rung
+  local files
+  files=$(ls tests/conformance/*/*.st tests/conformance/plcopen/*.xml | grep -v 'pointers/what_is_known\|dialects/keywords_as_names\|/nct')
+  # shellcheck disable=SC2086
+  PATH=$bin:$PATH python3 tests/programs/convert_st/tests_pass.py $files
+}
+
 conformance() {
   needs rung_conformance
   local folder engine
@@ -144,11 +154,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conformance compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conformance|compilers) ;;
-    *) sed -n '2,22s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|compilers) ;;
+    *) sed -n '2,23s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -185,7 +185,8 @@ void NetworkExport::wires(const DiagramPin& pin) {
 }
 
 void NetworkExport::input(const DiagramElement& e) {
-  for (const DiagramPin& pin : to_.tree.list(e.pins)) wires(pin);
+  for (const DiagramPin& pin : to_.tree.list(e.pins))
+    if (pin.direction != PinDirection::Output) wires(pin);
 }
 
 void NetworkExport::pinList(std::string_view list, const DiagramElement& e, PinDirection direction,
@@ -226,7 +227,15 @@ void NetworkExport::data(const DiagramElement& e) {
     to_.xml.element("ElementType", e.kind == ElementKind::Compose ? "composer" : "selector");
     data.close();
   }
-  if ((e.kind == ElementKind::Jump || e.kind == ElementKind::Return) && e.negated) {
+  const bool leaves = e.kind == ElementKind::Jump || e.kind == ElementKind::Return;
+  if ((leaves && e.edge != EdgeKind::None) ||
+      (e.kind == ElementKind::Connector && (e.negated || e.edge != EdgeKind::None))) {
+    data.openOwn();
+    to_.xml.open("wire");
+    modifiers(e.negated, e.edge, PinStorage::None);
+    to_.xml.close();
+    data.close();
+  } else if (leaves && e.negated) {
     data.open("negated");
     to_.xml.open("negated").attribute("value", "true").close();
     data.close();
@@ -260,7 +269,11 @@ void NetworkExport::element(uint32_t k) {
   if (e.kind == ElementKind::Contact || e.kind == ElementKind::Coil || e.kind == ElementKind::Input ||
       e.kind == ElementKind::Output)
     modifiers(e.negated, e.edge, e.storage);
-  if (e.kind == ElementKind::InOut) modifiers(e.negated, e.edge, e.storage, "In");
+  if (e.kind == ElementKind::InOut) {
+    modifiers(e.negated, e.edge, e.storage, "In");
+    for (const DiagramPin& pin : to_.tree.list(e.pins))
+      if (pin.direction == PinDirection::Output) modifiers(pin.negated, pin.edge, pin.storage, "Out");
+  }
   to_.xml.open("position")
       .attribute("x", std::to_string(positions_[k].x))
       .attribute("y", std::to_string(positions_[k].y))

@@ -105,7 +105,12 @@ void writeAttributes(Reading& reading, const xml::Element& element) {
   const xml::Element* attributes = dataOf(reading, element, "attributes");
   if (attributes == nullptr) return;
   for (const xml::Element& e : reading.document.children(*attributes)) {
-    std::string pragma = "{attribute '" + reading.document.value(e, "Name") + "'";
+    const std::string name = reading.document.value(e, "Name");
+    if (name == "case") {  // exported by Rung: a case of a test is not an attribute with a string
+      reading.out.put(e.loc, "{case " + reading.document.value(e, "Value") + "}\n");
+      continue;
+    }
+    std::string pragma = "{attribute '" + name + "'";
     if (const std::string value = reading.document.value(e, "Value"); !value.empty()) pragma += " := '" + value + "'";
     pragma += "}\n";
     // Drops attributes with characters that would end the pragma too early or hide it.

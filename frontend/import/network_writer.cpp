@@ -31,30 +31,13 @@ std::string createdLabel(std::string_view spelling) {
   return created;
 }
 
-// What an excerpt says, unless it is the content of an element.
-std::string spellingOf(const xml::Excerpt& excerpt) {
-  if (excerpt.attribute != nullptr) return excerpt.document->decoded(*excerpt.attribute) + excerpt.text;
-  return excerpt.element == nullptr ? excerpt.text : std::string();
-}
-
 std::string_view functionOf(std::string_view symbol) {
   static constexpr std::pair<std::string_view, std::string_view> kSymbols[] = {
-      {"=", "EQ"},  {"<>", "NE"}, {"<", "LT"},  {">", "GT"},  {"<=", "LE"}, {">=", "GE"},
-      {"+", "ADD"}, {"-", "SUB"}, {"*", "MUL"}, {"/", "DIV"}, {"&", "AND"}};
+      {"=", "EQ"},  {"<>", "NE"}, {"<", "LT"},  {">", "GT"},  {"<=", "LE"},   {">=", "GE"},  {"+", "ADD"},
+      {"-", "SUB"}, {"*", "MUL"}, {"/", "DIV"}, {"&", "AND"}, {"**", "EXPT"}, {":=", "MOVE"}};
   for (const auto& [known, function] : kSymbols)
     if (symbol == known) return function;
   return {};
-}
-
-// The inputs of SEL and MUX that a file numbers, In1, In2 and In3, by their names G, IN0 and IN1, or K, IN0 and IN1.
-void nameSelectorPins(std::string_view selector, std::vector<NetworkPin>& pins) {
-  std::vector<NetworkPin*> inputs;
-  for (NetworkPin& pin : pins)
-    if (pin.direction == PinDirection::Input && !sameIdentifier(spellingOf(pin.name), kEnable)) inputs.push_back(&pin);
-  for (size_t i = 0; i < inputs.size(); ++i)
-    if (!sameIdentifier(spellingOf(inputs[i]->name), "IN" + std::to_string(i + 1))) return;
-  for (size_t i = 0; i < inputs.size(); ++i)
-    inputs[i]->name = {inputs[i]->name.begin(), i == 0 ? std::string(selector) : "IN" + std::to_string(i - 1)};
 }
 
 std::string_view wordOf(NetworkLanguage language) {
@@ -86,9 +69,21 @@ void NetworkWriter::beginNetwork(Loc loc, uint64_t number, bool disabled, std::s
   out_.word(";\n");
 }
 
+// The inputs of SEL and MUX that a file numbers, In1, In2 and In3, by their names G, IN0 and IN1, or K, IN0 and IN1.
+void NetworkWriter::nameSelectorPins(std::string_view selector, std::vector<NetworkPin>& pins) const {
+  std::vector<NetworkPin*> inputs;
+  for (NetworkPin& pin : pins)
+    if (pin.direction == PinDirection::Input && !sameIdentifier(out_.spellingOf(pin.name), kEnable))
+      inputs.push_back(&pin);
+  for (size_t i = 0; i < inputs.size(); ++i)
+    if (!sameIdentifier(out_.spellingOf(inputs[i]->name), "IN" + std::to_string(i + 1))) return;
+  for (size_t i = 0; i < inputs.size(); ++i)
+    inputs[i]->name = {inputs[i]->name.begin(), i == 0 ? std::string(selector) : "IN" + std::to_string(i - 1)};
+}
+
 void NetworkWriter::write(NetworkElement element) {
   if (element.kind == ElementKind::Box && element.operand.empty()) {
-    const std::string called = spellingOf(element.name);
+    const std::string called = out_.spellingOf(element.name);
     if (const std::string_view function = functionOf(called); !function.empty())
       element.name = {element.name.begin(), std::string(function)};
     if (sameIdentifier(called, "SEL")) nameSelectorPins("G", element.pins);
@@ -125,7 +120,7 @@ void NetworkWriter::writeParts(const NetworkElement& e) {
   if (e.holding) out_.word(" HOLDING");
   if (e.order != 0) out_.word(" ORDER " + std::to_string(e.order));
   out_.word(clauseOf(e.area));
-  if (e.has_pins) writePins(e.pins);
+  if (e.has_pins || !e.pins.empty()) writePins(e.pins);
   if (e.input.empty()) return;
   out_.word(" := ");
   writeWires(e.input);

@@ -71,6 +71,7 @@ class NetworkWriter {
   void endStatements(Loc loc) { out_.put(loc, "{end_network};\n"); }
 
  private:
+  void nameSelectorPins(std::string_view selector, std::vector<NetworkPin>& pins) const;
   void writeParts(const NetworkElement& element);
   void writeModifiers(const Modifiers& modifiers);
   void writePins(const std::vector<NetworkPin>& pins);

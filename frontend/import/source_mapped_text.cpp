@@ -67,6 +67,12 @@ void SourceMappedText::add(const Excerpt& excerpt) {
     word(excerpt.text);
 }
 
+std::string SourceMappedText::spellingOf(const Excerpt& excerpt) const {
+  SourceMappedText spelling(sources_);
+  spelling.add(excerpt);
+  return spelling.text_;
+}
+
 void SourceMappedText::word(std::string_view text) {
   if (text.empty()) return;
   segment(end_, false);

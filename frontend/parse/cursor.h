@@ -45,7 +45,7 @@ class Cursor {
   Loc loc(const Token* t) const { return {base_ + t->offset}; }
   Loc here() const { return loc(t_); }
   NameId nameOf(const Token* t) const {
-    return t->kind == Tok::Null ? names_.intern(textOf(t)) : NameId{t->value};  // NULL, where it is a name
+    return t->kind == Tok::Null ? names_.intern(textOf(t)) : NameId{t->value};  // its value is its length
   }
   Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
   uint32_t lengthOf(const Token* t) const {

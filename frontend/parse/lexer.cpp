@@ -407,7 +407,13 @@ void Lexer::resolveDeclaredWords() {
 }
 
 void Lexer::checkUnderscores(const char* begin, const char* end) {
-  const std::string_view name(begin, static_cast<size_t>(end - begin));
+  std::string_view name(begin, static_cast<size_t>(end - begin));
+  // TO___XWORD, INT_TO___UXINT: the conversions to the types whose names begin so. TwinCAT, "Overloading".
+  for (const std::string_view type : {"___XWORD", "___UXINT", "___XINT"}) {
+    const size_t rest = name.size() > type.size() + 1 ? name.size() - type.size() : 0;
+    if (rest >= 2 && sameIdentifier(name.substr(rest), type) && sameIdentifier(name.substr(rest - 2, 2), "TO"))
+      name = name.substr(0, rest);
+  }
   if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
   if (dialect_ == Dialect::Codesys) {
     if (name.substr(0, 2) != "__") diagnostics_.report(diag::UnderscoresInNameWarning, loc(begin), {name});

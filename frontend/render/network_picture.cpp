@@ -4,6 +4,7 @@
 
 #include "frontend/render/network_plan.h"
 #include "frontend/render/picture.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::picture {
@@ -14,6 +15,11 @@ constexpr int32_t kLeastPage = 300;  // an element and the modifiers beside it
 
 // CODESYS puts a connector without a name into each wire.
 bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
+// CODESYS writes one for each network.
+bool isEmptyComment(const Body& body, const DiagramElement& e) {
+  const std::string_view text = body.string(e.comment, e.comment_length);
+  return e.kind == ElementKind::Comment && std::all_of(text.begin(), text.end(), isBlankCharacter);
+}
 constexpr uint32_t kMaxJoints = 1000;  // followed from one pin: joints may form a loop
 
 class Planner {
@@ -84,7 +90,7 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
   std::fill(item_of_.begin(), item_of_.end(), kNone);
   for (const uint32_t k : elements) {
     const ElementKind kind = body_.elements[k].kind;
-    if (isJoint(body_.elements[k])) continue;
+    if (isJoint(body_.elements[k]) || isEmptyComment(body_, body_.elements[k])) continue;
     uint32_t* const rail = !one_rail || !isRail(kind) ? nullptr : &rails[kind == ElementKind::RightRail];
     if (rail != nullptr && *rail != kNone) {
       item_of_[k] = *rail;

@@ -51,6 +51,7 @@ TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
   const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
   if (callee && tree_.kind(callee) == DeclKind::Pou && tree_.as<PouDecl>(callee).result)
     return tree_.as<PouDecl>(callee).result;
+  if (const TypeExprId result = e.path ? signatures_.of(e.path).result : TypeExprId{}) return result;
   return ofReaders(element);
 }
 
@@ -118,7 +119,11 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
   const bool pou = callee && tree_.kind(callee) == DeclKind::Pou;
   if (pin && pou)
     if (const TypeExprId type = ofVariable(tree_.as<PouDecl>(callee), pin, 0)) return type;
-  if (!e.operand && !e.hidden) return ofBox(s.element, depth);
+  if (!e.operand && !e.hidden) {
+    const PinSignature* output = pin && e.path ? signatures_.of(e.path).find(names_, pin) : nullptr;
+    if (output == nullptr || output->direction != PinDirection::Output) return ofBox(s.element, depth);
+    return output->is_bool ? named("BOOL", e.loc) : TypeExprId{};
+  }
   const Signature signature = e.operand ? signatures_.of(e.operand) : signatures_.of(e.path);
   const PinSignature* known = pin ? signature.find(names_, pin) : nullptr;
   return known != nullptr && known->is_bool ? named("BOOL", e.loc) : TypeExprId{};

@@ -1,8 +1,9 @@
 // Boxes: operators become expressions, everything else calls. A function with one reader becomes part of the reader's
 // expression; a function block is called at its place in the execution order and its outputs are read from the
 // instance.
-// EN of a function with one target guards the assignment: `IF en THEN c := c + 1; END_IF`. Other readers of its result
-// see a temporary that is 0 (the initial value) in cycles in which EN is FALSE.
+// EN of a function guards its assignments: `IF en THEN c := c + 1; END_IF`. If several variables read a result, each of
+// them is assigned only if EN, or the ENO that the network reads, is TRUE; other readers read a variable that keeps the
+// result. An operator that can fault is called as in ST if its ENO is read: ENO is then FALSE.
 #include <algorithm>
 #include <cctype>
 #include <optional>
@@ -50,18 +51,6 @@ bool Scheduler::isOperator(const DiagramElement& e) const {
          operatorNamed(names_.string(e.name.name)).has_value();
 }
 
-// The pin that a wire comes from; for a wire without a pin name the only one besides ENO.
-const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& pin) const {
-  if (pin.name) return pinNamed(e, names_.string(pin.name), PinDirection::Output);
-  const DiagramPin* only = nullptr;
-  for (const DiagramPin& candidate : tree_.list(e.pins)) {
-    if (candidate.direction != PinDirection::Output || isControl(names_, candidate.name.name)) continue;
-    if (only != nullptr) return nullptr;
-    only = &candidate;
-  }
-  return only;
-}
-
 // The output of a wire without a pin name: the result of a function.
 uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
@@ -105,7 +94,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     if (isControl(names_, pin.name.name) && call.signature.find(names_, pin.name.name) == nullptr) {
       call.en = pin;
-      call.has_en = true;
+      call.has_en = !graph_.isAlwaysTrue(pin);
       continue;
     }
     if (known && named && !hasPin(call.signature, pin.name)) {
@@ -137,8 +126,6 @@ ExprId Scheduler::readBox(uint32_t source) {
   if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.string(s.pin.name), PinDirection::InOut) : nullptr;
       wired != nullptr && !wired->wires.empty())  // the wire of an in-out continues after the box
     return read(graph_.sourceOf(*wired, 0));
-  ExprId value;
-  if (e.stored) return build_.name(e.stored, loc);
   if (failed_[s.element]) return build_.error(loc);
   if (keepsState(e)) {
     const ExprId instance = e.operand ? clone(tree_, e.operand) : build_.name(e.hidden, e.loc);
@@ -159,147 +146,191 @@ ExprId Scheduler::readBox(uint32_t source) {
         return build_.error(loc);
       }
     }
-    value = build_.member(instance, pin, loc);
-  } else {
-    diagnostics_.report(diag::ReadBeforeExecution, loc, {describe(tree_, names_, e)});
-    return build_.error(loc);
+    return build_.member(instance, pin, loc);
   }
-  const DiagramPin* out = outputNamed(e, s.pin);
-  return out != nullptr && out->negated ? inverted(value, loc) : value;
+  diagnostics_.report(diag::ReadBeforeExecution, loc, {describe(tree_, names_, e)});
+  return build_.error(loc);
 }
 
-// If the value of a box has one reader, and that is a variable: its element; else kNone.
+// If the value of a box has one reader, and that is a variable which may be assigned now: its element; else kNone.
 uint32_t Scheduler::soleTarget(uint32_t source) const {
-  if (source == kNone || graph_.sources[source].uses != 1) return kNone;
-  const uint32_t user = graph_.sources[source].user;
+  if (source == kNone || graph_.sources[source].uses != 1 || graph_.sources[source].temporary) return kNone;
+  const uint32_t user = graph_.sources[source].user, element = graph_.sources[source].element;
   const DiagramElement& e = graph_.elements[user];
-  const bool plain = e.kind == ElementKind::Output && !e.negated && e.edge == EdgeKind::None &&
-                     e.storage == PinStorage::None && phase_[user] != Phase::Resolved;
-  if (!plain || (e.order != 0 && graph_.elements[graph_.sources[source].element].order == 0)) return kNone;
-  const DiagramPin* pin = firstInput(e);
-  return pin->wires.count == 1 && !pin->negated && pin->edge == EdgeKind::None ? user : kNone;
+  if (e.kind != ElementKind::Output || isModified(e) || phase_[user] == Phase::Resolved) return kNone;
+  const DiagramPin* out = graph_.outputPin(source);
+  if (out != nullptr && isModified(*out)) return kNone;
+  if (e.order != 0 && (graph_.elements[element].order == 0 || order_of_[user] != order_of_[element] + 1)) return kNone;
+  return graph_.isTarget(user) && !isModified(*graph_.inputPin(user)) ? user : kNone;
 }
 
 // Passes the `value` of the box to its readers: now, as a temporary, or as a part of the only reader's expression.
 void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   Source& s = graph_.sources[result];
   const DiagramElement& e = graph_.elements[element];
-  if (const DiagramPin* out = outputNamed(e, s.pin); out != nullptr && out->negated) value = inverted(value, e.loc);
-  if (e.stored) {
-    s.temporary = e.stored;
-    return assign(build_.name(e.stored, e.loc), value, e.loc);
-  }
   s.pending = value;
   s.height = heightOf(e);
   const bool in_order = e.order == 0 || (order_of_[s.user] != kNone && order_of_[s.user] == order_of_[element] + 1);
-  if (s.uses == 1 && in_order && s.height < kMaxHeight) {
+  if (!s.temporary && s.uses == 1 && in_order && s.height < kMaxHeight) {
     if (hasCall(tree_, value)) calls_open_.push_back(result);
     return;
   }
   keep(result, wireName(element));
 }
 
+// Where a box that may not run writes `result`: a variable, or what its readers read.
+ExprId Scheduler::targetOf(uint32_t element, uint32_t result) {
+  const Loc loc = graph_.elements[element].loc;
+  if (const uint32_t user = soleTarget(result); user != kNone) {
+    assigned_[user] = true;
+    return operandOf(user);
+  }
+  if (result == kNone) return build_.name(newTemporary(wireName(element), loc), loc);
+  Source& s = graph_.sources[result];
+  if (!s.temporary) s.temporary = newTemporary(wireName(element), loc);
+  return build_.name(s.temporary, loc);
+}
+
+bool Scheduler::hasTargets(uint32_t element) const {
+  for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next)
+    if (target_of_[s] && !(graph_.sources[s].pin.name && isControl(names_, graph_.sources[s].pin.name))) return true;
+  return false;
+}
+
+// Variables that read the outputs of the box keep their values while `condition` is FALSE.
+void Scheduler::guard(uint32_t element, NameId condition) {
+  for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
+    const NameId pin = graph_.sources[s].pin.name;
+    if (pin && (isControl(names_, pin) || pinNamed(graph_.elements[element], names_.string(pin), PinDirection::InOut)))
+      continue;
+    graph_.sources[s].guard = condition;
+  }
+}
+
 //   fails   an unconnected input                  E1007
+bool Scheduler::checkOperands(uint32_t element, const Call& call) {
+  const DiagramElement& e = graph_.elements[element];
+  const bool pair = call.op->form == Form::Chain || call.op->form == Form::Pair;
+  const size_t least = pair ? 2 : 1;
+  std::string open;
+  Loc loc = e.loc;
+  size_t inputs = 0;
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
+    if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;
+    ++inputs;
+    if (!pin.wires.empty() || !open.empty()) continue;
+    open = names_.string(pin.name.name);
+    loc = pin.name.loc;
+  }
+  if (open.empty() && inputs < least) open = pair ? "IN" + std::to_string(inputs + 1) : "IN";
+  if (open.empty() && (call.op->form == Form::Chain || inputs == least)) return true;
+  const std::string what = open.empty() ? "all inputs" : "`" + open + "`";
+  diagnostics_.report(diag::NotWired, loc, {what + " of " + describe(tree_, names_, e)});
+  return false;
+}
+
 void Scheduler::resolveOperator(uint32_t element, Call& call) {
   const DiagramElement& e = graph_.elements[element];
-  const size_t least = call.op->form == Form::Chain || call.op->form == Form::Pair ? 2 : 1;
-  const bool fits = call.op->form == Form::Chain ? call.arguments.size() >= 2 : call.arguments.size() == least;
-  bool open = false;
-  for (const DiagramPin& pin : tree_.list(e.pins)) {
-    if (pin.direction == PinDirection::Output || !pin.wires.empty() || isControl(names_, pin.name.name)) continue;
-    if (!open)
-      diagnostics_.report(diag::NotWired, pin.name.loc,
-                          {"`" + std::string(names_.string(pin.name.name)) + "` of " + describe(tree_, names_, e)});
-    open = true;
-  }
-  failed_[element] = open || !fits;
-  if (open) return;
-  if (!fits) {
-    diagnostics_.report(diag::NotWired, e.loc, {"all inputs of " + describe(tree_, names_, e)});
-    return;
+  failed_[element] = !checkOperands(element, call);
+  if (failed_[element]) return;
+  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
+  const uint32_t result = resultOf(element, {});
+  const bool reads_eno = eno != kNone && graph_.sources[eno].uses > 0;
+  if (reads_eno && call.op->form == Form::Pair &&
+      (call.op->op == BinaryOp::Divide || call.op->op == BinaryOp::Modulo)) {
+    for (size_t k = 0; k < call.arguments.size(); ++k)
+      call.arguments[k].pin.name = names_.intern("IN" + std::to_string(k + 1));
+    const std::string_view name = call.op->op == BinaryOp::Divide ? "DIV" : "MOD";
+    call.callee = build_.name(names_.intern(name), tree_.loc(e.path));
+    return callWithEno(element, call, eno, result);
   }
   ExprId value = call.arguments[0].value;
   if (call.op->form == Form::Invert) value = inverted(value, e.loc);
   for (size_t k = 1; k < call.arguments.size(); ++k)
     value = build_.binary(call.op->op, value, call.arguments[k].value, e.loc);
 
-  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
-  const uint32_t result = resultOf(element, {});
   if (!call.has_en) {
-    if (eno != kNone) {
-      graph_.sources[eno].pending = build_.boolean(true, e.loc);
-      keep(eno, wireName(element) + "_ENO");
-    }
+    if (eno != kNone) keep(eno, build_.boolean(true, e.loc), wireName(element) + "_ENO");
     if (result != kNone) return giveResult(element, result, value);
     const NameId unread = newTemporary(wireName(element), e.loc);
     return assign(build_.name(unread, e.loc), value, e.loc);
   }
   ExprId condition = valueOf(e, call.en);
+  const bool guards = soleTarget(result) == kNone && hasTargets(element);
   if (eno != kNone) {
-    graph_.sources[eno].pending = condition;
-    keep(eno, wireName(element) + "_ENO");
-    condition = read(eno);
+    keep(eno, condition, wireName(element) + "_ENO");
+    condition = plainValue(eno);
+    if (guards) guard(element, graph_.sources[eno].temporary);
+  } else if (guards) {
+    const NameId name = keptEnable(element, condition);
+    guard(element, name);
+    condition = build_.name(name, e.loc);
   }
-  ExprId target;
-  if (const uint32_t user = soleTarget(result); user != kNone) {
-    target = operandOf(user);
-    assigned_[user] = true;
-  } else {
-    const NameId name = newTemporary(wireName(element), e.loc);
-    if (result != kNone) graph_.sources[result].temporary = name;
-    target = build_.name(name, e.loc);
-  }
+  const ExprId target = targetOf(element, result);
   conditional(condition, e.loc, build_.assign(AssignOp::Assign, target, value, e.loc));
+}
+
+NameId Scheduler::keptEnable(uint32_t element, ExprId condition) {
+  const Loc loc = graph_.elements[element].loc;
+  const NameId name = newTemporary(wireName(element) + "_EN", loc);
+  assign(build_.name(name, loc), condition, loc);
+  return name;
+}
+
+// `target := callee(EN := en, arguments, ENO => eno)`
+void Scheduler::callWithEno(uint32_t element, Call& call, uint32_t eno, uint32_t result) {
+  const DiagramElement& e = graph_.elements[element];
+  addControl(element, call, eno);
+  const ExprId value = build_.call(call.callee, call.arguments, e.loc);
+  if (soleTarget(result) == kNone) guard(element, graph_.sources[eno].temporary);
+  assign(targetOf(element, result), value, e.loc);
+}
+
+// The arguments for EN and ENO.
+void Scheduler::addControl(uint32_t element, Call& call, uint32_t eno) {
+  const DiagramElement& e = graph_.elements[element];
+  if (call.has_en) {
+    const Loc loc = call.en.name.loc;
+    call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});
+  }
+  if (eno == kNone || graph_.sources[eno].uses == 0) return;
+  Source& s = graph_.sources[eno];
+  if (!s.temporary) s.temporary = newTemporary(wireName(element) + "_ENO", e.loc);
+  call.arguments.push_back({s.pin, build_.name(s.temporary, s.pin.loc), true, false, s.pin.loc});
 }
 
 // The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
   const DiagramElement& e = graph_.elements[element];
   const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
-  if (call.has_en) {
-    const Loc loc = call.en.name.loc;
-    call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});
-  }
-  if (eno != kNone && graph_.sources[eno].uses > 0) {
-    const NameId name = newTemporary(wireName(element) + "_ENO", e.loc);
-    graph_.sources[eno].temporary = name;
-    const Ident pin = graph_.sources[eno].pin;
-    call.arguments.push_back({pin, build_.name(name, pin.loc), true, false, pin.loc});
-  }
+  const bool reads_eno = eno != kNone && graph_.sources[eno].uses > 0;
   const bool function = call.signature.kind == SignatureKind::Function ||
                         call.signature.kind == SignatureKind::Method || call.signature.kind == SignatureKind::Unknown;
-  uint32_t result = kNone;
-  bool outputs = eno != kNone;
-  if (function) {
-    result = call.signature.kind == SignatureKind::Unknown || call.signature.has_result
-                 ? resultOf(element, call.signature)
-                 : kNone;
-    for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
-      if (s == result || s == eno) continue;
-      if (pinNamed(e, names_.string(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
-      Source& source = graph_.sources[s];
+  const bool has_result = function && (call.signature.kind == SignatureKind::Unknown || call.signature.has_result);
+  const uint32_t result = has_result ? resultOf(element, call.signature) : kNone;
+  addControl(element, call, eno);
+  bool outputs = false;
+  for (uint32_t s = function ? graph_.first_source[element] : kNone; s != kNone; s = graph_.sources[s].next) {
+    if (s == result || s == eno || graph_.sources[s].uses == 0) continue;
+    if (pinNamed(e, names_.string(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
+    Source& source = graph_.sources[s];
+    if (!source.temporary)
       source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.string(source.pin.name)), e.loc);
-      const DiagramPin* out = pinNamed(e, names_.string(source.pin.name), PinDirection::Output);
-      source.inverted = out != nullptr && out->negated;
-      call.arguments.push_back(
-          {source.pin, build_.name(source.temporary, source.pin.loc), true, false, source.pin.loc});
-      outputs = true;
-    }
+    call.arguments.push_back({source.pin, build_.name(source.temporary, source.pin.loc), true, false, source.pin.loc});
+    outputs = true;
+  }
+  const bool sole = soleTarget(result) != kNone;
+  if (function && reads_eno) {
+    guard(element, graph_.sources[eno].temporary);
+  } else if (function && call.has_en && (outputs || !sole) && hasTargets(element)) {
+    const NameId name = keptEnable(element, call.arguments[0].value);
+    call.arguments[0].value = build_.name(name, e.loc);
+    guard(element, name);
   }
   const ExprId value = build_.call(call.callee, call.arguments, tree_.loc(call.callee));
-  if (result == kNone) {
-    emit(build_.callStatement(value));
-    return;
-  }
-  if (call.has_en || outputs) {
-    // If EN is FALSE, the target keeps its value.
-    if (const uint32_t user = soleTarget(result); call.has_en && user != kNone) {
-      assigned_[user] = true;
-      return assign(operandOf(user), value, e.loc);
-    }
-    graph_.sources[result].pending = value;
-    return keep(result, wireName(element));
-  }
+  if (result == kNone) return emit(build_.callStatement(value));
+  if (call.has_en || reads_eno) return assign(targetOf(element, result), value, e.loc);
+  if (outputs) return keep(result, value, wireName(element));
   giveResult(element, result, value);
 }
 

@@ -36,17 +36,28 @@ class Declarer {
     }
   }
 
-  // Variables for values that are read before they are computed. Call after run(), which tells blocks from functions.
+  // Variables for values of other cycles. Call after run(), which tells blocks from functions.
   void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
     Graph graph;
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
     BoxTypes types(tree_, names_, signatures_, pou, graph);
-    for (const uint32_t k : readBeforeExecution(graph)) {
-      const DiagramElement& e = graph.elements[k];
-      const TypeExprId type = types.of(k);
+    for (const uint32_t source : readBeforeExecution(tree_, names_, graph)) {
+      const Source& s = graph.sources[source];
+      const DiagramElement& e = graph.elements[s.element];
+      const TypeExprId type = types.of(source);
       if (!type) continue;
-      const NameId name = declare(std::string(names_.string(e.name.name)) + "_" + number(e), type, e.loc);
-      tree_.list(pou.diagram.elements)[k].stored = name;
+      std::string base = (e.name.name ? std::string(names_.string(e.name.name)) : "wire") + "_" + number(e);
+      DiagramPin* own = nullptr;
+      uint32_t results = 0;
+      for (DiagramPin& pin : tree_.list(e.pins)) {
+        if (pin.direction != PinDirection::Output) continue;
+        if (s.pin.name && names_.same(pin.name.name, s.pin.name)) own = &pin;
+        results += isEnableOutput(names_.string(pin.name.name)) ? 0 : 1;
+      }
+      if (s.pin.name && (results > 1 || isEnableOutput(names_.string(s.pin.name))))
+        base += "_" + std::string(names_.string(s.pin.name));
+      const NameId name = declare(base, type, e.loc);
+      (own != nullptr ? own->stored : tree_.list(pou.diagram.elements)[s.element].stored) = name;
     }
   }
 
@@ -57,8 +68,9 @@ class Declarer {
   static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
 
   NameId ofElement(const DiagramElement& e) {
-    if (e.edge != EdgeKind::None) return declare(sensor(e.edge) + number(e), sensorType(e.edge, e.loc), e.loc);
     const bool composes = e.kind == ElementKind::Compose;
+    if (e.edge != EdgeKind::None && !composes && e.kind != ElementKind::Box)
+      return declare(sensor(e.edge) + number(e), sensorType(e.edge, e.loc), e.loc);
     const bool nameless = e.kind == ElementKind::Box && !e.operand && e.path;
     if (!composes && !(nameless && signatures_.of(e.path).kind == SignatureKind::Block)) return {};
     return declare(std::string(names_.string(e.name.name)) + "_" + number(e), typeOf(e.path), e.name.loc);

@@ -3,73 +3,109 @@
 #include <algorithm>
 
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
 
-bool isFunction(const DiagramElement& e) { return e.kind == ElementKind::Box && !keepsState(e); }
-
 class Search {
  public:
-  explicit Search(const Graph& graph)
-      : graph_(graph),
+  Search(const Tree& tree, const Names& names, const Graph& graph)
+      : tree_(tree),
+        names_(names),
+        graph_(graph),
         phase_(graph.elements.size(), Phase::New),
         order_of_(graph.elements.size(), 0),
-        is_found_(graph.elements.size(), false) {
+        is_found_(graph.sources.size(), false) {
     for (uint32_t k = 0; k < graph.roots.size(); ++k) order_of_[graph.roots[k]] = k + 1;
   }
 
   std::vector<uint32_t> run() {
     for (const uint32_t root : graph_.roots) walk(root);
+    findHeld();
     std::sort(found_.begin(), found_.end());
     return found_;
   }
 
  private:
   enum class Phase : uint8_t { New, Busy, Done };
-  void find(uint32_t element) {
-    if (!is_found_[element]) found_.push_back(element);
-    is_found_[element] = true;
+  struct Frame : InputWalk {
+    uint32_t consumer;
+  };
+
+  void find(uint32_t source) {
+    if (!is_found_[source]) found_.push_back(source);
+    is_found_[source] = true;
   }
-  bool isKept(uint32_t element) const { return keepsState(graph_.elements[element]) || is_found_[element]; }
+
+  // Variables, in-outs and the outputs of instances can be read at any time.
+  bool isComputed(uint32_t source) const {
+    const Source& s = graph_.sources[source];
+    const DiagramElement& e = graph_.elements[s.element];
+    if (e.kind == ElementKind::Compose || e.kind == ElementKind::InOut) return false;
+    if (e.kind != ElementKind::Box) return true;
+    if (s.pin.name && isEnableOutput(names_.string(s.pin.name))) return true;
+    if (keepsState(e)) return false;
+    for (const DiagramPin& pin : tree_.list(e.pins))
+      if (pin.direction == PinDirection::InOut && names_.same(pin.name.name, s.pin.name)) return false;
+    return true;
+  }
 
   void walk(uint32_t root) {
-    if (phase_[root] != Phase::New) return;
-    std::vector<InputWalk> stack{{root, 0, 0}};
-    phase_[root] = Phase::Busy;
-    while (!stack.empty()) {
-      const uint32_t from = graph_.nextInput(stack.back());
-      if (from == kNone) {
+    const auto isNew = [&](uint32_t k) { return phase_[k] == Phase::New; };
+    std::vector<Frame> stack;
+    const auto push = [&](uint32_t element, uint32_t consumer) {
+      phase_[element] = Phase::Busy;
+      stack.push_back({{element, 0, 0}, consumer});
+    };
+    for (;;) {
+      if (stack.empty()) {
+        if (!isNew(root)) return;
+        const uint32_t first = graph_.firstOfLoop(root, isNew);
+        push(first, first);
+      }
+      const uint32_t source = graph_.nextInput(stack.back());
+      if (source == kNone) {
         phase_[stack.back().element] = Phase::Done;
         stack.pop_back();
         continue;
       }
-      const DiagramElement& e = graph_.elements[from];
-      if (e.order != 0) {  // its reader runs when the root runs
-        if (isFunction(e) && order_of_[from] >= order_of_[root]) find(from);
-        continue;
-      }
-      if (phase_[from] == Phase::New) {
-        phase_[from] = Phase::Busy;
-        stack.push_back({from, 0, 0});
-      } else if (phase_[from] == Phase::Busy && !isKept(from)) {
-        breakCycle(stack, from);
+      const uint32_t from = graph_.sources[source].element, consumer = stack.back().consumer;
+      if (graph_.isOrdered(from)) {  // its reader runs when the root runs
+        if (order_of_[from] >= order_of_[root] && isComputed(source)) find(source);
+      } else if (phase_[from] != Phase::Done && graph_.leadsBack(from, consumer) &&
+                 runsInLoops(graph_.elements[from])) {
+        if (isComputed(source)) find(source);
+      } else if (isNew(from)) {
+        const uint32_t first = graph_.firstOfLoop(from, isNew);
+        if (first != from) --stack.back().wire;  // of `from`, which comes afterwards
+        push(first, first != from || runsInLoops(graph_.elements[from]) ? first : consumer);
       }
     }
   }
 
-  // The loop is the end of the stack from `first` on. Nothing to do if an element of it keeps its value.
-  void breakCycle(const std::vector<InputWalk>& stack, uint32_t first) {
-    uint32_t box = kNone;
-    for (size_t k = stack.size(); k > 0; --k) {
-      const uint32_t element = stack[k - 1].element;
-      if (isKept(element)) return;
-      if (isFunction(graph_.elements[element])) box = element;
-      if (element == first) break;
+  // The results of functions with EN, where others than variables read them: edge detectors, too.
+  void findHeld() {
+    for (uint32_t k = 0; k < graph_.elements.size(); ++k) {
+      const bool is_target = graph_.isTarget(k);
+      InputWalk inputs{k, 0, 0};
+      for (uint32_t source = next(inputs); source != kNone; source = next(inputs)) {
+        const Source& s = graph_.sources[source];
+        const DiagramPin* pin = graph_.outputPin(source);
+        if (is_target && (pin == nullptr || pin->edge == EdgeKind::None)) continue;
+        if (isComputed(source) && graph_.enableOf(s.element) != nullptr &&
+            !(s.pin.name && isEnableOutput(names_.string(s.pin.name))))
+          find(source);
+      }
     }
-    if (box != kNone) find(box);
+  }
+  uint32_t next(InputWalk& inputs) const {
+    const ElementKind kind = graph_.elements[inputs.element].kind;
+    return kind == ElementKind::RightRail || graph_.isLink(inputs.element) ? kNone : graph_.nextInput(inputs);
   }
 
+  const Tree& tree_;
+  const Names& names_;
   const Graph& graph_;
   std::vector<Phase> phase_;
   std::vector<uint32_t> order_of_;
@@ -79,6 +115,8 @@ class Search {
 
 }  // namespace
 
-std::vector<uint32_t> readBeforeExecution(const Graph& graph) { return Search(graph).run(); }
+std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Names& names, const Graph& graph) {
+  return Search(tree, names, graph).run();
+}
 
 }  // namespace rung::diagram

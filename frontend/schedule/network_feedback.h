@@ -1,7 +1,7 @@
-// Functions and operators whose value is read before they run: in feedback loops, or by elements that are earlier in
-// the execution order. They keep the value of the last cycle in a variable. Variables are laid out before bodies are
-// checked, so its type is found from names and from the declarations of the POU alone. Private to frontend/schedule,
-// called by network_declare.cpp.
+// Values that are read before they are computed, in feedback loops or by elements that are earlier in the execution
+// order, and results of functions whose EN may be FALSE. A variable keeps each from the last cycle. Variables are laid
+// out before bodies are checked, so its type is found from names and from the declarations of the POU alone. Private to
+// frontend/schedule, called by network_declare.cpp.
 #pragma once
 
 #include <string_view>
@@ -12,8 +12,8 @@
 
 namespace rung::diagram {
 
-// The elements that need a variable. The scheduler reports those without a known type.
-std::vector<uint32_t> readBeforeExecution(const Graph& graph);
+// The sources that need a variable. The scheduler reports those without a known type.
+std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Names& names, const Graph& graph);
 
 // The result types of boxes, as far as declarations determine them; none: unknown. network_box_types.cpp.
 class BoxTypes {
@@ -21,7 +21,7 @@ class BoxTypes {
   BoxTypes(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, const Graph& graph)
       : tree_(tree), names_(names), signatures_(signatures), pou_(pou), graph_(graph) {}
 
-  TypeExprId of(uint32_t box) { return ofBox(box, 0); }
+  TypeExprId of(uint32_t source) { return ofSource(source, 0); }
 
  private:
   TypeExprId ofBox(uint32_t element, uint32_t depth);

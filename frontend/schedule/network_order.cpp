@@ -7,6 +7,7 @@
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_graph.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
@@ -42,13 +43,68 @@ bool acts(const DiagramElement& e) {
 
 }  // namespace
 
-bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden || e.stored); }
+bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden); }
 
-// Wires are followed through it. A connector that joins several wires is an element.
+bool runsInLoops(const DiagramElement& e) {
+  return e.kind == ElementKind::Box || e.kind == ElementKind::Execute || e.kind == ElementKind::Compose ||
+         e.kind == ElementKind::Select;
+}
+
+// Wires are followed through it. A connector that joins several wires or changes their value is an element.
 bool Graph::isLink(uint32_t element) const {
   const DiagramElement& e = elements[element];
   if (e.kind == ElementKind::Continuation) return true;
-  return e.kind == ElementKind::Connector && (e.pins.empty() || tree_->list(e.pins)[0].wires.count < 2);
+  if (e.kind != ElementKind::Connector) return false;
+  const DiagramPin* pin = inputPin(element);
+  if (pin == nullptr || pin->wires.empty()) return true;
+  return pin->wires.count < 2 && !isModified(e) && !isModified(*pin);
+}
+
+const DiagramPin* Graph::inputPin(uint32_t element) const {
+  for (const DiagramPin& pin : tree_->list(elements[element].pins))
+    if (pin.direction != PinDirection::Output) return &pin;
+  return nullptr;
+}
+
+// For a wire without a pin name the only one besides ENO.
+const DiagramPin* Graph::outputPin(uint32_t source) const {
+  const Source& s = sources[source];
+  const DiagramPin* only = nullptr;
+  for (const DiagramPin& pin : tree_->list(elements[s.element].pins)) {
+    if (pin.direction != PinDirection::Output) continue;
+    if (s.pin.name) {
+      if (names_->same(pin.name.name, s.pin.name)) return &pin;
+    } else if (!isEnableOutput(names_->string(pin.name.name)) || elements[s.element].kind == ElementKind::Execute) {
+      if (only != nullptr) return nullptr;
+      only = &pin;
+    }
+  }
+  return only;
+}
+
+bool Graph::isPowered(const DiagramPin& pin) const {
+  for (uint32_t w = 0; w < pin.wires.count; ++w)
+    if (elements[sources[sourceOf(pin, w)].element].kind == ElementKind::Rail) return true;
+  return false;
+}
+
+bool Graph::isOrdered(uint32_t element) const { return elements[element].order != 0 && acts(elements[element]); }
+
+bool Graph::isTarget(uint32_t element) const {
+  const DiagramElement& e = elements[element];
+  if (e.kind != ElementKind::Output && e.kind != ElementKind::Coil && e.kind != ElementKind::InOut) return false;
+  const DiagramPin* pin = inputPin(element);
+  return pin != nullptr && pin->wires.count == 1;
+}
+
+const DiagramPin* Graph::enableOf(uint32_t element) const {
+  if (elements[element].kind != ElementKind::Box || keepsState(elements[element])) return nullptr;
+  for (const DiagramPin& pin : tree_->list(elements[element].pins)) {
+    if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
+    if (!isEnable(names_->string(pin.name.name))) continue;
+    return isAlwaysTrue(pin) ? nullptr : &pin;
+  }
+  return nullptr;
 }
 
 // The source of the wire into a connector. Each is followed once, however many elements refer to it.
@@ -87,7 +143,7 @@ uint32_t Graph::nextInput(InputWalk& walk) const {
   const DiagramElement& e = elements[walk.element];
   while (walk.pin < e.pins.count) {
     const DiagramPin& pin = tree_->list(e.pins)[walk.pin];
-    if (walk.wire < pin.wires.count) return sources[sourceOf(pin, walk.wire++)].element;
+    if (walk.wire < pin.wires.count) return sourceOf(pin, walk.wire++);
     ++walk.pin;
     walk.wire = 0;
   }
@@ -270,6 +326,9 @@ void Graph::exclude(const Diagram& diagram) {
     if (!tree_->list(diagram.networks)[e.network - 1].disabled) continue;
     e.kind = ElementKind::Comment;
     e.pins = {};
+    e.negated = false;
+    e.edge = EdgeKind::None;
+    e.storage = PinStorage::None;
   }
 }
 
@@ -282,6 +341,7 @@ bool Graph::build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diag
   if (!connect()) return false;
   separate();
   sortRoots();
+  orderLoops();
   checkExecutionOrder();
   return true;
 }

@@ -26,6 +26,10 @@ ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
   }
   const Argument clk{{names_.intern("CLK"), loc}, value, false, false, loc};
   emit(build_.callStatement(build_.call(build_.name(sensor, loc), {&clk, 1}, loc)));
+  return outputOf(sensor, loc);
+}
+
+ExprId Scheduler::outputOf(NameId sensor, Loc loc) {
   return build_.member(build_.name(sensor, loc), names_.intern("Q"), loc);
 }
 
@@ -51,34 +55,25 @@ std::string Scheduler::wireName(uint32_t element) const {
   return "wire_" + number;
 }
 
-// Evaluates a source now, into a temporary.
 void Scheduler::keep(uint32_t source, const std::string& base) {
-  const Loc loc = graph_.elements[graph_.sources[source].element].loc;
-  const NameId name = newTemporary(base, loc);
-  const ExprId value = std::exchange(graph_.sources[source].pending, {});
-  graph_.sources[source].temporary = name;
-  graph_.sources[source].height = 1;
-  assign(build_.name(name, loc), value, loc);
+  Source& s = graph_.sources[source];
+  const Loc loc = graph_.elements[s.element].loc;
+  if (!s.temporary) s.temporary = newTemporary(base, loc);
+  s.height = 1;
+  assign(build_.name(s.temporary, loc), std::exchange(s.pending, {}), loc);
+}
+
+void Scheduler::keep(uint32_t source, ExprId value, const std::string& base) {
+  graph_.sources[source].pending = value;
+  keep(source, base);
 }
 
 // ---- wires
-
-const DiagramPin* Scheduler::firstInput(const DiagramElement& e) const {
-  return e.pins.empty() ? nullptr : &tree_.list(e.pins)[0];
-}
 
 const DiagramPin* Scheduler::pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const {
   for (const DiagramPin& pin : tree_.list(e.pins))
     if (pin.direction == direction && sameIdentifier(names_.string(pin.name.name), name)) return &pin;
   return nullptr;
-}
-
-bool Scheduler::isTrue(const DiagramPin& pin) const {
-  for (uint32_t w = 0; w < pin.wires.count; ++w) {
-    const uint32_t source = graph_.sourceOf(pin, w);
-    if (graph_.elements[graph_.sources[source].element].kind == ElementKind::Rail) return true;
-  }
-  return false;
 }
 
 uint16_t Scheduler::heightOf(const DiagramElement& e) const {
@@ -108,7 +103,7 @@ ExprId Scheduler::joined(const DiagramPin& pin, uint32_t first, uint32_t count) 
 ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
   if (pin.wires.empty()) return {};
   ExprId value;
-  if (isTrue(pin)) {
+  if (graph_.isPowered(pin)) {
     value = build_.boolean(true, e.loc);
   } else {
     if (pin.wires.count > 1 && language_ != NetworkLanguage::Ladder) {
@@ -140,25 +135,32 @@ ExprId Scheduler::operandOf(uint32_t element) {
 }
 
 ExprId Scheduler::read(uint32_t source) {
+  const DiagramPin* pin = graph_.outputPin(source);
+  if (pin == nullptr || (!pin->negated && pin->edge == EdgeKind::None)) return plainValue(source);
+  const Loc loc = graph_.elements[graph_.sources[source].element].loc;
+  const ExprId value = pin->edge == EdgeKind::None ? plainValue(source) : outputOf(pin->hidden, loc);
+  return pin->negated ? inverted(value, loc) : value;
+}
+
+ExprId Scheduler::plainValue(uint32_t source) {
   Source& s = graph_.sources[source];
-  const DiagramElement& e = graph_.elements[s.element];
-  if (s.temporary) {
-    const ExprId value = build_.name(s.temporary, e.loc);
-    return s.inverted ? inverted(value, e.loc) : value;
-  }
+  const uint32_t element = s.element;
+  const DiagramElement& e = graph_.elements[element];
+  if (s.failed) return build_.error(e.loc);
+  if (s.temporary) return build_.name(s.temporary, e.loc);
   if (s.pending) return std::exchange(s.pending, {});
   switch (e.kind) {
     case ElementKind::Rail: return build_.boolean(true, e.loc);
     case ElementKind::Input:
     case ElementKind::InOut: {
-      const ExprId value = operandOf(s.element);
+      const ExprId value = operandOf(element);
       return e.negated && e.kind == ElementKind::Input ? inverted(value, e.loc) : value;
     }
     case ElementKind::Contact: {
-      ExprId value = operandOf(s.element);
+      ExprId value = operandOf(element);
       if (e.negated) value = inverted(value, e.loc);
-      const DiagramPin* pin = firstInput(e);
-      if (pin == nullptr || pin->wires.empty() || isTrue(*pin)) return value;
+      const DiagramPin* pin = graph_.inputPin(element);
+      if (pin == nullptr || pin->wires.empty() || graph_.isAlwaysTrue(*pin)) return value;
       const ExprId left = valueOf(e, *pin);
       return build_.binary(BinaryOp::And, left, value, e.loc);
     }
@@ -166,8 +168,8 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Execute: return readBox(source);
     case ElementKind::Compose: return build_.name(e.hidden, e.loc);
     case ElementKind::Connector: {
-      const DiagramPin& pin = *firstInput(e);
-      return valueOf(e, pin);
+      const ExprId value = valueOf(e, *graph_.inputPin(element));
+      return e.negated ? inverted(value, e.loc) : value;
     }
     case ElementKind::Coil:
     case ElementKind::Output:
@@ -188,54 +190,71 @@ ExprId Scheduler::read(uint32_t source) {
 
 // Resolves `root` after everything that it reads.
 void Scheduler::visit(uint32_t root) {
-  while (phase_[root] == Phase::New) {  // again when a box in a loop with it had to run first
-    push(root, false);
-    while (!stack_.empty()) {
-      const uint32_t next = graph_.nextInput(stack_.back());
-      if (next == kNone) {
-        const uint32_t done = stack_.back().element;
-        stack_.pop_back();
-        phase_[done] = Phase::Resolved;
-        resolve(done);
-      } else if (phase_[next] == Phase::New && graph_.elements[next].order == 0) {
-        push(next, false);
-      } else if (phase_[next] == Phase::Busy && graph_.elements[next].order == 0 &&
-                 !keepsState(graph_.elements[next])) {  // otherwise its value of the last cycle is read
-        breakCycle(next);
-      }
+  const auto isNew = [&](uint32_t k) { return phase_[k] == Phase::New; };
+  for (;;) {
+    if (stack_.empty()) {
+      if (!isNew(root)) return;
+      const uint32_t first = graph_.firstOfLoop(root, isNew);
+      push(first, first);
+    }
+    const uint32_t source = graph_.nextInput(stack_.back());
+    if (source == kNone) {
+      const uint32_t done = stack_.back().element;
+      stack_.pop_back();
+      phase_[done] = Phase::Resolved;
+      resolve(done);
+      detectEdges(done);
+      continue;
+    }
+    const uint32_t next = graph_.sources[source].element, consumer = stack_.back().consumer;
+    if (phase_[next] == Phase::Resolved || graph_.isOrdered(next)) continue;
+    const bool begins = runsInLoops(graph_.elements[next]);
+    if (begins && graph_.leadsBack(next, consumer)) {
+      readLastCycle(source, consumer);
+    } else if (phase_[next] == Phase::Busy) {
+      breakCycle(next);
+    } else if (const uint32_t first = graph_.firstOfLoop(next, isNew); first != next) {
+      --stack_.back().wire;  // of `next`, which comes afterwards
+      push(first, first);
+    } else {
+      push(next, begins ? next : consumer);
     }
   }
 }
 
-void Scheduler::push(uint32_t element, bool begins) {
+void Scheduler::push(uint32_t element, uint32_t consumer) {
   phase_[element] = Phase::Busy;
-  stack_.push_back({element, 0, 0, begins});
+  stack_.push_back({{element, 0, 0}, consumer});
 }
 
-// Breaks a feedback loop: `first` is connected to itself through the elements above it on the stack. A box that keeps
-// its value runs first: one that already had to, or the last one before `first`. The elements above `first` are visited
-// again later.
-//   fails   a loop without such a box        E1006
+// The wire back of a feedback loop.
+//   passes  boxes that wait for each other's values
+//   fails   boxes that wait for each other's ENO; a loop in a function, which keeps nothing from call to call E1006
+void Scheduler::readLastCycle(uint32_t source, uint32_t reader) {
+  Source& s = graph_.sources[source];
+  const bool is_eno = s.pin.name && isEnableOutput(names_.string(s.pin.name));
+  if (s.failed || (function_ == nullptr && !is_eno)) return;
+  s.failed = true;
+  diagnostics_.report(diag::WireLoop, graph_.elements[reader].loc);
+}
+
+// Of a loop of elements none of which has a value from the last cycle.
+//   fails   contacts that are connected to each other        E1006
 void Scheduler::breakCycle(uint32_t first) {
-  uint32_t keeper = kNone, begun = kNone;
-  for (;;) {
-    const Frame frame = stack_.back();
-    stack_.pop_back();
-    phase_[frame.element] = Phase::New;
-    if (frame.element == first) break;
-    if (keepsState(graph_.elements[frame.element])) keeper = frame.element;
-    if (frame.begins) begun = frame.element;
+  for (uint32_t s = graph_.first_source[first]; s != kNone; s = graph_.sources[s].next) {
+    if (graph_.sources[s].failed) return;
+    graph_.sources[s].failed = true;
   }
-  const uint32_t begin = begun != kNone ? begun : keeper;
-  if (begin != kNone) {
-    if (!stack_.empty()) --stack_.back().wire;  // of `first`, which comes next
-    return push(begin, true);
+  diagnostics_.report(diag::WireLoop, graph_.elements[first].loc);
+}
+
+// Of outputs that are read: their edge detectors run when the element has run.
+void Scheduler::detectEdges(uint32_t element) {
+  for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
+    const DiagramPin* pin = graph_.outputPin(s);
+    if (pin == nullptr || pin->edge == EdgeKind::None || graph_.sources[s].uses == 0) continue;
+    sensed(pin->hidden, plainValue(s), graph_.elements[element].loc);
   }
-  const DiagramElement& e = graph_.elements[first];
-  diagnostics_.report(diag::WireLoop, e.loc);
-  phase_[first] = Phase::Resolved;
-  for (uint32_t s = graph_.first_source[first]; s != kNone; s = graph_.sources[s].next)
-    graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
 }
 
 void Scheduler::resolve(uint32_t element) {
@@ -255,10 +274,12 @@ void Scheduler::resolve(uint32_t element) {
     case ElementKind::Input: {
       const uint32_t source = graph_.first_source[element];
       const DiagramElement& e = graph_.elements[element];
-      if (source == kNone || graph_.sources[source].uses < 2 || !hasCall(tree_, e.operand)) return;
-      graph_.sources[source].pending = read(source);
-      keep(source, wireName(element));
-      return;
+      if (source == kNone) return;
+      if (e.edge != EdgeKind::None)
+        graph_.sources[source].pending = sensed(e.hidden, plainValue(source), e.loc);
+      else if (graph_.sources[source].uses < 2 || !hasCall(tree_, e.operand))
+        return;
+      return keep(source, plainValue(source), wireName(element));
     }
     case ElementKind::Rail:
     case ElementKind::RightRail:
@@ -270,8 +291,8 @@ void Scheduler::resolve(uint32_t element) {
 // Whether the variable of a contact may be read wherever its wire is read: nothing in its network changes it.
 bool Scheduler::readable(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
-  const DiagramPin* pin = firstInput(e);
-  if (e.edge != EdgeKind::None || (pin != nullptr && !isTrue(*pin))) return false;
+  const DiagramPin* pin = graph_.inputPin(element);
+  if (e.edge != EdgeKind::None || (pin != nullptr && !graph_.isAlwaysTrue(*pin))) return false;
   if (tree_.kind(e.operand) != ExprKind::Name || network_calls_[graph_.network[element]]) return false;
   const std::pair key{graph_.network[element], names_.key(tree_.as<NameExpr>(e.operand).name).index};
   return !std::binary_search(written_.begin(), written_.end(), key);
@@ -280,7 +301,7 @@ bool Scheduler::readable(uint32_t element) {
 //   fails   an unconnected contact        E1007
 void Scheduler::resolveContact(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
-  const DiagramPin* pin = firstInput(e);
+  const DiagramPin* pin = graph_.inputPin(element);
   if (pin == nullptr || pin->wires.empty()) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
   const uint32_t source = graph_.first_source[element];
   if (e.edge != EdgeKind::None) {
@@ -288,7 +309,7 @@ void Scheduler::resolveContact(uint32_t element) {
     if (e.negated) value = inverted(value, e.loc);
     value = sensed(e.hidden, value, e.loc);
     if (source == kNone) return;
-    if (pin != nullptr && !pin->wires.empty() && !isTrue(*pin)) {
+    if (pin != nullptr && !pin->wires.empty() && !graph_.isAlwaysTrue(*pin)) {
       const ExprId left = valueOf(e, *pin);
       value = build_.binary(BinaryOp::And, left, value, e.loc);
     }
@@ -298,8 +319,7 @@ void Scheduler::resolveContact(uint32_t element) {
   Source& s = graph_.sources[source];
   s.height = heightOf(e);
   if ((s.uses < 2 || readable(element)) && s.height < kMaxHeight) return;
-  if (!s.pending) s.pending = read(source);
-  if (s.uses > 0) keep(source, wireName(element));
+  if (s.uses > 0) keep(source, plainValue(source), wireName(element));
 }
 
 // Joined wires.
@@ -308,27 +328,33 @@ void Scheduler::resolveConnector(uint32_t element) {
   if (source == kNone) return;
   Source& s = graph_.sources[source];
   s.height = heightOf(graph_.elements[element]);
-  if (s.uses < 2 && s.height < kMaxHeight) return;
-  s.pending = read(source);
-  keep(source, wireName(element));
+  const DiagramElement& e = graph_.elements[element];
+  if (e.edge != EdgeKind::None) {
+    const ExprId edge = sensed(e.hidden, valueOf(e, *graph_.inputPin(element)), e.loc);
+    s.pending = e.negated ? inverted(edge, e.loc) : edge;
+  } else if (s.uses < 2 && s.height < kMaxHeight) {
+    return;
+  }
+  keep(source, plainValue(source), wireName(element));
 }
 
-void Scheduler::assignTo(const DiagramElement& e, ExprId value) {
-  const auto element = static_cast<uint32_t>(&e - graph_.elements.data());
+void Scheduler::assignTo(uint32_t element, ExprId value, PinStorage storage, NameId guard) {
+  const DiagramElement& e = graph_.elements[element];
   if (e.edge != EdgeKind::None) value = sensed(e.hidden, value, e.loc);
   if (e.negated) value = inverted(value, e.loc);
-  const ExprId target = operandOf(element);
-  const AssignOp op = e.storage == PinStorage::Set     ? AssignOp::Set
-                      : e.storage == PinStorage::Reset ? AssignOp::Reset
-                                                       : AssignOp::Assign;
-  assign(target, value, e.loc, op);
+  const AssignOp op = storage == PinStorage::Set     ? AssignOp::Set
+                      : storage == PinStorage::Reset ? AssignOp::Reset
+                                                     : AssignOp::Assign;
+  const StmtId statement = build_.assign(op, operandOf(element), value, e.loc);
+  if (guard) return conditional(build_.name(guard, e.loc), e.loc, statement);
+  emit(statement);
 }
 
 //   warns   an unconnected coil or variable        W1018
 void Scheduler::resolveAssignment(uint32_t element) {
   if (assigned_[element]) return;
   const DiagramElement& e = graph_.elements[element];
-  const DiagramPin* pin = firstInput(e);
+  const DiagramPin* pin = graph_.inputPin(element);
   if (pin == nullptr || pin->wires.empty()) {
     if (e.kind == ElementKind::InOut) return;
     diagnostics_.report(diag::NotWiredIdle, e.loc, {describe(tree_, names_, e)});
@@ -337,23 +363,15 @@ void Scheduler::resolveAssignment(uint32_t element) {
   const uint32_t own = graph_.first_source[element];
   ExprId value = valueOf(e, *pin);
   if (own != kNone && graph_.sources[own].uses > 0 && e.kind != ElementKind::InOut) {  // the wire continues after it
-    graph_.sources[own].pending = value;
-    keep(own, wireName(element));
-    value = read(own);
+    keep(own, value, wireName(element));
+    value = plainValue(own);
   }
-  // A set or negated output of a box applies to the variable connected to it.
-  if (pin->wires.count == 1) {
-    const Source& s = graph_.sources[graph_.sourceOf(*pin, 0)];
-    const DiagramElement& from = graph_.elements[s.element];
-    if (from.kind == ElementKind::Box) {
-      const DiagramPin* out = outputNamed(from, s.pin);
-      if (out != nullptr && out->storage != PinStorage::None && e.storage == PinStorage::None) {
-        const AssignOp op = out->storage == PinStorage::Set ? AssignOp::Set : AssignOp::Reset;
-        return assign(operandOf(element), value, e.loc, op);
-      }
-    }
-  }
-  assignTo(graph_.elements[element], value);
+  if (!graph_.isTarget(element)) return assignTo(element, value, e.storage, {});
+  // A set or reset output applies to the variables connected to it.
+  const uint32_t source = graph_.sourceOf(*pin, 0);
+  const DiagramPin* out = graph_.outputPin(source);
+  const bool takes = out != nullptr && e.storage == PinStorage::None;
+  assignTo(element, value, takes ? out->storage : e.storage, graph_.sources[source].guard);
 }
 
 // A composer fills its structure; a selector reads the members of its input.
@@ -369,8 +387,8 @@ void Scheduler::resolveComposer(uint32_t element) {
     }
     for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
       const Ident member = graph_.sources[s].pin;
-      graph_.sources[s].pending = build_.member(clone(tree_, value), member.name, member.loc);
-      keep(s, wireName(element) + "_" + std::string(names_.string(member.name)));
+      keep(s, build_.member(clone(tree_, value), member.name, member.loc),
+           wireName(element) + "_" + std::string(names_.string(member.name)));
     }
     return;
   }
@@ -380,17 +398,13 @@ void Scheduler::resolveComposer(uint32_t element) {
 void Scheduler::resolveExecute(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
   const DiagramPin* en = pinNamed(e, kEnable, PinDirection::Input);
+  if (en == nullptr) en = graph_.inputPin(element);
   ExprId condition;
-  if (en != nullptr && !en->wires.empty()) {
-    condition = valueOf(e, *en);
-  } else if (en == nullptr && !e.pins.empty() && tree_.list(e.pins)[0].direction == PinDirection::Input) {
-    condition = valueOf(e, tree_.list(e.pins)[0]);
-  }
+  if (en != nullptr && !graph_.isAlwaysTrue(*en)) condition = valueOf(e, *en);
   const uint32_t eno = graph_.first_source[element];
   if (eno != kNone) {
-    graph_.sources[eno].pending = condition ? condition : build_.boolean(true, e.loc);
-    keep(eno, wireName(element));
-    if (condition) condition = read(eno);
+    keep(eno, condition ? condition : build_.boolean(true, e.loc), wireName(element));
+    if (condition) condition = plainValue(eno);
   }
   if (!condition) {
     for (uint32_t k = 0; k < e.body.count; ++k) emit(tree_.list(e.body)[k]);
@@ -406,9 +420,11 @@ void Scheduler::resolveJump(uint32_t element) {
     return;
   }
   const StmtId leave = e.kind == ElementKind::Jump ? build_.jump(e.name, e.name.loc) : build_.returnStatement(e.loc);
-  const DiagramPin* pin = firstInput(e);
-  if (pin == nullptr || pin->wires.empty() || (isTrue(*pin) && !e.negated)) return emit(leave);
-  const ExprId condition = valueOf(e, *pin);
+  const DiagramPin* pin = graph_.inputPin(element);
+  const bool always = pin == nullptr || pin->wires.empty() || graph_.isAlwaysTrue(*pin);
+  if (always && !isModified(e)) return emit(leave);
+  ExprId condition = valueOf(e, *pin);
+  if (e.edge != EdgeKind::None) condition = sensed(e.hidden, condition, e.loc);
   conditional(e.negated ? inverted(condition, e.loc) : condition, e.loc, leave);
 }
 
@@ -475,7 +491,15 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
   operand_taken_.assign(count, false);
   assigned_.assign(count, false);
   failed_.assign(count, false);
+  target_of_.assign(graph_.sources.size(), false);
+  for (uint32_t k = 0; k < count; ++k)
+    if (graph_.isTarget(k)) target_of_[graph_.sourceOf(*graph_.inputPin(k), 0)] = true;
+  checkModifiers();
   checkBooleans();
+  for (uint32_t s = 0; s < graph_.sources.size(); ++s) {
+    const DiagramPin* pin = graph_.sources[s].pin.name ? graph_.outputPin(s) : nullptr;
+    graph_.sources[s].temporary = pin != nullptr ? pin->stored : graph_.elements[graph_.sources[s].element].stored;
+  }
   network_calls_.assign(count, false);
   order_of_.assign(count, kNone);
   for (uint32_t k = 0; k < graph_.roots.size(); ++k) order_of_[graph_.roots[k]] = k;

@@ -30,18 +30,22 @@ class Scheduler {
  private:
   enum class Phase : uint8_t { New, Busy, Resolved };
   struct Frame : InputWalk {
-    bool begins;  // runs early, because it is connected to itself
+    uint32_t consumer;  // the element that the value is computed for, if that can be in a feedback loop
   };
 
   void checkCoils();
   void checkHolding(const PouDecl& pou);
   void checkBooleans();
+  void checkModifiers();
+  bool isStored(uint32_t element, const DiagramPin& pin) const;
 
   // ---- the walk
   void visit(uint32_t root);
-  void push(uint32_t element, bool begins);
+  void push(uint32_t element, uint32_t consumer);
+  void readLastCycle(uint32_t source, uint32_t reader);
   void breakCycle(uint32_t first);
   void resolve(uint32_t element);
+  void detectEdges(uint32_t element);
 
   // ---- elements
   void resolveContact(uint32_t element);
@@ -50,7 +54,7 @@ class Scheduler {
   void resolveComposer(uint32_t element);
   void resolveExecute(uint32_t element);
   void resolveJump(uint32_t element);
-  void assignTo(const DiagramElement& e, ExprId value);
+  void assignTo(uint32_t element, ExprId value, PinStorage storage, NameId guard);
   ExprId operandOf(uint32_t element);
   bool readable(uint32_t element);
 
@@ -63,26 +67,33 @@ class Scheduler {
   void resolveCall(uint32_t element, Call& call);
   void giveResult(uint32_t element, uint32_t result, ExprId value);
   uint32_t soleTarget(uint32_t source) const;
+  bool checkOperands(uint32_t element, const Call& call);
+  void callWithEno(uint32_t element, Call& call, uint32_t eno, uint32_t result);
+  void addControl(uint32_t element, Call& call, uint32_t eno);
+  NameId keptEnable(uint32_t element, ExprId condition);
+  bool hasTargets(uint32_t element) const;
+  void guard(uint32_t element, NameId condition);
+  ExprId targetOf(uint32_t element, uint32_t result);
   bool fillArguments(uint32_t element, Call& call);
   bool hasPin(const Signature& signature, const Ident& pin) const;
-  const DiagramPin* outputNamed(const DiagramElement& e, const Ident& pin) const;
   uint32_t resultOf(uint32_t element, const Signature& signature) const;
   ExprId readBox(uint32_t source);
 
   // ---- wires
   // The value of a pin; none: not connected.
   ExprId valueOf(const DiagramElement& e, const DiagramPin& pin);
+  // The value of a source with the modifiers of its pin, and without.
   ExprId read(uint32_t source);
-  bool isTrue(const DiagramPin& pin) const;
+  ExprId plainValue(uint32_t source);
   uint16_t heightOf(const DiagramElement& e) const;
   ExprId joined(const DiagramPin& pin, uint32_t first, uint32_t count);
   const DiagramPin* pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const;
-  const DiagramPin* firstInput(const DiagramElement& e) const;
 
   // ---- nodes
   ExprId inverted(ExprId operand, Loc loc) { return build_.unary(UnaryOp::Not, operand, loc); }
   // The edge of `value`, detected by the instance `sensor`, which is called here.
   ExprId sensed(NameId sensor, ExprId value, Loc loc);
+  ExprId outputOf(NameId sensor, Loc loc);
   void emit(StmtId statement);
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
     emit(build_.assign(op, target, value, loc));
@@ -91,7 +102,9 @@ class Scheduler {
     emit(build_.ifStatement(condition, {&statement, 1}, loc, kConditionalOp));
   }
   NameId newTemporary(const std::string& base, Loc loc);
-  void keep(uint32_t source, const std::string& base);  // pending -> temporary
+  // Evaluates a source now, into a temporary or its variable.
+  void keep(uint32_t source, const std::string& base);
+  void keep(uint32_t source, ExprId value, const std::string& base);
   std::string wireName(uint32_t element) const;
 
   Tree& tree_;
@@ -104,6 +117,7 @@ class Scheduler {
   Graph graph_;
   std::vector<Phase> phase_;
   std::vector<bool> operand_taken_;
+  std::vector<bool> target_of_;                         // sources that a variable reads
   std::vector<bool> failed_;                            // elements with a reported error: their readers report none
   std::vector<bool> assigned_;                          // variables that a box with EN assigns itself
   std::vector<uint32_t> order_of_;                      // of an element with an effect: its index among the roots

@@ -28,6 +28,7 @@ class Checker {
         index_(charts, pou) {}
 
   bool run();
+  bool isCrossed() const { return crossed_; }
 
  private:
   struct Branch {
@@ -65,6 +66,7 @@ class Checker {
   std::span<const SfcStep> steps_;
   StepIndex index_;
   bool ok_ = true;
+  bool crossed_ = false;         // a path enters or leaves a parallel branch
   std::vector<Region> regions_;  // by step; empty: not reached
   std::vector<Split> splits_;
   std::vector<Branch> branches_;
@@ -195,7 +197,7 @@ bool Checker::unite(const SfcTransition& t, Region& region) {
     for (size_t k = 0; k < i; ++k) {
       for (const uint32_t a : own) {
         for (const uint32_t b : regions_[index_.of(from[k].name)]) {
-          if (concurrent(a, b)) continue;
+          if (crossed_ || concurrent(a, b)) continue;
           report(diag::SfcNeverTogether, from[i].loc, {string(from[k].name), string(from[i].name)});
           return false;
         }
@@ -209,12 +211,18 @@ bool Checker::unite(const SfcTransition& t, Region& region) {
 }
 
 // Forbids jumps into and out of parallel branches, and charts that activate a step twice: two paths to a step must come
-// from the same branches. IEC 61131-3 ed. 3, 6.7.5; TM/TP manual 5.5.2.4.
-//   fails   FROM a TO (b, c) …  FROM b TO a …        E0738
+// from the same branches. IEC 61131-3 ed. 3, 6.7.5; TM/TP manual 5.5.2.4. In codesys a branch may end with a jump, and
+// the others stay active: CODESYS, "SFC Element: Jump", "Processing Order in SFC"; Automation Builder, "Parallel
+// branch".
+//   fails   FROM a TO (b, c) …  FROM b TO a …        E0738, in codesys W1022, once for a chart
 bool Checker::enter(const Ident& step, const Region& region) {
   Region& own = regions_[index_.of(step.name)];
   if (own.empty()) own = region;
   if (own == region) return true;
+  if (charts_.dialect == Dialect::Codesys) {
+    if (!crossed_) charts_.diagnostics.report(diag::SfcBranchLeft, step.loc, {string(step.name)});
+    return crossed_ = true;
+  }
   report(diag::SfcBranchCrossed, step.loc, {string(step.name)});
   return false;
 }
@@ -323,8 +331,10 @@ bool Checker::run() {
 
 }  // namespace
 
-bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context) {
-  return Checker(charts, signatures, pou, context).run();
+ChartCheck checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context) {
+  Checker checker(charts, signatures, pou, context);
+  const bool ok = checker.run();
+  return {ok, checker.isCrossed()};
 }
 
 }  // namespace rung::text

@@ -71,11 +71,13 @@ void SfcScheduler::evolve() {
   scan(1, "sfc_entered", count, all, stepNames(), [&](uint32_t i, uint32_t depth) {
     const SfcStep& step = chart_.steps_[i];
     out_.at(step.name.loc);
+    if (crossed_) out_.line(depth++, "IF NOT ", step.name, ".x THEN");  // it may be active: another branch is in it
     out_.line(depth, step.name, ".x := TRUE;");
     out_.line(depth, step.name, "._x := TRUE;");
     out_.line(depth, step.name, "._t := sfc_now;");
     out_.line(depth, step.name, ".t := T#0s;");
     run(depth, step, SfcQualifier::Entry);
+    if (crossed_) out_.line(--depth, "END_IF");
   });
   forWords(1, count, [&](const std::string& index, uint32_t depth) {
     out_.line(depth, "sfc_steps", index, " := sfc_steps", index, " AND NOT sfc_left", index, " OR sfc_entered", index,
@@ -319,11 +321,12 @@ static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
 }
 
 bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context) {
-  if (!checkSfc(charts, signatures, pou, context) || !namesDiffer(charts, pou)) return false;
+  const ChartCheck check = checkSfc(charts, signatures, pou, context);
+  if (!check.ok || !namesDiffer(charts, pou)) return false;
   Chart chart(charts, pou, context);
   chart.findFlags(signatures);
   Writer out(charts, pou.body_begin);
-  SfcScheduler(chart, signatures, out).run();
+  SfcScheduler(chart, signatures, out, check.crossed).run();
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
   pou.body =

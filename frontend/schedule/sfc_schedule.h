@@ -45,7 +45,11 @@ bool isSfcFlag(std::string_view name);
 // Fills the POU's statements. False: the chart has errors, which were reported.
 bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).
-bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context);
+struct ChartCheck {
+  bool ok;       // false: errors were reported
+  bool crossed;  // a path enters or leaves a parallel branch, so a step may be entered while it is active
+};
+ChartCheck checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context);
 
 // Looks up the steps of a chart by name.
 class StepIndex {

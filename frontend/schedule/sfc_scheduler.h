@@ -10,8 +10,13 @@ namespace rung::text {
 
 class SfcScheduler {
  public:
-  SfcScheduler(const Chart& chart, Signatures& signatures, Writer& out)
-      : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), signatures_(signatures), out_(out) {}
+  SfcScheduler(const Chart& chart, Signatures& signatures, Writer& out, bool crossed)
+      : chart_(chart),
+        charts_(chart.charts_),
+        tree_(chart.charts_.tree),
+        signatures_(signatures),
+        out_(out),
+        crossed_(crossed) {}
 
   void run();
 
@@ -61,6 +66,7 @@ class SfcScheduler {
   const Tree& tree_;
   Signatures& signatures_;
   Writer& out_;
+  bool crossed_;
 };
 
 }  // namespace rung::text

@@ -149,5 +149,8 @@ class Diagnostics {
 
 // The candidate nearest to `written` (Damerau-Levenshtein, case folded), or empty when none is near enough.
 std::string_view nearest(std::string_view written, const std::vector<std::string_view>& candidates);
+// The shortest candidate that begins as `written` does, or the longest that `written` continues with `_`, or empty: for
+// names that are known to be wrong.
+std::string_view nearestByBeginning(std::string_view written, const std::vector<std::string_view>& candidates);
 
 }  // namespace rung

@@ -1,4 +1,5 @@
-// "Did you mean": the candidate with the least Damerau-Levenshtein distance (optimal string alignment, case folded).
+// "Did you mean": the candidate with the least Damerau-Levenshtein distance (optimal string alignment, case folded), or
+// one with the same beginning.
 // Candidates are rejected by length and character set first, so a scope of 100 000 names is cheap.
 #include <algorithm>
 #include <bit>
@@ -42,6 +43,13 @@ size_t distance(std::string_view a, std::string_view b, size_t limit) {
   return last[b.size()];
 }
 
+constexpr size_t kLeastPrefix = 4;  // characters of a beginning that says something
+
+bool beginsWith(std::string_view text, std::string_view beginning) {
+  return text.size() > beginning.size() && std::equal(beginning.begin(), beginning.end(), text.begin(),
+                                                      [](char a, char b) { return foldedByte(a) == foldedByte(b); });
+}
+
 }  // namespace
 
 std::string_view nearest(std::string_view written, const std::vector<std::string_view>& candidates) {
@@ -57,13 +65,30 @@ std::string_view nearest(std::string_view written, const std::vector<std::string
     if (longer - std::min(candidate.size(), written.size()) > limit) continue;
     if (static_cast<size_t>(std::popcount(characterSet(candidate) ^ written_set)) > 2 * limit) continue;
     const size_t d = distance(written, candidate, std::min(limit, best_distance));
-    // Ties go to the first in alphabetical order, so the answer does not depend on the order of the scope.
-    if (d < best_distance || (d == best_distance && d <= limit && candidate < best)) {
+    // Ties go to what begins as `written` does, then to the first in alphabetical order, so the answer does not depend
+    // on the order of the scope.
+    const bool begins = beginsWith(candidate, written), best_begins = beginsWith(best, written);
+    const bool wins_tie = begins != best_begins ? begins : candidate < best;
+    if (d < best_distance || (d == best_distance && d <= limit && wins_tie)) {
       best = candidate;
       best_distance = d;
     }
   }
   return best;
+}
+
+std::string_view nearestByBeginning(std::string_view written, const std::vector<std::string_view>& candidates) {
+  std::string_view longer, shorter;
+  for (const std::string_view candidate : candidates) {
+    if (written.size() >= kLeastPrefix && beginsWith(candidate, written)) {
+      const bool better = longer.empty() || candidate.size() < longer.size();
+      if (better || (candidate.size() == longer.size() && candidate < longer)) longer = candidate;
+    }
+    if (candidate.size() >= kLeastPrefix && beginsWith(written, candidate) && written[candidate.size()] == '_' &&
+        candidate.size() > shorter.size())
+      shorter = candidate;
+  }
+  return longer.empty() ? shorter : longer;
 }
 
 }  // namespace rung

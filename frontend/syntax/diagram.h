@@ -53,6 +53,7 @@ struct DiagramPin {
   PinStorage storage;
   Slice<DiagramWire> wires;  // several wires are joined by OR
   NameId hidden;             // declareNetworks(): the instance that detects its edge
+  NameId stored;             // declareNetworks(): of an output: the variable that keeps its value
 };
 struct DiagramElement {
   ElementKind kind;
@@ -64,7 +65,7 @@ struct DiagramElement {
   Ident name;
   NameId hidden;  // declareNetworks(): the instance that detects its edge; of a box or Compose: the instance or
                   // variable it works on
-  NameId stored;  // declareNetworks(): of a function that is read before it runs: the variable that keeps its value
+  NameId stored;  // declareNetworks(): the variable that keeps the value of wires from it that name no pin
   ExprId path;
   ExprId operand;
   Slice<DiagramPin> pins;  // inputs, in-outs and outputs in the order of the file

@@ -33,6 +33,7 @@ struct Signature {
   SignatureKind kind = SignatureKind::Unknown;
   bool has_result = false;  // of functions and methods
   std::span<const PinSignature> pins;
+  TypeExprId result{};  // as declared; none: of generic functions too
 
   // By name or alias, except EN and ENO; null: not found.
   const PinSignature* find(const Names& names, NameId pin) const {

@@ -101,7 +101,8 @@ Handler calledHandler();   // notifies the host: imm the POU's name, slot b the 
 // Assertions. Slots from b on: see handlers_control.cpp; imm: const AssertionSite*.
 struct AssertionSite {
   rung_assertion is;
-  uint8_t kind;  // of the values
+  uint8_t kind;      // of the values
+  bool has_message;  // computed; else that of `is`
 };
 enum class AssertionKind : uint8_t { Truth, Compared, Equal, Near };
 Handler assertHandler(AssertionKind kind);

@@ -102,22 +102,24 @@ void called(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// ---- assertions: slots b (condition or expected), b + 8 (left or actual), b + 16 (right or tolerance)
+// ---- assertions: slots b (condition or expected), b + 8 (left or actual), b + 16 (right or tolerance), b + 24
+// (message)
 
 template <AssertionKind K>
 void assertion(RUNG_HANDLER_PARAMETERS) {
   const AssertionSite& site = *reinterpret_cast<const AssertionSite*>(ip->imm);
   const uint8_t* const slots = fp + ip->b;
+  rung_assertion is = site.is;
+  if (site.has_message) is.message = load<const char*>(slots + 24);
   if constexpr (K == AssertionKind::Truth) {
-    rung_assert(m->ctx, &site.is, load<uint8_t>(slots) != 0);
+    rung_assert(m->ctx, &is, load<uint8_t>(slots) != 0);
   } else if constexpr (K == AssertionKind::Compared) {
-    rung_assert_compared(m->ctx, &site.is, load<uint8_t>(slots) != 0, site.kind, load<uint64_t>(slots + 8),
+    rung_assert_compared(m->ctx, &is, load<uint8_t>(slots) != 0, site.kind, load<uint64_t>(slots + 8),
                          load<uint64_t>(slots + 16));
   } else if constexpr (K == AssertionKind::Equal) {
-    rung_assert_equal(m->ctx, &site.is, site.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8));
+    rung_assert_equal(m->ctx, &is, site.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8));
   } else {
-    rung_assert_near(m->ctx, &site.is, site.kind, load<double>(slots), load<double>(slots + 8),
-                     load<double>(slots + 16));
+    rung_assert_near(m->ctx, &is, site.kind, load<double>(slots), load<double>(slots + 8), load<double>(slots + 16));
   }
   RUNG_NEXT;
 }

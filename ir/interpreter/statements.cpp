@@ -360,14 +360,14 @@ void BodyTranslator::assertStatement(const Stmt& stmt) {
   AssertionSite created{};
   created.is = {keep(report.position.path), report.position.line, report.position.column, keep(report.source),
                 keep(report.message),       keep(report.shown),   keep(report.items)};
-  const Ref slots = slot(24);
+  const Ref slots = slot(32);
   const auto put = [&](ExprId id, uint32_t number) {
     const Ref to{slots.offset + 8 * number, false};
     if (isString(expr(id).type)) return pointerInto(string(id), to);
     move(Scalar::U64, wideBits(id), {Mode::Frame, to, 0});
   };
   AssertionKind kind = AssertionKind::Truth;
-  const auto [first, second, third, text, shown, assertion] = stmt.as<AssertStmt>();
+  const auto [first, second, third, message, text, shown, assertion] = stmt.as<AssertStmt>();
   if (second) created.kind = assertedKind(types_, expr(second).type);
   switch (assertion) {
     case Assertion::Assert:
@@ -399,6 +399,8 @@ void BodyTranslator::assertStatement(const Stmt& stmt) {
       break;
     }
   }
+  created.has_message = static_cast<bool>(message);
+  if (message) put(message, 3);
   code_.assertions.push_back(created);
   emit(assertHandler(kind), {}, slots, {}, 0, reinterpret_cast<int64_t>(&code_.assertions.back()));
 }

@@ -83,9 +83,13 @@ void CallLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& 
   stmt.first = a;
   stmt.second = b;
   stmt.third = c;
-  if (count > operands && call.bindings[operands].value)
-    if (auto text = constantOf(project_, call.bindings[operands].value))
+  if (count > operands && call.bindings[operands].value) {
+    const rung::ExprId message = call.bindings[operands].value;
+    if (const auto text = constantOf(project_, message))
       stmt.text = NameId{static_cast<uint32_t>(text->bits)};
+    else
+      stmt.message = lowerAfter({&stmt.first, &stmt.second, &stmt.third}, [&] { return values().lowerValue(message); });
+  }
   append(node.h.loc, stmt);
 }
 

@@ -42,6 +42,11 @@ struct BodyState {
   Builder build;
   std::vector<uint32_t> local_of;                          // by Var::field of a local: local index + 1
   std::vector<std::pair<uint32_t, uint32_t>> edge_locals;  // R_EDGE, F_EDGE pins: VarId and the local with the edge
+  struct SavedField {  // temporaries.cpp: a field of the instance and the temporary with its value before the call
+    sema::VarId field;
+    uint32_t local;
+  };
+  std::vector<SavedField> saved_fields;
   uint32_t result_local = kNoBit;
   std::unordered_map<uint32_t, uint32_t> label_numbers;  // by the key of the name
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when the operand's

@@ -107,12 +107,16 @@ bool ObjectLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
     const sema::PouId object = in_.pouOfRecord(type);
     if ((object && project_.pou(object).base) || !writeDefault(type, to)) return false;
     const TypeInfo& info = types_.info(type);
-    for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields))
+    for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields)) {
+      bool found = false;
       for (const types::Field& f : info.fields)
         if (project_.names.same(f.name, given.field.name)) {
+          found = true;
           std::memset(to + f.offset, 0, types_.info(strip(f.type)).size);
           if (!writeBytes(f.type, given.value, to + f.offset)) return false;
         }
+      if (!found) return false;  // a property
+    }
     return true;
   }
   auto value = constantOf(project_, init);
@@ -224,9 +228,9 @@ const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
   if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage == sema::Storage::Local && state_.local_of[var.field] == *index + 1 &&
-        var.start.constructor.index != 0)
-      return &var;
+    if (var.storage != sema::Storage::Local || var.shared || state_.local_of[var.field] != *index + 1) continue;
+    const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
+    if (declared.start.constructor.index != 0) return &declared;
   }
   return nullptr;
 }
@@ -266,11 +270,33 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
   }
 }
 
+// A member that is a property: its SET is called. False for other members.
+bool ObjectLowering::setProperty(ExprId place, const FieldInit& given) {
+  const sema::PouId object = in_.pouOfRecord(typeOf(place));
+  for (sema::PouId at = object; at; at = project_.pou(at).base)
+    for (const uint32_t index : project_.pou(at).object.properties) {
+      const sema::Property& property = project_.properties[index];
+      if (!property.set || !project_.names.same(property.name, given.field.name)) continue;
+      rung::CallExpr node{};
+      node.h.loc = body_.expr(place).loc;
+      sema::Call call;
+      call.kind = sema::CallKind::Method;
+      call.pou = property.set;
+      for (const sema::VarId id : project_.pou(property.set).vars)
+        if (project_.var(id).section == SectionKind::Input && call.bindings.empty())
+          call.bindings.push_back({.pin = id, .value = given.value});
+      calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(property.set).owner, node.h.loc));
+      return true;
+    }
+  return false;
+}
+
 // The values that a declaration gives to members of a record whose other values are set.
 void ObjectLowering::storeMembers(ExprId place, rung::ExprId init) {
   Loc loc = body_.expr(place).loc;
   for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
     const FieldInit given = tree_.list(tree_.as<StructInitExpr>(init).fields)[g];
+    if (setProperty(place, given)) continue;
     ExprId holder = place;
     for (bool found = false; !found;) {  // the member may be inherited
       const TypeInfo& info = types_.info(typeOf(holder));

@@ -203,6 +203,7 @@ class PlaceLowering : public BodyPart {
 
  private:
   ExprId named(rung::ExprId expr);
+  sema::VarId ownTemporary(sema::VarId id) const;
   ExprId indexed(const rung::IndexExpr& node);
   ExprId dereferenced(rung::ExprId expr);
   ExprId directAddress(rung::ExprId expr);
@@ -322,6 +323,7 @@ class ObjectLowering : public BodyPart {
   void storeBytes(ExprId place, TypeId declared, std::span<const uint8_t> bytes);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
+  bool setProperty(ExprId place, const FieldInit& given);
   void construct(ExprId place, TypeId type);
   bool isBasePart(ExprId place) const;
   void callAfterInit(ExprId place, TypeId type);
@@ -334,7 +336,7 @@ class ObjectLowering : public BodyPart {
   bool writeArray(TypeId type, rung::ExprId init, uint8_t* to);
 };
 
-// Statements and whole bodies: statements.cpp, activation.cpp.
+// Statements and whole bodies: statements.cpp, activation.cpp, temporaries.cpp.
 class StatementLowering : public BodyPart {
  public:
   using BodyPart::BodyPart;
@@ -347,6 +349,10 @@ class StatementLowering : public BodyPart {
   void lowerBlockTask(uint32_t program, sema::VarId block);
 
  private:
+  void enterBody();
+  void leaveBody(Loc loc);
+  void saveField(sema::VarId field, Loc loc);
+  bool holdsInstance(TypeId type) const;
   void detectEdges();
   void lowerStatements(Slice<rung::StmtId> statements);
   void lowerStatement(rung::StmtId stmt);

@@ -135,7 +135,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (body.self) declareRecordsOf(body.self);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& var = project.var(var_id);
-    if (var.storage != sema::Storage::Local) continue;
+    if (var.storage != sema::Storage::Local || var.shared) continue;
     LocalKind kind = LocalKind::Variable;
     if (body.kind == BodyKind::Function) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
@@ -389,7 +389,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
     }
     // A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
     if (var.storage != (pou ? sema::Storage::Field : sema::Storage::Global)) return;
-    if (var.section == SectionKind::InOut || var.bits.is_bit) return;
+    if (var.section == SectionKind::InOut || var.bits.is_bit || var.holds) return;
     if (!var.init && isZero(var.type)) return;
     lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
                                   var.type, var.init, true);

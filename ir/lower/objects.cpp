@@ -41,7 +41,11 @@ std::vector<sema::PouId> ModuleLowering::calledAfterInit(sema::PouId object) con
 
 const sema::Var* ModuleLowering::constructedVar(TypeId record, uint32_t field) const {
   const auto found = marked_.find(uint64_t{record.index} << 32 | field);
-  return found != marked_.end() && found->second->start.constructor.index != 0 ? found->second : nullptr;
+  if (found == marked_.end()) return nullptr;
+  const sema::Var* var = found->second;
+  if (var->holds) var = &project.var(var->holds);
+  if (var->copy_of) var = &project.var(var->copy_of);
+  return var->start.constructor.index != 0 ? var : nullptr;
 }
 
 bool ModuleLowering::isKeptFromExit(TypeId record, uint32_t field) const {

@@ -3,6 +3,15 @@
 
 namespace rung::ir {
 
+// The VAR_TEMP of a base in the initial value of another one, as this body or action has it.
+sema::VarId PlaceLowering::ownTemporary(sema::VarId id) const {
+  if (project_.var(id).section != SectionKind::Temp || !pou_ || project_.var(id).pou == pou_) return {};
+  for (sema::PouId at = in_.objectOf(pou_); at; at = project_.pou(at).base)
+    for (const sema::VarId own : project_.pou(at).vars)
+      if (project_.var(own).copy_of == id && (at == pou_ || project_.var(own).shared)) return own;
+  return {};
+}
+
 ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
   const sema::Var* var = &project_.var(id);
   if (var->external) var = &project_.var(id = var->external);
@@ -19,10 +28,17 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
       TypeId record = in_.module.programs[instance].record;
       return field(add(loc, record, ProgramExpr{.program = instance}), var->field, type, loc);
     }
-    case sema::Storage::Local:
-      RUNG_INVARIANT(var->field < state_.local_of.size() && state_.local_of[var->field] != 0,
-                     "a local variable belongs to its POU");
+    case sema::Storage::Local: {
+      if (var->shared) return varPlace(var->shared, loc);
+      if (const sema::VarId own = ownTemporary(id)) return varPlace(own, loc);
+      const bool belongs = var->pou == pou_ || var->temporary != 0;
+      if (!belongs || var->field >= state_.local_of.size() || state_.local_of[var->field] == 0) {
+        const std::string_view name = project_.names.string(var->name);
+        setPhaseSubject(name.data(), name.size());
+        RUNG_INVARIANT(false, "only the body that declares this variable names it");
+      }
       return local(state_.local_of[var->field] - 1, loc);
+    }
     case sema::Storage::Global: {
       uint32_t list = in_.listIndex(var->list);
       ExprId base = add(loc, in_.module.lists[list].record, GlobalExpr{.list = list});
@@ -57,12 +73,12 @@ ExprId PlaceLowering::memberPlace(rung::ExprId id) {
 
 TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }
 
-// The memory of a place as a variable of another type: a structure as the one that it extends, an enumeration as its
-// base.
+// The memory of a place as a variable of another type: a structure as the one that it extends, an array as one with
+// other bounds, an enumeration as its base.
 ExprId PlaceLowering::seenAs(ExprId place, TypeId type, Loc loc) {
   const TypeKind from = types_.kind(typeOf(place)), to = types_.kind(type);
-  const bool structure = from == TypeKind::Record && to == TypeKind::Record && typeOf(place) != type;
-  if (!structure && (from != TypeKind::Enum || to == TypeKind::Enum)) return place;
+  const bool is_part = from == to && (to == TypeKind::Record || to == TypeKind::Array) && typeOf(place) != type;
+  if (!is_part && (from != TypeKind::Enum || to == TypeKind::Enum)) return place;
   const TypeId own = types_.pointer(typeOf(place)), wanted = types_.pointer(type);
   types_.layout(own);
   types_.layout(wanted);

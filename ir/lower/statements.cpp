@@ -10,10 +10,11 @@ namespace rung::ir {
 
 void StatementLowering::lowerPou() {
   const sema::Pou& pou = project_.pou(pou_);
+  enterBody();
   // Locals of a call, output parameters included, start from their initial values.
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage != sema::Storage::Local) continue;
+    if (var.storage != sema::Storage::Local || var.shared) continue;
     if (var.section == SectionKind::InOut || var.open_array.hidden_input || var.temporary != 0 ||
         types_.isOpenArray(var.type))
       continue;
@@ -29,7 +30,8 @@ void StatementLowering::lowerPou() {
       index = *localOf(body_.expr(own)) + 1;
       continue;
     }
-    objects().storeInitial(local(state_.local_of[var.field] - 1, var.loc), strip(var.type), var.init, false);
+    const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
+    objects().storeInitial(local(state_.local_of[var.field] - 1, var.loc), strip(var.type), declared.init, false);
   }
   if (state_.result_local != kNoBit) {
     const Local& result = body_.locals[state_.result_local];
@@ -37,6 +39,7 @@ void StatementLowering::lowerPou() {
   }
   detectEdges();
   lowerStatements(tree_.as<PouDecl>(pou.decl).body);
+  leaveBody(pou.loc);
   body_.first = build_.block().first;
 }
 
@@ -85,7 +88,10 @@ void StatementLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::Try: return lowerTry(tree_.as<rung::TryStmt>(id));
     case rung::StmtKind::Exit: append(loc, BreakStmt{}); return;
     case rung::StmtKind::Continue: append(loc, ContinueStmt{}); return;
-    case rung::StmtKind::Return: append(loc, ReturnStmt{}); return;
+    case rung::StmtKind::Return:
+      leaveBody(loc);
+      append(loc, ReturnStmt{});
+      return;
     case rung::StmtKind::Jump:
       append(loc, JumpStmt{.label = labelNumber(tree_.as<rung::JumpStmt>(id).label.name)});
       return;

@@ -292,13 +292,15 @@ ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circ
 ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
-  if (types_.kind(strip(node.h.type)) == TypeKind::Record) return lowerPart(node);
+  const TypeKind kind = types_.kind(strip(node.h.type));
+  if (kind == TypeKind::Record || kind == TypeKind::Array) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
   if (sema::uncutType(project_, node.operand)) return convertUncut(node);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc, sema::roundingOf(node.h));
 }
 
-// The value of an object or structure as one of what it extends: a copy, which is an object of that kind.
+// The value of an object or structure as one of what it extends: a copy, which is an object of that kind. An array as
+// one with other bounds.
 ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
   const Loc loc = node.h.loc;
   const TypeId type = strip(node.h.type);

@@ -59,14 +59,12 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
   }
   if (operands.size() > needed) {
     ExprId& message = operands[needed];
-    const bool literal = context.tree().kind(message) == ExprKind::Literal &&
-                         context.tree().as<LiteralExpr>(message).literal() == LiteralKind::String;
-    if (!literal) {
-      check(context, message, {}, Access::Read);
-      context.report(diag::AssertionMessage, context.tree().begin(message), {name});
+    const TypeId type = check(context, message, {}, Access::Read);
+    if (type == types::kError) {
       ok = false;
-    } else {
-      check(context, message, {}, Access::Read);
+    } else if (context.types().plainKind(type) != TypeKind::String) {
+      context.report(diag::AssertionMessage, context.tree().begin(message), {name, context.types().toString(type)});
+      ok = false;
     }
   }
   for (uint32_t i = 0; i < node.arguments.count; ++i) context.tree().list(node.arguments)[i].value = operands[i];

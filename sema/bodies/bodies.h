@@ -18,16 +18,19 @@ using types::TypeKind;
 enum class Access : uint8_t {
   Read,
   Write,      // the target of an assignment or an output binding
-  ReadWrite,  // an instance that is called, a compound assignment
+  ReadWrite,  // a compound assignment
   InOut,      // an in-out argument: read and written, too
   Qualifier,  // the base of a member: may be a list, a library, a type or a program
   Bind,       // the target of REF=: the reference itself
   Address,    // ADR, SIZEOF: neither read nor written here
+  Refer,      // bound to a REFERENCE, through which it may be written; otherwise like Address
+  Call,       // an instance that is called; otherwise like ReadWrite
 };
 // Whether the value of the variable may be written.
 constexpr bool writesValue(Access access) {
-  return access == Access::Write || access == Access::ReadWrite || access == Access::InOut;
+  return access == Access::Write || access == Access::ReadWrite || access == Access::InOut || access == Access::Call;
 }
+constexpr bool takesAddress(Access access) { return access == Access::Address || access == Access::Refer; }
 
 // What a value is used for. The words are made for a message only: "assigned to `x`".
 enum class Use : uint8_t {
@@ -294,6 +297,7 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 // Above the limits of the parser, which reports first; they bound the trees of schedulers.
 constexpr uint32_t kMaxExprDepth = 2100;
 constexpr uint32_t kMaxStmtDepth = 2100;
+constexpr uint32_t kMaxOperands = 2000;      // of an extensible call, whose value is nested as `a + b + c` is
 constexpr uint32_t kMaxElsifDepth = 20'000;  // each ELSIF is in the ELSE of the branch before it
 
 }  // namespace rung::sema

@@ -78,11 +78,12 @@ bool checkFormality(Context& context, const CallExpr& node, PouId pou) {
     context.report(diag::MixedArguments, other->loc, {string(context, callee.name)});
     return false;
   }
-  const bool takes_all = callee.kind == PouKind::Function || callee.kind == PouKind::Method;
+  const bool takes_all = callee.kind != PouKind::Action && callee.kind != PouKind::Program;
   if (formal != 0 || arguments.empty() || !takes_all || callee.library) return true;
   size_t given = arguments.size();
   for (const VarId id : pinsOf(context, pou)) {
     const Var& pin = context.symbols.var(id);
+    if (isControl(string(context, pin.name))) continue;
     if (pin.section == SectionKind::Output || given > 0) {
       given -= pin.section == SectionKind::Output ? 0 : 1;
       continue;
@@ -378,6 +379,16 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
   return types::kError;
 }
 
+// The property whose value a callee is; none: it is something else.
+NameId calledProperty(const Context& context, ExprId callee) {
+  const Tree& tree = context.tree();
+  while (tree.kind(callee) == ExprKind::Deref) callee = tree.as<DerefExpr>(callee).base;
+  if (tree.kind(callee) != ExprKind::Call || tree.as<CallExpr>(callee).call.index == 0) return {};
+  const PouId called = context.symbols.call(tree.as<CallExpr>(callee).call).pou;
+  return called && context.symbols.pou(called).object.accessor != AccessorKind::None ? context.symbols.pou(called).name
+                                                                                     : NameId{};
+}
+
 // The callee is a value: an instance, or a value that cannot be called.
 TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
@@ -385,6 +396,10 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   const PouId pou = pouOf(context, type);
   if (pou && context.symbols.pou(pou).kind == PouKind::FunctionBlock) {
     return callBlock(context, expr, pou, CallKind::Instance, as_statement);
+  }
+  if (const NameId property = calledProperty(context, node.callee)) {
+    context.report(diag::PropertyCalled, context.tree().loc(node.callee), {string(context, property)});
+    return refuse(context, node);
   }
   const NameId name = nameOf(context, node.callee);
   const Entity called = entityOf(context, node.callee);
@@ -399,8 +414,11 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isFirstReport(context, name))
-    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestCallable(context, name));
+  if (isFirstReport(context, name)) {
+    std::string_view near = nearestCallable(context, name);
+    if (near.empty()) near = nearestPseudoFunction(context, name);
+    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(near);
+  }
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
@@ -478,6 +496,24 @@ void checkLooseArguments(Context& context, const CallExpr& node) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) checkLoose(context, node, i);
 }
 
+// Forbids, in iec, a value for a declared EN in a call without names. IEC 61131-3 ed. 3, 6.6.1.4.2.
+//   passes  r := g(a, b);  r := g(EN := TRUE, a := a, b := b);      fails   r := g(TRUE, a, b);      E0636
+static bool passesEnable(Context& context, const CallExpr& node, PouId pou) {
+  if (!context.iec() || node.arguments.empty() || context.tree().list(node.arguments)[0].pin.name) return false;
+  size_t inputs = 0;
+  bool has_enable = false;
+  for (const VarId id : pinsOf(context, pou)) {
+    const Var& pin = context.symbols.var(id);
+    if (pin.section == SectionKind::Output) continue;
+    const bool is_enable = isEnable(string(context, pin.name));
+    has_enable = has_enable || is_enable;
+    inputs += is_enable ? 0 : 1;
+  }
+  if (!has_enable || node.arguments.count != inputs + 1 || context.symbols.pou(pou).extensible) return false;
+  context.report(diag::EnableWithoutName, node.h.loc, {string(context, context.symbols.pou(pou).name)});
+  return true;
+}
+
 Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   Arguments out;
   const std::span<const VarId> pins = pinsOf(context, pou);
@@ -490,7 +526,22 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   const auto isNamedAlready = [&](size_t i) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
   };
+  // iec: a call without names gives no value to EN and ENO that are declared. ed. 3, 6.6.1.4.2.
+  const auto isLeftOut = [&](size_t i) {
+    return context.iec() && isControl(string(context, context.symbols.var(pins[i]).name));
+  };
   if (!checkFormality(context, node, pou)) out.ok = false;
+  if (context.symbols.pou(pou).extensible && node.arguments.count > kMaxOperands) {
+    context.report(diag::TooManyArguments, context.tree().list(node.arguments)[kMaxOperands].loc,
+                   {string(context, context.symbols.pou(pou).name), std::to_string(kMaxOperands)});
+    out.ok = false;
+    return out;
+  }
+  if (out.ok && passesEnable(context, node, pou)) {
+    for (uint32_t i = 0; i < node.arguments.count; ++i) checkLoose(context, node, i);
+    out.ok = false;
+    return out;
+  }
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument& argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
@@ -499,7 +550,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         continue;
       }
       ++out.positional;
-      while (input < pins.size() && (isOutput(input) || isNamedAlready(input))) ++input;
+      while (input < pins.size() && (isOutput(input) || isNamedAlready(input) || isLeftOut(input))) ++input;
       if (input < pins.size()) {
         if (!slots.put(input++, i)) checkLoose(context, node, i);
         continue;
@@ -508,14 +559,14 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         slots.put(extra++, i);
         continue;
       }
-      while (output < pins.size() && !isOutput(output)) ++output;
+      while (output < pins.size() && (!isOutput(output) || isLeftOut(output))) ++output;
       if (output < pins.size()) {
         slots.put(output++, i);
         continue;
       }
       if (out.ok) {
         size_t inputs = 0;
-        for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) ? 0 : 1;
+        for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) || isLeftOut(p) ? 0 : 1;
         const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
         if (!isBroken(context, pou))
           context.report(diag::TooManyArguments, loc,
@@ -695,7 +746,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::Property:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::Call), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
     TypeId type = check(context, node.callee, {}, Access::Qualifier);
@@ -708,7 +759,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
-  const TypeId type = check(context, node.callee, {}, Access::ReadWrite);
+  const TypeId type = check(context, node.callee, {}, Access::Call);
   return callValue(context, expr, throughObject(context, node.callee, type), as_statement);
 }
 

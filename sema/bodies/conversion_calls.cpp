@@ -9,6 +9,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
 
 namespace rung::sema {
@@ -29,9 +30,10 @@ TypeId typeNamed(Context& context, std::string_view word) {
     return TypeTable::isGeneric(context.types().info(type).kind) ? TypeId{} : type;
   }
   const Entity entity = lookUp(context, name);
-  if (entity.entityKind() != EntityKind::Type) return {};
-  const TypeKind plain = context.types().plainKind(TypeId{entity.index});
-  return TypeTable::isElementary(plain) ? TypeId{entity.index} : TypeId{};
+  // In the name of a conversion no variable hides the type: `mode : Mode; … MODE_TO_INT(mode)`.
+  const TypeId type = entity.entityKind() == EntityKind::Type ? TypeId{entity.index} : lookUpType(context, name);
+  if (!type) return {};
+  return TypeTable::isElementary(context.types().plainKind(type)) ? type : TypeId{};
 }
 
 Rule ruleOf(Context& context, std::string_view name) {

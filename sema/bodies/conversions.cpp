@@ -37,8 +37,10 @@ bool sameQuantity(TypeKind a, TypeKind b) {
   return group(a) != 0 && group(a) == group(b);
 }
 
-// The name of the function that converts, if there is one.
-std::string conversionName(const Context& context, TypeId from, TypeId to) {
+// The name of the function that converts, if there is one: from characters and strings those that the library declares,
+// otherwise a rule for each pair.
+std::string conversionName(const Context& constant, TypeId from, TypeId to) {
+  Context context = constant;
   const auto word = [&](TypeId type) -> std::string {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
     if (own.kind == TypeKind::Enum) return own.name ? std::string(string(context, own.name)) : std::string("ANY");
@@ -49,7 +51,12 @@ std::string conversionName(const Context& context, TypeId from, TypeId to) {
   };
   const std::string source = word(from), target = word(to);
   if (source.empty() || target.empty() || source == target) return {};
-  return source + "_TO_" + target;
+  const std::string name = source + "_TO_" + target;
+  const TypeKind a = context.types().plainKind(from), b = context.types().plainKind(to);
+  const auto isText = [](TypeKind kind) { return TypeTable::isString(kind) || TypeTable::isCharacter(kind); };
+  const bool is_declared = isText(a) && !isText(b);
+  if (is_declared && lookUp(context, context.names().intern(name)).entityKind() != EntityKind::Pou) return {};
+  return name;
 }
 
 }  // namespace
@@ -117,6 +124,16 @@ static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
   if (TypeTable::isString(source.kind) && source.kind == target.kind) return source.length >= target.length;
   return sameType(context, from, to);
+}
+
+// Arrays of one element type whose dimensions have as many elements, with other bounds: codesys copies element by
+// element.
+static bool haveEqualLengths(const Context& context, const types::TypeInfo& a, const types::TypeInfo& b) {
+  if (a.kind != TypeKind::Array || b.kind != TypeKind::Array || a.dimensions.size() != b.dimensions.size())
+    return false;
+  for (size_t i = 0; i < a.dimensions.size(); ++i)
+    if (a.dimensions[i].count() != b.dimensions[i].count()) return false;
+  return sameType(context, a.base, b.base);
 }
 
 // A structure that extends another one begins with its members.
@@ -207,6 +224,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   const bool widens =
       (a == TypeKind::String && b == TypeKind::WString) || (a == TypeKind::Char && b == TypeKind::WChar);
   if (widens && context.symbols.dialect != Dialect::Iec2) return Fit::Lossless;
+  if (!context.iec() && haveEqualLengths(context, source, target)) return Fit::Lossless;
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
@@ -415,13 +433,27 @@ bool checkSubrange(Context& context, ExprId expr, TypeId to) {
 }
 
 // A library's own name for POINTER TO BYTE stands for memory of any type, such as the rows of a cam.
-bool isMemory(Context& context, TypeId type) {
+bool isMemory(const Context& context, TypeId type) {
   const types::TypeInfo& named = context.types().info(type);
   if (named.kind != TypeKind::Alias) return false;
   const types::TypeInfo& pointer = context.types().info(context.types().resolve(type));
   if (pointer.kind != TypeKind::Pointer || context.types().kind(pointer.base) != TypeKind::Byte) return false;
-  const Entity found = lookUpLibrary(context, keyOf(context, named.name));
-  return found.entityKind() == EntityKind::Type && found.index == type.index;
+  const NamedType* declared = context.scopes.named(type);
+  return declared != nullptr && declared->library;
+}
+
+// codesys: the address of an array as that of its first element.
+bool isFirstElement(const Context& context, TypeId from, TypeId to) {
+  if (context.iec()) return false;
+  const types::TypeInfo* source = &context.types().info(context.types().resolve(from));
+  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
+  if (source->kind != TypeKind::Pointer || target.kind != TypeKind::Pointer) return false;
+  TypeId element = source->base;
+  while (context.types().kind(element) == TypeKind::Array) {
+    element = context.types().info(context.types().resolve(element)).base;
+    if (pointsAlike(context, element, target.base)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -444,7 +476,8 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(to));
   if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.tree().expr(expr).is_constant)
     fitness = Fit::No;
-  const bool is_memory = fitness == Fit::Pointer && (isMemory(context, to) || isMemory(context, from));
+  const bool is_memory = fitness == Fit::Pointer &&
+                         (isMemory(context, to) || isMemory(context, from) || isFirstElement(context, from, to));
   if (!is_memory && !reportFit(context, fitness, expr, from, to, purpose)) {
     context.tree().expr(expr).type = types::kError;
     return false;

@@ -122,7 +122,8 @@ TypeId checkAddress(Context& context, ExprId& expr) {
     return var.type;
   }
   if (!resolveAddress(context, node.address, node.h.loc, {})) return node.h.type = types::kError;
-  return node.h.type = addressType(node.address);
+  const TypeId declared = declaredAddressType(context, node.address);
+  return node.h.type = declared ? declared : addressType(node.address);
 }
 
 // A REFERENCE is used like its target.

@@ -186,6 +186,22 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   return true;
 }
 
+// A number of the unsigned type of the same width is the bit pattern (codesys): a literal without type has the smallest
+// that holds it, here an unsigned one, and CODESYS warns of its conversion (C0196).
+//   warns   id : INT := 37000;       W0583
+bool adaptPattern(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
+  Int128 value;
+  if (context.iec() || !context.types().isSigned(kind)) return false;
+  const uint32_t width = types::TypeTable::bitWidth(kind);
+  if (!untypedValue(context, expr, value) || value < Int128{1} << (width - 1) || value >= Int128{1} << width)
+    return false;
+  const Int128 stored = value - (Int128{1} << width);
+  const Loc loc = context.tree().begin(expr);
+  context.report(diag::SignBitSet, loc, {toString(value), context.types().toString(to), toString(stored)});
+  context.replace(expr, makeInteger(context, to, stored, loc));
+  return true;
+}
+
 bool adaptReal(Context& context, ExprId& expr, TypeId to);
 
 // `whole`: an integer expression without a quotient, or a part of one.
@@ -222,7 +238,10 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to) {
     wrapConvert(context, expr, to);
     return true;
   }
-  return setRealType(context, expr, to, integer);
+  if (!setRealType(context, expr, to, integer)) return false;
+  if (context.tree().kind(expr) != ExprKind::Binary) return true;
+  evaluate(context, expr);  // reports a value beyond the type (W0368)
+  return true;
 }
 
 // The length of a string of this kind in its units: bytes, or UTF-16 units; of a UCHAR in characters.
@@ -491,7 +510,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       return adaptInteger(context, expr, to, bounds);
     }
     if (isIntegerLike(kind) && info.kind != TypeKind::Enum) {
-      if (adaptNegative(context, expr, to, kind)) return true;
+      if (adaptNegative(context, expr, to, kind) || adaptPattern(context, expr, to, kind)) return true;
       return adaptInteger(context, expr, to, boundsOf(context.types(), kind));
     }
     if (kind == TypeKind::Bool) {

@@ -97,6 +97,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
   switch (entity.entityKind()) {
     case EntityKind::Var: {
       const Var& var = context.symbols.vars[entity.index];
+      if (bare && !checkUseInMethod(context, var, loc)) return header.type = types::kError;
       if (bare && var.access == AccessLevel::Private && var.pou && !mayAccess(context, var.access, var.pou, name, loc))
         return header.type = types::kError;
       return useVar(context, expr, VarId{entity.index}, access);
@@ -110,14 +111,14 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
         return header.type = {};
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
       if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
-      if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
+      if (takesAddress(access)) return header.type = pou.record ? pou.record : types::kError;
       if (isFirstReport(context, name))
         context.report(diag::NotAValue, loc, {string(context, name), kindName(pou.kind)});
       return header.type = types::kError;
     }
     case EntityKind::Property: return useMember(context, expr, entity, {}, access);
     case EntityKind::Type:
-      if (access == Access::Address) return header.type = TypeId{entity.index};
+      if (takesAddress(access)) return header.type = TypeId{entity.index};
       [[fallthrough]];
     case EntityKind::GlobalList:
     case EntityKind::Namespace:
@@ -155,10 +156,15 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
   const TypeId type = check(context, base, {}, Access::Qualifier);
   if (!type || access == Access::Qualifier) return type;
   callReferenceChecks(context, base, access);
+  bool is_part = true;  // of the variable that is used: not after an instance, whose own members are used
   for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
     const Entity entity = entityOf(context, at);
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
     if (context.tree().kind(at) != ExprKind::Member) return type;
+    is_part = is_part && !isInstance(context, context.tree().expr(at).type);
+    if (is_part && entity.entityKind() == EntityKind::Var &&
+        !checkOutsideAccess(context, context.tree().as<MemberExpr>(at), VarId{entity.index}, access))
+      return types::kError;
   }
 }
 
@@ -215,7 +221,10 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
     found = lookUpIn(context, qualifier, node.member);
   }
   if (record) {
-    if (const VarId var = findMember(context, record, node.member)) found = Entity::of(EntityKind::Var, var.index);
+    if (const VarId var = findMember(context, record, node.member)) {
+      found = Entity::of(EntityKind::Var, var.index);
+      if (!checkOutsideAccess(context, node, var, access)) found = Entity::of(EntityKind::Error, 0);
+    }
     if (!found) {
       if (const auto type = checkObjectMember(context, expr, pouOf(context, record), access)) return *type;
     }
@@ -246,7 +255,7 @@ void markAccess(Context& context, VarId id, Access access) {
     if (access != Access::Write && access != Access::Bind) var.use.read = true;
     if (access == Access::Read) continue;
     var.use.written = true;
-    if (access == Access::Address || !context.body || !var.name || var.external) continue;
+    if (takesAddress(access) || !context.body || !var.name || var.external) continue;
     const bool outside = var.storage == Storage::Global || var.storage == Storage::Image;
     auto& writes = context.project.global_writes;
     const auto known = [&] { return !writes.empty() && writes.back().pou == context.pou && writes.back().var == at; };
@@ -297,6 +306,7 @@ static bool reportQualifiedGlobal(Context& context, NameId name, Loc loc) {
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
+  const bool several = isAmbiguousItem(context, entity);
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
     const bool other_item = entity.entityKind() == EntityKind::EnumValue &&
                             context.types().resolve(context.symbols.enum_values[entity.index].type) != wanted;
@@ -307,7 +317,9 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   if (entity) {
     const bool decided = wanted && entity.entityKind() == EntityKind::EnumValue &&
                          context.types().resolve(context.symbols.enum_values[entity.index].type) == wanted;
-    if (!decided && isAmbiguousItem(context, entity)) {
+    // iec: a value of two enumerations always needs its type. ed. 3, 6.4.4.3; ed. 2, 2.3.3.1.
+    if ((context.iec() && several && entity.entityKind() == EntityKind::EnumValue) ||
+        (!decided && isAmbiguousItem(context, entity))) {
       const TypeId type = context.symbols.enum_values[entity.index].type;
       context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)});
       return Entity::of(EntityKind::Error, 0);
@@ -481,12 +493,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     return node.h.type = types::kError;
   }
   node.entity = Entity::of(EntityKind::Var, member.index);
-  if (info.record_kind != types::RecordKind::Struct && info.record_kind != types::RecordKind::Union) {
-    if (!checkOutsideAccess(context, node, member, record, access)) {
-      typeOf(context, member);
-      return node.h.type = types::kError;
-    }
-  }
+  if (!checkOutsideAccess(context, node, member, access)) return node.h.type = types::kError;
   const TypeId type = useVar(context, expr, member, access);
   return type;
 }

@@ -1,6 +1,9 @@
 // Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean one of
 // these. Out: a sema::Call of kind Method; reading a property calls its GET, writing it calls its SET. Called by
 // names.cpp, calls.cpp and statements.cpp.
+#include <algorithm>
+
+#include "frontend/syntax/inline_actions.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/required_pins.h"
@@ -51,6 +54,14 @@ void markObject(Context& context, ExprId at) {
   }
 }
 
+// Actions are virtual as methods are, except with {attribute 'no_virtual_actions'} at their block. Those that a chart
+// has for itself, in its steps, transitions and inner charts, belong to that chart.
+bool isFixedAction(const Context& context, const Pou& callee) {
+  if (callee.kind != PouKind::Action) return false;
+  const bool of_chart = callee.chart || callee.result || isInlineAction(context.tree(), context.names(), callee.decl);
+  return of_chart || context.symbols.pou(callee.owner).pragmas.no_virtual_actions;
+}
+
 CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vector<Binding>&& bindings) {
   const Pou& callee = context.symbols.pou(method);
   const Pou& owner = context.symbols.pou(callee.owner);
@@ -59,7 +70,7 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
   call.pou = method;
   call.instance = instanceFor(context, instance, method);
   call.bindings = std::move(bindings);
-  const bool fixed = callee.kind == PouKind::Action || !owner.object.dispatched ||
+  const bool fixed = isFixedAction(context, callee) || !owner.object.dispatched ||
                      callee.access == AccessLevel::Private ||
                      ((callee.object.modifiers | owner.object.modifiers) & kFinal) != 0;
   call.is_virtual = !fixed && !(instance && isExact(context, instance));
@@ -192,7 +203,8 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   // A value written to a REFERENCE goes to the variable that GET gives. An assignment handles the others; what else
   // writes needs a variable.
   const bool through = context.types().kind(declared) == TypeKind::Reference;
-  if (access == Access::Bind || (writesValue(access) && !through)) return header.type = declared;
+  const bool writes = writesValue(access) && access != Access::Call;
+  if (access == Access::Bind || (writes && !through)) return header.type = declared;
   if (!property.get) {
     context.report(diag::PropertyWithoutGet, loc, {string(context, property.name)});
     return header.type = types::kError;
@@ -276,7 +288,16 @@ Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argumen
   std::vector<Argument> arguments;
   for (uint32_t i = 0; i < kImplicit; ++i)
     arguments.push_back({{}, makeLiteral(context, LiteralKind::Bool, types::kBool, 0, loc), false, false, loc});
-  for (const Argument& argument : context.tree().list(given)) arguments.push_back(argument);
+  const auto isInput = [&](VarId pin) { return context.symbols.var(pin).section != SectionKind::Output; };
+  const auto inputs = static_cast<size_t>(std::count_if(pins.begin(), pins.end(), isInput));
+  for (const Argument& argument : context.tree().list(given)) {
+    if (!argument.pin.name && arguments.size() >= inputs) {
+      context.report(diag::TooManyArguments, argument.value ? context.tree().begin(argument.value) : argument.loc,
+                     {context.types().toString(block), std::to_string(inputs - kImplicit)});
+      break;
+    }
+    arguments.push_back(argument);
+  }
   node.arguments = context.tree().addList<Argument>(arguments);
   const Arguments matched = matchArguments(context, node, method);
   Call call;
@@ -323,7 +344,7 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
   if (pins.size() <= kImplicit) {
     Slice<Argument> first = written.arguments;
     if (!lists.empty()) first = tree.as<CallExpr>(lists[0]).arguments;
-    if (first.count > 0)
+    if (first.count > 0 && !isBroken(context, object))
       context.report(diag::TooManyArguments, tree.list(first)[0].loc, {context.types().toString(resolved), "0"});
     return {};
   }

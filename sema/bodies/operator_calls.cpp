@@ -4,9 +4,11 @@
 // {operator 'convert'}.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/checks/comparison_range.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
 #include "sema/checks/required_pins.h"
+#include "sema/checks/shift_width.h"
 #include "sema/intermediate.h"
 
 namespace rung::sema {
@@ -128,6 +130,13 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
       if (!checkDivisor(context, operands.values[1], op)) return node.h.type = types::kError;
       callDivisorCheck(context, operands.values[1]);
     }
+  }
+  if (pou.pragmas.operator_kind == OperatorKind::Op && operands.values.size() == 2) {
+    const types::Op op = pou.pragmas.op;
+    if (op >= types::Op::Eq && op <= types::Op::Ge)
+      checkComparisonRange(context, op, operands.values[0], operands.values[1], node.h.loc);
+    if (op == types::Op::Shl || op == types::Op::Shr || op == types::Op::Sar)
+      checkShiftWidth(context, operands.values[0], operands.values[1]);
   }
   if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];

@@ -5,6 +5,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
+#include "sema/checks/comparison_range.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
 #include "sema/checks/time_equality.h"
@@ -399,6 +400,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
       checkRealEquality(context, node);
       checkTimeEquality(context, node);
     }
+    checkComparisonRange(context, operatorOf(op), node.left, node.right, node.h.loc);
     return node.h.type = types::kBool;
   }
   if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {

@@ -130,7 +130,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
     context.replace(lvalue, makeLiteral(context, LiteralKind::Null, reference, 0, loc));
     return true;
   }
-  const TypeId type = check(context, lvalue, {}, Access::Address);
+  const TypeId type = check(context, lvalue, {}, Access::Refer);
   if (!type || type == types::kError || wanted == types::kError) return false;
   if (context.types().info(type).kind == TypeKind::NullLiteral) {
     context.tree().expr(lvalue).type = reference;

@@ -66,4 +66,11 @@ std::optional<TypeId> checkPseudoCall(Context& context, ExprId& expr, NameId nam
   return context.tree().expr(expr).type = type;
 }
 
+std::string_view nearestPseudoFunction(Context& context, NameId written) {
+  std::vector<std::string_view> names;
+  for (const Row& row : kFunctions) names.push_back(row.name);
+  const std::string_view near = nearest(string(context, written), names);
+  return near.empty() ? nearestByBeginning(string(context, written), names) : near;
+}
+
 }  // namespace rung::sema

@@ -18,6 +18,9 @@ struct PseudoCall {
 // None: there is no such function. Otherwise the type, also written into the expression.
 std::optional<TypeId> checkPseudoCall(Context& context, ExprId& expr, NameId name, bool as_statement);
 
+// "Did you mean" for a call of a name that is not declared.
+std::string_view nearestPseudoFunction(Context& context, NameId written);
+
 // Each checks the call `expr`, may replace it, and returns its type; kError after a report.
 using PseudoHandler = TypeId(Context& context, ExprId& expr, const PseudoCall& call);
 

@@ -91,6 +91,14 @@ ProjectSignatures::Resolved ProjectSignatures::resolve(ExprId path) {
   return {};
 }
 
+// The declared type of the result, if it is a name that means the same everywhere.
+TypeExprId ProjectSignatures::plainResult(const Pou& pou) const {
+  const Tree& tree = context_.tree();
+  const TypeExprId result = pou.decl && pou.result ? tree.as<PouDecl>(pou.decl).result : TypeExprId{};
+  const bool named = result && tree.kind(result) == TypeExprKind::Named;
+  return named && context_.types().isElementary(context_.types().kind(pou.result)) ? result : TypeExprId{};
+}
+
 Signature ProjectSignatures::signatureOf(PouId id, SignatureKind kind) {
   resolvePou(context_, id);
   const Pou& pou = context_.project.pou(id);
@@ -107,7 +115,7 @@ Signature ProjectSignatures::signatureOf(PouId id, SignatureKind kind) {
                       var.pragmas.extensible, var.init});
     }
   }
-  return {kind, static_cast<bool>(pou.result), pins};
+  return {kind, static_cast<bool>(pou.result), pins, plainResult(pou)};
 }
 
 Signature ProjectSignatures::signatureOf(const Resolved& resolved) {

@@ -31,6 +31,7 @@ class ProjectSignatures final : public Signatures {
   Resolved memberOf(const Resolved& base, NameId member);
   Signature signatureOf(const Resolved& resolved);
   Signature signatureOf(PouId pou, SignatureKind kind);
+  TypeExprId plainResult(const Pou& pou) const;
   TypeId plainType(TypeId type) const;
 
   Context& context_;

@@ -9,6 +9,7 @@
 #include "sema/bodies/signatures.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/charts.h"
+#include "sema/checks/call_memory.h"
 #include "sema/checks/cam_tables.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
@@ -342,7 +343,13 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
 
 // __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
 bool checkTry(Context& context, TryStmt& node) {
+  constexpr uint32_t kMostNested = 32;  // the time that g++ needs grows with the square
   if (context.iec()) context.report(diag::TryExtension, node.h.loc);
+  if (context.try_depth == kMostNested) {
+    context.report(diag::TryTooDeep, node.h.loc, {std::to_string(kMostNested)});
+    return true;
+  }
+  ++context.try_depth;
   const bool falls = checkStatements(context, node.body);
   if (node.code) {
     const TypeId type = checkTarget(context, node.code, Access::Write);
@@ -353,6 +360,7 @@ bool checkTry(Context& context, TryStmt& node) {
   }
   const bool handled = checkStatements(context, node.handler);
   const bool finished = checkStatements(context, node.finally);
+  --context.try_depth;
   return (falls || (node.catches && handled)) && finished;
 }
 
@@ -486,6 +494,7 @@ void checkBody(Context& context, PouId id) {
   finalizeTemporaries(inner);
   checkJumpLabels(inner);
   checkResultAssigned(inner);
+  checkCallMemory(inner);
 }
 
 void checkAfterBodies(Context& context) {

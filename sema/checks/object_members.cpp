@@ -94,6 +94,58 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
       .declaredHere(other.loc);
 }
 
+// Forbids an FB_Init without the two inputs that the system gives it, and one of a derived block without the further
+// inputs of the base's in front of its own: the arguments of a declaration are passed to both. CODESYS, "FB_Init,
+// FB_Reinit, FB_Exit"; TwinCAT, "Methods FB_init, FB_reinit and FB_exit".
+//   passes  VAR_INPUT bInitRetains, bInCopyCode : BOOL; size : INT; name : STRING; END_VAR (size in the base too)
+//   fails   VAR_INPUT size : INT; END_VAR                                                             E0779
+constexpr size_t kGivenBySystem = 2;
+
+bool isConstructor(const Context& context, const Pou& method) {
+  return sameIdentifier(context.names().string(method.name), "FB_Init");
+}
+
+void checkConstructor(Context& context, PouId id) {
+  if (!isConstructor(context, context.symbols.pou(id)) || isBroken(context, id) || context.symbols.pou(id).library)
+    return;
+  resolvePou(context, id);
+  const std::span<const VarId> pins = pinsOf(context, id);
+  for (size_t i = 0; i < kGivenBySystem; ++i) {
+    const Var* pin = i < pins.size() ? &context.symbols.var(pins[i]) : nullptr;
+    if (pin != nullptr && pin->type == types::kError) return;
+    if (pin != nullptr && pin->section == SectionKind::Input &&
+        context.types().plainKind(pin->type) == types::TypeKind::Bool)
+      continue;
+    context.report(diag::ConstructorInputs, pin != nullptr ? pin->loc : context.symbols.pou(id).loc,
+                   {context.names().string(context.symbols.pou(id).name)});
+    return;
+  }
+}
+
+void checkConstructorOfBase(Context& context, PouId id, PouId replaced) {
+  const Pou& method = context.symbols.pou(id);
+  if (!isConstructor(context, method) || isBroken(context, id) || isBroken(context, replaced) || method.library) return;
+  resolvePou(context, replaced);
+  const std::span<const VarId> pins = pinsOf(context, id), wanted = pinsOf(context, replaced);
+  for (size_t i = kGivenBySystem; i < wanted.size(); ++i) {
+    const Var& there = context.symbols.var(wanted[i]);
+    const bool has_default = there.decl && context.tree().as<VarDecl>(there.decl).init;
+    if (there.section == SectionKind::Output || (i >= pins.size() && has_default)) continue;
+    const Var* pin = i < pins.size() ? &context.symbols.var(pins[i]) : nullptr;
+    if (pin != nullptr && (pin->type == types::kError || there.type == types::kError)) return;
+    if (pin != nullptr && pin->section == there.section && context.names().same(pin->name, there.name) &&
+        sameType(context, pin->type, there.type))
+      continue;
+    context
+        .report(diag::ConstructorOfBase, pin != nullptr ? pin->loc : method.loc,
+                {string(context, method.name),
+                 string(context, context.symbols.pou(context.symbols.pou(replaced).owner).name),
+                 string(context, there.name), context.types().toString(there.type)})
+        .declaredHere(there.loc);
+    return;
+  }
+}
+
 struct Demands {
   Context& context;
   PouId object;
@@ -139,6 +191,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.symbols.pou(id);
   const Pou& owner = context.symbols.pou(object);
   if (method.kind != PouKind::Method) return;
+  checkConstructor(context, id);
   if ((method.object.modifiers & kAbstract) != 0 && (owner.object.modifiers & kAbstract) == 0) {
     context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
@@ -160,7 +213,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   if ((other.object.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {
-    return;  // the parameters of FB_Init may differ
+    checkConstructorOfBase(context, id, replaced);
   } else if (needs_override && (method.object.modifiers & kOverride) == 0) {
     context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
   } else {
@@ -234,7 +287,8 @@ void checkObjectMembers(Context& context, PouId object) {
     const Var& var = context.symbols.var(id);
     if (!var.decl || !var.name || var.of_chart) continue;  // each of two charts has its own
     const Entity first = findInObject(context, pou.base, var.name);
-    if (first.entityKind() == EntityKind::Var)
+    // The VAR_TEMP of a base is only known to its body and actions. CODESYS, "Extension of Function Blocks".
+    if (first.entityKind() == EntityKind::Var && context.symbols.vars[first.index].section != SectionKind::Temp)
       reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
   }
 }

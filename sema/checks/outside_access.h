@@ -5,7 +5,11 @@
 
 namespace rung::sema {
 
-// `member` is a variable of the block or program whose instance `record` is. False after an error.
-bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, TypeId record, Access access);
+// Whether a value of the type is an object, whose members have rules of their own.
+bool isInstance(const Context& context, TypeId type);
+// `node` names the variable `member`, perhaps of a block or program. False after an error.
+bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, Access access);
+// A bare name in a method or accessor that means a variable of the object. False after an error.
+bool checkUseInMethod(Context& context, const Var& var, Loc loc);
 
 }  // namespace rung::sema

@@ -12,6 +12,8 @@ namespace rung::sema {
 void checkResultAssigned(Context& context) {
   const Pou& pou = context.symbols.pou(context.pou);
   if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).use.written) return;
+  const Entity named = context.scopes.pous[context.pou.index].names.find(keyOf(context, pou.name));
+  if (named.entityKind() != EntityKind::Var || VarId{named.index} != pou.result_var) return;  // hidden: reported
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // their results are not used
   context.report(diag::ResultNotAssigned, pou.loc, {string(context, pou.name)});
 }

@@ -96,7 +96,8 @@ void checkUnsetTemporaries(Context& context) {
     for (const VarId id : pou.vars) {
       const Var& var = symbols.var(id);
       const types::TypeKind kind = context.types().plainKind(var.type);
-      if (var.section != SectionKind::Temp || var.temporary != 0 || var.init || !types::TypeTable::isScalar(kind))
+      if (var.section != SectionKind::Temp || var.temporary != 0 || var.init || var.shared ||
+          !types::TypeTable::isScalar(kind))
         continue;
       is_unset.resize(symbols.vars.size());
       is_unset[id.index] = true;

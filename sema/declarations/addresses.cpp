@@ -2,7 +2,9 @@
 // the size letter (%ID48 begins at byte 192); %IX5 is byte 0, bit 5.
 #include <algorithm>
 
+#include <algorithm>
 #include "frontend/parse/diagnostics.h"
+
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
@@ -194,6 +196,36 @@ void allocateHierarchical(Context& context) {
     for (const VarId user : allocation.users) project.var(user).image.byte = static_cast<uint32_t>(byte);
     use(project, named.image.area, byte + allocation.bytes);
   }
+}
+
+uint64_t addressKey(const Context& context, const DirectAddress& address) {
+  const auto path = context.tree().list(address.path);
+  uint64_t key = static_cast<uint64_t>(static_cast<unsigned char>(address.area)) << 56 |
+                 static_cast<uint64_t>(static_cast<unsigned char>(address.size)) << 48;
+  for (const uint32_t part : path) key = (key & ~uint64_t{0} << 48) | ((key * 0x10001 + part + 1) & 0xffffffffffff);
+  return key;
+}
+
+TypeId declaredAddressType(Context& context, const DirectAddress& address) {
+  const auto found = context.scopes.unnamed_addresses.find(addressKey(context, address));
+  if (found == context.scopes.unnamed_addresses.end()) return {};
+  const auto path = context.tree().list(address.path);
+  const PouId object = objectOf(context);
+  TypeId type;
+  for (const VarId id : found->second) {
+    const DirectAddress& other = context.tree().as<VarDecl>(context.symbols.var(id).decl).address;
+    const PouId pou = context.symbols.var(id).pou;
+    if (pou && pou != context.pou && pou != object) continue;
+    const auto written = context.tree().list(other.path);
+    if (!std::equal(path.begin(), path.end(), written.begin(), written.end())) continue;
+    ensureVarType(context, id);
+    const TypeId declared = context.symbols.var(id).type;
+    if (declared == types::kError) continue;
+    const uint32_t width = types::TypeTable::bitWidth(context.types().plainKind(declared));
+    if (width == types::TypeTable::bitWidth(context.types().kind(addressType(address)))) type = declared;
+    if (pou) break;
+  }
+  return type;
 }
 
 }  // namespace rung::sema

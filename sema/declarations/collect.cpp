@@ -55,6 +55,7 @@ void internKnownNames(Context& context) {
       {&Known::no_copy, "no_copy"},
       {&Known::bytes, "bytes"},
       {&Known::attribute_no_check, "no_check"},
+      {&Known::attribute_no_virtual_actions, "no_virtual_actions"},
       {&Known::attribute_obsolete, "obsolete"},
       {&Known::attribute_to_string, "to_string"},
       {&Known::attribute_unique_name, "unique_name"},
@@ -159,6 +160,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
   pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
   pou.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
+  pou.pragmas.no_virtual_actions = findPragma(context, decl.h, known.attribute_no_virtual_actions) != nullptr;
   pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
   takeAttributes(context, decl.h, pou);
   pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;

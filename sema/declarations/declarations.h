@@ -145,9 +145,15 @@ void addObjectFields(Context& context, PouId object);
 // The names of members in the scope of their object, and VAR_INST of its methods.
 void declareMembers(Context& context, PouId object);
 
+// ---- shared_temporaries.cpp
+// Hidden fields for VAR_TEMP that actions use, variables for those of a base that the body uses.
+void shareTemporaries(Context& context, PouId pou);
+
 // ---- addresses.cpp: see resolveAddress in context.h
 // None: no area has that letter, which was reported.
 std::optional<types::AreaId> areaOf(Context& context, const DirectAddress& address, Loc loc);
+// Equal for addresses that are written alike.
+uint64_t addressKey(const Context& context, const DirectAddress& address);
 // How many bytes an area may have.
 uint64_t areaLimit(const Context& context, types::AreaId area);
 

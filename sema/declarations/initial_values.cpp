@@ -3,6 +3,7 @@
 // place; surplus array elements are removed and repetition counts are literals.
 #include <algorithm>
 
+#include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
@@ -303,7 +304,13 @@ struct Initializer {
       fields.push_back(given);
       const std::string_view name = context.names().string(given.field.name);
       const VarId member = findMember(context, type, given.field.name);
+      if (!member && setProperty(given, type, seen)) {
+        written.value = given.value;
+        fields.back() = given;
+        continue;
+      }
       if (!member) {
+        if (!isFirstReportOfMember(context, type, given.field.name)) continue;
         context.report(diag::UnknownMember, given.field.loc, {context.types().toString(type), name})
             .didYouMean(nearestMember(type, given.field.name));
         continue;
@@ -346,6 +353,41 @@ struct Initializer {
     context.replace(init, typed(context, context.build().structInit(fields, node.h.loc), type));
   }
 
+  // A property of a block is set by a call of its SET. TwinCAT, "Object Property". False: there is no such property.
+  bool setProperty(FieldInit& given, TypeId type, NameMap& seen) {
+    const PouId object = pouOf(context, type);
+    Entity found = object ? findInObject(context, object, given.field.name) : Entity{};
+    if (found.entityKind() != EntityKind::Property) return false;
+    const std::string_view name = context.names().string(given.field.name);
+    if (!seen.insert(keyOf(context, given.field.name), found)) {
+      context.report(diag::DuplicateMember, given.field.loc, {name});
+      given.value = {};
+      return true;
+    }
+    PouId setter = context.symbols.properties[found.index].set;
+    for (PouId at = context.symbols.pou(context.symbols.properties[found.index].owner).base; at && !setter;
+         at = context.symbols.pou(at).base) {
+      found = findInObject(context, at, given.field.name);
+      if (found.entityKind() == EntityKind::Property) setter = context.symbols.properties[found.index].set;
+    }
+    if (!setter) {
+      context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
+          .declaredHere(context.symbols.properties[found.index].loc);
+      given.value = {};
+      return true;
+    }
+    resolvePou(context, setter);
+    const Pou& pou = context.symbols.pou(setter);
+    if (!mayAccess(context, pou.access, pou.owner, given.field.name, given.field.loc)) {
+      given.value = {};
+      return true;
+    }
+    noteCall(context, setter, given.field.loc);
+    given.field.name = pou.name;
+    if (given.value) value(given.value, context.symbols.var(pinsOf(context, setter)[0]).type);
+    return true;
+  }
+
   // Sets the bit of a member of type BIT in the byte that holds it.
   void setBit(std::vector<std::pair<VarId, uint8_t>>& bytes, TypeId type, VarId member, ExprId given) const {
     const auto bit = requireConstant(context, given, types::kBool);
@@ -386,6 +428,14 @@ struct Initializer {
 }  // namespace
 
 bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what, InitialReads may) {
+  constexpr uint64_t kMostBytes = uint64_t{256} << 20;  // the emitted data is as small as its text, the work is not
+  const uint64_t bytes = context.types().info(context.types().resolve(type)).size;
+  if (bytes > kMostBytes && context.tree().kind(init) == ExprKind::ArrayInit) {
+    context.report(diag::InitialValueTooLarge, context.tree().begin(init),
+                   {std::to_string(bytes), std::to_string(kMostBytes)});
+    context.tree().expr(init).type = types::kError;
+    return false;
+  }
   Initializer initializer{.context = context, .what = what, .may = may};
   initializer.value(init, type);
   return initializer.reads;

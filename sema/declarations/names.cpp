@@ -256,7 +256,7 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 bool isBroken(const Context& context, PouId id) {
   const DeclId decl = id ? context.symbols.pou(id).decl : DeclId{};
   if (decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0) return true;
-  return id && isBroken(context, context.symbols.pou(id).owner);
+  return id && (context.symbols.pou(id).object.unresolved || isBroken(context, context.symbols.pou(id).owner));
 }
 
 namespace {

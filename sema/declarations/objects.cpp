@@ -220,7 +220,10 @@ void resolveHeader(Context& context, PouId id) {
   const bool is_interface = decl.pou_kind == PouKind::Interface;
   for (const TypeExprId written : context.tree().list(decl.bases)) {
     const PouId base = objectNamed(there, written, is_interface);
-    if (!base) continue;
+    if (!base) {
+      symbols.pou(id).object.unresolved = true;
+      continue;
+    }
     if (context.scopes.depth > kMaxDeclarationDepth) {
       there.report(diag::DeclarationsTooDeep, context.tree().loc(written),
                    {context.names().string(symbols.pou(id).name)});
@@ -229,6 +232,7 @@ void resolveHeader(Context& context, PouId id) {
     ++context.scopes.depth;
     resolveHeader(context, base);
     --context.scopes.depth;
+    if (symbols.pou(base).object.unresolved) symbols.pou(id).object.unresolved = true;
     const uint32_t depth = symbols.pou(base).object.base_depth + 1;
     if (depth > kMaxBases) {
       reportTooDeep(there, context.tree().loc(written), "bases", kMaxBases);

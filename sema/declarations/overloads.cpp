@@ -34,7 +34,8 @@ PouId methodLike(const Symbols& symbols, PouId object, PouId like_id) {
   const Pou& like = symbols.pou(like_id);
   for (const PouId member : symbols.pou(object).members) {
     const Pou& pou = symbols.pou(member);
-    if (pou.kind != PouKind::Method || pou.object.accessor != like.object.accessor ||
+    const bool is_action = like.kind == PouKind::Action && pou.kind == PouKind::Action && !pou.chart;
+    if ((pou.kind != PouKind::Method && !is_action) || pou.object.accessor != like.object.accessor ||
         !symbols.names.same(pou.name, like.name))
       continue;
     if ((!pou.overloads && !like.overloads) || sameParameters(symbols, member, like_id)) return member;

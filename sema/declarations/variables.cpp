@@ -137,7 +137,11 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     }
     symbols.vars.push_back(var);
     into.push_back(id);
-    if (!var.name) continue;
+    if (!var.name) {
+      if (decl.located && !decl.address.incomplete)
+        context.scopes.unnamed_addresses[addressKey(context, decl.address)].push_back(id);
+      continue;
+    }
     const NameId key = keyOf(context, var.name);
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
@@ -272,6 +276,36 @@ bool mayBeOpen(const Context& context, const Var& var) {
   return of_call && (var.section == SectionKind::Input || var.section == SectionKind::Output);
 }
 
+bool isBlock(const Context& context, TypeId type) {
+  while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
+  if (context.types().kind(type) != TypeKind::Record) return false;
+  return context.types().info(context.types().resolve(type)).record_kind == types::RecordKind::FunctionBlock;
+}
+
+// Forbids, in iec: an address of a VAR_EXTERNAL, and a complete one in a block or function; an instance of a block as a
+// constant, and in iec2 one in a function, which has no memory for it (elsewhere a warning). IEC 61131-3 ed. 3 table
+// 13, grammar of External_Decl and FB_Decl; ed. 2, 2.5.1 and table 16b; CODESYS, SA0167.
+//   passes  FUNCTION_BLOCK f VAR o AT %Q* : BOOL; END_VAR
+//   fails   FUNCTION_BLOCK f VAR o AT %QX0.1 : BOOL; END_VAR                          E0632
+void checkPlacement(Context& there, const Var& var, const VarDecl& decl) {
+  if (there.library || var.record) return;
+  const std::string_view name = there.names().string(var.name);
+  const PouKind kind = var.pou ? there.symbols.pou(var.pou).kind : PouKind::Program;
+  if (there.iec() && decl.located && var.section == SectionKind::External)
+    there.report(diag::ExternalAddress, decl.address_loc, {name});
+  else if (there.iec() && decl.located && !decl.address.incomplete && kind != PouKind::Program)
+    there.report(diag::AddressInBlock, decl.address_loc, {kindWord(kind)});
+  const bool has_memory = var.section == SectionKind::Local || var.section == SectionKind::Temp || !var.pou;
+  if (var.type == types::kError || !has_memory || !isBlock(there, var.type)) return;
+  const std::string block = there.types().toString(var.type);
+  if (there.iec() && var.constant)
+    there.report(diag::ConstantBlock, var.loc, {name, block});
+  else if (kind == PouKind::Function && there.symbols.dialect == Dialect::Iec2)
+    there.report(diag::BlockInFunction, var.loc, {name, block});
+  else if (kind == PouKind::Function)
+    there.report(diag::BlockOfCall, var.loc, {name, block});
+}
+
 uint32_t firstOfDecl(const Symbols& symbols, uint32_t index) {
   while (index > 1 && symbols.vars[index - 1].decl == symbols.vars[index].decl) --index;
   return index;
@@ -320,6 +354,7 @@ void ensureVarType(Context& context, VarId id) {
         !checkNotAbstract(there, type, context.tree().loc(decl.type)))
       var.type = types::kError;
     if (var.type != types::kError && !checkKept(there, var, context.tree().loc(decl.type))) var.type = types::kError;
+    if (i == first) checkPlacement(there, var, decl);
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
@@ -504,10 +539,29 @@ static void declareEno(Context& context, PouId id) {
   symbols.pou(id).vars.push_back(created);
 }
 
-// Forbids, in iec, modifiers that contradict their section: a constant is not retained; an in-out, and a variable of
-// one call, has no memory to keep; an output is written by its block. IEC 61131-3 ed. 3 table 14 and figure 9.
+// Forbids RETAIN with NON_RETAIN, and in iec modifiers that contradict their section: a constant is not retained; an
+// in-out, and a variable of one call, has no memory to keep; an output is written by its block; VAR_IN_OUT CONSTANT is
+// of CODESYS. There RETAIN in a function has no effect, with a warning. IEC 61131-3 ed. 3 table 14 and figure 9, ed. 2
+// B.1.4.3, B.1.5.1; CODESYS, "Retain Variable - RETAIN".
 //   passes  VAR RETAIN n : INT; END_VAR      fails  VAR_TEMP RETAIN n : INT; END_VAR      E0372
 void checkModifiers(Context& context, const SectionDecl& section) {
+  if (context.library) return;
+  constexpr uint8_t kBoth = kRetain | kNonRetain;
+  if ((section.h.bits & kBoth) == kBoth) {
+    context.report(diag::RetainTwice, section.h.loc);
+    return;
+  }
+  const bool lives = section.section == SectionKind::Stat || section.section == SectionKind::Inst ||
+                     section.section == SectionKind::External;
+  const bool of_call = context.pou && isFunction(context.symbols.pou(context.pou).kind) && !lives;
+  if (of_call && (section.h.bits & (kRetain | kPersistent)) != 0) {
+    const std::string_view word = (section.h.bits & kRetain) != 0 ? "RETAIN" : "PERSISTENT";
+    if (context.iec())
+      context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
+    else
+      context.report(diag::RetainOfCall, section.h.loc, {word, kindWord(context.symbols.pou(context.pou).kind)});
+    return;
+  }
   if (!context.iec()) return;
   const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0;
   const bool constant = (section.h.bits & kConstant) != 0;
@@ -516,7 +570,7 @@ void checkModifiers(Context& context, const SectionDecl& section) {
     context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
   else if (retain && is_pin_or_temp)
     context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "RETAIN"});
-  else if (constant && section.section == SectionKind::Output)
+  else if (constant && (section.section == SectionKind::Output || section.section == SectionKind::InOut))
     context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "CONSTANT"});
 }
 
@@ -566,6 +620,21 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
   for (size_t i = first_var; of_chart && i < symbols.vars.size(); ++i) symbols.vars[i].of_chart = true;
 }
 
+// Forbids, in iec, a variable of a function that has the function's name: there is no way to set the result then, and a
+// name is declared once in a POU. IEC 61131-3 ed. 3, 6.1.2. A warning in codesys, where the variable hides the result.
+//   fails   FUNCTION F : INT VAR f : INT; END_VAR …                                   E0301, codesys: W0635
+static void reportHiddenResult(Context& there, PouId id, Entity by) {
+  const Pou& pou = there.symbols.pou(id);
+  if (there.library || by.entityKind() != EntityKind::Var || pou.object.accessor != AccessorKind::None) return;
+  const Var& var = there.symbols.vars[by.index];
+  if (!there.names().same(var.name, pou.name)) return;  // an alias
+  if (there.iec())
+    reportTwice(there, var.name, var.loc, pou.loc);
+  else
+    there.report(diag::ResultHidden, var.loc, {there.names().string(var.name), there.names().string(pou.name)})
+        .declaredHere(pou.loc);
+}
+
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
@@ -588,9 +657,10 @@ void declarePou(Context& context, PouId id) {
   forEachSection(tree, decl, [&](const SectionDecl& section) { declareSection(there, id, decl, section); });
   declareMembers(context, id);
   if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
-  if (symbols.pou(id).result_var) {
-    // The name is the result inside the body, unless a pin has it (not reported: the pin hides it).
-    scope.names.insert(keyOf(context, decl.name), entity(symbols.pou(id).result_var));
+  if (const VarId result = symbols.pou(id).result_var) {
+    // The name is the result inside the body, unless a variable has it.
+    const NameId key = keyOf(context, decl.name);
+    if (!scope.names.insert(key, entity(result))) reportHiddenResult(there, id, scope.names.find(key));
   }
 }
 
@@ -610,6 +680,7 @@ void resolvePou(Context& context, PouId id) {
     symbols.var(pou.result_var).type = result;
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
+  shareTemporaries(there, id);
   std::vector<VarId> edges, open_arrays;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];

@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "frontend/source/files.h"
+#include "tools/driver/output_files.h"
+
 namespace rung::driver {
 namespace {
 
@@ -24,6 +27,17 @@ constexpr time_t kAbandonedSeconds = 24 * 3600;
 uint64_t mix(uint64_t a, uint64_t b) {
   unsigned __int128 product = static_cast<unsigned __int128>(a) * b;
   return static_cast<uint64_t>(product) ^ static_cast<uint64_t>(product >> 64);
+}
+
+constexpr char kSeal[] = ".hash";
+
+// Empty: the file cannot be read.
+std::string hashOfFile(const std::string& path) {
+  const ReadResult read = readFile(path);
+  if (!read.error.empty()) return {};
+  Hash hash;
+  hash.add(read.content);
+  return hash.hex();
 }
 
 bool makeFolder(const std::string& path) {
@@ -101,12 +115,23 @@ std::string Cache::path(const std::string& key, const char* kind) const {
   return folder_ + "/" + kind + "/" + key.substr(0, 2) + "/" + key.substr(2) + "." + kind;
 }
 
-bool Cache::has(const std::string& entry) const { return utimensat(AT_FDCWD, entry.c_str(), nullptr, 0) == 0; }
+bool Cache::has(const std::string& entry) const {
+  const std::string seal = entry + kSeal;
+  if (utimensat(AT_FDCWD, entry.c_str(), nullptr, 0) != 0) return false;
+  const ReadResult sealed = readFile(seal);
+  if (sealed.error.empty() && sealed.content == hashOfFile(entry)) {
+    utimensat(AT_FDCWD, seal.c_str(), nullptr, 0);
+    return true;
+  }
+  unlink(entry.c_str());
+  return false;
+}
 
 bool Cache::put(const std::string& from, const std::string& entry) {
   added_ = true;
   makeFolder(entry.substr(0, entry.rfind('/')));
-  return rename(from.c_str(), entry.c_str()) == 0;
+  const std::string hash = hashOfFile(from);
+  return !hash.empty() && writeFile(entry + kSeal, hash).empty() && rename(from.c_str(), entry.c_str()) == 0;
 }
 
 std::string Cache::workFolder() {

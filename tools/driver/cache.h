@@ -33,7 +33,8 @@ class Cache {
 
   // The path of the entry, existing or not. `kind` is its folder and suffix: "o", "so", "gch".
   std::string path(const std::string& key, const char* kind) const;
-  // True when the entry exists; updates its time of last use.
+  // True when the entry exists and has the hash that is noted beside it: a power failure can leave half a file under
+  // its name. Updates its time of last use.
   bool has(const std::string& entry) const;
   // Renames a finished file to its entry (same file system: made in workFolder()).
   bool put(const std::string& from, const std::string& entry);

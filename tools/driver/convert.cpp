@@ -6,6 +6,7 @@
 // are errors.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 
 #include "frontend/export/plcopen.h"
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 #include "sema/project.h"
@@ -33,8 +35,10 @@ struct Body {
   Loc declarations;  // where the temporaries are declared: before the first member or the body
   bool own_line;
   std::string text;
-  std::string sections = {};         // of a chart: its variables
-  std::vector<DeclId> actions = {};  // … and the actions inside it
+  std::string sections = {};            // of a chart: its variables
+  std::vector<DeclId> actions = {};     // … and the actions inside it
+  std::vector<std::string> taken = {};  // names that a base has, which get a suffix
+  std::string_view suffix = {};
 };
 struct Edit {
   Loc begin, end;
@@ -60,6 +64,41 @@ std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t en
   return comments;
 }
 
+// The titles of networks and the comments drawn in them, as comments of ST.
+std::vector<std::pair<Loc, std::string>> drawnComments(const Tree& tree, const Diagram& diagram) {
+  std::vector<std::pair<Loc, std::string>> drawn;
+  const auto add = [&](Loc at, std::string_view text) {
+    if (std::all_of(text.begin(), text.end(), isBlankCharacter)) return;
+    std::string comment = "// ";
+    for (const char c : text)
+      if (c == '\n') {
+        comment.erase(comment.find_last_not_of(' ') + 1);
+        comment += "\n// ";
+      } else if (c != '\r') {
+        comment += c;
+      }
+    drawn.emplace_back(at, std::move(comment));
+  };
+  for (const DiagramNetwork& n : tree.list(diagram.networks)) add(n.loc, tree.string({n.title, n.title_length}));
+  for (const DiagramElement& e : tree.list(diagram.elements))
+    if (e.kind == ElementKind::Comment) add(e.loc, tree.string({e.comment, e.comment_length}));
+  return drawn;
+}
+
+// The lines `name : type;` of the sections of a chart, and whether they are in VAR_TEMP.
+template <class Visit>
+void forEachVariableLine(std::string_view sections, const Visit& visit) {
+  bool temporary = false;
+  for (size_t p = 0, end = 0; p < sections.size(); p = end) {
+    end = std::min(sections.find('\n', p), sections.size() - 1) + 1;
+    const std::string_view line = sections.substr(p, end - p);
+    if (line.starts_with("VAR")) temporary = line.starts_with("VAR_TEMP");
+    const size_t colon = line.find(" : ");
+    if (line.starts_with("  ") && colon != std::string_view::npos)
+      visit(upper(line.substr(2, colon - 2)), line, temporary);
+  }
+}
+
 class Converter {
  public:
   explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
@@ -79,6 +118,8 @@ class Converter {
   std::string withComments(FileId created, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
   void printHidden(sema::PouId id);
+  std::string typeOf(sema::PouId id, NameId variable) const;
+  std::map<std::string, std::string_view> chartVariablesOfBases(sema::PouId id) const;
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
   std::string action(DeclId id) const;
@@ -90,6 +131,37 @@ class Converter {
   std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
   bool is_split_ = false;                         // some file became a folder
 };
+
+// The variables of charts in the blocks that it extends, by name; the first one that declares it counts.
+std::map<std::string, std::string_view> Converter::chartVariablesOfBases(sema::PouId id) const {
+  std::map<std::string, std::string_view> lines;
+  const sema::Project& project = *compilation_.project;
+  for (sema::PouId base = project.pou(id).base; base; base = project.pou(base).base) {
+    const PouDecl* decl = project.pou(base).decl ? &compilation_.tree.as<PouDecl>(project.pou(base).decl) : nullptr;
+    if (decl == nullptr || !decl->chart_sections) continue;
+    forEachVariableLine(sources_.original(decl->chart_sections),
+                        [&](const std::string& name, std::string_view line, bool) { lines[name] = line; });
+  }
+  return lines;
+}
+
+// `A.x` as `A_Derived.x`, for each of these names.
+std::string renamed(std::string_view text, const std::vector<std::string>& names, std::string_view suffix) {
+  std::string out;
+  size_t done = 0;
+  bool member = false;
+  Scanner scanner(text);
+  for (Unit unit = scanner.next(); unit.kind != UnitKind::End; unit = scanner.next()) {
+    const std::string_view word = scanner.textOf(unit);
+    if (unit.kind == UnitKind::Name && !member && std::binary_search(names.begin(), names.end(), upper(word))) {
+      out += text.substr(done, unit.end - done);
+      out += "_" + std::string(suffix);
+      done = unit.end;
+    }
+    member = unit.kind == UnitKind::Other && word == ".";
+  }
+  return out + std::string(text.substr(done));
+}
 
 // Called while sema is running, before it changes the statements of the scheduler.
 void Converter::print(sema::PouId id) {
@@ -106,7 +178,10 @@ void Converter::print(sema::PouId id) {
   const bool own_line = text.substr(line, begin - line).find_first_not_of(" \t") == std::string_view::npos;
   const size_t from = own_line ? line : begin;
   const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - from, 8));
-  const std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  const auto drawn = drawnComments(compilation_.tree, decl.diagram);
+  for (const auto& [at, comment] : drawn) comments.push_back({at, comment});
+  std::stable_sort(comments.begin(), comments.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
   Body body{id, {base + static_cast<uint32_t>(from)}, decl.body_end, {}, own_line, own_line ? "" : "\n"};
   body.declarations = body.begin;
   for (const DeclId member : compilation_.tree.list(decl.members)) {
@@ -116,6 +191,13 @@ void Converter::print(sema::PouId id) {
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
   bodies_.push_back(std::move(body));
+}
+
+std::string Converter::typeOf(sema::PouId id, NameId variable) const {
+  const sema::Project& project = *compilation_.project;
+  for (const sema::VarId v : project.pou(id).vars)
+    if (project.var(v).name == variable) return project.types.toString(project.var(v).type);
+  return {};
 }
 
 // Declares the variables that the networks of a POU and its actions need, before its first member or its body.
@@ -128,10 +210,8 @@ void Converter::printHidden(sema::PouId id) {
     if ((section.h.bits & kHidden) == 0) continue;
     for (const DeclId v : tree.list(section.vars)) {
       const VarDecl& var = tree.as<VarDecl>(v);
-      std::string type;
-      for (const Ident& part : tree.list(tree.as<NamedTypeExpr>(var.type).path))
-        type += (type.empty() ? "" : ".") + std::string(compilation_.names.string(part.name));
-      lines += "  " + std::string(compilation_.names.string(tree.list(var.names)[0].name)) + " : " + type + ";\n";
+      const NameId name = tree.list(var.names)[0].name;
+      lines += "  " + std::string(compilation_.names.string(name)) + " : " + typeOf(id, name) + ";\n";
     }
   }
   if (lines.empty()) return;
@@ -198,6 +278,21 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   Body body{
       id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
   body.sections = sources_.original(decl.chart_sections);
+  const auto inherited = chartVariablesOfBases(id);
+  std::string sections(body.sections);
+  forEachVariableLine(body.sections, [&](const std::string& name, std::string_view line, bool temporary) {
+    const auto known = inherited.find(name);
+    if (known == inherited.end()) return;
+    if (known->second == line && !temporary)  // the same variable does for both: only one of the charts runs
+      sections.erase(sections.find(line), line.size());
+    else
+      body.taken.push_back(name);
+  });
+  body.sections = std::move(sections);
+  std::sort(body.taken.begin(), body.taken.end());
+  body.suffix = compilation_.names.string(decl.name);
+  body.text = renamed(body.text, body.taken, body.suffix);
+  body.sections = renamed(body.sections, body.taken, body.suffix);
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
@@ -289,6 +384,7 @@ std::string Converter::convert(Loc begin, Loc end) const {
     if (!body->sections.empty() || !body->actions.empty()) {
       std::string actions;
       for (const DeclId member : body->actions) actions += action(member);
+      if (!body->taken.empty()) actions = renamed(actions, body->taken, body->suffix);
       declared.insert(0, body->sections);
       if (body->declarations != body->begin)
         edits.push_back({body->declarations, body->declarations, std::exchange(declared, {}), true});

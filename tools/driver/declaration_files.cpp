@@ -78,6 +78,10 @@ std::string Splitter::nameOf(DeclId id) {
 // After the declaration, what closes it, and the comment beside it. 0: the TYPE block goes on.
 size_t Splitter::endOf(DeclId id) const {
   size_t end = tree_.decl(id).end.offset - base_;
+  if (tree_.kind(id) == DeclKind::Pou)
+    for (const DeclId member :
+         tree_.list(tree_.as<PouDecl>(id).members))  // exports write them behind END_FUNCTION_BLOCK
+      end = std::max<size_t>(end, tree_.decl(member).end.offset - base_);
   Scanner scanner(text_);
   scanner.moveTo(end);
   if (tree_.kind(id) == DeclKind::Type) {

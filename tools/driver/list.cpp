@@ -117,6 +117,20 @@ std::string header(std::string_view text, const sema::IndexedBlock& block) {
   return std::string(text.substr(begin, block.begin - begin)) + std::string(declaration.substr(0, end)) + "\n";
 }
 
+// The names that begin with this one, as a list of at most ten.
+std::string namesBeginning(std::string_view begin, std::vector<std::string_view> names) {
+  constexpr size_t kMost = 10;
+  std::erase_if(names, [&](std::string_view name) {
+    return name.size() <= begin.size() || !sameIdentifier(name.substr(0, begin.size()), begin);
+  });
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string list;
+  for (size_t i = 0; i < names.size() && i < kMost; ++i) list += (i > 0 ? ", `" : "`") + std::string(names[i]) + "`";
+  if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
+  return list;
+}
+
 int listSignature(const Options& options, Sink& sink) {
   LibrarySet libraries;
   std::string error = libraries.load(options);
@@ -145,9 +159,11 @@ int listSignature(const Options& options, Sink& sink) {
     if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.source, block);
   });
   if (!list.empty()) return printResult(sink, list.text());
-  std::string_view near = nearest(options.signature, known);
-  return usageError(sink, "unknown function, block or type `" + options.signature + "`" +
-                              (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
+  const std::string unknown = "unknown function, block or type `" + options.signature + "`";
+  const std::string offered = namesBeginning(options.signature, known);
+  if (!offered.empty()) return usageError(sink, unknown + "; these begin so: " + offered);
+  const std::string_view near = nearest(options.signature, known);
+  return usageError(sink, unknown + (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
 }
 
 }  // namespace

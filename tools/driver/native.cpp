@@ -443,6 +443,9 @@ class Builder {
       return fail(kInputErrors, "error[" + std::string(diagInfo(diag::CppRefused).code) +
                                     "]: the C++ compiler rejects a C++ body:\n" + first);
     }
+    if (log.content.find("error") == std::string::npos)
+      return fail(kUsage, "`" + failed->arguments[0] + "` failed with exit code " + std::to_string(failed->exit_code) +
+                              " while " + label + " and named no error; is it a C++ compiler?\n" + first);
     return fail(kInternal, "`" + failed->arguments[0] + "` rejected generated code while " + label +
                                "; the files are in " + work_ + "\n" + first);
   }

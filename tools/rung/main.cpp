@@ -8,6 +8,7 @@
 #include "tools/rung/console.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
+#include "tools/workspace/project.h"
 
 namespace {
 
@@ -50,6 +51,9 @@ int main(int argc, char** argv) {
   rung::tool::Options options;
   std::string error = rung::tool::expandResponseFiles(arguments);
   if (error.empty()) error = rung::tool::parseOptions(arguments, options);
+  if (error.empty() && !options.help && rung::tool::readsProject(options.command))
+    error = rung::workspace::addProject(options.inputs, rung::tool::commandName(options.command),
+                                        options.command == Command::Test);
   if (error.empty() && !options.help) error = rung::driver::checkDumpName(options.dump_after);
   if (error.empty() && !options.help) error = rung::driver::checkOutputs(options);
   if (!error.empty()) return rung::driver::usageError(console, error);

@@ -254,6 +254,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       if (options.command == Command::Cam) return setCamOption(row.name, value, options.cam);
       if (!isModuleName(value))
         return backquoted(value) + " is not a C identifier; `--name` takes letters, digits and `_`";
+      if (value == "rung" || value.starts_with("rung_"))
+        return "the names of the runtime begin with `rung_`; choose another `--name` than " + backquoted(value);
       options.name = value;
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
@@ -400,9 +402,7 @@ std::string checkCombination(const Options& options) {
     case Command::Build:
     case Command::Convert:
     case Command::Graph:
-    case Command::Fmt:
-      if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
-      break;
+    case Command::Fmt: break;  // without inputs: the project around the current folder
     case Command::Explain:
       if (options.inputs.size() != 1) return "`rung explain` takes one code, such as E0401";
       break;
@@ -476,6 +476,8 @@ std::string synopsis(const OptionRow& row) {
 }
 
 }  // namespace
+
+bool readsProject(Command command) { return command >= Command::Check && command <= Command::Fmt; }
 
 const char* commandName(Command command) {
   for (const CommandRow& row : kCommands)

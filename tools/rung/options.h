@@ -49,5 +49,7 @@ struct Options : driver::Options {
 // One screen of help: of rung (Command::None) or of one command.
 std::string helpText(Command command);
 const char* commandName(Command command);
+// Whether the inputs of the command are sources, so that without them it takes the project around the current folder.
+bool readsProject(Command command);
 
 }  // namespace rung::tool

@@ -23,6 +23,7 @@ struct OwnAction {
 
 struct Import : Reading {
   bool unquoted_strings = false;  // TC6 1.01 and 2.01, in which Beremiz writes strings without quotes
+  bool is_rung = false;           // exported by Rung, with the comments and strings of the source
   // Names of the library Beremiz that this file uses but does not declare; empty for files of other tools.
   std::vector<std::string_view> beremiz_names = {};
   // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -17,6 +18,7 @@
 namespace rung::importer::plcopen {
 namespace {
 
+constexpr int32_t kVariableGap = 40;  // from a box to the variable at its output
 // Numbers for elements without a localId, larger than those of editors.
 constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
 
@@ -50,8 +52,8 @@ std::string_view timerOf(std::string_view symbol) {
 }
 
 bool hasWires(ElementKind kind) {
-  return kind != ElementKind::Rail && kind != ElementKind::RightRail && kind != ElementKind::Input &&
-         kind != ElementKind::Comment && kind != ElementKind::Continuation;
+  return kind != ElementKind::Rail && kind != ElementKind::Input && kind != ElementKind::Comment &&
+         kind != ElementKind::Continuation;
 }
 
 class DiagramReader {
@@ -72,20 +74,25 @@ class DiagramReader {
   void readBox(const Element& e, NetworkElement& out) const;
   void readBoxName(const Element& e, NetworkElement& out) const;
   void readPins(const Element& e, NetworkElement& out) const;
-  std::vector<WireSource> wiresOf(const Element* point) const;
+  std::vector<WireSource> wiresOf(const Element* point, std::string_view reader = {}) const;
+  std::vector<WireSource> wiresOfRail(const Element& rail) const;
+  void beginNetwork(Loc loc, uint64_t network);
+  bool isTitle(const Element& e) const;
+  void writeVariablesAtOutputs(const Element& box, const xml::Excerpt& number);
   std::vector<WireSource> wiresOfInput(const Element& pin) const;
   const Element* sourceOf(const Element& connection) const;
-  xml::Excerpt sourcePin(const Element& connection) const;
+  xml::Excerpt sourcePin(const Element& connection, std::string_view reader) const;
   xml::Excerpt operandOf(const Element& e) const;
   xml::Excerpt valueOf(const Element& e, std::string_view attribute) const;
-  Modifiers modifiersOf(const Element& e, std::string_view negated = "negated") const;
+  Modifiers modifiersOf(const Element& e, std::string_view suffix = {}) const;
+  void readInOut(const Element& e, NetworkElement& out) const;
   uint64_t orderOf(const Element& e) const;
   xml::Excerpt idOf(const Element& e);
 
   std::string value(const Element& e, std::string_view name) const { return document_.value(e, name); }
   uint64_t numberOf(const Element& e) const;
   bool negatedByVendor(const Element& e) const;
-  std::string onlyOutput(const Element& box) const;
+  std::string onlyOutput(const Element& box, bool first = false) const;
   bool hasOutput(const Element& box, std::string_view pin) const;
 
   Reading& reading_;
@@ -94,7 +101,8 @@ class DiagramReader {
   NetworkWriter writer_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
-  uint64_t network_ = 0;  // current network, derived from element numbers (CODESYS)
+  std::map<uint64_t, std::string> titles_;  // by network, without empty ones
+  uint64_t network_ = 0;                    // current network, derived from element numbers (CODESYS)
   uint64_t next_own_ = kOwnNumbers;
   bool counts_from_zero_ = false;  // executionOrderId 0 is a valid number
 };
@@ -122,6 +130,12 @@ void DiagramReader::collect(const Element& body) {
   std::vector<uint64_t> execution_orders;
   for (const Element& e : document_.children(body)) {
     if (rowOf(e) == nullptr) continue;
+    if (isTitle(e)) {
+      const Element* text = document_.child(e, "alternativeText");
+      const std::string title = text == nullptr ? std::string() : document_.text(*text, reading_.sources);
+      const uint64_t number = numberOf(e);
+      if (number != UINT64_MAX && !isBlank(title)) titles_.emplace(number / kNumbersPerNetwork, trimmed(title));
+    }
     by_number_.emplace(numberOf(e), &e);
     if (e.name == "step") continue;
     elements_.push_back(&e);
@@ -146,13 +160,14 @@ bool DiagramReader::hasOutput(const Element& box, std::string_view pin) const {
   return false;
 }
 
-// The only output of a box besides ENO, or empty.
-std::string DiagramReader::onlyOutput(const Element& box) const {
+// The only output of a box besides ENO, or the first one; else empty.
+std::string DiagramReader::onlyOutput(const Element& box, bool first) const {
   std::string only;
   int count = 0;
   for (const Element& p : document_.children(document_.child(box, "outputVariables"))) {
     const std::string name = value(p, "formalParameter");
     if (isEnableOutput(name)) continue;
+    if (first) return name;
     only = name;
     ++count;
   }
@@ -173,24 +188,27 @@ const Element* DiagramReader::sourceOf(const Element& connection) const {
   return found == by_number_.end() ? nullptr : found->second;
 }
 
-// The output of a box that the wire comes from.
-xml::Excerpt DiagramReader::sourcePin(const Element& connection) const {
+// The output of a box that the wire comes from. CODESYS names the variable of the coil that reads it where it means the
+// first output.
+xml::Excerpt DiagramReader::sourcePin(const Element& connection, std::string_view reader) const {
   const Element* const source = sourceOf(connection);
   if (source == nullptr || (source->name != "block" && source->name != "vendorElement")) return {};
   const xml::Attribute* pin = document_.attribute(connection, "formalParameter");
   const std::string name = pin == nullptr ? std::string() : document_.decoded(*pin);
   if (isIdentifier(name) && hasOutput(*source, name)) return {document_, *pin};
   if (const std::string only = onlyOutput(*source); isIdentifier(only)) return xml::Excerpt(only);
+  if (!reader.empty() && sameIdentifier(name, reader))
+    if (const std::string main = onlyOutput(*source, true); isIdentifier(main)) return xml::Excerpt(main);
   if (isIdentifier(name)) return {document_, *pin};  // the parser or the scheduler reports it at its location
   return {};
 }
 
 // The sources of the wires into `point`.
-std::vector<WireSource> DiagramReader::wiresOf(const Element* point) const {
+std::vector<WireSource> DiagramReader::wiresOf(const Element* point, std::string_view reader) const {
   std::vector<WireSource> wires;
   for (const Element& c : document_.children(point)) {
     const xml::Attribute* from = c.name == "connection" ? document_.attribute(c, "refLocalId") : nullptr;
-    if (from != nullptr) wires.push_back({{document_, *from}, sourcePin(c)});
+    if (from != nullptr) wires.push_back({{document_, *from}, sourcePin(c, reader)});
   }
   return wires;
 }
@@ -210,8 +228,21 @@ std::vector<WireSource> DiagramReader::wiresOfInput(const Element& pin) const {
   return {};
 }
 
-Modifiers DiagramReader::modifiersOf(const Element& e, std::string_view negated) const {
-  return {isTrue(reading_, e, negated), edgeOf(value(e, "edge")), storageOf(value(e, "storage"))};
+Modifiers DiagramReader::modifiersOf(const Element& e, std::string_view suffix) const {
+  const std::string end(suffix);
+  return {isTrue(reading_, e, "negated" + end), edgeOf(value(e, "edge" + end)), storageOf(value(e, "storage" + end))};
+}
+
+// A variable that is written and read has modifiers for both.
+void DiagramReader::readInOut(const Element& e, NetworkElement& out) const {
+  out.operand = operandOf(e);
+  out.modifiers = modifiersOf(e, "In");
+  const Modifiers read = modifiersOf(e, "Out");
+  if (!read.negated && read.edge == EdgeKind::None && read.storage == PinStorage::None) return;
+  NetworkPin& pin = out.pins.emplace_back();
+  pin.name = {e.loc, "OUT"};
+  pin.direction = PinDirection::Output;
+  pin.modifiers = read;
 }
 
 uint64_t DiagramReader::orderOf(const Element& e) const {
@@ -295,8 +326,19 @@ void DiagramReader::readNetworkOf(const Element& e) {
   if (number == UINT64_MAX || number < kNumbersPerNetwork) return;
   const uint64_t network = number / kNumbersPerNetwork;
   if (network == network_ || network > UINT32_MAX) return;
+  beginNetwork(e.loc, network);
+}
+
+void DiagramReader::beginNetwork(Loc loc, uint64_t network) {
   network_ = network;
-  writer_.beginNetwork(e.loc, network);
+  const auto title = titles_.find(network);
+  const uint64_t first = titles_.count(0);  // the title of the first network has a number below ten thousand million
+  writer_.beginNetwork(loc, network + first, false, title == titles_.end() ? std::string_view{} : title->second);
+}
+
+bool DiagramReader::isTitle(const Element& e) const {
+  const Element* type = e.name == "vendorElement" ? dataOf(reading_, e, "fbdelementtype") : nullptr;
+  return type != nullptr && document_.text(*type, reading_.sources) == "networktitle";
 }
 
 // Elements of CODESYS other than those of TC6. False: they are not part of the network.
@@ -332,10 +374,7 @@ void DiagramReader::readParts(const Element& e, NetworkElement& out) const {
       out.operand = operandOf(e);
       out.modifiers = modifiersOf(e);
       break;
-    case ElementKind::InOut:
-      out.operand = operandOf(e);
-      out.modifiers = modifiersOf(e, "negatedIn");
-      break;
+    case ElementKind::InOut: readInOut(e, out); break;
     case ElementKind::Rail:
     case ElementKind::RightRail:
     case ElementKind::Return:
@@ -343,8 +382,11 @@ void DiagramReader::readParts(const Element& e, NetworkElement& out) const {
   }
   if (out.kind == ElementKind::Jump || out.kind == ElementKind::Return)
     out.modifiers.negated = isTrue(reading_, e, "negated") || negatedByVendor(e);
-  const Element* own = out.kind == ElementKind::Coil ? dataOf(reading_, e, "extension") : nullptr;  // exported by Rung
-  out.holding = own != nullptr && isTrue(reading_, *own, "holding");
+  const Element* own = dataOf(reading_, e, "extension");  // exported by Rung
+  if (own == nullptr) return;
+  out.holding = out.kind == ElementKind::Coil && isTrue(reading_, *own, "holding");
+  if (out.kind == ElementKind::Jump || out.kind == ElementKind::Return || out.kind == ElementKind::Connector)
+    out.modifiers = modifiersOf(*own);
 }
 
 void DiagramReader::read(const Element& e) {
@@ -363,8 +405,53 @@ void DiagramReader::read(const Element& e) {
     readParts(e, out);
   if (out.kind != ElementKind::Input) out.order = orderOf(e);
   out.area = areaOf(document_, e);
-  if (hasWires(out.kind) && !out.has_pins) out.input = wiresOf(document_.child(e, "connectionPointIn"));
+  if (out.kind == ElementKind::RightRail) {
+    out.input = wiresOfRail(e);
+  } else if (hasWires(out.kind) && !out.has_pins) {
+    const Element* variable = out.kind == ElementKind::Coil ? document_.child(e, "variable") : nullptr;
+    out.input = wiresOf(document_.child(e, "connectionPointIn"),
+                        variable == nullptr ? std::string() : document_.text(*variable, reading_.sources));
+  }
   writer_.write(out);
+  if (out.kind == ElementKind::Box) writeVariablesAtOutputs(e, out.number);
+}
+
+// The rail has a point for each wire. A wire from nowhere is left out: it does nothing.
+std::vector<WireSource> DiagramReader::wiresOfRail(const Element& rail) const {
+  std::vector<WireSource> wires;
+  for (const Element& point : document_.children(rail)) {
+    if (point.name != "connectionPointIn") continue;
+    for (const Element& c : document_.children(point)) {
+      const xml::Attribute* from = c.name == "connection" ? document_.attribute(c, "refLocalId") : nullptr;
+      if (from != nullptr && sourceOf(c) != nullptr) wires.push_back({{document_, *from}, sourcePin(c, {})});
+    }
+  }
+  return wires;
+}
+
+// In ladders CODESYS writes the variable at an output into the output itself.
+void DiagramReader::writeVariablesAtOutputs(const Element& box, const xml::Excerpt& number) {
+  size_t count = 0;
+  for (const Element& p : document_.children(document_.child(box, "outputVariables"))) {
+    const xml::Attribute* name = document_.attribute(p, "formalParameter");
+    const std::string spelling = name == nullptr ? std::string() : document_.decoded(*name);
+    if (!isControl(spelling)) ++count;
+    const Element* point = document_.child(p, "connectionPointOut");
+    const Element* text = point == nullptr ? nullptr : document_.child(*point, "expression");
+    if (text == nullptr || document_.text(*text, reading_.sources).empty()) continue;
+    NetworkElement variable(ElementKind::Output, text->loc, {text->loc, std::to_string(next_own_++)});
+    variable.operand = xml::Excerpt(document_, *text);
+    xml::Excerpt pin(unnamedPin(PinDirection::Output, count));
+    if (isIdentifier(spelling)) pin = {document_, *name};
+    variable.input.push_back({number, pin});
+    variable.area = areaOf(document_, box);
+    if (variable.area.x != 0 || variable.area.y != 0) {
+      variable.area.x += variable.area.width + kVariableGap;
+      variable.area.y += static_cast<int32_t>(count) * kVariableGap / 2;
+    }
+    variable.area.width = variable.area.height = 0;
+    writer_.write(variable);
+  }
 }
 
 // After everything else: below all positions, or in a separate network.
@@ -386,6 +473,7 @@ void DiagramReader::readActions(const Element& body) {
 void DiagramReader::readBody(const DrawnBody& diagram) {
   collect(diagram.body);
   writer_.beginBody(diagram.body.loc, diagram.language);
+  if (titles_.count(0) != 0) beginNetwork(diagram.body.loc, 0);
   for (const Element* e : elements_) read(*e);
   readActions(diagram.body);
   writer_.endBody(diagram.body.end);

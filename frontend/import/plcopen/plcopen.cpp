@@ -73,8 +73,8 @@ void PlcopenReader::findBeremizNames() {
   std::vector<std::string_view>& names = import_.beremiz_names;
   names.assign(std::begin(kNames), std::end(kNames));
   for (const xml::Element& e : import_.document.elements) {
-    const bool is_rung = e.name == "fileHeader" && import_.document.value(e, "productName") == "Rung";
-    if (is_rung) return names.clear();
+    import_.is_rung = e.name == "fileHeader" && import_.document.value(e, "productName") == "Rung";
+    if (import_.is_rung) return names.clear();
     if (e.name == "pou" || e.name == "dataType") std::erase(names, upper(import_.document.value(e, "name")));
   }
 }

@@ -1,6 +1,7 @@
 // POUs, interfaces and their members as ST; see import.h. The parts of a POU are written in this order:
 //
 //   declaration {ACTION | METHOD | PROPERTY} body END_…
+#include <algorithm>
 #include <utility>
 
 #include "frontend/import/chart_writer.h"
@@ -107,6 +108,25 @@ void writeMethod(Import& import, const xml::Element& method, const xml::Element&
   import.out.put(method.end, "END_METHOD\n");
 }
 
+// Without the white space in front: the text may begin with a modifier, which belongs to the keyword before it.
+void writeTrimmed(Import& import, const xml::Element& text) {
+  uint32_t first = text.first_run;
+  for (; first < text.end_run; ++first) {
+    const xml::Run& run = import.document.runs[first];
+    const Loc end{run.loc.offset + run.length};
+    if (run.character != 0) break;
+    const FileId file = import.sources.fileOf(run.loc);
+    const std::string_view all =
+        import.sources.sourceText(file).substr(run.loc.offset - import.sources.begin(file).offset, run.length);
+    const auto begin = std::find_if_not(all.begin(), all.end(), isBlankCharacter);
+    if (begin == all.end()) continue;
+    import.out.add({run.loc.offset + static_cast<uint32_t>(begin - all.begin())}, end);
+    ++first;
+    break;
+  }
+  import.out.addRuns(import.document, first, text.end_run);
+}
+
 void writeProperty(Import& import, const xml::Element& property, const xml::Element& pou) {
   if (!writeHeader(import, property, "PROPERTY ", {})) return;
   for (const auto& [element, word] : {std::pair{"GetAccessor", "GET"}, std::pair{"SetAccessor", "SET"}}) {
@@ -116,9 +136,7 @@ void writeProperty(Import& import, const xml::Element& property, const xml::Elem
     import.out.put(accessor->loc, begin);
     writeModifiers(import, *accessor);
     if (const xml::Element* plain = plainText(import, *accessor)) {
-      // Its first word may be the access level; the white space around the text's element is not part of it.
-      const xml::Element* const text = import.document.firstChild(*plain);
-      writeText(import, text != nullptr ? *text : *plain);
+      writeTrimmed(import, *plain);
       import.out.word("\n");
     } else {
       import.out.word("\n");
@@ -197,7 +215,7 @@ bool hasCommentInComment(std::string_view code) {
 
 // Comments of Beremiz and OpenPLC end at the first `*)`.
 void writeCode(Import& import, const xml::Element& code) {
-  const bool is_flat = import.unquoted_strings && hasCommentInComment(textOf(import, code));
+  const bool is_flat = import.unquoted_strings && !import.is_rung && hasCommentInComment(textOf(import, code));
   if (is_flat) import.out.word(kCommentsDoNotNest);
   writeLines(import, code);
   if (is_flat) import.out.word(kCommentsNest);

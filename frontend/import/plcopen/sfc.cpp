@@ -148,6 +148,10 @@ void Chart::writeElements() {
     if (nodes_[i].kind == NodeKind::MacroStep) writeMacro(*macro++);
     if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
   }
+  // Conditions that Rung exported may name each other in their statements.
+  if (import_.is_rung && outer_ == nullptr && name_.find('.') == std::string::npos)
+    for (const xml::Element& e : document_.children(document_.child(pou_, "transitions")))
+      if (e.name == "transition") define(document_.value(e, "name"), e);
   for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
   writeStepFlags();
 }

@@ -15,6 +15,8 @@
 namespace rung::host {
 namespace {
 
+constexpr size_t kLongestLine = 4096;  // by a pipe, and what is read from it at once
+
 // Empty, or why the words are not a command.
 std::string parse(const std::vector<std::string>& words, Command& command) {
   static const struct {
@@ -92,8 +94,14 @@ bool Commands::open(const std::string& path, bool realtime, std::string& error) 
 }
 
 void Commands::receive(std::string& error) {
-  char buffer[512];
-  for (ssize_t n; (n = read(pipe_, buffer, sizeof buffer)) > 0;) received_.append(buffer, static_cast<size_t>(n));
+  char buffer[kLongestLine];
+  if (received_.size() < sizeof buffer)
+    if (const ssize_t n = read(pipe_, buffer, sizeof buffer); n > 0) received_.append(buffer, static_cast<size_t>(n));
+  if (received_.size() >= sizeof buffer && received_.find('\n') == std::string::npos) {
+    error = path_ + ":" + std::to_string(line_ + 1) + ": the line has more than " + std::to_string(sizeof buffer) +
+            " characters";
+    received_.clear();
+  }
   for (size_t end; error.empty() && (end = received_.find('\n')) != std::string::npos;) {
     const std::string line = received_.substr(0, end);
     received_.erase(0, end + 1);
@@ -102,7 +110,7 @@ void Commands::receive(std::string& error) {
 }
 
 bool Commands::next(int64_t cycle, Command& command, std::string& error) {
-  if (pipe_ >= 0) receive(error);
+  if (pipe_ >= 0 && pending_.empty()) receive(error);
   if (pending_.empty() || pending_.front().cycle > cycle) return false;
   command = std::move(pending_.front());
   pending_.pop_front();

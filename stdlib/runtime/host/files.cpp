@@ -99,7 +99,7 @@ int64_t Files::open(const char* name, uint32_t mode) {
   if (place.error() != 0) return place.error();
   if (place.isRoot()) return RUNG_FILE_NAME;
   const bool reads = (mode & RUNG_FILE_READ) != 0, writes = (mode & RUNG_FILE_WRITE) != 0;
-  int flags = O_CLOEXEC | O_NOFOLLOW | (writes ? reads ? O_RDWR : O_WRONLY : O_RDONLY);
+  int flags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (writes ? reads ? O_RDWR : O_WRONLY : O_RDONLY);
   if ((mode & RUNG_FILE_APPEND) != 0) flags |= O_APPEND;
   if ((mode & RUNG_FILE_CREATE) != 0) flags |= O_CREAT;
   if ((mode & RUNG_FILE_TRUNCATE) != 0) flags |= O_TRUNC;
@@ -109,6 +109,11 @@ int64_t Files::open(const char* name, uint32_t mode) {
   if (free == descriptors_.end() && descriptors_.size() == kMaxFiles) return RUNG_FILE_FAILED;
   const int descriptor = openat(place.folder(), place.leaf(), flags, 0666);
   if (descriptor < 0) return fileErrorOf(errno);
+  struct stat info;  // a pipe or device would block whoever reads it
+  if (fstat(descriptor, &info) != 0 || (!S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
+    ::close(descriptor);
+    return RUNG_FILE_FAILED;
+  }
   if (free == descriptors_.end()) free = descriptors_.insert(free, -1);
   *free = descriptor;
   return free - descriptors_.begin() + 1;

@@ -1,6 +1,7 @@
 // Values set from outside: see inputs.h.
 #include "inputs.h"
 
+#include <sys/stat.h>
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -12,6 +13,8 @@
 
 namespace rung::host {
 namespace {
+
+constexpr size_t kMostBytes = size_t{1} << 30;  // of inputs and commands
 
 constexpr int64_t kMaxCycle = 1'000'000'000;  // 115 days of cycles of 10 ms
 
@@ -35,6 +38,11 @@ CsvRow joinBrackets(const CsvRow& header) {
 }  // namespace
 
 bool readFile(const std::string& path, std::string& content, std::string& error) {
+  struct stat status;
+  if (path != "-" && stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))) {
+    error = path + ": a device; name a file, or - for standard input";
+    return false;
+  }
   FILE* const file = path == "-" ? stdin : fopen(path.c_str(), "rb");
   if (file == nullptr) {
     error = path + ": " + strerror(errno);
@@ -42,9 +50,10 @@ bool readFile(const std::string& path, std::string& content, std::string& error)
   }
   char buffer[1 << 16];
   content.clear();
-  for (size_t n; (n = fread(buffer, 1, sizeof buffer, file)) > 0;) content.append(buffer, n);
-  const bool ok = ferror(file) == 0;
-  if (!ok) error = path + ": " + strerror(errno);
+  for (size_t n; content.size() <= kMostBytes && (n = fread(buffer, 1, sizeof buffer, file)) > 0;)
+    content.append(buffer, n);
+  const bool is_too_long = content.size() > kMostBytes, ok = ferror(file) == 0 && !is_too_long;
+  if (!ok) error = path + ": " + (is_too_long ? "it has more than 1 GiB" : strerror(errno));
   if (file != stdin) fclose(file);
   return ok;
 }

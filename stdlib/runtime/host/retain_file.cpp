@@ -15,6 +15,9 @@ namespace rung::host {
 namespace {
 
 constexpr uint64_t kSector = 4096;
+constexpr uint64_t kMostFileBytes = uint64_t{1} << 30;  // of a file: its slots are looked for in every sector
+// A power failure leaves one slot that is newer than the newest complete one; a file with more of them is not ours.
+constexpr size_t kMostCandidates = 4;
 constexpr char kTitle[] = "Rung retained data 2\n";
 
 // All bytes through pread or pwrite, which may take a part of them.
@@ -71,10 +74,11 @@ bool RetainFile::open(std::string& error) {
   if (flock(file_, LOCK_EX | LOCK_NB) != 0)
     return fail(error, errno == EWOULDBLOCK ? "another program uses it as its retained data" : nullptr);
   size_ = static_cast<uint64_t>(status.st_size);
+  if (size_ > kMostFileBytes) return fail(error, "it is larger than 1 GiB, the most that retained data may have");
   return begin(error);
 }
 
-// The first sector. All bytes zero: the power failed before the file had its title.
+// The first sector. All bytes zero: the power failed before the file had its title, or its content is lost.
 bool RetainFile::begin(std::string& error) {
   std::vector<char> sector(kSector);
   const size_t there = static_cast<size_t>(std::min(size_, kSector));
@@ -86,6 +90,8 @@ bool RetainFile::begin(std::string& error) {
   } else if (std::any_of(sector.begin(), sector.begin() + static_cast<ptrdiff_t>(there),
                          [](char c) { return c != 0; })) {
     return fail(error, "it is not a file of retained data; choose another path, or remove it");
+  } else {
+    is_damaged_ = size_ > 0;
   }
   sector.assign(kSector, 0);
   memcpy(sector.data(), kTitle, strlen(kTitle));
@@ -108,8 +114,10 @@ bool RetainFile::reserve(size_t slot_bytes, std::string& error) {
 }
 
 std::vector<uint8_t> RetainFile::newest() {
-  std::vector<uint8_t> best, slot;
-  uint64_t best_sequence = 0;
+  struct Candidate {
+    uint64_t sequence, at, length;
+  };
+  std::vector<Candidate> candidates;
   bool has_slots = false;
   newest_at_ = newest_end_ = 0;
   for (uint64_t at = kSector; at + sizeof(rung_slot) <= size_; at += kSector) {
@@ -118,13 +126,21 @@ std::vector<uint8_t> RetainFile::newest() {
     const char* const bytes = reinterpret_cast<const char*>(&header);
     has_slots = has_slots || std::any_of(bytes, bytes + sizeof header, [](char c) { return c != 0; });
     const uint64_t length = sizeof header + uint64_t{header.length};
-    if (length > size_ - at || header.sequence < best_sequence) continue;
-    slot.resize(length);
-    if (!readAt(file_, at, slot.data(), length) || !rung_retain_is_complete(slot.data(), length)) continue;
-    best_sequence = header.sequence;
-    newest_at_ = at;
-    newest_end_ = at + sectors(length);
-    best.swap(slot);
+    if (rung_retain_is_slot(&header) && length <= size_ - at) candidates.push_back({header.sequence, at, length});
+  }
+  const size_t tried = std::min(candidates.size(), kMostCandidates);
+  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(tried), candidates.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.sequence > b.sequence; });
+  std::vector<uint8_t> best;
+  for (size_t i = 0; i < tried; ++i) {
+    const Candidate& candidate = candidates[i];
+    best.resize(candidate.length);
+    if (readAt(file_, candidate.at, best.data(), best.size()) && rung_retain_is_complete(best.data(), best.size())) {
+      newest_at_ = candidate.at;
+      newest_end_ = candidate.at + sectors(candidate.length);
+      break;
+    }
+    best.clear();
   }
   is_damaged_ = (is_damaged_ || has_slots) && best.empty();
   return best;

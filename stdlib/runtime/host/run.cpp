@@ -1,9 +1,11 @@
 // `rung run` and executables of `rung build`: runs a module in virtual or real time. See rung/host.h.
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <mutex>
 #include <optional>
@@ -22,6 +24,7 @@
 #include "numerical_control.h"
 #include "output_file.h"
 #include "plot.h"
+#include "progress.h"
 #include "realtime.h"
 #include "retain.h"
 #include "rung/host.h"
@@ -98,6 +101,7 @@ struct Run {
   void keepPace(int64_t row);
   int runInRealTime();
   int finish(bool faulted, const std::string& what, const std::string& extra);
+  int finishInterrupted(int64_t cycle);
 
   // Commands. False: the run ends.
   bool obey(int64_t row);
@@ -161,7 +165,8 @@ struct Run {
   bool single_cycle = false;
   bool has_quit = false;
   bool cannot_pause = false;
-  std::string cycle_fault;  // of an activation that a command began
+  bool is_interrupted = false;  // between two cycles
+  std::string cycle_fault;      // of an activation that a command began
 };
 
 // Writes retained data off the cycle: a thread of the lowest priority.
@@ -267,7 +272,9 @@ bool Run::loadAll(std::string& error) {
   if (!tasks.prepare(error)) return false;
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return false;
   if (!options.control_path.empty() && !commands.open(options.control_path, options.realtime, error)) return false;
-  if (!trace.choose(options.watch, error)) return error.insert(0, "--watch: "), false;
+  const Trace::Use use =
+      options.trace_path.empty() && options.plot_path.empty() ? Trace::Use::LastRow : Trace::Use::Rows;
+  if (!trace.choose(options.watch, use, error)) return error.insert(0, "--watch: "), false;
   if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return error.insert(0, "--stop-on: "), false;
   if (options.retain_path.empty()) return true;
   retain.emplace(symbols, memory, options.retain_path);
@@ -323,7 +330,7 @@ int Run::prepare() {
   is_reported.resize(module.task_count);
   if (!options.realtime) {
     running = this;
-    stopper.emplace(context, endHungRun);
+    stopper.emplace(context, endHungRun, Stopper::Interrupt::AfterTheCycle);
     stopper->limitTime(options.timeout_ns);
   }
   const int started = start();
@@ -412,13 +419,16 @@ bool Run::obey(const Command& command) {
   return true;
 }
 
-// What counts before this row. In real time other tasks rest meanwhile.
+// What counts before this row. In real time other tasks rest meanwhile, and a flood of commands waits for the next
+// turn, so that the watchdog and the program go on.
 bool Run::obey(int64_t row) {
   if (options.control_path.empty()) return true;
+  constexpr int kMostAtOnce = 16;
   Command command;
   std::string error;
   bool goes_on = true;
-  while (goes_on && commands.next(row, command, error)) {
+  for (int turn = 0; goes_on && (realtime == nullptr || turn < kMostAtOnce) && commands.next(row, command, error);
+       ++turn) {
     const bool pauses = realtime != nullptr && command.kind != Command::Event && command.kind != Command::Status;
     if (pauses && !realtime->pause()) {
       cannot_pause = true;
@@ -465,7 +475,8 @@ void Run::reportStopped() {
 int Run::finish(bool faulted, const std::string& what, const std::string& extra) {
   std::string error, reason = what;
   controller.diagnosis().stopped = 1;
-  const std::string last_row = options.trace_path.empty() && !faulted ? trace.lastRow() : std::string();
+  const bool is_listed = options.trace_path.empty() && (!faulted || is_interrupted);
+  const std::string last_row = is_listed ? trace.lastRow() : std::string();
   if (memory.end() != RUNG_FAULT_NONE && !faulted) {
     faulted = true;
     reason = describe(memory.context(), memory.context().fault);
@@ -476,12 +487,13 @@ int Run::finish(bool faulted, const std::string& what, const std::string& extra)
   const std::string refused = saveRetained();
   if (!trace.close(error) || !plot.close(cycleNs(), error)) return refuse(options, error);
   if (options.trace_path.empty()) {
-    fprintf(options.out, "%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
+    fprintf(options.out, "%s%lld cycles of %s, %s of program time\n", last_row.c_str(),
             static_cast<long long>(cyclesDone()), durationText(cycleNs()).c_str(),
             durationText(cyclesDone() * cycleNs()).c_str());
   }
   if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? options.err : options.out);
-  fflush(options.out);
+  if (fflush(options.out) != 0 || ferror(options.out) != 0)
+    return refuse(options, std::string("standard output: ") + strerror(errno));
   if (faulted) {
     fprintf(options.err, "%s\n", reason.c_str());
     return kFaulted;
@@ -489,6 +501,12 @@ int Run::finish(bool faulted, const std::string& what, const std::string& extra)
   if (!refused.empty()) return refuse(options, refused);
   const bool one_stopped = std::any_of(is_reported.begin(), is_reported.end(), [](bool reported) { return reported; });
   return one_stopped ? kFaulted : kSuccess;
+}
+
+// ^C: the values are those of the last complete cycle.
+int Run::finishInterrupted(int64_t cycle) {
+  is_interrupted = true;
+  return finish(true, "fault[interrupt]: interrupted after cycle " + std::to_string(cycle), "");
 }
 
 std::string watchdogText(const std::string& task) {
@@ -514,9 +532,15 @@ int Run::runVirtual() {
   const int64_t row_ns = tasks.rowNs();
   int64_t next_save = processorNs() + options.retain_interval_ns;
   int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
-  const auto ended = [&](const rung_fault& fault) {
+  Progress progress(options.err, cycles);
+  const auto ended = [&](const rung_fault& fault, int64_t cycle) {
+    progress.clear();
+    const bool is_interrupt = fault.kind == RUNG_FAULT_STOP && stopper->reason() == RUNG_STOP_INTERRUPT;
+    const std::string in_cycle = is_interrupt ? " in cycle " + std::to_string(cycle) : "";
+    std::string what = describe(context, fault);
+    what.insert(std::min(what.find('\n'), what.size()), in_cycle);
     stopper->limitTime(fault.kind == RUNG_FAULT_STOP ? kEndAfterStopNs : 0);
-    return finish(true, describe(context, fault), "");
+    return finish(true, what, "");
   };
   for (int64_t cycle = 0; cycle < cycles; ++cycle) {
     if (!obey(cycle)) break;
@@ -527,8 +551,8 @@ int Run::runVirtual() {
       if (!is_stopped) ending = schedule.run(base_ns + row * row_ns);
     }
     if (options.trace_calls) fputs(calls.line(cycle).c_str(), options.out);
-    if (ending == Schedule::Ending::Faulted) return ended(context.fault);
-    if (stopper->reason() != RUNG_STOP_NONE) return ended(stopper->fault());
+    if (ending == Schedule::Ending::Faulted) return ended(context.fault, cycle);
+    if (stopper->reason() == RUNG_STOP_TIME) return ended(stopper->fault(), cycle);
     if (ending == Schedule::Ending::Watchdog)
       return finish(true, watchdogText(tasks.nameOf(*schedule.stoppedTask())), tasks.statistics(0));
     if (const std::string lost = tasks.lostDriver(); !lost.empty()) return finish(true, driverText(lost), "");
@@ -537,13 +561,21 @@ int Run::runVirtual() {
     plot.row();
     rows_done = cycle * rows_per_cycle + 1;
     if (retain && schedule.isIdle()) retain->copy(base_ns + rows_done * row_ns);
+    if (stopper->reason() == RUNG_STOP_INTERRUPT) {
+      progress.clear();
+      return finishInterrupted(cycle);
+    }
+    progress.show(cycle);
     if (single_cycle) {
       single_cycle = false;
       stop();
     }
-    if (!options.stop_on.empty() && stop_on.holds())
+    if (!options.stop_on.empty() && stop_on.holds()) {
+      progress.clear();
       return finish(false, "", "stopped after cycle " + std::to_string(cycle) + ": " + options.stop_on + "\n");
+    }
     if (next_hint != INT64_MAX && processorNs() >= next_hint) {
+      progress.clear();
       fprintf(options.err, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }
@@ -553,6 +585,7 @@ int Run::runVirtual() {
       next_save = processorNs() + options.retain_interval_ns;
     }
   }
+  progress.clear();
   stopper->limitTime(0);
   if (!cycle_fault.empty()) return finish(true, cycle_fault, "");
   std::string extra = hasTimes() ? tasks.statistics(rows_done * row_ns) : "";
@@ -645,6 +678,9 @@ int Run::runInRealTime() {
 
 int run(const rung_module& module, const RunOptions& options) {
   if (const char* const why = refusal(module)) return refuse(options, why);
+  const bool has_program = std::any_of(module.symbols, module.symbols + module.symbol_count,
+                                       [](const rung_symbol& symbol) { return symbol.is_program != 0; });
+  if (!has_program) return refuse(options, "there is no PROGRAM to run; add one that calls what you want to see");
   Run run(module, options);
   const int prepared = run.prepare();
   if (prepared != kSuccess) return prepared;

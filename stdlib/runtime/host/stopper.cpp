@@ -11,10 +11,11 @@ namespace {
 
 constexpr int64_t kRepeatNs = 20'000'000;
 constexpr int kTicksUntilHung = 50;
+constexpr int kTicksForTheCycle = 10;
 
 rung_context* volatile context_to_stop = nullptr;
 Stopper::Hung call_when_hung = nullptr;
-volatile sig_atomic_t stop_reason = RUNG_STOP_NONE, ticks = 0;
+volatile sig_atomic_t stop_reason = RUNG_STOP_NONE, ticks = 0, ticks_for_the_cycle = 0;
 volatile uint32_t stop_site = RUNG_NONE;
 struct sigaction old_interrupt, old_alarm;
 
@@ -37,15 +38,16 @@ void onStopSignal(int number, siginfo_t*, void* details) {
     if (runningContext() == context) stop_site = currentSite(context, details);
     setTimer(kRepeatNs, kRepeatNs);
   }
-  context->stop = static_cast<uint8_t>(stop_reason);
   if (number == SIGALRM) ticks = ticks + 1;
+  if (stop_reason == RUNG_STOP_TIME || ticks >= ticks_for_the_cycle) context->stop = static_cast<uint8_t>(stop_reason);
   if (again && (number == SIGINT || ticks > kTicksUntilHung))
     call_when_hung(context, static_cast<uint8_t>(stop_reason));
 }
 
 }  // namespace
 
-Stopper::Stopper(rung_context& context, Hung hung) {
+Stopper::Stopper(rung_context& context, Hung hung, Interrupt interrupt) {
+  ticks_for_the_cycle = interrupt == Interrupt::AfterTheCycle ? kTicksForTheCycle : 0;
   context_to_stop = &context;
   call_when_hung = hung;
   stop_reason = RUNG_STOP_NONE;

@@ -300,6 +300,18 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
   return false;
 }
 
+// `Main.x` for an `x` of the program Main; empty when no program has such a variable.
+std::string Symbols::inPrograms(std::string_view path) const {
+  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+    if (!module_.symbols[i].is_program) continue;
+    const std::string inside = std::string(text(module_.symbols[i].name)) + '.' + std::string(path);
+    Variable variable;
+    std::string ignored;
+    if (find(inside, variable, ignored)) return inside;
+  }
+  return {};
+}
+
 bool Symbols::find(std::string_view path, Variable& variable, std::string& error) const {
   while (!path.empty() && path.front() == ' ') path.remove_prefix(1);
   while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
@@ -318,6 +330,8 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   if (root_length == 0) {
     if (path.front() == '%') return findAddress(path, variable, error);
     if (const std::string address = addressOfNct(path); !address.empty()) return findAddress(address, variable, error);
+    if (const std::string inside = inPrograms(path); !inside.empty())
+      return error = "unknown variable " + backquoted(path) + "; did you mean " + backquoted(inside) + "?", false;
     std::vector<std::string_view> names;
     for (uint32_t i = 0; i < module_.symbol_count; ++i) names.push_back(text(module_.symbols[i].name));
     const std::string_view first = path.substr(0, path.find_first_of(".[^"));
@@ -332,36 +346,62 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
 }
 
 // An axis has hundreds of variables, of which these are of interest; the others have to be named.
-static bool isAxis(const char* type) { return strcmp(type, "AXIS_REF_SM3") == 0; }
-static bool isAxisValue(const char* name) {
+namespace {
+
+bool isAxis(const char* type) { return strcmp(type, "AXIS_REF_SM3") == 0; }
+bool isAxisValue(const char* name) {
   for (const char* const value :
        {"nAxisState", "fSetPosition", "fSetVelocity", "fSetAcceleration", "fSetJerk", "fActPosition"})
     if (strcmp(name, value) == 0) return true;
   return false;
 }
 
-void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail detail) const {
-  const rung_type& type = *variable.type;
-  const bool is_axis = detail != Detail::Everything && type.kind == RUNG_RECORD && isAxis(text(type.name));
+uint64_t addCounts(uint64_t a, uint64_t b) { return a > UINT64_MAX - b ? UINT64_MAX : a + b; }
+
+}  // namespace
+
+// Whether what lists the variables of `type` lists this one.
+bool Symbols::isListed(const rung_type& type, const rung_field& field, Detail detail) const {
+  const char* const name = text(field.name);
+  if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 || strncmp(name, "__", 2) == 0)
+    return false;
+  if (detail != Detail::Everything && isAxis(text(type.name)) && !isAxisValue(name)) return false;
+  constexpr uint32_t kSeen = RUNG_FIELD_INPUT | RUNG_FIELD_OUTPUT | RUNG_FIELD_BASE;
+  return detail != Detail::Own || type.library == 0 || (field.flags & kSeen) != 0;
+}
+
+uint64_t Symbols::count(const rung_type& type, Detail detail) const {
+  uint64_t parts = 0;
   if (type.kind == RUNG_RECORD) {
     for (uint32_t i = 0; i < type.count; ++i) {
       const rung_field& field = module_.fields[type.first + i];
-      const char* const name = text(field.name);
-      if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 ||
-          strncmp(name, "__", 2) == 0)
-        continue;
-      constexpr uint32_t kSeen = RUNG_FIELD_INPUT | RUNG_FIELD_OUTPUT | RUNG_FIELD_BASE;
-      if (is_axis && !isAxisValue(name)) continue;
-      if (detail == Detail::Own && type.library != 0 && (field.flags & kSeen) == 0) continue;
+      if (isListed(type, field, detail)) parts = addCounts(parts, count(module_.types[field.type], detail));
+    }
+    return parts;
+  }
+  if (type.kind != RUNG_ARRAY) return type.kind == RUNG_POINTER ? 0 : 1;
+  const rung_type& element = module_.types[type.element];
+  const uint64_t elements = element.size == 0 ? 0 : type.size / element.size;
+  parts = elements == 0 ? 0 : count(element, detail);
+  return parts != 0 && elements > UINT64_MAX / parts ? UINT64_MAX : elements * parts;
+}
+
+void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail detail, size_t most) const {
+  const rung_type& type = *variable.type;
+  if (to.size() >= most) return;
+  if (type.kind == RUNG_RECORD) {
+    for (uint32_t i = 0; i < type.count; ++i) {
+      const rung_field& field = module_.fields[type.first + i];
+      if (!isListed(type, field, detail)) continue;
       Variable part = variable;
       if ((field.flags & RUNG_FIELD_BASE) == 0) {
         part.path += '.';
-        part.path += name;
+        part.path += text(field.name);
       }
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
       part.setFlags(field.flags);
-      expand(part, to, detail);
+      expand(part, to, detail, most);
     }
   } else if (type.kind == RUNG_ARRAY) {
     const rung_type& element = module_.types[type.element];
@@ -371,14 +411,14 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail
       if (dimension.high < dimension.low) return;
       index.push_back(dimension.low);
     }
-    for (uint32_t n = 0;; ++n) {
+    for (uint32_t n = 0; to.size() < most; ++n) {
       Variable part = variable;
       part.path += '[';
       for (size_t d = 0; d < index.size(); ++d) part.path += (d > 0 ? "," : "") + std::to_string(index[d]);
       part.path += ']';
       part.type = &element;
       part.lastOffset() += n * element.size;
-      expand(part, to, detail);
+      expand(part, to, detail, most);
       size_t d = index.size();
       while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {
         index[d - 1] = module_.dimensions[type.first + d - 1].low;
@@ -391,16 +431,16 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail
   }
 }
 
-std::vector<Variable> Symbols::ofPrograms() const {
+std::vector<Variable> Symbols::programRoots() const {
   std::vector<Variable> all;
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
     if (!module_.symbols[i].is_program) continue;
-    expand(root(i), all, Detail::Own);
+    all.push_back(root(i));
     // Its located variables are separate roots: `Main.valve`.
     const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
     for (uint32_t j = 0; j < module_.symbol_count; ++j)
       if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)
-        expand(root(j), all, Detail::Own);
+        all.push_back(root(j));
   }
   return all;
 }

@@ -53,10 +53,13 @@ class Symbols {
     Own       // as Watched, and of library blocks only the pins
   };
   // The elementary variables, enumerations and pointers inside `variable`, in order of declaration.
-  void expand(const Variable& variable, std::vector<Variable>& to, Detail detail = Detail::Everything) const;
-  // All elementary variables of all program instances, without in-outs, pointers, constants and the internal variables
-  // of library blocks.
-  std::vector<Variable> ofPrograms() const;
+  void expand(const Variable& variable, std::vector<Variable>& to, Detail detail = Detail::Everything,
+              size_t most = SIZE_MAX) const;
+  // How many `expand` lists for a variable of this type.
+  uint64_t count(const rung_type& type, Detail detail = Detail::Everything) const;
+  // All program instances and their located variables, whole. With Detail::Own they are all elementary variables of all
+  // programs, without in-outs, pointers, constants and the internal variables of library blocks.
+  std::vector<Variable> programRoots() const;
   // `module.wire` of a simulated module, which outlives this.
   void addTerminal(std::string_view module, Terminal& wire);
   // Every root, whole.
@@ -70,6 +73,8 @@ class Symbols {
   bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
   bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
   bool step(Variable& variable, std::string_view& rest, std::string& error) const;
+  bool isListed(const rung_type& type, const rung_field& field, Detail detail) const;
+  std::string inPrograms(std::string_view path) const;
 
   const rung_module& module_;
   const Memory& memory_;

@@ -151,7 +151,7 @@ class TestRunner {
   std::string chooseVariables(uint32_t number) {
     std::string error, test = module_.strings + module_.tests[number].name;
     test.resize(std::min(test.find('('), test.size()));  // without the values of a case
-    if (!options_.watch.empty() && !trace_.choose(options_.watch, error)) return "--watch: " + error;
+    if (!options_.watch.empty() && !trace_.choose(options_.watch, Trace::Use::Rows, error)) return "--watch: " + error;
     if (options_.watch.empty() && !trace_.chooseProgram(test, error))
       return "the test `" + test + "` is a function and keeps no variables; give --watch, or make it a PROGRAM";
     return "";

@@ -1,6 +1,8 @@
 // The trace as CSV: see trace.h.
 #include "trace.h"
 
+#include <algorithm>
+
 #include "csv.h"
 #include "value_format.h"
 
@@ -15,19 +17,39 @@ std::string millisecondsOf(int64_t ns) {
   return text + '.' + digits;
 }
 
-bool Trace::choose(const std::string& watch, std::string& error) {
+namespace {
+constexpr size_t kMostListed = 200;          // values at the end of a run
+constexpr uint64_t kMostTraced = 1'000'000;  // columns of a trace
+}  // namespace
+
+bool Trace::add(const Variable& variable, Symbols::Detail detail, Use use, std::string& error) {
+  const uint64_t parts = symbols_.count(*variable.type, detail);
+  if (use == Use::Rows && parts > kMostTraced - total_) {
+    error = "more than " + std::to_string(kMostTraced) + " variables, at " + backquoted(variable.path) +
+            "; choose some with --watch";
+    return false;
+  }
+  total_ += std::min(parts, UINT64_MAX - total_);
+  symbols_.expand(variable, variables_, detail, use == Use::Rows ? SIZE_MAX : kMostListed);
+  return true;
+}
+
+bool Trace::choose(const std::string& watch, Use use, std::string& error) {
   if (watch.empty()) {
-    variables_ = symbols_.ofPrograms();
+    for (const Variable& root : symbols_.programRoots())
+      if (!add(root, Symbols::Detail::Own, use, error)) return false;
     return true;
   }
   for (const std::string& path : splitList(watch)) {
     Variable variable;
     if (!symbols_.find(path, variable, error)) return false;
     variable.path = path;  // the header shows names as the user wrote them
-    if (variable.type->kind == RUNG_POINTER)
+    if (variable.type->kind == RUNG_POINTER) {
       variables_.push_back(variable);
-    else
-      symbols_.expand(variable, variables_, Symbols::Detail::Watched);
+      ++total_;
+    } else if (!add(variable, Symbols::Detail::Watched, use, error)) {
+      return false;
+    }
   }
   return true;
 }
@@ -86,6 +108,9 @@ std::string Trace::lastRow() const {
     formatValue(symbols_.module(), variable, lines);
     lines += '\n';
   }
+  if (total_ > variables_.size())
+    lines += "and " + std::to_string(total_ - variables_.size()) +
+             " more; choose some with --watch, or see all in --trace\n";
   return lines;
 }
 

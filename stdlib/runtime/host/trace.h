@@ -14,8 +14,10 @@ class Trace {
  public:
   explicit Trace(const Symbols& symbols) : symbols_(symbols) {}
 
-  // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` has the message.
-  bool choose(const std::string& watch, std::string& error);
+  enum class Use : uint8_t { Rows, LastRow };
+  // `watch`: the list of --watch, or empty for all variables of all programs. Of what is only listed at the end, the
+  // first kMostListed. False: `error` has the message.
+  bool choose(const std::string& watch, Use use, std::string& error);
   // The variables of one program: of library blocks only the pins.
   bool chooseProgram(const std::string& name, std::string& error);
   // `path`: --trace, "-" for standard output, empty for none.
@@ -23,12 +25,15 @@ class Trace {
   void row(int64_t cycle, int64_t time_ns);
   // Writes the rest and renames the file to its final path.
   bool close(std::string& error);
-  // The current values as `path = value` lines.
+  // The current values as `path = value` lines, and the count of those that are not listed.
   std::string lastRow() const;
   const std::vector<Variable>& variables() const { return variables_; }
 
  private:
+  bool add(const Variable& variable, Symbols::Detail detail, Use use, std::string& error);
+
   const Symbols& symbols_;
+  uint64_t total_ = 0;  // with those that are not listed
   std::vector<Variable> variables_;
   OutputFile file_;
   std::string buffer_, cell_;

@@ -101,13 +101,16 @@ void rung_retain_seal(void* slot, uint64_t sequence) {
   memcpy(slot, &header, sizeof header);
 }
 
+bool rung_retain_is_slot(const rung_slot* header) {
+  return memcmp(header->magic, kMagic, sizeof kMagic) == 0 && header->value_bytes <= header->length &&
+         header->retain_bytes <= header->value_bytes;
+}
+
 bool rung_retain_is_complete(const void* slot, size_t bytes) {
   rung_slot header;
   if (bytes < sizeof header) return false;
   memcpy(&header, slot, sizeof header);
-  return memcmp(header.magic, kMagic, sizeof kMagic) == 0 && header.length <= bytes - sizeof header &&
-         header.value_bytes <= header.length && header.retain_bytes <= header.value_bytes &&
-         header.crc == sumOf(header, slot);
+  return rung_retain_is_slot(&header) && header.length <= bytes - sizeof header && header.crc == sumOf(header, slot);
 }
 
 const void* rung_retain_newest(const void* one, const void* other, size_t bytes) {

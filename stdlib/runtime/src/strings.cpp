@@ -261,7 +261,7 @@ uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (magnitude < 1000000 && capacity >= 7) {
     // All digits at once; then leading zeros are shifted out, zeros come in at the end, and one store writes digits and
-    // NUL.
+    // NUL. The bytes after it stay as they were.
     const auto number = static_cast<uint32_t>(magnitude);
     const bool is_short = number < 10000;
     const uint64_t digits =
@@ -270,8 +270,13 @@ uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint
     const uint32_t zeros = static_cast<uint32_t>(__builtin_ctzll(digits | uint64_t{1} << last)) & ~7u;
     uint64_t word = (digits | uint64_t{0x3030303030303030} >> (56 - last)) >> zeros;
     if (negative) word = word << 8 | '-';
+    const uint32_t length = (last - zeros) / 8 + 1 + negative;
+    uint64_t old;
+    memcpy(&old, to, sizeof old);
+    const uint64_t after = length == 7 ? 0 : ~uint64_t{0} << (length + 1) * 8;
+    word |= old & after;
     memcpy(to, &word, sizeof word);
-    return (last - zeros) / 8 + 1 + negative;
+    return length;
   }
 #endif
   uint32_t length = negative ? 2 : 1;

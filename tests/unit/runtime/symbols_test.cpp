@@ -77,7 +77,9 @@ TEST_F(Paths, SetValues) {
 
 TEST_F(Paths, ExpandWholePrograms) {
   std::string all;
-  for (const Variable& variable : symbols.ofPrograms()) all += variable.path + ' ';
+  std::vector<Variable> variables;
+  for (const Variable& root : symbols.programRoots()) symbols.expand(root, variables, Symbols::Detail::Own);
+  for (const Variable& variable : variables) all += variable.path + ' ';
   EXPECT_EQ(
       all,
       "Main.run Main.count Main.Level Main.elapsed Main.color Main.table[1,0] Main.table[1,1] Main.table[1,2] "

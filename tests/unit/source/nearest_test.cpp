@@ -22,6 +22,18 @@ TEST(Nearest, IsSilentWhenNothingIsNear) {
   EXPECT_EQ(nearest(std::string(1000, 'a'), {"a"}), "");
 }
 
+TEST(Nearest, TakesABeginningBeforeTwoSlips) {
+  EXPECT_EQ(nearest("MC_Pow", {"MC_Jog", "MC_Power", "MC_PowerDown"}), "MC_Power");
+  EXPECT_EQ(nearest("pressures", {"pressure", "pressures_all"}), "pressure");
+}
+
+TEST(Nearest, FindsByBeginning) {
+  EXPECT_EQ(nearestByBeginning("mc_Ga", {"MC_GearIn"}), "");
+  EXPECT_EQ(nearestByBeginning("mc_Ge", {"MC_GearIn", "MC_GearOut"}), "MC_GearIn");
+  EXPECT_EQ(nearestByBeginning("ASSERT_TRUE", {"ASSERT", "ASSERT_EQ"}), "ASSERT");
+  EXPECT_EQ(nearestByBeginning("abc", {"abcdefgh"}), "");
+}
+
 TEST(Nearest, DoesNotDependOnTheOrder) {
   EXPECT_EQ(nearest("in3", {"in2", "in1"}), "in1");
   EXPECT_EQ(nearest("in3", {"in1", "in2"}), "in1");

@@ -67,7 +67,7 @@ TEST(Options, MistakesSayWhatToDo) {
   EXPECT_EQ(errorOf({"check", "-o", "x", "a.st"}),
             "`-o` is not an option of `rung check`; it belongs to `rung emit`, `rung build`, `rung convert`, `rung "
             "graph`, `rung cam`");
-  EXPECT_EQ(errorOf({"check"}), "`rung check` needs files or folders to read");
+  EXPECT_EQ(errorOf({"check"}), "");  // the project around the current folder
   EXPECT_EQ(errorOf({"check", "a.st", "--std=iec4"}),
             "`iec4` is not a value of `--std`; it takes iec2|iec3|codesys; did you mean `iec2`?");
   EXPECT_EQ(errorOf({"check", "a.st", "-O3"}), "`3` is not a value of `-O`; it takes 0|1|2");

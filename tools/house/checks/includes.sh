@@ -18,6 +18,7 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     layer["sema/"] = 8
     layer["ir/"] = 9
     layer["codegen/"] = 10
+    layer["tools/workspace/"] = 10.5
     layer["tools/driver/"] = 11
     layer["tools/"] = 12
     layer["stdlib/"] = -1; layer["cam/"] = -2

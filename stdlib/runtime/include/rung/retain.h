@@ -33,6 +33,9 @@ void rung_retain_pack(const rung_context* context, void* slot);
 /* Completes a slot: its number, and the sum over `slot->length` bytes. */
 void rung_retain_seal(void* slot, uint64_t sequence);
 
+/* True when the header is one of a slot; its bytes may still be damaged. */
+bool rung_retain_is_slot(const rung_slot* header);
+
 /* True when the slot is complete and not longer than `bytes`. */
 bool rung_retain_is_complete(const void* slot, size_t bytes);
 

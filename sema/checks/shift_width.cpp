@@ -1,0 +1,25 @@
+// Warns of SHL and SHR by a constant that is at least the width of the shifted value: nothing of it is left. CODESYS
+// Static Analysis SA0053.
+//   passes  low := SHR(mask, 8);         mask : WORD
+//   warns   low := SHR(mask, 16);        mask : WORD           W0585
+// Called for each call of these operators.
+#include "sema/checks/shift_width.h"
+
+#include "sema/checks/diagnostics.h"
+
+namespace rung::sema {
+
+void checkShiftWidth(Context& context, ExprId value, ExprId count) {
+  if (context.library || !value || !count) return;
+  const TypeId type = context.tree().expr(value).type;
+  if (!type || type == types::kError || isUntyped(context, type)) return;
+  const TypeKind kind = context.types().plainKind(type);
+  if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return;
+  const std::optional<int64_t> by = constantInteger(context, count);
+  const uint32_t width = types::TypeTable::bitWidth(kind);
+  if (!by || *by < static_cast<int64_t>(width)) return;
+  context.report(diag::ShiftedOut, context.tree().begin(count),
+                 {std::to_string(*by), context.types().toString(type), std::to_string(width)});
+}
+
+}  // namespace rung::sema
