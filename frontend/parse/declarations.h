@@ -18,7 +18,9 @@ class DeclarationParser : public ExpressionParser {
   DeclId parseSection();
   bool atSection() const { return kind() >= Tok::Var && kind() <= Tok::VarConfig; }
   TypeExprId parseType() override;
-  std::vector<FieldInit> parseFieldInits(Tok close);  // initial_values.cpp
+  // ---- initial_values.cpp
+  std::vector<FieldInit> parseFieldInits(Tok close);
+  ExprId parseInit();
   // ---- modifiers.cpp
   bool acceptAccess(AccessLevel& access);
   void parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name);
@@ -60,8 +62,9 @@ class DeclarationParser : public ExpressionParser {
   bool rangeFollows() const;
   // ---- initial_values.cpp
   ExprId parseDeclaredInit(TypeExprId type);
-  ExprId parseInit();
   void parseElements(Tok close);
+  void parseElement();
+  ExprId parseFieldValue(Tok close);
   ExprId parseArrayInit();
   ExprId parseStructInit();
 

@@ -54,7 +54,9 @@ constexpr TokMap<const char*> kNativeOperators = {
 
 ExpressionParser::ExpressionParser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                                    Diagnostics& diagnostics)
-    : Cursor(tree, names, sources, file, dialect, diagnostics), eno_(names.intern(kEnableOutput)) {}
+    : Cursor(tree, names, sources, file, dialect, diagnostics),
+      eno_(names.intern(kEnableOutput)),
+      this_struct_(names.intern("THISSTRUCT")) {}
 
 ExprId ExpressionParser::parseExpr(uint32_t least) {
   ExprId left = parseUnary();
@@ -66,12 +68,24 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
       return left;
     }
     const Token* op = t_;
+    // a << 2, a >> 2
+    if ((at(Tok::Less) || at(Tok::Greater)) && peek() == kind() && t_[1].offset == t_->offset + 1) {
+      const bool left_shift = at(Tok::Less);
+      slip(diag::ForeignOperator, op, {left_shift ? "<<" : ">>", left_shift ? "SHL(...)" : "SHR(...)"}).length(2);
+      advance();
+      advance();
+      parseExpr(row.precedence + 1u);
+      left = build_.error(loc(op));
+      continue;
+    }
     if (height >= kMaxExprHeight) {
       tooDeep("operators", kMaxChain);
       height_ = height;
       return left;
     }
-    if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
+    // The syntax manual 001, table of 5.4.1.3.2, prints `%` as the sign of MOD.
+    const bool is_mod_sign = op->kind == Tok::Percent && dialect_ != Dialect::Codesys;
+    if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess && !is_mod_sign)
       slip(diag::ForeignOperator, op, {spelling(op->kind), kNativeOperators[op->kind]});
     advance();
     const ExprId right = parseExpr(row.precedence + 1u);
@@ -185,6 +199,11 @@ ExprId ExpressionParser::parseOperandName() {
     return parsePostfix(ended(build_.deref(ended(object), start)));
   }
   if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
+  // In the initial value of a member: the structure itself. TwinCAT compiles it; its help has no page on it.
+  if (declares_ && dialect_ == Dialect::Codesys && names_.same(nameOf(t_), this_struct_)) {
+    advance();
+    return parsePostfix(ended(build_.deref(ended(build_.thisObject(start)), start)));
+  }
   const ExprId name = build_.name(nameOf(t_), start);
   advance();
   ended(name);
@@ -219,7 +238,7 @@ ExprId ExpressionParser::missingOperand() {
     unfinished_ = t_;
     return build_.error(start);
   }
-  fail(diag::MissingValue, t_, {describe(t_)});
+  fail(at(Tok::LeftBracket) && !declares_ ? diag::ListInBody : diag::MissingValue, t_, {describe(t_)});
   return build_.error(start);
 }
 

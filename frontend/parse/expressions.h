@@ -65,6 +65,7 @@ class ExpressionParser : public Cursor {
   bool continuesArguments();
 
   NameId eno_;
+  NameId this_struct_;
   std::string buffer_;
 };
 

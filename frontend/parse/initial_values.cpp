@@ -36,27 +36,7 @@ ExprId DeclarationParser::parseInit() {
 // elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
 void DeclarationParser::parseElements(Tok close) {
   while (!panic_ && !at(close)) {
-    // N(1, 2) looks like a call; sema tells them apart.
-    const bool named =
-        isName(kind()) && peek() == Tok::LeftParen &&
-        (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));
-    if (named || (at(Tok::Number) && peek() == Tok::LeftParen)) {
-      const Loc count_loc = here();
-      const ExprId count = named ? build_.name(nameOf(t_), count_loc) : parseNumber({}, false, count_loc);
-      if (named) advance();
-      ended(count);
-      advance();
-      const size_t inner = exprs_.size();
-      while (!panic_ && !at(Tok::RightParen)) {
-        exprs_.push_back(parseInit());
-        if (!accept(Tok::Comma)) break;
-      }
-      closeParen(Tok::RightParen, true);
-      const Slice<ExprId> elements = listFrom(exprs_, inner);
-      exprs_.push_back(ended(build_.repeat(count, elements, count_loc)));
-    } else {
-      exprs_.push_back(parseInit());
-    }
+    parseElement();
     if (accept(Tok::Comma)) continue;
     if (!panic_ && isOperand(kind()) && !atLineStart()) {
       slip(diag::MissingToken, t_, {",", describe(t_)});
@@ -66,8 +46,39 @@ void DeclarationParser::parseElements(Tok close) {
   }
 }
 
+void DeclarationParser::parseElement() {
+  // N(1, 2) looks like a call; sema tells them apart.
+  const bool named =
+      isName(kind()) && peek() == Tok::LeftParen &&
+      (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));
+  if (!named && !(at(Tok::Number) && peek() == Tok::LeftParen)) {
+    exprs_.push_back(parseInit());
+    return;
+  }
+  const Loc count_loc = here();
+  const ExprId count = named ? build_.name(nameOf(t_), count_loc) : parseNumber({}, false, count_loc);
+  if (named) advance();
+  ended(count);
+  advance();
+  const size_t inner = exprs_.size();
+  while (!panic_ && !at(Tok::RightParen)) {
+    exprs_.push_back(parseInit());
+    if (!accept(Tok::Comma)) break;
+  }
+  closeParen(Tok::RightParen, true);
+  const Slice<ExprId> elements = listFrom(exprs_, inner);
+  exprs_.push_back(ended(build_.repeat(count, elements, count_loc)));
+}
+
 ExprId DeclarationParser::parseArrayInit() {
   const Loc start = here();
+  if (isName(peek()) && peek(2) == Tok::Assign && declares_) {  // [x := 1.0, y := 2.0]
+    advance();
+    slip(diag::StructureInBrackets, t_ - 1, {textOf(t_)});
+    const std::vector<FieldInit> fields = parseFieldInits(Tok::RightBracket);
+    closeParen(Tok::RightBracket, true);
+    return ended(build_.structInit(fields, start));
+  }
   if (!enterExpr("initial values")) return build_.error(start);
   advance();
   const size_t first = exprs_.size();
@@ -87,6 +98,26 @@ ExprId DeclarationParser::parseStructInit() {
   return ended(build_.structInit(fields, start));
 }
 
+// The value of a member. CODESYS 2.3 writes the values of an array without brackets: `a := 1, 2(0), b := 3`.
+ExprId DeclarationParser::parseFieldValue(Tok close) {
+  if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket)) return parseInit();
+  const Loc start = here();
+  const size_t first = exprs_.size();
+  for (;;) {
+    parseElement();
+    if (panic_ || !at(Tok::Comma) || peek() == close ||
+        ((isName(peek()) || isNullName(t_ + 1)) && peek(2) == Tok::Assign))
+      break;
+    advance();
+  }
+  if (exprs_.size() == first + 1 && tree_.kind(exprs_[first]) != ExprKind::Repeat) {
+    const ExprId only = exprs_[first];
+    exprs_.resize(first);
+    return only;
+  }
+  return ended(build_.arrayInit(listFrom(exprs_, first), start));
+}
+
 // field ":=" init {"," …}
 std::vector<FieldInit> DeclarationParser::parseFieldInits(Tok close) {
   std::vector<FieldInit> fields;
@@ -97,7 +128,7 @@ std::vector<FieldInit> DeclarationParser::parseFieldInits(Tok close) {
       fail(diag::MissingToken, t_, {":=", describe(t_)});
       break;
     }
-    field.value = parseInit();
+    field.value = parseFieldValue(close);
     fields.push_back(field);
     if (accept(Tok::Comma)) continue;
     if (!panic_ && isName(kind()) && peek() == Tok::Assign) {

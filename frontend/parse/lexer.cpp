@@ -227,6 +227,7 @@ class Lexer {
   static Punct punctAt(const char* p);
   const char* punct(const char* p);
   const char* blockComment(const char* p, bool slash);
+  const char* debugLine(const char* begin) const;
   const char* lineComment(const char* p);
   static bool isDoc(const char* p) { return p[2] == '/' && p[3] != '/'; }
   void keep(const char* begin, const char* end, CommentKind kind) {
@@ -362,7 +363,8 @@ const char* Lexer::word(const char* begin) {
 // Whether the token declares a variable or member, by what is on both sides of it.
 static bool isDeclared(const std::vector<Token>& tokens, size_t i) {
   const Tok next = tokens[i + 1].kind;
-  if (next != Tok::Colon && next != Tok::Comma) return false;
+  if (next != Tok::Colon && next != Tok::Comma && !(next == Tok::At && tokens[i + 2].kind == Tok::Address))
+    return false;
   if (i == 0 || (tokens[i].flags & kLineStart) != 0) return true;
   const Tok before = tokens[i - 1].kind;
   static constexpr TokSet kBefore = {Tok::Semicolon, Tok::Struct, Tok::Union,
@@ -390,7 +392,8 @@ void Lexer::resolveDeclaredWords() {
     const bool operand = (last > Tok::Colon && last <= Tok::EqualLess && last != Tok::RightParen &&
                           last != Tok::RightBracket && last != Tok::Caret) ||
                          kOperandFollows.has(last) || next == Tok::Assign || next == Tok::Arrow || next == Tok::Comma ||
-                         next == Tok::Colon || next == Tok::RightParen || next == Tok::Dot;
+                         next == Tok::Colon || next == Tok::RightParen || next == Tok::Dot ||
+                         (next == Tok::At && i + 2 < tokens.size() && tokens[i + 2].kind == Tok::Address);
     const bool name = isPlantWord(token.kind) ? !isName(next) : isPartWord(token.kind) ? operand : !type;
     const bool member = last == Tok::Dot && isReserved(token.kind);
     if (!member && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
@@ -569,7 +572,18 @@ const char* Lexer::lineComment(const char* p) {
   return newline != nullptr ? newline : end_;
 }
 
+// `(*DBG:…*)` on a line of its own: C code for the debugger that the editor of OpenPLC adds, and that its runtime takes
+// away by lines. The text may contain `*)`. Null: another comment.
+const char* Lexer::debugLine(const char* begin) const {
+  if ((flags_ & kLineStart) == 0 || end_ - begin < 8 || std::string_view(begin, 6) != "(*DBG:") return nullptr;
+  const auto* const newline = static_cast<const char*>(std::memchr(begin, '\n', static_cast<size_t>(end_ - begin)));
+  const char* p = newline != nullptr ? newline : end_;
+  while (p > begin && (p[-1] == '\r' || p[-1] == ' ' || p[-1] == '\t')) --p;
+  return p - begin >= 8 && p[-1] == ')' && p[-2] == '*' ? p : nullptr;
+}
+
 const char* Lexer::blockComment(const char* begin, bool slash) {
+  if (const char* const end = debugLine(begin); end != nullptr) return end;
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
   const bool nests = dialect_ != Dialect::Iec2 && nests_;

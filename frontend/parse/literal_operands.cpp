@@ -83,7 +83,7 @@ struct StringPrefix {
 static constexpr StringPrefix kStringPrefixes[] = {
     {"S", "STRING", Tok::String},  {"W", "WSTRING", Tok::Wstring},      {"U", "USTRING", Tok::String},
     {"C", "CHAR", Tok::Char},      {"WC", "WCHAR", Tok::Wchar},         {"UC", "UCHAR", Tok::Char},
-    {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String},
+    {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String}, {"UTF8", "STRING", Tok::String},
 };
 
 ExprId ExpressionParser::parseStringLiteral(NameId prefix, Loc start) {
@@ -114,6 +114,7 @@ ExprId ExpressionParser::parseTime() {
   const Token* token = t_;
   advance();
   TimeValue value;
+  value.is_unsigned = dialect_ == Dialect::Codesys;
   const auto read = token->kind == Tok::Duration    ? readDuration
                     : token->kind == Tok::Date      ? readDate
                     : token->kind == Tok::TimeOfDay ? readTimeOfDay
@@ -124,7 +125,8 @@ ExprId ExpressionParser::parseTime() {
     return build_.error(loc(token));
   }
   const auto bits =
-      static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0));
+      static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0) |
+                           (value.overflows ? kLiteralOverflows : 0));
   return build_.literal(value.kind, value.value, loc(token), {}, bits);
 }
 

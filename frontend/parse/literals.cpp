@@ -29,6 +29,12 @@ std::string basedForm(std::string_view text) {
   return fits ? std::to_string(base) + '#' + std::string(digits) : std::string();
 }
 
+bool isTimeUnit(std::string_view text) {
+  static constexpr std::string_view kUnits[] = {"d", "h", "m", "s", "ms", "us", "ns"};
+  return std::any_of(std::begin(kUnits), std::end(kUnits),
+                     [&](std::string_view unit) { return sameIdentifier(text, unit); });
+}
+
 // `_` only between digits; several in a row are left to the caller.
 bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics,
                       NumberValue& value) {
@@ -95,8 +101,8 @@ int64_t daysFromCivil(int64_t y, unsigned m, unsigned d) {
 }
 
 // y-m-d at the front of text.
-bool takeDate(std::string_view& text, std::string_view whole, const char* sample, Loc loc, Diagnostics& diagnostics,
-              int64_t& days) {
+bool takeDate(std::string_view& text, std::string_view whole, const char* sample, bool is_unsigned, Loc loc,
+              Diagnostics& diagnostics, int64_t& days) {
   uint64_t y = 0, m = 0, d = 0;
   if (!takeNumber(text, y) || !take(text, '-') || !takeNumber(text, m) || !take(text, '-') || !takeNumber(text, d)) {
     diagnostics.report(diag::DateForm, loc, {whole, sample});
@@ -104,11 +110,15 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
   }
   static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
-  // The range of 64 bits of nanoseconds, in whole years.
+  // The range of 64 bits of nanoseconds, in whole years, and up to 2554-07-21 without a sign.
+  const uint64_t from = 1678, to = is_unsigned ? 2554 : 2261;
+  const bool late = is_unsigned && y == 2554 && (m > 7 || (m == 7 && d > 21));
   const bool ok =
-      y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
+      !late && y >= from && y <= to && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
   if (!ok) {
-    diagnostics.report(diag::NoSuchDay, loc, {afterHash(whole).substr(0, afterHash(whole).size() - text.size())});
+    diagnostics.report(
+        diag::NoSuchDay, loc,
+        {afterHash(whole).substr(0, afterHash(whole).size() - text.size()), std::to_string(from), std::to_string(to)});
     return false;
   }
   days = daysFromCivil(static_cast<int64_t>(y), static_cast<unsigned>(m), static_cast<unsigned>(d));
@@ -191,6 +201,10 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
     for (char c : text)
       if (c != '_') plain += c;
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value.real);
+    if (end != plain.data() + plain.size() && isTimeUnit(std::string_view(end, plain.data() + plain.size()))) {
+      diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
+      return false;
+    }
     if (end != plain.data() + plain.size()) {
       diagnostics.report(diag::NumberSuffix, loc, {text});
       return false;
@@ -206,6 +220,10 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       }
     }
     return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics, value);
+  }
+  if (i != text.size() && isTimeUnit(text.substr(i))) {
+    diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
+    return false;
   }
   if (i != text.size()) {
     const std::string based = basedForm(text);
@@ -224,7 +242,8 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
   return checkUnderscores(text, text, loc, diagnostics, value);
 }
 
-// duration = ["-"] number unit {["_"] number unit}; every unit may exceed its range (T#100s12ms, T#29h90m).
+// duration = ["-"] number unit {["_"] number unit}. Only the first unit may exceed its range, as in T#100s12ms; value
+// tells which other one does. IEC 61131-3 ed. 2, 2.2.3.1.
 bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
   value.kind = LiteralKind::Duration;
   value.is_long = isLong(text);
@@ -240,6 +259,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
                                     {"ms", 1000000}, {"us", 1000}, {"ns", 1}};
   size_t next_unit = 0;
   bool had_fraction = false;
+  bool first = true;
   uint64_t sum = 0;
   bool fits = true;
   Loc last_part;
@@ -249,7 +269,10 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     return false;
   }
   while (!rest.empty()) {
-    if (next_unit > 0) take(rest, '_');
+    if (next_unit > 0 && take(rest, '_') && rest.empty()) {
+      diagnostics.report(diag::TimeEndsWithUnderscore, loc, {text});
+      return false;
+    }
     const Loc part = at();
     const std::string_view part_text = rest;
     if (had_fraction) {
@@ -290,6 +313,11 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     uint64_t amount = 0, product = 0;
     NumberValue grouped;
     if (!checkUnderscores(digits, text, loc, diagnostics, grouped)) return false;
+    const uint64_t most = u == 1 ? 24 : u < 4 ? 60 : 1000;  // of a unit after the first
+    uint64_t written = 0;
+    std::string_view copy = digits;
+    value.overflows = value.overflows || (!first && (!takeNumber(copy, written) || written >= most));
+    first = false;
     fits = fits && takeNumber(digits, amount) && !__builtin_mul_overflow(amount, kUnits[u].nanoseconds, &product) &&
            !__builtin_add_overflow(sum, product, &sum) &&
            !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
@@ -307,7 +335,7 @@ bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValu
   value.is_long = isLong(text);
   std::string_view rest = afterHash(text);
   int64_t days = 0;
-  if (!takeDate(rest, text, "D#2026-12-31", loc, diagnostics, days)) return false;
+  if (!takeDate(rest, text, "D#2026-12-31", value.is_unsigned && value.is_long, loc, diagnostics, days)) return false;
   if (!rest.empty()) {
     diagnostics.report(diag::DateForm, loc, {text, "D#2026-12-31"});
     return false;
@@ -329,12 +357,17 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   std::string_view rest = afterHash(text);
   int64_t days = 0;
   uint64_t time = 0;
-  if (!takeDate(rest, text, kSample, loc, diagnostics, days)) return false;
+  if (!takeDate(rest, text, kSample, value.is_unsigned && value.is_long, loc, diagnostics, days)) return false;
   if (!take(rest, '-')) {
     diagnostics.report(diag::DateForm, loc, {text, kSample});
     return false;
   }
   if (!takeTime(rest, text, kSample, false, loc, diagnostics, time)) return false;
+  const uint64_t begin = static_cast<uint64_t>(days) * kDay;
+  if (days >= 0 && begin + time < begin) {  // later on the last day
+    diagnostics.report(diag::TimeTooLong, loc, {text});
+    return false;
+  }
   value.value = static_cast<uint64_t>(days) * kDay + time;
   return true;
 }

@@ -24,7 +24,9 @@ struct TimeValue {
   LiteralKind kind = LiteralKind::Duration;
   bool is_long = false;      // LT#, LD#, LTOD#, LDT#
   bool is_negative = false;  // T#-5s
+  bool is_unsigned = false;  // set by the caller: LDATE and LDT count in an unsigned number, up to 2554
   uint64_t value = 0;        // nanoseconds, two's complement
+  bool overflows = false;    // a part of a duration after the first exceeds its unit: T#1h90m
 };
 // T#… D#… TOD#… DT#… and their long forms, with the prefix.
 bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);

@@ -184,7 +184,9 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
     if (is(t_, "ORDER") && peek() == Tok::Number) {
       advance();
       uint64_t order = 0;
-      if (takeNumber(order)) e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
+      const Token* const number = t_;
+      if (takeNumber(order) && order == 0) slip(diag::OrderZero, number);
+      e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
     } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
       advance();
       int32_t* const coordinates[] = {&e.x, &e.y, &e.width, &e.height};
@@ -279,6 +281,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
   uint32_t network = 0;
   while (!at(Tok::EndNetwork) && !at(Tok::End) && !atBlockEnd()) {
     panic_ = false;
+    const Token* const first = t_;
     if (is(t_, "NETWORK")) {
       advance();
       DiagramNetwork n{};
@@ -303,7 +306,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
       parseElement(elements, network);
     }
     if (!panic_) expect(Tok::Semicolon);
-    if (panic_ && !atUnfinished()) {
+    if (panic_ && (!atUnfinished() || t_ == first)) {
       while (!at(Tok::Semicolon) && !at(Tok::EndNetwork) && !at(Tok::End) && !endsPart(kind())) advance();
       accept(Tok::Semicolon);
     }

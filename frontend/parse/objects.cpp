@@ -5,6 +5,7 @@
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/parser.h"
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/diagnostics.h"
 
 namespace rung::text {
 
@@ -195,7 +196,13 @@ DeclId Parser::parseNamespace() {
   parseModifiers(access, modifiers, true);
   if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   d.h.loc = here();
+  const Token* const path = t_;
   parseNamePath(d.path);
+  if (d.path.count > kMaxDeclDepth) {
+    const std::string limit = std::to_string(kMaxDeclDepth);
+    fail(diag::TooDeep, path, {"namespaces", limit});
+    d.path.count = 1;
+  }
   panic_ = false;
   accept(Tok::Semicolon);
   std::vector<DeclId> decls;

@@ -49,11 +49,13 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
   if (at(Tok::Type)) return parseTypes(out);
   if (at(Tok::Using)) return parseUsing(out);
   static constexpr TokSet kPous = {Tok::Function, Tok::FunctionBlock, Tok::Interface, Tok::Class, Tok::Program};
-  static constexpr TokSet kSections = {Tok::VarGlobal, Tok::VarConfig, Tok::VarAccess, Tok::VarExternal};
+  static constexpr TokSet kSections = {Tok::VarGlobal, Tok::VarConfig, Tok::VarAccess};
   DeclId decl;
   if (at(Tok::Namespace) && !enterDecl(Tok::EndNamespace)) return;
   if (kPous.has(kind()))
     decl = parsePou();
+  else if (at(Tok::VarExternal))
+    return parseStrayExternal();
   else if (kSections.has(kind()))
     decl = parseSection();
   else if (at(Tok::Namespace))
@@ -63,6 +65,13 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
   else
     return parseUnknownTopLevel();
   out.push_back(decl);
+}
+
+// VAR_EXTERNAL outside of a POU. Its variables count as lost, so that their uses draw no error.
+void Parser::parseStrayExternal() {
+  slip(diag::ExternalOutside, t_);
+  tree_.lost_names = true;
+  parseSection();
 }
 
 // A misspelled keyword is corrected; anything else is reported and skipped.

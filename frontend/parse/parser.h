@@ -22,6 +22,7 @@ class Parser final : public ChartParser {
  private:
   // ---- files and POUs
   void parseTopLevel(std::vector<DeclId>& out);
+  void parseStrayExternal();
   void parseUnknownTopLevel();
   void skipToTopLevel();
   bool enterDecl(Tok end);

@@ -147,12 +147,13 @@ void ChartParser::parseStep(std::vector<SfcStep>& out) {
     parsePosition(step.position);
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
-    while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc() && !atMacroEnd())
-      if (!accept(Tok::Semicolon) && !parseAssociation(actions)) {
-        const Token* before = t_;
-        syncStatement();
-        if (t_ == before && !at(Tok::EndStep) && !atUnfinished()) advance();
-      }
+    while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc() && !atMacroEnd()) {
+      const Token* const first = t_;
+      if (accept(Tok::Semicolon) || parseAssociation(actions)) continue;
+      const Token* const before = t_;
+      syncStatement();
+      if (t_ == before && !at(Tok::EndStep) && (!atUnfinished() || t_ == first)) advance();
+    }
   }
   if (panic_) syncChart(Tok::EndStep);
   if (!accept(Tok::EndStep)) {

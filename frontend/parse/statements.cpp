@@ -1,5 +1,9 @@
 // Statements, and resynchronization after errors.
 #include "frontend/parse/statements.h"
+
+#include <algorithm>
+#include <utility>
+
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/recover.h"
 #include "frontend/source/dialect.h"
@@ -199,6 +203,18 @@ void StatementParser::parseExprStatement() {
   const ExprId target = parsePrimary();
   const Token* op = t_;
   AssignOp assign = AssignOp::Assign;
+  // a++
+  if (!panic_ && (at(Tok::Plus) || at(Tok::Minus)) && peek() == kind() && t_[1].offset == t_->offset + 1) {
+    const std::string_view written = source_.substr(t_->offset, 2);
+    const std::string shown(source_.substr(first->offset, (t_ - 1)->offset + lengthOf(t_ - 1) - first->offset));
+    slip(diag::IncrementOfC, t_,
+         {written, shown.size() > 60 ? textOf(first) : std::string_view(shown), written.substr(1)})
+        .length(2);
+    advance();
+    advance();
+    stmts_.push_back(build_.errorStatement(loc(first)));
+    return endStatement();
+  }
   if (!panic_ && acceptAssign(assign)) return finishAssign(first, target, assign, op);
   if (panic_) {
     stmts_.push_back(build_.errorStatement(loc(first)));
@@ -212,7 +228,8 @@ void StatementParser::parseExprStatement() {
   if (misspelledStart(first)) return;
   const ExprKind written = tree_.kind(target);
   if (dialect_ == Dialect::Codesys && at(Tok::Semicolon) &&
-      (written == ExprKind::Name || written == ExprKind::Member)) {  // an action is called by its bare name
+      (written == ExprKind::Name || written == ExprKind::Member || written == ExprKind::Index ||
+       written == ExprKind::Deref)) {  // an action is called by its bare name
     const Loc start = tree_.loc(target);
     const ExprId call = ended(build_.call(target, Slice<Argument>{}, start, endOf(t_ - 1), kBareCall));
     stmts_.push_back(build_.callStatement(call));
@@ -287,9 +304,21 @@ bool StatementParser::acceptAssign(AssignOp& op) {
 
 // The value after the operator.
 void StatementParser::finishAssign(Token* first, ExprId target, AssignOp assign, const Token* op) {
+  if (assign == AssignOp::Assign && atListOfValues()) {
+    slip(diag::ListInBody, t_);
+    stmts_.push_back(build_.errorStatement(loc(first)));
+    const bool outer = std::exchange(declares_, true);
+    parseInit();
+    declares_ = outer;
+    return endStatement();
+  }
   if (assign == AssignOp::Assign) acceptChainOverLines();
   Token* const value_start = t_;
   const ExprId value = parseExpr();
+  if (atRowOperator() && !panic_) {
+    parseRow(target, assign, value, value_start, op);
+    return endStatement();
+  }
   if (at(Tok::Assign) && !panic_) {
     parseChain(target, value, value_start, op);
   } else {
@@ -316,6 +345,73 @@ void StatementParser::reportNoEffect(const Token* first) {
   else
     fail(diag::StrayToken, t_, {describe(t_)});
   syncStatement();
+}
+
+// Whether `[1, 2]` or `(x := 1, y := 2)` is written as a value; `(x := 1)` is an assignment or comparison.
+bool StatementParser::atListOfValues() const {
+  if (at(Tok::LeftBracket)) return true;
+  if (!at(Tok::LeftParen) || !isName(peek()) || peek(2) != Tok::Assign) return false;
+  uint32_t depth = 0;
+  for (const Token* t = t_; t->kind != Tok::Semicolon && t->kind != Tok::End && t - t_ < 1000; ++t) {
+    if (t->kind == Tok::LeftParen || t->kind == Tok::LeftBracket) ++depth;
+    if ((t->kind == Tok::RightParen || t->kind == Tok::RightBracket) && --depth == 0) break;
+    if (depth == 1 && t->kind == Tok::Comma) return true;
+  }
+  return false;
+}
+
+// S= or R= after a value: `a S= b R= c`.
+bool StatementParser::atRowOperator() const {
+  return dialect_ == Dialect::Codesys && (at(Tok::SetModifier) || at(Tok::ResetModifier)) && peek() == Tok::Equal &&
+         t_[1].offset == t_->offset + lengthOf(t_) && !atLineStart();
+}
+
+// A row of assignments with S= and R=, from the right: each takes the operand at the end of the row. CODESYS and
+// TwinCAT, "Assignment operator 'S='".
+void StatementParser::parseRow(ExprId target, AssignOp assign, ExprId value, Token* value_start, const Token* op) {
+  struct Link {
+    ExprId target;
+    AssignOp assign;
+    Loc op;
+  };
+  std::vector<Link> links{{target, assign, loc(op)}};
+  while (!panic_ && (at(Tok::Assign) || atRowOperator())) {
+    Link link{value, AssignOp::Assign, here()};
+    acceptAssign(link.assign);
+    links.push_back(link);
+    value_start = t_;
+    value = parseExpr();
+  }
+  const bool only_modifiers = std::all_of(links.begin(), links.end(), [](const Link& link) {
+    return link.assign == AssignOp::Set || link.assign == AssignOp::Reset;
+  });
+  if (only_modifiers) {  // IF operand THEN b := FALSE; a := TRUE; END_IF, which evaluates the operand once
+    std::vector<StmtId> body;
+    for (size_t i = links.size(); i-- > 0;) {
+      const ExprId stored = build_.boolean(links[i].assign == AssignOp::Set, links[i].op);
+      tree_.expr(stored).end = links[i].op;
+      body.push_back(build_.assign(AssignOp::Assign, links[i].target, stored, links[i].op));
+      tree_.stmt(body.back()).end = endOfPrevious();
+    }
+    stmts_.push_back(build_.ifStatement(value, body, loc(op)));
+    return;
+  }
+  // Read again for each assignment: a call in it would run as often.
+  for (const Token* t = value_start; t < t_; ++t)
+    if (t->kind == Tok::LeftParen && (isName(t[-1].kind) || isTypeWord(t[-1].kind))) {
+      slip(diag::ChainedCall, t - 1);
+      break;
+    }
+  const bool panicked = panic_;
+  Token* const end = t_;
+  for (size_t i = links.size(); i-- > 0;) {
+    stmts_.push_back(build_.assign(links[i].assign, links[i].target, value, links[i].op));
+    if (i == 0) break;
+    t_ = value_start;
+    value = parseExpr();
+  }
+  t_ = end;
+  panic_ = panicked;
 }
 
 // a := b := c assigns c to b, then b to a. Targets are parsed again from their tokens, since each use needs separate

@@ -53,6 +53,9 @@ class StatementParser : public DeclarationParser {
   bool acceptAssign(AssignOp& op);
   void finishAssign(Token* first, ExprId target, AssignOp assign, const Token* op);
   void reportNoEffect(const Token* first);
+  bool atRowOperator() const;
+  void parseRow(ExprId target, AssignOp assign, ExprId value, Token* value_start, const Token* op);
+  bool atListOfValues() const;
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);
   bool misspelledStart(const Token* first);
   // ---- blocks.cpp

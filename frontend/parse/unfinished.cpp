@@ -123,7 +123,11 @@ Cursor::Begins Cursor::begins(const Token* t) const {
   if (in_il_) return isName(t->kind) && beginsIl(t->kind, textOf(t), t[1]) ? Begins::New : Begins::Nothing;
   if (!isName(t->kind) && (declares_ || isOperator(t->kind))) return Begins::Nothing;
   const Ends ends = endOfConstruct(t, declares_);
-  if (ends == Ends::WithColon) return Begins::New;
+  if (ends == Ends::WithColon) {
+    // The labels of a CASE may take several lines.
+    const bool among_labels = !declares_ && (t[-1].kind == Tok::Comma || t[-1].kind == Tok::DotDot) && !inBrackets(t);
+    return among_labels ? Begins::Nothing : Begins::New;
+  }
   if (!isName(t->kind) || ends == Ends::InHeader || ends == Ends::Unknown) return Begins::Nothing;
   const Token* const next = pastPath(t);
   const bool assigns = isAssignSign(next->kind) || isLetterAssign(next);
@@ -182,6 +186,11 @@ Report Cursor::reportMissing(Diag diag, const Token* t, std::initializer_list<st
       {diag::WrongKeyword, diag::MissingToken}};
   const Token* before = t;
   unfinished = false;
+  if (diag == diag::MissingOperator && t > tokens_.data() && t[-1].kind == Tok::Caret && !atLineStart()) {  // a ^ b
+    if (!mayReport(t)) return Report(nullptr);
+    last_error_ = t;
+    return diagnostics_.report(diag::ForeignOperator, loc(t - 1), {"^", "XOR"}).length(1);
+  }
   for (const Row& row : kRows) {
     if (row.here != diag || t == tokens_.data() || t[-1].kind == Tok::Semicolon) continue;
     const Begins begun = begins(t);

@@ -116,7 +116,7 @@ struct ErrorExpr {
   ExprHeader h;
 };
 
-enum LiteralBits : uint8_t { kLiteralLong = 1, kLiteralNegative = 2, kLiteralBased = 4 };
+enum LiteralBits : uint8_t { kLiteralLong = 1, kLiteralNegative = 2, kLiteralBased = 4, kLiteralOverflows = 8 };
 struct LiteralExpr {
   ExprHeader h;        // op: LiteralKind, bits: LiteralBits
   NameId prefix;       // INT in INT#5; none for untyped and for T#, D#, …

@@ -671,6 +671,13 @@ void readProperty(Context& context, ExprId& expr, ExprId value) {
   context.replace(expr, value);
 }
 
+// Of a block or program, which was most likely meant to be called.
+bool isInstance(const Context& context, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  return info.kind == TypeKind::Record && info.record_kind != types::RecordKind::Struct &&
+         info.record_kind != types::RecordKind::Union;
+}
+
 // `name;` calls an action, a program or a method without parameters, or reads a property (codesys). Anything else does
 // nothing.
 // False: not a call.
@@ -697,7 +704,17 @@ bool isBareCall(Context& context, ExprId& expr) {
   const std::string_view source = context.symbols.sources.sourceText(context.symbols.sources.fileOf(begin));
   const uint32_t from = begin.offset - context.symbols.sources.begin(context.symbols.sources.fileOf(begin)).offset;
   const std::string shown(source.substr(from, node.end.offset - begin.offset));
-  context.report(diag::NoEffect, begin, {shown});
+  if (found.entityKind() == EntityKind::Var && !context.tree().expr(node.callee).type)
+    check(context, callee, {}, Access::Read);
+  const TypeId type = context.tree().expr(node.callee).type;
+  const bool is_value = found.entityKind() == EntityKind::Var || found.entityKind() == EntityKind::None;
+  if (!type || type == types::kError || !is_value || isInstance(context, type)) {
+    if (type != types::kError) context.report(diag::NoEffect, begin, {shown});
+    return false;
+  }
+  // CODESYS, "Compiler error C0139": a warning for a variable.
+  context.report(diag::NoEffectWarning, begin, {shown});
+  context.replace(expr, makeInteger(context, types::kInt, 0, begin));
   return false;
 }
 

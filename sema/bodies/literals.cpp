@@ -335,6 +335,11 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
 TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
                  int64_t unit) {
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
+  // IEC 61131-3 ed. 2, 2.2.3.1: only the most significant unit may overflow. CODESYS, "TIME Constants".
+  //   passes  T#90m        fails  T#1h90m        E0246, in codesys W0258
+  if ((node.h.bits & kLiteralOverflows) != 0)
+    context.report(context.iec() ? diag::DurationOverflow : diag::DurationOverflowWarning, node.h.loc,
+                   {context.symbols.sources.tokenAt(node.h.loc)});
   // A duration is 64 bits of nanoseconds; the signed LTIME has one bit less.
   const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
   const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
@@ -357,6 +362,13 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                     types::toString(context.types(), context.names(), low),
                     types::toString(context.types(), context.names(), high)});
     return node.h.type = types::kError;
+  }
+  if (static_cast<int64_t>(node.value()) % unit != 0) {
+    const types::Value stored{types::idOf(shorter), static_cast<uint64_t>(count)};
+    context.report(diag::LiteralFiner, node.h.loc,
+                   {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(shorter)),
+                    types::toString(context.types(), context.names(), stored),
+                    unit == 1'000'000 ? "milliseconds" : "seconds", context.types().toString(types::idOf(longer))});
   }
   return node.h.type = types::idOf(shorter);
 }

@@ -290,6 +290,19 @@ static bool isMember(const Context& context, Entity entity, TypeId wanted) {
   return pou.owner && pou.result_var == VarId{entity.index} && context.types().resolve(pou.result) != wanted;
 }
 
+// Forbids the bare name of a variable whose list is {attribute 'qualified_only'}. CODESYS, "Attribute qualified_only".
+//   passes  n := GVL.limit;      fails  n := limit;      E0255
+static bool reportQualifiedGlobal(Context& context, NameId name, Loc loc) {
+  const NameId key = keyOf(context, name);
+  for (size_t i = 0; i < context.scopes.lists.size() && i < context.symbols.global_lists.size(); ++i) {
+    const GlobalList& list = context.symbols.global_lists[i];
+    if (!list.qualified_only || !list.name || !context.scopes.lists[i].names.find(key)) continue;
+    context.report(diag::QualifiedGlobal, loc, {string(context, name), string(context, list.name)});
+    return true;
+  }
+  return false;
+}
+
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
@@ -313,7 +326,7 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
     }
     return entity;
   }
-  if (isFirstReport(context, name))
+  if (isFirstReport(context, name) && !reportQualifiedGlobal(context, name, loc))
     context.report(diag::UnknownName, loc, {string(context, name)}).didYouMean(nearestName(context, name));
   return Entity::of(EntityKind::Error, 0);
 }

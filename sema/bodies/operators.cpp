@@ -200,10 +200,36 @@ bool areOtherEnums(const Context& context, Operands accepted, TypeId a, TypeId b
 
 }  // namespace
 
+// A number in the process image, as in `x * %IW62`: a direct address has no declaration that could give it a numeric
+// type, so in arithmetic its bits are those of an integer, signed as the other operands. IEC 61131-3 ed. 2, 2.4.1.2;
+// syntax manual 001, 5.3.2.
+static void typeAddresses(Context& context, std::span<ExprId> operands) {
+  bool is_unsigned = false;
+  for (const ExprId operand : operands) {
+    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    is_unsigned |= TypeTable::isInteger(kind) && !context.types().isSigned(kind);
+  }
+  for (ExprId& operand : operands) {
+    if (context.tree().kind(operand) != ExprKind::Address) continue;
+    struct Row {
+      TypeKind bits, if_signed, if_unsigned;
+    };
+    static constexpr Row kRows[] = {{TypeKind::Byte, TypeKind::SInt, TypeKind::USInt},
+                                    {TypeKind::Word, TypeKind::Int, TypeKind::UInt},
+                                    {TypeKind::DWord, TypeKind::DInt, TypeKind::UDInt},
+                                    {TypeKind::LWord, TypeKind::LInt, TypeKind::ULInt}};
+    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    for (const Row& row : kRows)
+      if (row.bits == kind) wrapConvert(context, operand, types::idOf(is_unsigned ? row.if_unsigned : row.if_signed));
+  }
+}
+
 TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
              Loc loc) {
   Tree& tree = context.tree();
   if (keepsOwnType(accepted)) typeCharacters(context, operands);
+  if (context.iec() && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
+    typeAddresses(context, operands);
   TypeId common;
   bool untyped = false, real = false, mixed_enums = false;
   for (const ExprId operand : operands) {

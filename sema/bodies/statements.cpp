@@ -186,11 +186,12 @@ void checkCallStatement(Context& context, StmtId id) {
     check(context, node.call, {}, Access::Read);
     return;
   }
+  const bool bare = (context.tree().expr(node.call).bits & kBareCall) != 0;  // reported
   checkCall(context, node.call, {}, true);
   if (context.tree().kind(node.call) == ExprKind::Call) return;
   const TypeId type = context.tree().expr(node.call).type;
   if (isUntyped(context, type)) finalizeUntyped(context, node.call);
-  if (type != types::kError) context.report(diag::ResultUnused, node.h.loc);  // a conversion: nothing happens
+  if (type != types::kError && !bare) context.report(diag::ResultUnused, node.h.loc);  // a conversion: nothing happens
 }
 
 bool checkIf(Context& context, const IfStmt& node) {

@@ -220,16 +220,20 @@ void resolveTriggers(Context& context, std::span<const Trigger> triggers) {
 }
 
 struct DeclaredTask {
-  NameId key, resource_key;
+  NameId key, configuration_key, resource_key;
   uint32_t number;
 };
+
+NameId keyIfNamed(const Context& context, NameId name) { return name ? keyOf(context, name) : NameId{}; }
 
 // The number of a task that a resource sees, or 0 with a report.
 uint32_t findTask(Context& context, const Part& part, const Ident& wanted, std::span<const DeclaredTask> tasks) {
   const NameId key = keyOf(context, wanted.name);
   uint32_t found = 0;
   std::vector<std::string_view> names;
+  const NameId configuration = keyIfNamed(context, part.configuration);
   for (const DeclaredTask& task : tasks) {
+    if (task.configuration_key != configuration) continue;
     if (task.resource_key && !(part.resource && keyOf(context, part.resource) == task.resource_key)) continue;
     if (task.key == key) found = task.number;
     names.push_back(context.names().string(context.project.tasks[task.number - 1].name));
@@ -337,7 +341,9 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     checkConnections(context, instance.connections, instance.program);
   }
   for (const ProgramInstance& other : project.instances) {
-    if (!context.names().same(other.name, instance.name) || !(other.resource == instance.resource)) continue;
+    if (!context.names().same(other.name, instance.name) || !(other.resource == instance.resource) ||
+        !(other.configuration == instance.configuration))
+      continue;
     reportTwice(context, instance.name, instance.loc, other.loc);
     return;
   }
@@ -450,9 +456,11 @@ void resolveConfigurations(Context& context) {
     if (tree.kind(member) == DeclKind::Section) checkExternals(context, part, tree.as<SectionDecl>(member));
     if (tree.kind(member) != DeclKind::Task) return;
     const TaskDecl& decl = tree.as<TaskDecl>(member);
-    const NameId resource_key = part.resource ? keyOf(context, part.resource) : NameId{};
+    const NameId configuration = keyIfNamed(context, part.configuration);
+    const NameId resource_key = keyIfNamed(context, part.resource);
     for (const DeclaredTask& other : tasks) {
-      if (other.key == keyOf(context, decl.name) && other.resource_key == resource_key) {
+      if (other.key == keyOf(context, decl.name) && other.configuration_key == configuration &&
+          other.resource_key == resource_key) {
         reportTwice(context, decl.name, decl.h.loc, project.tasks[other.number - 1].loc);
         return;
       }
@@ -468,7 +476,8 @@ void resolveConfigurations(Context& context) {
     reader.read(decl);
     if (reader.trigger) triggers.push_back({static_cast<uint32_t>(project.tasks.size()), reader.trigger, part});
     project.tasks.push_back(task);
-    tasks.push_back({keyOf(context, decl.name), resource_key, static_cast<uint32_t>(project.tasks.size())});
+    tasks.push_back(
+        {keyOf(context, decl.name), configuration, resource_key, static_cast<uint32_t>(project.tasks.size())});
   });
   if (!configured) {
     if (project.tasks.empty()) addDefaultTask(context);

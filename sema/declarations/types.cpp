@@ -28,6 +28,11 @@ constexpr uint8_t kBusy = 1;
 
 std::string toString(int64_t number) { return std::to_string(number); }
 
+// TwinCAT reaches the types of its type system, which libraries and the system declare, by the namespace Global too.
+bool isGlobalNamespace(Context& context, NameId name) {
+  return !context.iec() && sameIdentifier(context.names().string(name), "Global") && !findNamespace(context, name);
+}
+
 // Forbids an undeclared type name, and a name that is not a type.
 //   passes  m : Motor;       fails  m : Moter;         E0402, did you mean `Motor`?
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
@@ -137,6 +142,8 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
       return elementary;
     }
     found = findType(context, first.name, first.loc);
+  } else if (length == 2 && isGlobalNamespace(context, first.name)) {
+    found = findType(context, last.name, last.loc);
   } else {
     found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }

@@ -153,6 +153,10 @@ class TwinCatReader {
     for (const xml::Element& call : document_.children(task)) {
       const xml::Element* called = call.name == "PouCall" ? document_.child(call, "Name") : nullptr;
       if (called == nullptr) continue;
+      if (const std::string path = document_.text(*called, sources_); path.find('.') != std::string::npos) {
+        diagnostics_.report(diag::TaskCallsLibrary, called->loc, {path});
+        continue;
+      }
       program_.word("PROGRAM ");
       program_.add(document_, *called);
       program_.word(" WITH ");
