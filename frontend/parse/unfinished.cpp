@@ -125,7 +125,8 @@ Cursor::Begins Cursor::begins(const Token* t) const {
   const Ends ends = endOfConstruct(t, declares_);
   if (ends == Ends::WithColon) {
     // The labels of a CASE may take several lines.
-    const bool among_labels = !declares_ && (t[-1].kind == Tok::Comma || t[-1].kind == Tok::DotDot) && !inBrackets(t);
+    const bool among_labels =
+        !declares_ && (t[-1].kind == Tok::Comma || t[-1].kind == Tok::DotDot) && !inBrackets(t, true);
     return among_labels ? Begins::Nothing : Begins::New;
   }
   if (!isName(t->kind) || ends == Ends::InHeader || ends == Ends::Unknown) return Begins::Nothing;

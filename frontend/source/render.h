@@ -14,10 +14,10 @@ enum class DiagnosticFormat { Text, Json, Sarif };
 struct RenderOptions {
   DiagnosticFormat format = DiagnosticFormat::Text;
   bool color = false;
-  uint32_t max_warnings = 0;  // of one code in Text, which counts the rest; 0: all
   // Returns the page of a code, as `rung explain` shows it, for SARIF's rule help; null or empty: the message template
   // is used.
   std::string_view (*page)(std::string_view code) = nullptr;
+  uint32_t max_warnings = 0;  // of one code in Text, which counts the rest; 0: all
 };
 
 std::string render(const Diagnostics& diagnostics, const Sources& sources, const RenderOptions& options);
