@@ -393,7 +393,7 @@ void StatementParser::parseRow(ExprId target, AssignOp assign, ExprId value, Tok
       body.push_back(build_.assign(AssignOp::Assign, links[i].target, stored, links[i].op));
       tree_.stmt(body.back()).end = endOfPrevious();
     }
-    stmts_.push_back(build_.ifStatement(value, body, loc(op)));
+    stmts_.push_back(build_.ifStatement(value, body, tree_.begin(target)));
     return;
   }
   // Read again for each assignment: a call in it would run as often.

@@ -142,7 +142,7 @@ Cursor::Begins Cursor::begins(const Token* t) const {
   // `motor.` above an indented `IN := TRUE`, not a variable, is one path over two lines.
   if (assigns && t[-1].kind == Tok::Dot)
     return !isVariable(t) && columnOf(t) > columnOf(lineOf(t - 1)) ? Begins::Nothing : Begins::New;
-  if (assigns) return Begins::New;
+  if (assigns) return declares_ ? Begins::Nothing : Begins::New;  // a type over two lines, `T := value`
   if (t[-1].kind == Tok::Dot && next->kind == Tok::LeftParen && isVariable(t) && columnOf(t) <= columnOf(lineOf(t - 1)))
     return Begins::New;
   if ((isName(t[1].kind) || t[1].kind == Tok::Number) && (t[1].flags & kLineStart) == 0) return Begins::New;

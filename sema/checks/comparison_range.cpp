@@ -17,8 +17,14 @@ namespace {
 using types::Op;
 using types::TypeTable;
 
+// Without the conversions to the common type of both sides, which keep the value.
 ExprId withoutConversion(const Context& context, ExprId expr) {
-  while (context.tree().kind(expr) == ExprKind::Convert) expr = context.tree().as<ConvertExpr>(expr).operand;
+  while (context.tree().kind(expr) == ExprKind::Convert) {
+    const ExprId operand = context.tree().as<ConvertExpr>(expr).operand;
+    const TypeId from = context.tree().expr(operand).type;
+    if (!from || !types::isLossless(context.types(), from, context.tree().expr(expr).type)) break;
+    expr = operand;
+  }
   return expr;
 }
 

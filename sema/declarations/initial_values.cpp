@@ -305,7 +305,7 @@ struct Initializer {
       const std::string_view name = context.names().string(given.field.name);
       const VarId member = findMember(context, type, given.field.name);
       if (!member && setProperty(given, type, seen)) {
-        written.value = given.value;
+        if (given.value) written.value = given.value;
         fields.back() = given;
         continue;
       }

@@ -195,7 +195,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME disables"},
     {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},
     {Key::MaxErrors, "--max-errors", "N", kReads, "list at most N errors; 0: all (default: 100)"},
-    {Key::MaxWarnings, "--max-warnings", "N", kReads, "list at most N warnings of one code; 0: all (default: 20)"},
+    {Key::MaxWarnings, "--max-warnings", "N", kReads, "list at most N of one warning; 0: all (default: 20)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics and lists (default: text)"},
     {Key::Diagnostics, "--diagnostics", "FILE", kReads, "write diagnostics to FILE in that format, too"},
     {Key::Color, "--color", "auto|always|never", kReads | bit(Command::Explain),

@@ -53,7 +53,7 @@ TEST(Variables, global_lists_are_named_after_their_file) {
                          {"plain.st", "VAR_GLOBAL RETAIN y : INT; END_VAR"},
                          {"main.st", "PROGRAM p VAR a : INT; END_VAR a := my_list.x + y + plain.y; END_PROGRAM"},
                          {"bad.st", "PROGRAM q VAR b : INT; END_VAR b := x; END_PROGRAM"}});
-  EXPECT_EQ(checked.codes(), "E0401@1");
+  EXPECT_EQ(checked.codes(), "E0255@1");
   ASSERT_EQ(checked.project.global_lists.size(), 3u);
   EXPECT_TRUE(checked.project.global_lists[1].qualified_only);
   EXPECT_TRUE(checked.project.types.info(checked.project.global_lists[2].record).fields[0].retain);
