@@ -1,6 +1,7 @@
 // The symbol file: see symbols.h. A changed meaning of a key, or a key that goes, needs a new kFormat.
 #include "codegen/symbols.h"
 
+#include <algorithm>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -139,7 +140,7 @@ class SymbolWriter {
     if (row.storage == RUNG_IN_AREA) out.text("address", address(row, type));
     flags(out, row.flags);
     if (row.storage == RUNG_IN_BLOCK) {
-      kept(out, "retain", is_.retain, row.index, row.offset, type.size);
+      kept(out, "retain", kept_, row.index, row.offset, type.size);  // what is persistent is retained too
       kept(out, "persistent", is_.persistent, row.index, row.offset, type.size);
     }
     return out.end();
@@ -245,7 +246,24 @@ class SymbolWriter {
     return out.end();
   }
 
+  static std::vector<rung_range> keptRanges(const ir::Description& is) {
+    std::vector<rung_range> all = is.retain, joined;
+    all.insert(all.end(), is.persistent.begin(), is.persistent.end());
+    std::sort(all.begin(), all.end(), [](const rung_range& a, const rung_range& b) {
+      return a.block != b.block ? a.block < b.block : a.offset < b.offset;
+    });
+    for (const rung_range& range : all) {
+      if (!joined.empty() && joined.back().block == range.block &&
+          joined.back().offset + joined.back().size == range.offset)
+        joined.back().size += range.size;
+      else
+        joined.push_back(range);
+    }
+    return joined;
+  }
+
   const ir::Description& is_;
+  const std::vector<rung_range> kept_ = keptRanges(is_);
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ bool isSign(const Piece& piece, const Piece* before) {
 // two names, where no name can be.
 bool isKeyword(const std::vector<text::Token>& tokens, size_t k) {
   const Tok token = tokens[k].kind, next = tokens[k + 1].kind, before = k == 0 ? Tok::End : tokens[k - 1].kind;
+  if (token == Tok::Null) return false;  // a member or an item may have this name
   if (text::isReserved(token) || text::isTypeWord(token)) return true;
   static constexpr text::TokSet kModifiers = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
   static constexpr text::TokSet kBetween = {Tok::Extends, Tok::Implements, Tok::With, Tok::On};

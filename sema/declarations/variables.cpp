@@ -282,6 +282,11 @@ bool isBlock(const Context& context, TypeId type) {
   return context.types().info(context.types().resolve(type)).record_kind == types::RecordKind::FunctionBlock;
 }
 
+bool isForTests(const Context& context, PouId pou) {  // a test runs once
+  const auto& pragmas = context.symbols.pou(pou).pragmas;
+  return pragmas.test || pragmas.test_only;
+}
+
 // Forbids, in iec: an address of a VAR_EXTERNAL, and a complete one in a block or function; an instance of a block as a
 // constant, and in iec2 one in a function, which has no memory for it (elsewhere a warning). IEC 61131-3 ed. 3 table
 // 13, grammar of External_Decl and FB_Decl; ed. 2, 2.5.1 and table 16b; CODESYS, SA0167.
@@ -302,7 +307,7 @@ void checkPlacement(Context& there, const Var& var, const VarDecl& decl) {
     there.report(diag::ConstantBlock, var.loc, {name, block});
   else if (kind == PouKind::Function && there.symbols.dialect == Dialect::Iec2)
     there.report(diag::BlockInFunction, var.loc, {name, block});
-  else if (kind == PouKind::Function)
+  else if (kind == PouKind::Function && !isForTests(there, var.pou))
     there.report(diag::BlockOfCall, var.loc, {name, block});
 }
 
