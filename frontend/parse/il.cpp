@@ -148,8 +148,11 @@ bool IlParser::atIl() const {
     return k == Tok::End || k == Tok::Semicolon || k == Tok::EndTransition || k == Tok::EndStep ||
            (isReserved(k) && !isInfix(k) && k != Tok::Not && k != Tok::Jmp && k != Tok::True && k != Tok::False);
   };
+  // A line of an ST expression may begin with AND, OR, XOR or MOD.
   for (const Token* line = t; line - t < 200 && !ends(line->kind); ++line)
-    if ((line->flags & kLineStart) != 0 && line != t && beginsIl(line->kind, textOf(line), line[1])) return true;
+    if ((line->flags & kLineStart) != 0 && line != t && !isInfix(line->kind) &&
+        beginsIl(line->kind, textOf(line), line[1]))
+      return true;
   if (il_file_ && (isName(t->kind) || isInstruction(t))) {
     while (t->kind != Tok::Semicolon && t->kind != Tok::End && (t[1].flags & kLineStart) == 0) ++t;
     return t->kind != Tok::Semicolon;
@@ -163,7 +166,7 @@ bool IlParser::atIl() const {
     if (t->kind == Tok::LeftParen) ++open;
     if (t->kind == Tok::RightParen && open > 0) --open;
   }
-  return open == 0 && t->kind != Tok::Semicolon && isPlainInstruction(t);
+  return open == 0 && !isInfix(t->kind) && isPlainInstruction(t);
 }
 
 // The instructions up to the end of the body, or of the `(` around a nested list.

@@ -112,11 +112,28 @@ std::string_view Names::store(std::string_view spelling) {
   return {block.data() + start, spelling.size()};
 }
 
+namespace {
+
+// The length of the suffix with which the device tree of CODESYS shows the kind of an object: ` (GVL)`. A number, as in
+// `Plant (2)`, tells copies apart.
+size_t kindSuffix(std::string_view stem) {
+  if (stem.empty() || stem.back() != ')') return 0;
+  const size_t open = stem.rfind('(');
+  if (open == std::string_view::npos || open == 0 || open + 2 == stem.size()) return 0;
+  for (const char c : stem.substr(open + 1, stem.size() - open - 2))
+    if (foldedCharacter(c) < 'a' || foldedCharacter(c) > 'z') return 0;
+  const size_t end = stem.find_last_not_of(' ', open - 1);
+  return end == std::string_view::npos ? 0 : stem.size() - end - 1;
+}
+
+}  // namespace
+
 std::string listNameOf(std::string_view path) {
   const size_t slash = path.find_last_of("/\\");
   if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
   const size_t dot = path.find_last_of('.');
   if (dot != std::string_view::npos && dot > 0) path = path.substr(0, dot);
+  path.remove_suffix(kindSuffix(path));
   std::string name;
   for (const char c : path) {
     const bool ok = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');

@@ -259,6 +259,12 @@ void writeProgram(Import& import, const xml::Element& instance, const xml::Eleme
   for (const std::string_view attribute : {"type", "typeName"})
     if (hasName(import, instance, attribute)) type = attribute;
   if (!checkName(import, instance, type)) return;
+  if (type == "name" && import.document.value(instance, type).find('.') != std::string::npos) {
+    const xml::Attribute& called = *import.document.attribute(instance, type);
+    import.diagnostics.report(diag::TaskCallsLibrary, called.loc, {import.document.decoded(called)})
+        .length(static_cast<uint32_t>(called.raw.size()));
+    return;
+  }
   import.out.put(instance.loc, "PROGRAM ");
   writeIdentifier(import, instance, identifierOf(import.document.value(instance, type)));
   if (task != nullptr) {

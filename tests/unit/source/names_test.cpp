@@ -26,6 +26,18 @@ TEST(Names, OnlyLettersFold) {
   EXPECT_FALSE(names.same(names.intern("[]"), names.intern("{}")));
 }
 
+TEST(Names, ListIsNamedAfterItsFile) {
+  EXPECT_EQ(listNameOf("plant/Limits.st"), "Limits");
+  EXPECT_EQ(listNameOf("plant\\Limits (GVL).st"), "Limits");
+  EXPECT_EQ(listNameOf("Limits(gvl).st"), "Limits");
+  EXPECT_EQ(listNameOf("Limits (2).st"), "Limits__2_");  // a copy
+  EXPECT_EQ(listNameOf("(GVL).st"), "_GVL_");
+  EXPECT_EQ(listNameOf(" (GVL).st"), "__GVL_");
+  EXPECT_EQ(listNameOf("Limits ().st"), "Limits___");
+  EXPECT_EQ(listNameOf("Limits).st"), "Limits_");
+  EXPECT_EQ(listNameOf("3 (GVL).st"), "globals_3");
+}
+
 TEST(Names, EmptyIsNoName) {
   Names names;
   EXPECT_FALSE(names.intern(""));

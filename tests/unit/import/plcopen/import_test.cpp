@@ -119,6 +119,22 @@ TEST(Plcopen, LibrariesOfTheProject) {
   EXPECT_EQ(reading.libraries[1].name, "Util");
 }
 
+// The task of every visualisation of CODESYS calls VisuElems.Visu_Prg. A block in a task is `program.block`.
+TEST(Plcopen, TaskCallsTheProgramOfALibrary) {
+  const ImportedFile file(
+      "p.xml",
+      "<project xmlns='http://www.plcopen.org/xml/tc6_0200'><instances><configurations><configuration name='C'>"
+      "<resource name='R'><task name='Visu' interval='PT0.2S' priority='1'><pouInstance name='VisuElems.Visu_Prg' "
+      "typeName=''/><pouInstance name='Main' typeName=''/><pouInstance name='Main.slow' typeName=''/></task></resource>"
+      "</configuration></configurations></instances></project>");
+  EXPECT_EQ(file.errors(),
+            "1:192 `VisuElems.Visu_Prg` is the program of a library that is not part of Rung; the task does not call "
+            "it\n");
+  EXPECT_EQ(file.text(),
+            "CONFIGURATION C\nRESOURCE R ON PLC\nTASK Visu(INTERVAL := T#200000000ns, PRIORITY := 1);\n"
+            "PROGRAM Main WITH Visu : Main(slow WITH Visu);\nEND_RESOURCE\nEND_CONFIGURATION\n");
+}
+
 TEST(Plcopen, ExtensionsAreMentionedOncePerKind) {
   EXPECT_EQ(
       ImportedFile(
