@@ -2,6 +2,7 @@
 // constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
 // place; surplus array elements are removed and repetition counts are literals.
 #include <algorithm>
+#include <array>
 
 #include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
@@ -150,11 +151,22 @@ struct Initializer {
     init = {};
   }
 
+  // The meaning of `N`, `List.N` or `Space.List.N`.
+  Entity globalNamed(ExprId path) const {
+    std::array<NameId, 6> members;
+    size_t count = 0;
+    for (; tree().kind(path) == ExprKind::Member && count < members.size(); path = tree().as<MemberExpr>(path).base)
+      members[count++] = tree().as<MemberExpr>(path).member;
+    if (tree().kind(path) != ExprKind::Name) return {};
+    Entity found = lookUp(context, tree().as<NameExpr>(path).name);
+    while (count > 0) found = lookUpIn(context, found, members[--count]);
+    return found;
+  }
+
   // N(1, 2) with a constant N is a repetition like 3(1, 2); other calls stay calls.
   void findRepetition(ExprId& id) const {
     const CallExpr& call = tree().as<CallExpr>(id);
-    if (tree().kind(call.callee) != ExprKind::Name) return;
-    const Entity found = lookUp(context, tree().as<NameExpr>(call.callee).name);
+    const Entity found = globalNamed(call.callee);
     if (found.entityKind() != EntityKind::Var || !context.symbols.vars[found.index].constant) return;
     if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return;
     std::vector<ExprId> values;
