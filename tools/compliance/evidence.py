@@ -4,7 +4,8 @@ and a value that depends on it must be asserted, printed by a session, or in a l
   tools/compliance/evidence.py [FILE...]      prints each row without evidence; fails when there is one
   tools/compliance/evidence.py --undecided    prints the rows that no pattern decides, with the reasons
 evidence.tsv, beside this script, has a pattern for each row or family of rows of the standard's tables, or the reason why none
-decides. A row of a manual without a line there is a name, and must occur as one. flow.py says what an assertion depends on.
+decides; tests/conformance/rules.tsv has one for each rule of a manual that a test covers. A row of a manual without a line is a
+name, and must occur as one. flow.py says what an assertion depends on.
 Called by the checks before a commit and by the runner of the tests, at the end of a full run."""
 import fnmatch
 import pathlib
@@ -53,9 +54,17 @@ class Table:
                     self.families.append((re.sub(r"([\[?*])", r"[\1]", row).replace("~", "*"), entry))
                 else:
                     self.exact[row] = entry
+        self.rules = {}
+        for line in (ROOT / "tests/conformance/rules.tsv").read_text().splitlines()[1:]:
+            rule, _, pattern, text = line.split("\t")
+            self.rules["rule:" + rule] = pattern, text
 
     def entry(self, row):
         """The pattern of a row, with its macros replaced, or the reason why there is none; two None when it has no line."""
+        if row.startswith("rule:"):
+            self.used.add(row)
+            pattern = self.rules.get(row, (None, None))[0]
+            return (self.replaced(pattern, row), "") if pattern else (None, None)
         found = self.exact.get(row) or next((entry for family, entry in reversed(self.families)
                                              if fnmatch.fnmatchcase(row, family)), None)
         if found is None and row in self.features:
@@ -99,7 +108,7 @@ def main():
             pattern, reason = table.entry(row)
             name = f"`{row}`" + (f", {table.features[row]}," if row in table.features else "")
             if pattern is None:
-                problems.append(f"{name} has no line in {TABLE.name}")
+                problems.append(f"{name} has no pattern in {'rules.tsv' if row.startswith('rule:') else TABLE.name}")
             elif reason:
                 undecided.setdefault(reason, set()).add(row)
             else:
@@ -109,6 +118,8 @@ def main():
     if not files:
         lines = {**table.exact, **{entry[3]: entry for _, entry in table.families}}
         problems += [f"{TABLE.name}:{entry[2]}: no test names `{row}`" for row, entry in lines.items() if row not in table.used]
+        problems += [f"rules.tsv: no test covers `{row}`; remove its pattern" for row, (pattern, _) in table.rules.items()
+                     if pattern and row not in table.used]
     if "--undecided" in sys.argv:
         print("\n".join(f"{' '.join(sorted(rows))}: {reason}" for reason, rows in undecided.items()))
     print("\n".join(problems), end="\n" if problems else "")
