@@ -37,6 +37,7 @@ udint ulint real lreal byte word dword lword string wstring time date tod dt lti
 OF_TASKS = {"task", "program", "with", "interval", "single", "priority", "kind", "trigger", "watchdog", "sensitivity"}
 IMPLICIT = re.compile(r"fb_(?:init|exit|reinit)|check(?:bounds|div|l?range|pointer)\w*")  # called without a call
 LITERAL = re.compile(r"(?:L?T|L?D|L?TOD|L?DT|\d+)#.*", re.I)
+ASSERTIONS = {"ASSERT", "ASSERT_EQ", "ASSERT_NEAR"}
 PRAGMA = "{"          # what a pragma writes: it belongs to what follows
 CONTROL = "control"   # the control of a machine, between what a ladder of NCT tells it and what it answers
 
@@ -131,7 +132,7 @@ def statement(tokens, end, declares, outer):
     start = tokens[0][2]
     words = parts(tokens)
     everything = {name for _, name in words}
-    if tokens[0][1].lower().startswith("assert"):
+    if tokens[0][1].upper() in ASSERTIONS and len(tokens) > 1 and tokens[1][1] == "(":
         return Unit(start, end, everything | outer, set(), asserts=True)
     refers = any(text.upper() in ("REF", "ADR", "REFERENCE") for _, text, _ in tokens)
     assigns = at_top(tokens, (":=", "?="))
