@@ -320,6 +320,7 @@ class Program:
 
     def __init__(self, file):
         self.texts, self.units, self.block_names = [], [], set()
+        self.ladders = []  # which texts are ladders of NCT
         text = file.read_text(errors="replace").replace("\r", "")
         self.rows = {kind: [] for kind in ("features", "covers", "with")}
         for kind, words in HEAD.findall(text):
@@ -350,6 +351,7 @@ class Program:
         if suffix == ".xml":
             self.addXml()
         elif suffix == ".nct":
+            self.ladders.append(len(self.texts) - 1)
             self.addRungs()
         else:
             self.addStatements(0, len(text))
@@ -394,7 +396,7 @@ class Program:
     def addRungs(self):
         """A ladder of NCT: each rung reads and writes all its names; what it tells the control changes what that answers."""
         code, units = self.texts[-1][1], self.units[-1]
-        units.append(Unit(0, 0, {CONTROL}, {"nct_simulated_code", "nct_simulated_text", "nct_simulate"}))
+        units.append(Unit(-1, -1, {CONTROL}, {"nct_simulated_code", "nct_simulated_text", "nct_simulate"}))
         everything = names(code)
         for part in re.finditer(r"^\s*(?:RUNG|SBN|JME)\b.*?(?=^\s*(?:RUNG|SBN|JME|END_MODULE)\b|\Z)", code, re.M | re.S):
             labels = {f"label {number}" for number in re.findall(r"\b(?:JMP|JME|SBS|SBN)\s+(\d+)", part.group())}
@@ -407,10 +409,10 @@ class Program:
         for line in re.finditer(r"[^\n]+", symbols.group(1) if symbols else ""):
             found = names(line.group())
             if re.search(r"\b[ACDS]?P_\w", line.group()):
-                units.append(Unit(0, 0, found, {CONTROL}))
+                units.append(Unit(-1, -1, found, {CONTROL}))
                 found.add(CONTROL)
             elif re.search(r"\b[ACDS]?N_\w", line.group()):
-                units.append(Unit(0, 0, {CONTROL}, found))
+                units.append(Unit(-1, -1, {CONTROL}, found))
             start = symbols.start(1) + line.start()
             units.append(Unit(start, start + len(line.group()), found, found))
 
@@ -458,10 +460,13 @@ class Program:
                     known |= unit.writes  # an instance whose block has an effect elsewhere
         return known
 
-    def lacks(self, pattern, with_comments):
-        """What evidence of a pattern the program lacks; None when there is some. Its groups are the places that count."""
+    def lacks(self, pattern, with_comments, of_ladder=False):
+        """What evidence of a pattern the program lacks; None when there is some. Its groups are the places that count. A word of
+        the language of ladders is sought in those that the test has."""
         occurs = False
-        for (text, code), units in zip(self.texts, self.units):
+        for number, ((text, code), units) in enumerate(zip(self.texts, self.units)):
+            if of_ladder and self.ladders and number not in self.ladders:
+                continue
             for found in pattern.finditer(text if with_comments else code):
                 occurs = True
                 start, end = next((found.span(group) for group in pattern.groupindex if found.group(group) is not None), found.span())
