@@ -2,6 +2,7 @@
 // test shows; projects in **.xml use comments such as <!-- features: 54/2a -->
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
+//   // covers: rule:tm-tp:NAME     rules of the manuals, rules.tsv
 //   // with: doubles.nct           files of its folder that belong to the project
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each as a separate project, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a

@@ -6,6 +6,7 @@
   docs/compliance-motion.md    PLCopen's form for motion part 1 (plcopen_motion.tsv, comments in motion_comments.tsv), compared
                                with the blocks as `rung list` prints them
   docs/compliance-manuals.md   the names of the manuals, by chapter (chapters.tsv)
+  docs/compliance-rules.md     rules of the manuals (rules.tsv), in our words
 A row is supported when tests name it and all of them passed, and not supported when none does.
   tools/compliance/compliance.py [--check] [build/test-results.tsv]   --check: writes nothing, fails when a page is stale
 Takes the results of a full run of the test runner, which calls this with --check at its end. BUILD names the build folder."""
@@ -26,6 +27,7 @@ CATALOGUES = {  # in the order of the page: those of manuals have chapters
     "motion": "Motion: TM/TP manual, chapter 7, and AX manual, chapters 7 and 8", "ax-series": "AX manual",
     "iec-syntax": "Syntax manual", "nct-language": "NCT manual, the language", "nct-nc-interface": "NCT manual, the interface",
     "codesys": "CODESYS", "twincat": "TwinCAT", "beremiz": "Beremiz"}
+MANUALS = {"tm-tp": "TM/TP manual", "iec-syntax": "Syntax manual", "nct": "NCT manual", "ax": "AX manual"}  # those with rules
 # Of PLCopen's appendix A 2: the data types that the specification uses; then the derived ones, with their structure here.
 BASIC = ("BOOL", "INT", "WORD", "DWORD", "REAL", "UINT")
 
@@ -53,7 +55,7 @@ class Tests:
                 if status != "passed":
                     self.failed.add(word)
             self.names += covers.split()
-        self.names = sorted(set(self.names), key=str.encode)
+        self.names = sorted({name for name in self.names if not name.startswith("rule:")}, key=str.encode)
 
     def status(self, words):
         if not words or any(word not in self.files for word in words):
@@ -248,6 +250,13 @@ def manuals(tests):
     return [section for section in sections.values() if section.rows]
 
 
+def rules(tests):
+    sections = {manual: Section(title) for manual, title in MANUALS.items()}
+    for rule, chapter, _, text in table("rules.tsv"):
+        sections[rule.partition(":")[0]].add(chapter, text, tests.status(["rule:" + rule]), tests.links(["rule:" + rule]))
+    return list(sections.values())
+
+
 # ---- the pages
 
 def pages(tests):
@@ -256,7 +265,7 @@ def pages(tests):
     second = edition2(tests)
     fourth = standard(tests, lambda editions: editions == "4")
     kept = standard(tests, lambda editions: editions == "3+4")
-    named = manuals(tests)
+    named, ruled = manuals(tests), rules(tests)
     made["compliance-motion.md"], blocks, all_blocks = motion(tests)
     withdrawn = [f"| {row.replace('/', ', ', 1)} | {escaped(name)} |" for row, editions, name in table("features.tsv")
                  if editions == "3"]
@@ -275,10 +284,16 @@ def pages(tests):
         "The names of the manuals",
         ["What the programs of the manuals use, by catalogue and chapter, as in the `covers:` lines of the tests;",
          "[references.md](references.md#manuals-of-plcs) names the manuals."], named, "chapter", "names")
+    made["compliance-rules.md"] = page(
+        "The rules of the manuals",
+        ["What the manuals say of meaning, order, limits and defaults, in our words: a first catalogue, of the rules that most programs",
+         "meet. A rule is supported when tests that cover it pass, and not supported when none does;",
+         "[references.md](references.md#manuals-of-plcs) names the manuals."], ruled, "chapter", "rules")
     totals = [("[edition 2](compliance-edition2.md)", *counted(second)), ("edition 3, below", *counted(third)),
               ("[edition 4](compliance-edition4.md)", *counted(fourth + kept)),
               ("[PLCopen motion control, part 1: blocks](compliance-motion.md)", blocks, all_blocks),
-              ("[names of the manuals](compliance-manuals.md)", *counted(named))]
+              ("[names of the manuals](compliance-manuals.md)", *counted(named)),
+              ("[rules of the manuals](compliance-rules.md)", *counted(ruled))]
     introduction = [
         "The tables of edition 3 are below: numbers of edition 3, names in our words; tables 23 to 25 are numbered as they run. A",
         "feature is supported when tests prove it and all of them passed, at every level of optimization. Without such a test it",
