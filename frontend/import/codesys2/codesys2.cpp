@@ -70,7 +70,8 @@ class Codesys2Reader {
         scanner.moveTo(next);
       }
     }
-    if (!changed_) return false;
+    if (!changed_) findSpellings(0, source_.size());
+    if (!changed_ && spellings_.empty()) return false;
     keep(source_.size());
     return true;
   }
@@ -89,8 +90,33 @@ class Codesys2Reader {
 
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
   void keep(size_t to) {
+    findSpellings(kept_, to);
+    for (const Spelling& spelling : spellings_) {
+      if (spelling.at > kept_) program_.add(loc(kept_), loc(spelling.at));
+      program_.replace(loc(spelling.at), loc(spelling.at + spelling.length), spelling.text);
+      kept_ = spelling.at + spelling.length;
+    }
     if (to > kept_) program_.add(loc(kept_), loc(to));
     kept_ = to;
+  }
+
+  // What only CODESYS 2.3 writes so: `10.` for 10.0, and the channel %IR3.0, a REAL of 32 bits.
+  void findSpellings(size_t from, size_t to) {
+    spellings_.clear();
+    Scanner scanner(source_.substr(0, to));
+    scanner.moveTo(from);
+    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+      const auto at = [&](size_t i) { return i < to ? source_[i] : ' '; };
+      if (unit.kind == UnitKind::Number) {
+        const bool is_fraction = unit.begin > 0 && source_[unit.begin - 1] == '.';
+        if (!is_fraction && at(unit.end) == '.' && at(unit.end + 1) != '.' && !isNameCharacter(at(unit.end + 1)))
+          spellings_.push_back({unit.end + 1, 0, "0"});
+      } else if (source_[unit.begin] == '%' && std::string_view("IQM").find(upper(at(unit.begin + 1))) < 3 &&
+                 upper(at(unit.begin + 2)) == 'R' && at(unit.begin + 3) >= '0' && at(unit.begin + 3) <= '9') {
+        spellings_.push_back({unit.begin + 2, 1, "D"});
+        scanner.moveTo(unit.begin + 3);
+      }
+    }
   }
   void exclude(size_t begin, size_t end) {
     keep(begin);
@@ -221,6 +247,11 @@ class Codesys2Reader {
   xml::SourceMappedText program_;
   size_t kept_ = 0;  // everything before is copied or excluded
   bool changed_ = false;
+  struct Spelling {
+    size_t at, length;
+    std::string_view text;
+  };
+  std::vector<Spelling> spellings_;  // in what is kept next
   std::vector<TextPart> parts_;
   size_t part_ = 0;  // where the current one begins
 };
