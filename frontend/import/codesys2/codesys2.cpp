@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,11 @@ bool isForeign(std::string_view word) {
 
 class Codesys2Reader {
  public:
-  Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics)
+  // `task_configurations`: those of other files.
+  Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics,
+                 std::vector<std::string>& task_configurations)
       : diagnostics_(diagnostics),
+        task_configurations_(task_configurations),
         source_(sources.sourceText(file)),
         base_(sources.begin(file).offset),
         program_(sources) {}
@@ -183,9 +187,20 @@ class Codesys2Reader {
   }
 
   // The tasks, `RESOURCE {TASK name (…); {Prog();} END_TASK} END_RESOURCE`, become a CONFIGURATION.
+  // An export repeats it in a file of another name when it was made in another language.
   void readTasks(Scanner& scanner, size_t begin) {
     const Loc here = loc(begin);
     exclude(begin, begin);
+    Scanner ahead = scanner;
+    skipObject(ahead, "END_RESOURCE");
+    std::string text(source_.substr(begin, ahead.at() - begin));
+    std::erase_if(text, isBlankCharacter);
+    if (std::find(task_configurations_.begin(), task_configurations_.end(), text) != task_configurations_.end()) {
+      scanner.moveTo(ahead.at());
+      kept_ = ahead.at();
+      return;
+    }
+    task_configurations_.push_back(std::move(text));
     bool has_task = false;
     std::string_view task;
     while (const std::optional<Unit> unit = nextName(scanner)) {
@@ -242,6 +257,7 @@ class Codesys2Reader {
   }
 
   Diagnostics& diagnostics_;
+  std::vector<std::string>& task_configurations_;
   std::string_view source_;
   uint32_t base_;
   xml::SourceMappedText program_;
@@ -263,12 +279,13 @@ bool isCodesys2(std::string_view text) {
 }
 
 FileId readProgram(ReadContext& context, FileId file) {
-  Codesys2Reader reader(context.sources, file, context.diagnostics);
+  Codesys2Reader reader(context.sources, file, context.diagnostics, context.task_configurations);
   return reader.run() ? reader.program().finish(context.sources, file) : file;
 }
 
 std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics) {
-  Codesys2Reader reader(sources, file, diagnostics);
+  std::vector<std::string> task_configurations;
+  Codesys2Reader reader(sources, file, diagnostics, task_configurations);
   reader.run();
   return std::move(reader.parts());
 }
