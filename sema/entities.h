@@ -66,6 +66,7 @@ struct Var {
   VarId copy_of;           // VAR_TEMP of a base, as the body of a derived block has it: the one that was declared
   VarId tells_input;       // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
   VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
+  VarId eno_memory;        // instance whose ENO is read: the hidden BOOL with ENO of its last call
   struct Pragmas {         // of the declaration
     bool required = false, optional = false, lazy = false, extensible = false;  // pins of library declarations
     bool long_time = false;           // {long_time}: a TIME that takes an LTIME too (iec3)
@@ -254,6 +255,7 @@ struct Call {
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
+  VarId eno_memory;               // Instance whose ENO is read: the variable that holds it, beside the instance
   bool eno_is_pin = false;        // … and one of `bindings`: the callee has an output of that name
   Assertion assertion = Assertion::Assert;
 };

@@ -285,6 +285,17 @@ ExprId ExpressionParser::parsePostfix(ExprId base, bool calls) {
   }
 }
 
+// A named instance whose ENO is read keeps it (sema::Var::eno_memory).
+void ExpressionParser::noteEnoOf(ExprId base) {
+  NameId name;
+  if (tree_.kind(base) == ExprKind::Name) name = tree_.as<NameExpr>(base).name;
+  if (tree_.kind(base) == ExprKind::Member) name = tree_.as<MemberExpr>(base).member;
+  if (!name) return;
+  const uint32_t key = names_.key(name).index;
+  if (tree_.eno_read_of.size() <= key) tree_.eno_read_of.resize(key + 1);
+  tree_.eno_read_of[key] = true;
+}
+
 // "." (name | bit | "%X" bit)
 ExprId ExpressionParser::parseDot(ExprId base) {
   const Token* dot = t_;
@@ -296,6 +307,7 @@ ExprId ExpressionParser::parseDot(ExprId base) {
     return build_.error(loc(dot));
   }
   if (isName(kind()) || isNullName(t_) || (isTypeWord(kind()) && same_line)) {
+    if (names_.same(nameOf(t_), eno_)) noteEnoOf(base);
     base = build_.member(base, nameOf(t_), at_member);
   } else if (at(Tok::Number)) {
     NumberValue value;

@@ -49,6 +49,7 @@ class ExpressionParser : public Cursor {
   ExprId parseInParens();
   ExprId missingOperand();
   ExprId parseDot(ExprId base);
+  void noteEnoOf(ExprId base);
   ExprId parsePartAccess(ExprId base, Loc at_member);
   ExprId parseIndex(ExprId base, uint32_t& height);
   ExprId parseCall(ExprId base, uint32_t& height);

@@ -143,6 +143,9 @@ class Tree {
   }
 
   std::vector<FileUnit> files;
+  // Instances whose ENO is read, `t` in `t.ENO`; by name key.
+  bool readsEnoOf(NameId key) const { return key.index < eno_read_of.size() && eno_read_of[key.index]; }
+  std::vector<bool> eno_read_of;
   bool lost_names = false;  // likewise of types and globals: names visible in the whole project
 
  private:

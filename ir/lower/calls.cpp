@@ -20,13 +20,16 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
   const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
   const sema::Call& call = project_.call(node.call);
   Loc loc = node.h.loc;
+  PlaceLowering::Instance instance;
 
   auto plain = [&](Target* to) -> ExprId {
     switch (call.kind) {
       case sema::CallKind::Function: return lowerFunctionCall(call, node, to);
       case sema::CallKind::Method: return lowerMethodCall(call, node, to);
       case sema::CallKind::Operator: return lowerOperator(call, node);
-      case sema::CallKind::Instance: lowerBlockCall(call, node, stable(places().lowerPlace(call.instance))); return {};
+      case sema::CallKind::Instance:
+        lowerBlockCall(call, node, instance.place ? instance.place : stable(places().lowerPlace(call.instance)));
+        return {};
       case sema::CallKind::Program: lowerBlockCall(call, node, places().lowerPlace(node.callee)); return {};
       case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
       case sema::CallKind::Attempt: return values().lowerAttempt(call, loc);
@@ -34,7 +37,8 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
     }
     return {};
   };
-  if (!call.en && !call.eno) return plain(target);
+  if (!call.en && !call.eno && !call.eno_memory) return plain(target);
+  if (call.eno_memory) instance = places().lowerInstance(call.instance, call.eno_memory);
 
   // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and keeps the outputs.
   ExprId en = call.en ? values().lowerValue(call.en) : constantBool(true, loc);
@@ -59,7 +63,7 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
       assign(copy(result), value, loc);
     }
   });
-  if (call.eno) {
+  if (call.eno || call.eno_memory) {
     StmtId guarded = body;
     body = block([&] {
       StmtId failed = block([&] { assign(copy(eno), constantBool(false, loc), loc); });
@@ -67,6 +71,7 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
     });
   }
   append(loc, IfStmt{.condition = copy(eno), .then_block = body});
+  if (call.eno_memory) assign(instance.eno, copy(eno), loc);
   if (call.eno && call.eno_is_pin) {  // the callee has set it, if it ran
     const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
     append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, copy(eno), loc), .then_block = none});
@@ -83,11 +88,11 @@ void CallLowering::storeOutput(rung::ExprId target, ExprId value, bool negated, 
   assign(place, convertValue(value, typeOf(place), loc), loc);
 }
 
-// An unconditional call: without EN and ENO.
+// An unconditional call: without EN and with an ENO that nothing reads.
 bool CallLowering::isPlainCall(rung::ExprId expr) const {
   if (tree_.kind(expr) != rung::ExprKind::Call) return false;
   const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(expr).call);
-  return !call.en && !call.eno;
+  return !call.en && !call.eno && !call.eno_memory;
 }
 
 ExprId CallLowering::lowerMethodCall(const sema::Call& call, const rung::CallExpr& node, Target* target) {

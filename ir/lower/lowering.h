@@ -184,6 +184,11 @@ class PlaceLowering : public BodyPart {
   ExprId lowerPlace(rung::ExprId expr);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
+  // An instance that is called, and the variable beside it that keeps its ENO; what owns both is evaluated once.
+  struct Instance {
+    ExprId place, eno;
+  };
+  Instance lowerInstance(rung::ExprId instance, sema::VarId eno);
   ExprId seenAs(ExprId place, TypeId type, Loc loc);
   ExprId programPlace(uint32_t program, Loc loc);
   ExprId instancePlace(uint32_t program, const sema::InstancePath& place);
@@ -208,6 +213,8 @@ class PlaceLowering : public BodyPart {
   ExprId dereferenced(rung::ExprId expr);
   ExprId directAddress(rung::ExprId expr);
   ExprId memberPlace(rung::ExprId expr);
+  bool isField(const rung::MemberExpr& node, const sema::Var& var) const;
+  ExprId fieldOf(ExprId record, const sema::Var& var, Loc loc);
   ExprId characters(ExprId string, TypeId unit, bool writes);
   // The type of a variable's field: a member of type BIT has a byte.
   TypeId fieldType(const sema::Var& var) const;

@@ -54,21 +54,40 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
   return {};
 }
 
+// Whether a member is a field of what is before it; else that only says where its name is declared.
+bool PlaceLowering::isField(const MemberExpr& node, const sema::Var& var) const {
+  if (var.storage != sema::Storage::Field) return false;
+  const TypeId base = strip(tree_.expr(node.base).type);
+  if (base && types_.kind(base) == TypeKind::Record) return true;
+  if (tree_.kind(node.base) != rung::ExprKind::Name) return false;
+  // `two.limit` of a program's second instance
+  return tree_.as<NameExpr>(node.base).entity.entityKind() == EntityKind::Program;
+}
+
+ExprId PlaceLowering::fieldOf(ExprId record, const sema::Var& var, Loc loc) {
+  if (var.pou) record = asBase(record, var.pou, loc);
+  return field(record, var.field, fieldType(var), loc);
+}
+
 ExprId PlaceLowering::memberPlace(rung::ExprId id) {
   const MemberExpr& node = tree_.as<MemberExpr>(id);
   if (node.entity.entityKind() != EntityKind::Var) return values().lowerValue(id);
-  sema::VarId var_id{node.entity.index};
-  const sema::Var& var = project_.var(var_id);
-  TypeId base_type = strip(tree_.expr(node.base).type);
-  bool of_record = base_type && types_.kind(base_type) == TypeKind::Record && var.storage == sema::Storage::Field;
-  if (!of_record && tree_.kind(node.base) == rung::ExprKind::Name) {  // `two.limit` of a program's second instance
-    const NameExpr& name = tree_.as<NameExpr>(node.base);
-    of_record = name.entity.entityKind() == EntityKind::Program && var.storage == sema::Storage::Field;
+  const sema::VarId var{node.entity.index};
+  if (!isField(node, project_.var(var))) return varPlace(var, node.h.loc);
+  return fieldOf(lowerPlace(node.base), project_.var(var), node.h.loc);
+}
+
+PlaceLowering::Instance PlaceLowering::lowerInstance(rung::ExprId id, sema::VarId memory) {
+  const Loc loc = tree_.loc(id);
+  if (tree_.kind(id) == rung::ExprKind::Member) {
+    const MemberExpr& node = tree_.as<MemberExpr>(id);
+    const sema::Var& var = project_.var({node.entity.index});
+    if (isField(node, var)) {
+      const ExprId owner = stable(lowerPlace(node.base));
+      return {fieldOf(copy(owner), var, loc), fieldOf(owner, project_.var(memory), loc)};
+    }
   }
-  if (!of_record) return varPlace(var_id, node.h.loc);
-  ExprId base = lowerPlace(node.base);
-  if (var.pou) base = asBase(base, var.pou, node.h.loc);
-  return field(base, var.field, fieldType(var), node.h.loc);
+  return {stable(lowerPlace(id)), varPlace(memory, loc)};
 }
 
 TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }

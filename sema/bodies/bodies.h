@@ -120,6 +120,8 @@ PouId pouOf(Context& context, TypeId record);
 Entity resolveName(Context& context, const NameExpr& written, TypeId expected);
 // The entity that an expression names, or none.
 Entity entityOf(const Context& context, ExprId expr);
+// The hidden variable with ENO of the last call of a named instance; none: nothing reads it.
+VarId enoMemoryOf(const Context& context, ExprId instance);
 void markAccess(Context& context, VarId var, Access access);
 
 // ---- literals.cpp

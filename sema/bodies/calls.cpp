@@ -333,6 +333,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   call.pou = pou;
   if (kind == CallKind::Instance) {
     call.instance = node.callee;
+    call.eno_memory = enoMemoryOf(context, node.callee);
     const Pou& block = context.symbols.pou(pou);
     call.is_virtual =
         block.object.dispatched && (block.object.modifiers & kFinal) == 0 && !isExact(context, node.callee);

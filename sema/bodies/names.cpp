@@ -1,5 +1,6 @@
 // Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
@@ -272,6 +273,14 @@ Entity entityOf(const Context& context, ExprId expr) {
   return {};
 }
 
+VarId enoMemoryOf(const Context& context, ExprId instance) {
+  const Entity entity = entityOf(context, instance);
+  if (entity.entityKind() != EntityKind::Var) return {};
+  VarId var{entity.index};
+  if (context.symbols.var(var).external) var = context.symbols.var(var).external;
+  return context.symbols.var(var).eno_memory;
+}
+
 bool isWhole(const Context& context, const MemberExpr& node) {
   return !context.tree().expr(node.base).type && entityOf(context, node.base);
 }
@@ -442,6 +451,33 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   return checkBitOf(context, expr);
 }
 
+// `t.ENO` of a block that declares no such output: ENO of the last call of the instance, kept where the instance has a
+// name. IEC 61131-3 ed. 3, 6.6.1.6: ENO is an output of each block.
+//   passes  t(EN := go, IN := x, PT := T#1s); ok := t.ENO;
+//   fails   timers[i](IN := x, PT := T#1s); ok := timers[i].ENO;       E0272
+TypeId checkEno(Context& context, ExprId& expr, PouId block, Access access) {
+  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  const std::string_view name = string(context, context.symbols.pou(block).name);
+  const bool writes =
+      access == Access::Write || access == Access::ReadWrite || access == Access::InOut || access == Access::Bind;
+  const VarId memory = enoMemoryOf(context, node.base);
+  if (!memory || writes) {
+    node.entity = Entity::of(EntityKind::Error, 0);
+    if (writes)
+      context.report(diag::OutputWrittenOutside, node.h.loc, {string(context, node.member), name});
+    else
+      context.report(diag::EnoNotKept, node.h.loc, {name});
+    return node.h.type = types::kError;
+  }
+  const NameId hidden = context.symbols.var(memory).name;
+  const Loc loc = node.h.loc;
+  const bool is_member = context.tree().kind(node.base) == ExprKind::Member;
+  const ExprId owner = is_member ? context.tree().as<MemberExpr>(node.base).base : ExprId{};
+  context.replace(expr, is_member ? context.build().member(owner, hidden, loc, entity(memory))
+                                  : context.build().name(hidden, loc, entity(memory)));
+  return useVar(context, expr, memory, access);
+}
+
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   TypeId base = checkBase(context, node.base, access);
@@ -487,6 +523,9 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
         return *checkObjectMember(context, expr, object, access, method);
     }
   }
+  const bool is_block = object && context.symbols.pou(object).kind == PouKind::FunctionBlock;
+  if (!member && is_block && isNamed(context, node.member, kEnableOutput))
+    return checkEno(context, expr, object, access);
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (isFirstReportOfMember(context, record, node.member))

@@ -11,6 +11,7 @@
 #include "sema/checks/outside_access.h"
 
 #include "sema/checks/diagnostics.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 

@@ -544,6 +544,17 @@ static void declareEno(Context& context, PouId id) {
   symbols.pou(id).vars.push_back(created);
 }
 
+// `t.ENO` reads what the last call of the instance t set, so a hidden variable beside it holds that; TRUE at first.
+// Not of a block that declares an output ENO.
+static bool keepsEno(Context& context, VarId id) {
+  const Var& var = context.symbols.var(id);
+  if (!var.name || !context.tree().readsEnoOf(keyOf(context, var.name))) return false;
+  const NamedType* type = context.scopes.named(context.types().resolve(var.type));
+  const PouId block = type == nullptr ? PouId{} : type->pou;
+  if (!block || context.symbols.pou(block).kind != PouKind::FunctionBlock) return false;
+  return !findMember(context, context.types().resolve(var.type), context.names().intern(kEnableOutput));
+}
+
 // Forbids RETAIN with NON_RETAIN, and in iec modifiers that contradict their section: a constant is not retained; an
 // in-out, and a variable of one call, has no memory to keep; an output is written by its block; VAR_IN_OUT CONSTANT is
 // of CODESYS. There RETAIN in a function has no effect, with a warning. IEC 61131-3 ed. 3 table 14 and figure 9, ed. 2
@@ -686,7 +697,7 @@ void resolvePou(Context& context, PouId id) {
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
   shareTemporaries(there, id);
-  std::vector<VarId> edges, open_arrays;
+  std::vector<VarId> edges, open_arrays, enabled;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];
     ensureVarType(there, var_id);
@@ -697,6 +708,7 @@ void resolvePou(Context& context, PouId id) {
     if (var.pragmas.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
     if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
+    if (keepsEno(there, var_id)) enabled.push_back(var_id);
   }
   // A call with more arguments is folded from the left, f(f(a, b), c), which takes two inputs.
   const auto isInput = [&](VarId var) { return symbols.var(var).section == SectionKind::Input; };
@@ -729,6 +741,11 @@ void resolvePou(Context& context, PouId id) {
     if (there.iec() && symbols.var(edge).edge == EdgeKind::Falling)
       symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
   }
+  for (const VarId instance : enabled) {
+    const VarId memory = addHidden(instance, "_eno", types::kBool);
+    symbols.var(instance).eno_memory = memory;
+    symbols.var(memory).init = makeLiteral(there, LiteralKind::Bool, types::kBool, 1, symbols.var(instance).loc);
+  }
   for (const VarId array : open_arrays) {
     const uint32_t dimensions = context.types().info(context.types().resolve(symbols.var(array).type)).length;
     for (uint32_t i = 0; i < 2 * dimensions; ++i) {
@@ -750,6 +767,19 @@ void resolveList(Context& context, ListId id) {
     const VarId var = symbols.global_lists[id.index].vars[i];
     ensureVarType(context, var);
     if (symbols.var(var).storage == Storage::Global) addField(context, record, var);
+    if (symbols.var(var).storage != Storage::Global || !keepsEno(context, var)) continue;
+    Var hidden;
+    hidden.name = context.names().intern("__" + toString(context, symbols.var(var).name) + "_eno");
+    hidden.loc = symbols.var(var).loc;
+    hidden.type = types::kBool;
+    hidden.storage = Storage::Global;
+    hidden.list = id;
+    hidden.use.read = hidden.use.written = true;
+    hidden.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, hidden.loc);
+    const VarId created{static_cast<uint32_t>(symbols.vars.size())};
+    symbols.vars.push_back(hidden);
+    symbols.var(var).eno_memory = created;
+    symbols.global_lists[id.index].vars.push_back(created);
   }
   scope.resolved = State::Done;
 }

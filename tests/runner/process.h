@@ -16,7 +16,7 @@ constexpr bool kSanitized = false;
 struct Command {
   std::vector<std::string> arguments;  // [0]: the program, a path
   std::string folder;
-  int seconds = 120;    // with sanitizers ten times as many; then it and its children are killed
+  int seconds = 600;    // with sanitizers ten times as many; then it and its children are killed
   bool merged = false;  // stderr goes to stdout
 };
 
