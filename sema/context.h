@@ -59,6 +59,8 @@ struct Context {
 // enumeration items and lists of the project, then libraries, which are read on first use. None when unknown. Reports
 // only if `loc` is given, and only a name that USINGs make ambiguous or that is INTERNAL elsewhere.
 Entity lookUp(Context& context, NameId name, Loc loc = {});
+// The meaning of a written name: `.name` is looked up outside of POUs.
+Entity lookUp(Context& context, const NameExpr& name, Loc loc = {});
 // `qualifier.name`: members of a GVL, of a namespace, of an enumeration type.
 Entity lookUpIn(Context& context, Entity qualifier, NameId name);
 // Whether `context` may use `found`; reports an entity that is INTERNAL to another namespace.

@@ -50,6 +50,7 @@ struct ReadContext {
   std::vector<Library>& libraries;  // those that the files ask for are added
   LadderSettings ladder = {};
   bool for_pictures = false;  // `rung graph` draws what is read: a ladder becomes networks, not statements
+  std::vector<std::string> task_configurations = {};  // of CODESYS 2.3, without blanks: those that have been read
 };
 
 // Bytes of a file in which a tool keeps programs and other data.

@@ -174,6 +174,14 @@ ExprId ExpressionParser::parsePrimary() {
   if (accept(Tok::Null)) return ended(build_.literal(LiteralKind::Null, 0, start));
   if (at(Tok::Address)) return parsePostfix(ended(parseAddress()));
   if (at(Tok::LeftParen)) return parseInParens();
+  // CODESYS, "Operator: Global Namespace".
+  if (at(Tok::Dot) && dialect_ == Dialect::Codesys && isName(peek()) && t_[1].offset == t_->offset + 1) {
+    advance();
+    const ExprId name = build_.name(nameOf(t_), here());
+    tree_.expr(name).op = kGlobalName;
+    advance();
+    return parsePostfix(ended(name));
+  }
   // The functional form of operators that are keywords: AND(a, b)
   if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod) || at(Tok::Not)) && peek() == Tok::LeftParen) {
     const ExprId name = build_.name(names_.intern(textOf(t_)), start);

@@ -111,6 +111,8 @@ void StatementParser::parseStatement() {
   if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod)) && peek() == Tok::LeftParen)
     return parseExprStatement();
   if (skipForeign()) return;
+  if (at(Tok::Dot) && dialect_ == Dialect::Codesys && isName(peek()) && t_[1].offset == t_->offset + 1)
+    return parseExprStatement();
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
     if (!declared_in_body_) slip(diag::DeclarationInBody, t_);

@@ -29,12 +29,16 @@ bool isBoundary(Tok k) {
   return isReserved(k) && !isTypeWord(k) && !isOperator(k) && !kContinue.has(k);
 }
 
-// Whether a line that ends with this token needs another one.
-bool needsMore(Tok k, bool declares) {
-  static constexpr TokSet kOpen = {Tok::Dot,     Tok::DotDot, Tok::Comma, Tok::LeftParen, Tok::LeftBracket, Tok::Hash,
-                                   Tok::Arrow,   Tok::If,     Tok::Elsif, Tok::While,     Tok::Until,       Tok::Case,
-                                   Tok::For,     Tok::To,     Tok::By,    Tok::RefTo,     Tok::Array,       Tok::Task,
-                                   Tok::Program, Tok::With,   Tok::On,    Tok::Resource};
+// Whether a line that ends with this token needs another one. TASK, RESOURCE, ON and WITH may be names.
+bool needsMore(const Token* t, bool declares) {
+  const Tok k = t->kind;
+  if (k == Tok::Task || k == Tok::Resource) return (t->flags & kLineStart) != 0;
+  if (k == Tok::On || k == Tok::With)
+    return (t->flags & kLineStart) == 0 && (t[-1].flags & kLineStart) == 0 &&
+           t[-2].kind == (k == Tok::On ? Tok::Resource : Tok::Program);
+  static constexpr TokSet kOpen = {Tok::Dot,   Tok::DotDot, Tok::Comma, Tok::LeftParen, Tok::LeftBracket, Tok::Hash,
+                                   Tok::Arrow, Tok::If,     Tok::Elsif, Tok::While,     Tok::Until,       Tok::Case,
+                                   Tok::For,   Tok::To,     Tok::By,    Tok::RefTo,     Tok::Array,       Tok::Program};
   if (kOpen.has(k) || isAssignSign(k) || isOperator(k)) return true;
   return declares && (k == Tok::Colon || k == Tok::Of || k == Tok::Extends || k == Tok::Implements);
 }
@@ -80,7 +84,7 @@ Ends endOfConstruct(const Token* first, bool declares) {
     if (k == Tok::Semicolon) return Ends::AsStatement;
     if (k == Tok::Then || k == Tok::Do || k == Tok::To || k == Tok::By || (k == Tok::Of && !declares))
       return Ends::InHeader;
-    if (t != first && (t->flags & kLineStart) != 0 && !needsMore(t[-1].kind, declares) && !isOperator(k) &&
+    if (t != first && (t->flags & kLineStart) != 0 && !needsMore(t - 1, declares) && !isOperator(k) &&
         !closesBracket(k) && k != Tok::Comma && !opensBracket(k) && k != Tok::Dot)
       ended = true;
     if (t != first && isBoundary(k)) return Ends::AsStatement;
@@ -163,7 +167,7 @@ uint32_t Cursor::columnOf(const Token* t) const {
 }
 
 bool Cursor::lineEnds() {
-  if (!atLineStart() || t_ == tokens_.data() || !needsMore(t_[-1].kind, declares_)) return false;
+  if (!atLineStart() || t_ == tokens_.data() || !needsMore(t_ - 1, declares_)) return false;
   if (atUnfinished()) return panic_;  // once recovered, this token begins what it begins
   return begins(t_) != Begins::Nothing;
 }

@@ -130,8 +130,9 @@ struct LiteralExpr {
   }
 };
 
+constexpr uint8_t kGlobalName = 1;  // NameExpr: `.name`, which no local variable hides (codesys)
 struct NameExpr {
-  ExprHeader h;
+  ExprHeader h;  // op: 0 or kGlobalName
   NameId name;
   Entity entity;  // annotation
 };

@@ -358,7 +358,9 @@ void StPrinter::expr(ExprId id, int least) {
   id = tree_.written(id);
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
-    case ExprKind::Name: return name(tree_.as<NameExpr>(id).name);
+    case ExprKind::Name:
+      if (tree_.expr(id).op == kGlobalName) out += '.';
+      return name(tree_.as<NameExpr>(id).name);
     case ExprKind::TypedName: {
       const auto& e = tree_.as<TypedNameExpr>(id);
       name(e.type_name.name);

@@ -120,7 +120,10 @@ void TreeExprPrinter::print(const ErrorExpr&, int) { out.pop_back(); }
 
 void TreeExprPrinter::print(const LiteralExpr& e, int) { literal(e); }
 
-void TreeExprPrinter::print(const NameExpr& e, int) { name(e.name); }
+void TreeExprPrinter::print(const NameExpr& e, int) {
+  name(e.name);
+  if (e.h.op == kGlobalName) out += " global";
+}
 
 void TreeExprPrinter::print(const TypedNameExpr& e, int) {
   name(e.type_name.name);

@@ -117,7 +117,7 @@ bool isWhole(const Context& context, const MemberExpr& node);
 // The FB or program whose instance a record type is; none for structures.
 PouId pouOf(Context& context, TypeId record);
 // The entity of a name in operand position; reports an unknown one and returns Error.
-Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected);
+Entity resolveName(Context& context, const NameExpr& written, TypeId expected);
 // The entity that an expression names, or none.
 Entity entityOf(const Context& context, ExprId expr);
 // The hidden variable with ENO of the last call of a named instance; none: nothing reads it.

@@ -687,7 +687,7 @@ bool isBareCall(Context& context, ExprId& expr) {
   ExprId callee = node.callee;
   Entity found;
   if (context.tree().kind(callee) == ExprKind::Name) {
-    found = lookUp(context, context.tree().as<NameExpr>(callee).name);
+    found = lookUp(context, context.tree().as<NameExpr>(callee));
     if (found.entityKind() == EntityKind::Property) check(context, callee, {}, Access::Read);
   } else {
     const uint32_t errors = context.symbols.diagnostics.errorCount();
@@ -726,7 +726,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
   if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return node.h.type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
-    callee.entity = lookUp(context, callee.name, callee.h.loc);
+    callee.entity = lookUp(context, callee, callee.h.loc);
     switch (callee.entity.entityKind()) {
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: {

@@ -312,8 +312,10 @@ static bool reportQualifiedGlobal(Context& context, NameId name, Loc loc) {
   return false;
 }
 
-Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
-  Entity entity = lookUp(context, name, loc);
+Entity resolveName(Context& context, const NameExpr& written, TypeId expected) {
+  const NameId name = written.name;
+  const Loc loc = written.h.loc;
+  Entity entity = lookUp(context, written, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
   const bool several = isAmbiguousItem(context, entity);
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
@@ -347,7 +349,7 @@ static bool isSharedGlobal(const Context& context, Entity entity) {
 
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
   NameExpr& node = context.tree().as<NameExpr>(expr);
-  node.entity = resolveName(context, node.name, node.h.loc, expected);
+  node.entity = resolveName(context, node, expected);
   if (isSharedGlobal(context, node.entity) && differsByResource(context, keyOf(context, node.name))) {
     if (isFirstReport(context, node.name))
       context.report(diag::GlobalDiffers, node.h.loc, {string(context, node.name)});

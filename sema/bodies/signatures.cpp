@@ -47,7 +47,7 @@ ProjectSignatures::Resolved ProjectSignatures::resolve(ExprId path) {
   const Tree& tree = context_.tree();
   const types::TypeTable& table = context_.types();
   switch (tree.kind(path)) {
-    case ExprKind::Name: return resolve(lookUp(context_, tree.as<NameExpr>(path).name));
+    case ExprKind::Name: return resolve(lookUp(context_, tree.as<NameExpr>(path)));
     case ExprKind::Member: {
       const MemberExpr& node = tree.as<MemberExpr>(path);
       return memberOf(resolve(node.base), node.member);

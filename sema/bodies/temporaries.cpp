@@ -21,7 +21,7 @@ Temporary& stateOf(Context& context, VarId id) {
 VarId temporaryOf(Context& context, ExprId expr) {
   if (context.body == nullptr || context.body->temporaries.empty()) return {};
   if (context.tree().kind(expr) != ExprKind::Name) return {};
-  const Entity entity = lookUp(context, context.tree().as<NameExpr>(expr).name);
+  const Entity entity = lookUp(context, context.tree().as<NameExpr>(expr));
   const bool is_one = entity.entityKind() == EntityKind::Var && context.symbols.vars[entity.index].temporary != 0;
   return is_one ? VarId{entity.index} : VarId{};
 }

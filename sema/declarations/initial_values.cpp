@@ -158,7 +158,7 @@ struct Initializer {
     for (; tree().kind(path) == ExprKind::Member && count < members.size(); path = tree().as<MemberExpr>(path).base)
       members[count++] = tree().as<MemberExpr>(path).member;
     if (tree().kind(path) != ExprKind::Name) return {};
-    Entity found = lookUp(context, tree().as<NameExpr>(path).name);
+    Entity found = lookUp(context, tree().as<NameExpr>(path));
     while (count > 0) found = lookUpIn(context, found, members[--count]);
     return found;
   }
@@ -239,10 +239,18 @@ struct Initializer {
       init = {};
   }
 
-  // codesys: `limits : Limits := kLimits` copies the initial value that kLimits is declared with.
-  bool likeAnother(ExprId& init, TypeId type) const {
-    if (context.iec() || (tree().kind(init) != ExprKind::Name && tree().kind(init) != ExprKind::Member)) return false;
+  // codesys: `limits : Limits := kLimits` copies the initial value that kLimits is declared with, `all[1]` the
+  // element's.
+  bool likeAnother(ExprId& init, TypeId type) {
+    const ExprKind written = tree().kind(init);
+    if (context.iec() || (written != ExprKind::Name && written != ExprKind::Member && written != ExprKind::Index))
+      return false;
     if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) {
+      init = {};
+      return true;
+    }
+    if (written == ExprKind::Index && may != InitialReads::Call && !isStatic(init, 0)) {
+      context.report(diag::InitialValueNotConstant, tree().begin(init), {what});
       init = {};
       return true;
     }
@@ -255,7 +263,10 @@ struct Initializer {
     const Var& var = context.symbols.var(other);
     if (var.storage != Storage::Global && var.storage != Storage::Field) return true;
     ensureInitialValue(context, other);
-    if (!var.record || var.list) takeOver(init, context.symbols.var(other).init);
+    if (!var.record || var.list) {
+      takeOver(init, context.symbols.var(other).init);
+      reads |= init && may == InitialReads::Variables;  // what it takes over may read
+    }
     return true;
   }
 

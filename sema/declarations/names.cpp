@@ -198,6 +198,15 @@ Entity lookUp(Context& context, NameId name, Loc loc) {
   return ready(context, findName(context, keyOf(context, name), loc));
 }
 
+Entity lookUp(Context& context, const NameExpr& name, Loc loc) {
+  if (name.h.op != kGlobalName) return lookUp(context, name.name, loc);
+  Context outside = context;
+  outside.pou = {};
+  outside.list = {};
+  outside.items_of = {};
+  return lookUp(outside, name.name, loc);
+}
+
 bool isAmbiguousItem(Context& context, Entity item) {
   return item.entityKind() == EntityKind::EnumValue && item.index < context.scopes.item_is_ambiguous.size() &&
          context.scopes.item_is_ambiguous[item.index];

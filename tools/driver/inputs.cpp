@@ -397,6 +397,7 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bo
   for (const InputFile& input : inputs.files)
     if (input.kind == FileKind::St) halves.push_back({input.below, input.file});
   importer::joinPairs(sources, halves);
+  if (!importer::joinMembers(sources, halves, diagnostics)) inputs.unread = true;
   auto half = halves.begin();
   for (InputFile& input : inputs.files)
     if (input.kind == FileKind::St) input.file = (half++)->file;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,11 @@ bool isForeign(std::string_view word) {
 
 class Codesys2Reader {
  public:
-  Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics)
+  // `task_configurations`: those of other files.
+  Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics,
+                 std::vector<std::string>& task_configurations)
       : diagnostics_(diagnostics),
+        task_configurations_(task_configurations),
         source_(sources.sourceText(file)),
         base_(sources.begin(file).offset),
         program_(sources) {}
@@ -70,7 +74,8 @@ class Codesys2Reader {
         scanner.moveTo(next);
       }
     }
-    if (!changed_) return false;
+    if (!changed_) findSpellings(0, source_.size());
+    if (!changed_ && spellings_.empty()) return false;
     keep(source_.size());
     return true;
   }
@@ -89,8 +94,33 @@ class Codesys2Reader {
 
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
   void keep(size_t to) {
+    findSpellings(kept_, to);
+    for (const Spelling& spelling : spellings_) {
+      if (spelling.at > kept_) program_.add(loc(kept_), loc(spelling.at));
+      program_.replace(loc(spelling.at), loc(spelling.at + spelling.length), spelling.text);
+      kept_ = spelling.at + spelling.length;
+    }
     if (to > kept_) program_.add(loc(kept_), loc(to));
     kept_ = to;
+  }
+
+  // What only CODESYS 2.3 writes so: `10.` for 10.0, and the channel %IR3.0, a REAL of 32 bits.
+  void findSpellings(size_t from, size_t to) {
+    spellings_.clear();
+    Scanner scanner(source_.substr(0, to));
+    scanner.moveTo(from);
+    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+      const auto at = [&](size_t i) { return i < to ? source_[i] : ' '; };
+      if (unit.kind == UnitKind::Number) {
+        const bool is_fraction = unit.begin > 0 && source_[unit.begin - 1] == '.';
+        if (!is_fraction && at(unit.end) == '.' && at(unit.end + 1) != '.' && !isNameCharacter(at(unit.end + 1)))
+          spellings_.push_back({unit.end + 1, 0, "0"});
+      } else if (source_[unit.begin] == '%' && std::string_view("IQM").find(upper(at(unit.begin + 1))) < 3 &&
+                 upper(at(unit.begin + 2)) == 'R' && at(unit.begin + 3) >= '0' && at(unit.begin + 3) <= '9') {
+        spellings_.push_back({unit.begin + 2, 1, "D"});
+        scanner.moveTo(unit.begin + 3);
+      }
+    }
   }
   void exclude(size_t begin, size_t end) {
     keep(begin);
@@ -157,9 +187,20 @@ class Codesys2Reader {
   }
 
   // The tasks, `RESOURCE {TASK name (…); {Prog();} END_TASK} END_RESOURCE`, become a CONFIGURATION.
+  // An export repeats it in a file of another name when it was made in another language.
   void readTasks(Scanner& scanner, size_t begin) {
     const Loc here = loc(begin);
     exclude(begin, begin);
+    Scanner ahead = scanner;
+    skipObject(ahead, "END_RESOURCE");
+    std::string text(source_.substr(begin, ahead.at() - begin));
+    std::erase_if(text, isBlankCharacter);
+    if (std::find(task_configurations_.begin(), task_configurations_.end(), text) != task_configurations_.end()) {
+      scanner.moveTo(ahead.at());
+      kept_ = ahead.at();
+      return;
+    }
+    task_configurations_.push_back(std::move(text));
     bool has_task = false;
     std::string_view task;
     while (const std::optional<Unit> unit = nextName(scanner)) {
@@ -216,11 +257,17 @@ class Codesys2Reader {
   }
 
   Diagnostics& diagnostics_;
+  std::vector<std::string>& task_configurations_;
   std::string_view source_;
   uint32_t base_;
   xml::SourceMappedText program_;
   size_t kept_ = 0;  // everything before is copied or excluded
   bool changed_ = false;
+  struct Spelling {
+    size_t at, length;
+    std::string_view text;
+  };
+  std::vector<Spelling> spellings_;  // in what is kept next
   std::vector<TextPart> parts_;
   size_t part_ = 0;  // where the current one begins
 };
@@ -232,12 +279,13 @@ bool isCodesys2(std::string_view text) {
 }
 
 FileId readProgram(ReadContext& context, FileId file) {
-  Codesys2Reader reader(context.sources, file, context.diagnostics);
+  Codesys2Reader reader(context.sources, file, context.diagnostics, context.task_configurations);
   return reader.run() ? reader.program().finish(context.sources, file) : file;
 }
 
 std::vector<TextPart> programParts(Sources& sources, FileId file, Diagnostics& diagnostics) {
-  Codesys2Reader reader(sources, file, diagnostics);
+  std::vector<std::string> task_configurations;
+  Codesys2Reader reader(sources, file, diagnostics, task_configurations);
   reader.run();
   return std::move(reader.parts());
 }

@@ -43,9 +43,35 @@ bool writeAssignments(Import& import, const xml::Element& type, const xml::Eleme
   return any;
 }
 
+// The value of an attribute of CODESYS in the addData of `owner`; null: missing.
+const xml::Attribute* attributeOf(const Import& import, const xml::Element& owner, std::string_view name) {
+  const xml::Element* attributes = dataOf(import, owner, "attributes");
+  for (const xml::Element& e : import.document.children(attributes))
+    if (import.document.value(e, "Name") == name) return import.document.attribute(e, "Value");
+  return nullptr;
+}
+
+// CODESYS exports ARRAY[*] as the input that it compiles it to, a pointer. The attributes have the type that the user
+// wrote and, from version 3.5.18, the section: "Input" or "Inout", the only ones in which it allows ARRAY[*].
+const xml::Attribute* arrayOfAnyLength(const Import& import, const xml::Element& variable) {
+  return attributeOf(import, variable, "variable_length_array");
+}
+
+std::string_view sectionOfVariable(const Import& import, const xml::Element& variable, std::string_view section) {
+  if (arrayOfAnyLength(import, variable) == nullptr) return section;
+  const xml::Attribute* scope = attributeOf(import, variable, "variable_length_array_original_scope");
+  return scope != nullptr && sameIdentifier(scope->raw, "input") ? "VAR_INPUT" : "VAR_IN_OUT";
+}
+
 void writeVariable(Import& import, const xml::Element& variable, uint32_t depth) {
   if (!checkName(import, variable)) return;
   writeDocumentation(import, variable);
+  if (const xml::Attribute* array = arrayOfAnyLength(import, variable)) {
+    writeName(import, variable);
+    import.out.word(" : ");
+    import.out.add(import.document, *array);
+    return import.out.word(";\n");
+  }
   writeAttributes(import, variable);
   writeName(import, variable);
   if (hasName(import, variable, "address")) {
@@ -87,7 +113,17 @@ void writeVariables(Import& import, const xml::Element& list, uint32_t depth) {
 void writeSection(Import& import, const xml::Element& list, std::string_view word) {
   writeAttributes(import, list);
   writeSectionBegin(import, list, word);
-  writeVariables(import, list);
+  std::string_view current = word;
+  for (const xml::Element& e : import.document.children(list)) {
+    if (e.name != "variable") continue;
+    // The order of the parameters stays, for calls by position.
+    if (const std::string_view own = sectionOfVariable(import, e, word); own != current) {
+      import.out.word("END_VAR\n");
+      writeSectionBegin(import, list, own);
+      current = own;
+    }
+    writeVariable(import, e, 0);
+  }
   import.out.word("END_VAR\n");
 }
 

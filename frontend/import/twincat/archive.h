@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/import/source_mapped_text.h"
 #include "frontend/source/diagnostics.h"
@@ -72,7 +73,14 @@ void writeSfc(const ArchivedBody& body);
 
 // Whether the chart below `body` has a step of this name.
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name);
-// The variables that the settings of a chart declare, in the <ObjectProperties> of `pou`.
-void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out);
+// A flag that a POU has: SFCINIT.
+struct DeclaredFlag {
+  std::string name;  // in upper case
+  bool by_user;      // in the declaration, not by the settings of a chart
+};
+// The variables that the settings of a chart declare, in the <ObjectProperties> of `owner`, a POU or action; those that
+// are declared already are left out, the others added to `declared`.
+void writeSfcFlags(const Archive& archive, const xml::Element& owner, std::vector<DeclaredFlag>& declared,
+                   Diagnostics& diagnostics, xml::SourceMappedText& out);
 
 }  // namespace rung::importer::twincat

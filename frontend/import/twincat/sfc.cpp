@@ -10,6 +10,7 @@
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/twincat/archive.h"
 #include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 
 namespace rung::importer::twincat {
 namespace {
@@ -58,10 +59,13 @@ template <class Visit>
 void forEachStep(const Archive& archive, const Element& segment, Visit visit) {
   for (const xml::Element& e : archive.items(innerList(archive, segment))) {
     const std::string type = archive.typeOf(e);
-    if (type == "SFCStep")
+    if (type == "SFCStep") {
       visit(e);
-    else if (type == "SFCBranch" || type == "SFCSegment")
+    } else if (type == "SFCBranch" || type == "SFCSegment") {
       forEachStep(archive, e, visit);
+    } else if (type == "SFCMacro") {
+      if (const Element* inner = archive.member(e, "Segment")) forEachStep(archive, *inner, visit);
+    }
   }
 }
 
@@ -195,7 +199,7 @@ void ChartReader::branch(const Element& element, Front& front) {
   if (parallel && united != std::vector<Steps>{{}}) front.steps = std::move(united);
 }
 
-//   fails   <o t="SFCMacro">          E1087
+//   fails   <o t="SFCCloud">          E1087
 void ChartReader::walk(const Element& segment, Front& front) {
   for (const Element& e : archive_.items(innerList(archive_, segment))) {
     if (!ok_) return;
@@ -209,6 +213,8 @@ void ChartReader::walk(const Element& segment, Front& front) {
       jump(e, front);
     } else if (type == "SFCBranch") {
       branch(e, front);
+    } else if (type == "SFCMacro") {  // its elements run in its place
+      if (const Element* inner = archive_.member(e, "Segment")) walk(*inner, front);
     } else {
       archive_.reportObject(diagnostics_, e, "SFC", name_);
       ok_ = false;
@@ -309,19 +315,31 @@ bool hasStep(const Archive& archive, const xml::Element& body, std::string_view 
 }
 
 // <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart uses the variables only if they are declared.
-void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out) {
-  const xml::Element* properties = archive.document().child(pou, "ObjectProperties");
+// Warns of a flag that is declared twice. CODESYS, "Dialog: Properties: SFC Settings".
+//   warns   VAR SFCInit : BOOL; END_VAR, and `Declare` in the settings          W0844
+void writeSfcFlags(const Archive& archive, const xml::Element& owner, std::vector<DeclaredFlag>& declared,
+                   Diagnostics& diagnostics, xml::SourceMappedText& out) {
+  const xml::Element* properties = archive.document().child(owner, "ObjectProperties");
   const xml::Element* settings = properties == nullptr ? nullptr : archive.root(*properties, "SFCProperty");
   if (settings == nullptr || archive.isTrue(*settings, "UseDefaults")) return;
-  const xml::Element* list = archive.member(*settings, "Flags");
-  std::string key;
-  for (const xml::Element& e : archive.items(list)) {
+  const xml::Element* key = nullptr;
+  for (const xml::Element& e : archive.items(archive.member(*settings, "Flags"))) {
     if (e.name == "v") {
-      key = archive.text(e);
+      key = &e;
       continue;
     }
-    if (key != "ErrorAnalyzation" && archive.isTrue(e, "Use") && archive.isTrue(e, "Declare"))
-      out.put(e.loc, declarationOfFlag(key));
+    const std::string flag = key == nullptr ? std::string() : archive.text(*key);
+    if (flag == "ErrorAnalyzation" || !archive.isTrue(e, "Use") || !archive.isTrue(e, "Declare")) continue;
+    const std::string name = upper("SFC" + flag);
+    const auto known =
+        std::find_if(declared.begin(), declared.end(), [&](const DeclaredFlag& each) { return each.name == name; });
+    if (known == declared.end()) {
+      out.put(e.loc, declarationOfFlag(flag));
+      declared.push_back({name, false});
+    } else if (known->by_user) {
+      diagnostics.report(diag::SfcFlagTwice, archive.locOf(*key), {"SFC" + flag})
+          .length(static_cast<uint32_t>(flag.size()));
+    }
   }
 }
 

@@ -51,6 +51,15 @@ class TwinCatReader {
     program_.word("\n");
   }
 
+  static std::vector<DeclaredFlag> declaredFlags(std::string_view declaration) {
+    std::vector<DeclaredFlag> flags;
+    Scanner scanner(declaration);
+    for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode())
+      if (std::string name = upper(scanner.textOf(unit)); unit.kind == UnitKind::Name && name.starts_with("SFC"))
+        flags.push_back({std::move(name), true});
+    return flags;
+  }
+
   // POU = declaration {member} body END_…
   void readPou(const xml::Element& pou) {
     const xml::Element* declaration = document_.child(pou, "Declaration");
@@ -59,7 +68,10 @@ class TwinCatReader {
     const xml::Element* body = document_.child(pou, "Implementation");
     chart_ = body == nullptr ? nullptr : document_.child(*body, "SFC");
     part(pou, "Declaration");
-    if (chart_ != nullptr) writeSfcFlags(archive_, pou, program_);
+    std::vector<DeclaredFlag> flags = declaredFlags(document_.text(*declaration, sources_));
+    if (chart_ != nullptr) writeSfcFlags(archive_, pou, flags, diagnostics_, program_);
+    for (const xml::Element& e : document_.children(pou))  // the flags of a chart that is an action belong to the block
+      if (e.name == "Action" && chart_ == nullptr) writeSfcFlags(archive_, e, flags, diagnostics_, program_);
     for (const xml::Element& e : document_.children(pou)) {
       if (e.name == "Method") readMethod(e, name);
       if (e.name == "Property") readProperty(e, name);

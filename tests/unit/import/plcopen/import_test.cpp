@@ -56,6 +56,26 @@ TEST(Plcopen, SectionsAndTheirKeywords) {
       "VAR NON_RETAIN\nEND_VAR\nVAR_TEMP\nEND_VAR\nEND_FUNCTION\n");
 }
 
+// CODESYS exports ARRAY[*] as a pointer input; the order of the parameters stays.
+TEST(Plcopen, ArraysOfAnyLength) {
+  const auto variable = [](std::string_view name, std::string_view attributes) {
+    return "<variable name='" + std::string(name) +
+           "'><type><pointer><baseType><INT/></baseType></pointer></type>"
+           "<addData><data name='http://www.3s-software.com/plcopenxml/attributes' "
+           "handleUnknown='implementation'><Attributes>" +
+           std::string(attributes) +
+           "<Attribute Name='Dimensions' Value='1'/></Attributes></data></addData></variable>";
+  };
+  const std::string type = "<Attribute Name='variable_length_array' Value='ARRAY[*] OF INT'/>";
+  const std::string scope = "<Attribute Name='variable_length_array_original_scope' Value=";
+  EXPECT_EQ(textOf("<pou name='F' pouType='functionBlock'><interface><inputVars>"
+                   "<variable name='a'><type><INT/></type></variable>" +
+                   variable("b", scope + "'Inout'/>" + type) + variable("c", type) +
+                   variable("d", scope + "'Input'/>" + type) + "</inputVars></interface></pou>"),
+            "FUNCTION_BLOCK F\nVAR_INPUT\na : INT;\nEND_VAR\nVAR_IN_OUT\nb : ARRAY[*] OF INT;\n"
+            "c : ARRAY[*] OF INT;\nEND_VAR\nVAR_INPUT\nd : ARRAY[*] OF INT;\nEND_VAR\nEND_FUNCTION_BLOCK\n");
+}
+
 // Beremiz writes strings without quotes (TC6 2.01); CODESYS writes expressions.
 TEST(Plcopen, StringsWithoutQuotes) {
   const std::string inner =
