@@ -14,6 +14,7 @@
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/dangling_address.h"
+#include "sema/checks/endless_jump.h"
 #include "sema/checks/for_header.h"
 #include "sema/checks/hidden_globals.h"
 #include "sema/checks/jump_labels.h"
@@ -493,6 +494,7 @@ void checkBody(Context& context, PouId id) {
   checkStatements(inner, decl.body);
   finalizeTemporaries(inner);
   checkJumpLabels(inner);
+  checkEndlessJumps(inner);
   checkResultAssigned(inner);
   checkCallMemory(inner);
 }

@@ -1,11 +1,13 @@
 // Warns of a task that runs a block which needs another one. What a block needs is written at its declaration:
 //   {attribute 'task_interval' := '1, 2, 4'}   a cyclic task of one of these intervals in ms. TM/TP manual 9.1
 //   {attribute 'task_priority' := '16'}        a task of this priority or a lower one (a greater number). TM/TP 6.17.2
-//   passes  TASK t(INTERVAL := T#2ms) with a program that calls ENC_Counter
-//   fails   TASK t(INTERVAL := T#10ms) with that program                       W1220
+//   {attribute 'task_priorities' := '15 to 30'} not the task of priority 0, if there are others. TM/TP table 1-3,
+//   AX 6.5 passes  TASK t(INTERVAL := T#2ms) with a program that calls ENC_Counter fails   TASK t(INTERVAL := T#10ms)
+//   with that program                       W1220
 // Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
 #include "sema/checks/task_needs.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "sema/checks/diagnostics.h"
@@ -21,6 +23,7 @@ struct Need {
   PouId pou;
   std::string_view intervals;  // ms, separated by commas
   uint32_t priority = 0;
+  std::string_view priorities;  // words for the message
 };
 
 std::string_view valueOf(Context& context, const Pou& pou, NameId attribute) {
@@ -42,14 +45,15 @@ bool contains(std::string_view intervals, int64_t interval_ns) {
 std::vector<Need> needsOf(Context& context) {
   const NameId interval = context.names().key(context.names().intern("task_interval"));
   const NameId priority = context.names().key(context.names().intern("task_priority"));
+  const NameId priorities = context.names().key(context.names().intern("task_priorities"));
   std::vector<Need> needs;
   for (uint32_t i = 0; i < context.project.pous.size(); ++i) {
     const Pou& pou = context.symbols.pou(PouId{i});
     if (!pou.library || !pou.decl) continue;
-    Need need{PouId{i}, valueOf(context, pou, interval), 0};
+    Need need{PouId{i}, valueOf(context, pou, interval), 0, valueOf(context, pou, priorities)};
     const std::string_view least = valueOf(context, pou, priority);
     std::from_chars(least.data(), least.data() + least.size(), need.priority);
-    if (!need.intervals.empty() || need.priority > 0) needs.push_back(need);
+    if (!need.intervals.empty() || need.priority > 0 || !need.priorities.empty()) needs.push_back(need);
   }
   return needs;
 }
@@ -70,6 +74,12 @@ std::vector<bool> reachedBy(const Project& project, uint32_t task, const std::ve
   return seen;
 }
 
+bool isOneOfSeveral(const Project& project, const Task& task) {
+  return std::any_of(project.tasks.begin(), project.tasks.end(), [&](const Task& other) {
+    return &other != &task && other.loc && other.resource == task.resource;
+  });
+}
+
 }  // namespace
 
 void checkTaskNeeds(Context& context) {
@@ -84,7 +94,9 @@ void checkTaskNeeds(Context& context) {
     const Task& task = project.tasks[t];
     if (!task.loc) continue;  // no task of the user
     const std::vector<bool> reached = reachedBy(project, t + 1, first);
-    bool interval_reported = false, priority_reported = false;
+    // With one task the priority has no meaning (TM/TP 1.5); without PRIORITY 0 was not asked for.
+    const bool is_first = task.priority == 0 && task.priority_loc && isOneOfSeveral(project, task);
+    bool interval_reported = false, priority_reported = false, first_reported = false;
     for (const Need& need : needs) {
       if (!reached[need.pou.index]) continue;
       const std::string_view name = string(context, context.symbols.pou(need.pou).name);
@@ -98,6 +110,10 @@ void checkTaskNeeds(Context& context) {
         priority_reported = true;
         context.report(diag::BlockNeedsPriority, task.priority_loc ? task.priority_loc : task.loc,
                        {name, std::to_string(need.priority), std::to_string(task.priority)});
+      }
+      if (!need.priorities.empty() && is_first && !first_reported) {
+        first_reported = true;
+        context.report(diag::BlockInFirstTask, task.priority_loc, {name, std::string(need.priorities)});
       }
     }
   }

@@ -26,15 +26,15 @@ struct CommandRow {
   const char* summary;
 };
 constexpr CommandRow kCommands[] = {
-    {Command::Check, "check", "FILE|DIR ...", "parse and check; print only diagnostics"},
-    {Command::Emit, "emit", "FILE|DIR ... -o DIR", "write C++ (or print the IR or the tree)"},
-    {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
-    {Command::Run, "run", "FILE|DIR ...", "run a program, with inputs and traces"},
-    {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
-    {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
+    {Command::Check, "check", "[FILE|DIR ...]", "parse and check; print only diagnostics"},
+    {Command::Emit, "emit", "[FILE|DIR ...] -o DIR", "write C++ (or print the IR or the tree)"},
+    {Command::Build, "build", "[FILE|DIR ...] -o FILE", "emit, compile and link"},
+    {Command::Run, "run", "[FILE|DIR ...]", "run a program, with inputs and traces"},
+    {Command::Test, "test", "[FILE|DIR ...]", "run the POUs marked {test}"},
+    {Command::Convert, "convert", "[FILE|DIR ...] --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
-    {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
-    {Command::Fmt, "fmt", "FILE|DIR|- ...", "format sources in place, also inside files of other tools"},
+    {Command::Graph, "graph", "[FILE|DIR ...] -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
+    {Command::Fmt, "fmt", "[FILE|DIR|- ...]", "format sources in place, also inside files of other tools"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
@@ -599,11 +599,12 @@ std::string parseOptions(const std::vector<std::string>& arguments, Options& opt
 std::string helpText(Command command) {
   std::string out;
   if (command == Command::None || command == Command::Help) {
-    out = "rung: a compiler for the languages of IEC 61131-3\n\nusage: rung COMMAND [options] FILE|DIR ...\n\n";
+    out = "rung: a compiler for the languages of IEC 61131-3\n\nusage: rung COMMAND [options] [FILE|DIR ...]\n\n";
     for (const CommandRow& row : kCommands) appendRow(out, row.name, row.summary);
     out +=
         "\n`rung COMMAND --help` lists the options of a command. Inputs are files or\n"
-        "folders; `@file` reads arguments from a file. Diagnostics go to stderr.\n\n"
+        "folders, by default the project around the current folder; `@file` reads\n"
+        "arguments from a file. Diagnostics go to stderr.\n\n"
         "exit codes: 0 success, 1 the input has errors, 2 usage or I/O error, 3 the\n"
         "program faulted, 4 a test failed, 70 internal error\n";
     return out;

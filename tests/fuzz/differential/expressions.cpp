@@ -71,6 +71,9 @@ std::string Generator::writable(int type) {
   if (chance(25)) {
     if (const std::string place = led(type); !place.empty()) return place;
   }
+  if (chance(12)) {
+    if (const std::string place = member(type); !place.empty()) return place;
+  }
   if (body_ == Body::Program) {
     if (type == kDint && chance(25))
       return chance(50) ? "pair.count" : "table[" + std::to_string(below(6) - 1) + "].count";

@@ -1,5 +1,6 @@
 // Generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
-// POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, classes.cpp, program.cpp.
+// POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, classes.cpp, records.cpp,
+// charts.cpp, program.cpp.
 #pragma once
 
 #include <initializer_list>
@@ -50,8 +51,8 @@ inline const Type kTypes[] = {
 };
 constexpr int kTypeCount = sizeof kTypes / sizeof kTypes[0];
 constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, kUint = 6, kUdint = 7, kByte = 9,
-              kWord = 10, kDword = 11, kLword = 12, kReal = 13, kTime = 15, kLtime = 16, kTod = 18, kDt = 19,
-              kLtod = 21, kLdt = 22, kChar = 23, kString = 25;
+              kWord = 10, kDword = 11, kLword = 12, kReal = 13, kLreal = 14, kTime = 15, kLtime = 16, kTod = 18,
+              kDt = 19, kLtod = 21, kLdt = 22, kChar = 23, kString = 25;
 
 constexpr unsigned kCoils = 16;  // bits of the memory that at_dword and at_byte show, too
 
@@ -155,6 +156,28 @@ class Generator {
   Node pointerQuestion();
 
   const std::vector<Lvalue>& lvalues();
+  std::vector<Lvalue> objectLvalues() const;
+
+  // records.cpp
+  void makeRecords(std::vector<Node>& parts);
+  void makeShelves(std::vector<Node>& parts);
+  std::string record(bool outer, std::vector<Node>& parts);
+  std::string member(int type);
+  Node recordStatement();
+  Node shelfStatement();
+  Node unionStatement();
+  std::vector<Lvalue> recordLvalues() const;
+
+  // charts.cpp
+  struct Chart {
+    std::vector<Node> parts;
+    int steps = 0, priority = 0;
+  };
+  std::string makeStep(Chart& chart);
+  void connectSteps(Chart& chart, const std::string& from, const std::string& to);
+  std::string makeSequence(Chart& chart, std::string last, int depth);
+  Node makeChart();
+  Node chartStatement();
 
   // classes.cpp: edition 3
   void makeClasses(std::vector<Node>& parts);
@@ -195,6 +218,7 @@ class Generator {
   int method_ = -1;                       // in a method: its number; it calls only methods with smaller ones
   bool chained_ = false;                  // O2 extends O1; otherwise O0, like O1
   int start_ = 0;                         // type of the input of these blocks
+  std::vector<int> chart_inputs_;         // types
   std::vector<Lvalue> lvalues_;
   int loops_ = 0;   // around the statement
   int cases_ = 0;   // around it, in which a label would belong to the CASE

@@ -485,43 +485,48 @@ Node Generator::pointerQuestion() {
 
 // The variables of a program for the above, and the bindings in its first cycle or in each.
 const std::vector<Lvalue>& Generator::lvalues() {
-  if (lvalues_.empty() && dialect_ == Dialect::Iec3) lvalues_ = classLvalues();
-  if (!lvalues_.empty() || !codesys()) return lvalues_;
-  const std::string o = prefix_ + "_O", pair = prefix_ + "_Pair";
-  lvalues_ = {
-      {"o0", o + "0(1)", ""},
-      {"o1", o + "1(2)", ""},
-      {"o2", o + "2(first := 3)", ""},
-      {"objs", "ARRAY[0..2] OF " + o + "1[(4), (-5), (6)]", ""},
-      {"po", "POINTER TO " + o + "0", "po := ADR(o1);\n"},
-      {"po1", "POINTER TO " + o + "1", "po1 := ADR(objs[1]);\n"},
-      {"pos", "ARRAY[0..2] OF POINTER TO " + o + "0", "pos[0] := ADR(o0);\npos[1] := ADR(o2);\npos[2] := po;\n"},
-      {"ro", "REFERENCE TO " + o + "0", "ro REF= objs[2];\n"},
-      {"any0", prefix_ + "_I0", "any0 := o0;\n"},
-      {"any1", prefix_ + "_I1", "any1 := o1;\n"},
-      {"cell", prefix_ + "_Cell", ""},
-      {"cells", "ARRAY[0..2] OF " + prefix_ + "_Cell", ""},
-      {"pt", "POINTER TO " + pair, "pt := ADR(table[0]);\n"},
-      {"anyz", prefix_ + "_I1", ""},
-      {"itfs", "ARRAY[0..2] OF " + prefix_ + "_I0", "itfs[0] := o0;\nitfs[1] := o1;\nitfs[2] := any0;\n"},
-      {"heap", "POINTER TO " + o + "0", ""},
-      {"pool", "POINTER TO DINT", ""},
-      {"target", "DINT := -3", ""},
-      {"numbers", "ARRAY[0..4] OF DINT := [5(7)]", ""},
-      {"others", "ARRAY[-2..1] OF DINT := [1, 2, 3, 4]", ""},
-      {"squares", "ARRAY[-1..0, 3..4] OF INT := [9, 8, 7, 6]", ""},
-      {"pn", "POINTER TO DINT", "pn := ADR(numbers[1]);\n"},
-      {"pm", "POINTER TO DINT", "pm := ADR(numbers[3]);\n"},
-      {"pp", "POINTER TO " + pair, "pp := ADR(table[2]);\n"},
-      {"rp", "REFERENCE TO " + pair, "rp REF= pair;\n"},
-      {"rd", "REFERENCE TO DINT", "rd REF= numbers[2];\n"},
-      {"rz", "REFERENCE TO DINT", ""},
-      {"seen", "DWORD := 16#12345678", ""},
-      {"pw", "POINTER TO WORD", "pw := ADR(seen);\n"},
-      {"pb", "POINTER TO BYTE", "pb := ADR(seen);\n"},
-      {"halves", "ARRAY[0..1] OF DWORD", ""},
-      {"words", "ARRAY[0..2] OF WORD := [1, 2, 16#FFFF]", ""},
-      {"pl", "POINTER TO LWORD", "pl := ADR(halves);\n"}};
+  if (!lvalues_.empty()) return lvalues_;
+  if (dialect_ == Dialect::Iec3) lvalues_ = classLvalues();
+  if (codesys()) lvalues_ = objectLvalues();
+  const std::vector<Lvalue> records = recordLvalues();
+  lvalues_.insert(lvalues_.end(), records.begin(), records.end());
   return lvalues_;
+}
+
+std::vector<Lvalue> Generator::objectLvalues() const {
+  const std::string o = prefix_ + "_O", pair = prefix_ + "_Pair";
+  return {{"o0", o + "0(1)", ""},
+          {"o1", o + "1(2)", ""},
+          {"o2", o + "2(first := 3)", ""},
+          {"objs", "ARRAY[0..2] OF " + o + "1[(4), (-5), (6)]", ""},
+          {"po", "POINTER TO " + o + "0", "po := ADR(o1);\n"},
+          {"po1", "POINTER TO " + o + "1", "po1 := ADR(objs[1]);\n"},
+          {"pos", "ARRAY[0..2] OF POINTER TO " + o + "0", "pos[0] := ADR(o0);\npos[1] := ADR(o2);\npos[2] := po;\n"},
+          {"ro", "REFERENCE TO " + o + "0", "ro REF= objs[2];\n"},
+          {"any0", prefix_ + "_I0", "any0 := o0;\n"},
+          {"any1", prefix_ + "_I1", "any1 := o1;\n"},
+          {"cell", prefix_ + "_Cell", ""},
+          {"cells", "ARRAY[0..2] OF " + prefix_ + "_Cell", ""},
+          {"pt", "POINTER TO " + pair, "pt := ADR(table[0]);\n"},
+          {"anyz", prefix_ + "_I1", ""},
+          {"itfs", "ARRAY[0..2] OF " + prefix_ + "_I0", "itfs[0] := o0;\nitfs[1] := o1;\nitfs[2] := any0;\n"},
+          {"heap", "POINTER TO " + o + "0", ""},
+          {"pool", "POINTER TO DINT", ""},
+          {"target", "DINT := -3", ""},
+          {"numbers", "ARRAY[0..4] OF DINT := [5(7)]", ""},
+          {"others", "ARRAY[-2..1] OF DINT := [1, 2, 3, 4]", ""},
+          {"squares", "ARRAY[-1..0, 3..4] OF INT := [9, 8, 7, 6]", ""},
+          {"pn", "POINTER TO DINT", "pn := ADR(numbers[1]);\n"},
+          {"pm", "POINTER TO DINT", "pm := ADR(numbers[3]);\n"},
+          {"pp", "POINTER TO " + pair, "pp := ADR(table[2]);\n"},
+          {"rp", "REFERENCE TO " + pair, "rp REF= pair;\n"},
+          {"rd", "REFERENCE TO DINT", "rd REF= numbers[2];\n"},
+          {"rz", "REFERENCE TO DINT", ""},
+          {"seen", "DWORD := 16#12345678", ""},
+          {"pw", "POINTER TO WORD", "pw := ADR(seen);\n"},
+          {"pb", "POINTER TO BYTE", "pb := ADR(seen);\n"},
+          {"halves", "ARRAY[0..1] OF DWORD", ""},
+          {"words", "ARRAY[0..2] OF WORD := [1, 2, 16#FFFF]", ""},
+          {"pl", "POINTER TO LWORD", "pl := ADR(halves);\n"}};
 }
 }  // namespace rung::differential

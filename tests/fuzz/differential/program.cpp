@@ -223,6 +223,8 @@ Node declareUsed(const std::string& prefix, const std::string& used, int blocks,
     line("block" + n, prefix + "_B" + n);
     line("block" + n + "b", prefix + "_B" + n);
   }
+  line("chart", prefix + "_Chart");
+  line("chart2", prefix + "_Chart");
   line("g_dint", "DINT");
   line("g_real", "REAL");
   line("g_string", "STRING");
@@ -245,6 +247,8 @@ Node Generator::program() {
   for (int i = 0; i < blocks; ++i) parts.push_back(makeBlock(i));
   makeObjects(parts);
   makeClasses(parts);
+  makeRecords(parts);
+  parts.push_back(makeChart());
   body_ = Body::Program;
   own_inputs_.clear();
 

@@ -242,6 +242,8 @@ Node Generator::statement(int depth) {
   if (body_ == Body::Program && codesys() && loops_ < 2 && chance(35)) return objectStatement();
   if (body_ == Body::Program && codesys() && chance(30)) return pointerStatement();
   if (body_ == Body::Program && dialect_ == Dialect::Iec3 && loops_ < 2 && chance(30)) return classStatement();
+  if (body_ == Body::Program && loops_ < 2 && chance(25)) return recordStatement();
+  if (body_ == Body::Program && loops_ == 0 && chance(8)) return chartStatement();
   if (body_ == Body::Program && chance(18)) return blockCall();
   if (chance(7)) return guardedCall();
   if (chance(12)) return rungs();
