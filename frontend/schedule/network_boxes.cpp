@@ -1,9 +1,10 @@
 // Boxes: operators become expressions, everything else calls. A function with one reader becomes part of the reader's
 // expression; a function block is called at its place in the execution order and its outputs are read from the
 // instance.
-// EN of a function guards its assignments: `IF en THEN c := c + 1; END_IF`. If several variables read a result, each of
-// them is assigned only if EN, or the ENO that the network reads, is TRUE; other readers read a variable that keeps the
-// result. An operator that can fault is called as in ST if its ENO is read: ENO is then FALSE.
+// EN guards the assignments of a box: `IF en THEN c := c + 1; END_IF`. If several variables read a result, and for the
+// outputs of an instance, each of them is assigned only if EN, or the ENO that the network reads, is TRUE; other
+// readers read a variable that keeps the result, or the instance. An operator that can fault is called as in ST if its
+// ENO is read: ENO is then FALSE.
 #include <algorithm>
 #include <cctype>
 #include <optional>
@@ -319,10 +320,13 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
     call.arguments.push_back({source.pin, build_.name(source.temporary, source.pin.loc), true, false, source.pin.loc});
     outputs = true;
   }
+  // The body of a function may set ENO to FALSE, after which its variables keep their values, so none takes the result.
+  if (function && reads_eno && result != kNone && !graph_.sources[result].temporary)
+    graph_.sources[result].temporary = newTemporary(wireName(element), e.loc);
   const bool sole = soleTarget(result) != kNone;
-  if (function && reads_eno) {
+  if (reads_eno) {
     guard(element, graph_.sources[eno].temporary);
-  } else if (function && call.has_en && (outputs || !sole) && hasTargets(element)) {
+  } else if (call.has_en && (!function || outputs || !sole) && hasTargets(element)) {
     const NameId name = keptEnable(element, call.arguments[0].value);
     call.arguments[0].value = build_.name(name, e.loc);
     guard(element, name);
