@@ -39,7 +39,11 @@ bool isKeyword(const std::vector<text::Token>& tokens, size_t k) {
   if (token == Tok::Pointer || token == Tok::Reference) return next == Tok::To;
   if (token == Tok::At) return next == Tok::Address;
   if (kModifiers.has(token)) return (before >= Tok::Var && before <= Tok::VarConfig) || kModifiers.has(before);
-  if (kBetween.has(token)) return text::isName(before) && text::isName(next);
+  // `METHOD PUBLIC On` ends the line with its name.
+  if (kBetween.has(token)) {
+    const bool ends_line = (tokens[k + 1].flags & text::kLineStart) != 0;
+    return !ends_line && !kBefore.has(before) && text::isName(before) && text::isName(next);
+  }
   return kBefore.has(token) && text::isName(next);
 }
 

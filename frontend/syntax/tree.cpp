@@ -154,9 +154,16 @@ ExprId firstOperand(const Tree& tree, ExprId id) {
 
 }  // namespace
 
+// Where an expression without operands begins: at its location, or at the point before it.
+static Loc beginOfLeaf(const Tree& tree, ExprId id) {
+  Loc loc = tree.loc(id);
+  if (tree.kind(id) == ExprKind::Name && tree.expr(id).op == kGlobalName) --loc.offset;
+  return loc;
+}
+
 Loc Tree::begin(ExprId id) const {
   while (const ExprId first = firstOperand(*this, id)) id = first;
-  return loc(id);
+  return beginOfLeaf(*this, id);
 }
 
 ExprId Tree::base(ExprId step) const {
@@ -179,7 +186,7 @@ Range Tree::range(ExprId id) const {
       }
     }
     const ExprId first = written(firstOperand(*this, at));
-    if (!first) range.begin = loc(at);
+    if (!first) range.begin = beginOfLeaf(*this, at);
     at = first;
   }
   if (range.end < range.begin) range.end = range.begin;

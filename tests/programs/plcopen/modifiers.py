@@ -124,22 +124,21 @@ for name, box, a, o, d in BOXES:
         runs = EN if with_en else [1] * len(X)
         en = 'EN := 2, ' if with_en else ''
         eno = 'ENO =>, ' if with_en else ''
-        keeps = runs if name != 'instance' else None
         value = held(raw, runs)
         for m in LOGIC:
             of_input = held(flip(pin(X, m)), runs)
-            cell('%s_in' % name, 'input 1 (x); input 2 (en); box 3 %s [%s%s %s := 1, %s =>]; output 4 (q) := 3(%s);' % (box, en, a, m, o, o), stored(of_input, '', keeps), d, 'FBD')
+            cell('%s_in' % name, 'input 1 (x); input 2 (en); box 3 %s [%s%s %s := 1, %s =>]; output 4 (q) := 3(%s);' % (box, en, a, m, o, o), stored(of_input, '', runs), d, 'FBD')
         for m in LOGIC + STORAGE:
             s = start_of(m)
             body = 'input 1 (x); input 2 (en); box 3 %s [%s%s := 1, %s%s %s =>]; output 4 (q) := 3(%s);' % (box, en, a, eno, o, m, o)
-            cell('%s_out' % name, body, stored(pin(value, m), m, keeps, s), d, 'FBD', s)
-            cell('%s_out_twice' % name, body + ' output 5 (r) := 3(%s);' % o, stored(pin(value, m), m, keeps, s), d + ' r : BOOL;', 'FBD', s)
+            cell('%s_out' % name, body, stored(pin(value, m), m, runs, s), d, 'FBD', s)
+            cell('%s_out_twice' % name, body + ' output 5 (r) := 3(%s);' % o, stored(pin(value, m), m, runs, s), d + ' r : BOOL;', 'FBD', s)
             if with_en:
                 cell('%s_eno' % name, 'input 1 (x); input 2 (en); box 3 %s [%s%s := 1, ENO %s =>, %s =>]; output 4 (q) := 3(ENO); output 5 (r) := 3(%s);' % (box, en, a, m, o, o), stored(pin(EN, m), m, None, s), d + ' r : BOOL;', 'FBD', s)
         if with_en:
             for m in LOGIC:
                 on = pin(EN, m)
-                cell('%s_en' % name, 'input 1 (x); input 2 (en); box 3 %s [EN %s := 2, %s := 1, %s =>]; output 4 (q) := 3(%s);' % (box, m, a, o, o), stored(held(raw, on), '', on if name != 'instance' else None), d, 'FBD')
+                cell('%s_en' % name, 'input 1 (x); input 2 (en); box 3 %s [EN %s := 2, %s := 1, %s =>]; output 4 (q) := 3(%s);' % (box, m, a, o, o), stored(held(raw, on), '', on), d, 'FBD')
         # another box reads the pin: it sees the value of the last call
         for m in LOGIC:
             cell('%s_read' % name, 'input 1 (x); input 2 (en); box 3 %s [%s%s := 1, %s%s %s =>]; box 5 OR [IN1 := 3(%s), IN2 := 3(%s), OUT =>]; output 4 (q) := 5(OUT);' % (box, en, a, eno, o, m, o, o), pin(value, m), d, 'FBD')

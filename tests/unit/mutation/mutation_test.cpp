@@ -219,7 +219,7 @@ void spoil(std::span<const char* const> paths, uint32_t seed, uint32_t count, do
 }
 
 TEST(Mutation, one_error_on_the_line_of_the_unexpected_token) { spoil(kPrograms, 1131, 300, 90.0, 1.1); }
-TEST(Mutation, one_error_in_instruction_lists) { spoil(kInstructionLists, 1132, 300, 90.0, 1.1); }
+TEST(Mutation, one_error_in_instruction_lists) { spoil(kInstructionLists, 1132, 1000, 90.0, 1.1); }
 TEST(Mutation, one_error_in_charts) { spoil(kCharts, 1133, 300, 90.0, 1.1); }
 
 }  // namespace
