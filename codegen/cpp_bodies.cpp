@@ -7,6 +7,9 @@
 //   structure with blocks inside         an object with references to its members
 //   function that the source names       an object of its name in upper case, called with or without EN and ENO
 //   method or action of this object      the same, by its own name
+//   located variable                     a reference to its bytes as Located<…>, which have no alignment; LocatedBit
+//   list of globals that the source      an object with references to those of its variables that the source names
+//   names, `GVL.speed`
 //   result of a function                 a variable of the function's name in upper case; of a method, of its own name
 // Inputs are const inside, outputs are const outside (5.8.6). A word in upper case that names a function counts as a
 // call, as does a word that names a method or action of the object.
@@ -57,10 +60,14 @@ class Writer {
     group.bodies.push_back(cpp_.body);
     if (body_.self) need(body_.self);
     for (const Local& local : body_.locals) need(local.type);
-    splitSource();
+    splitSource(cpp_.source, cpp_.loc, source_);
+    splitSource(cpp_.file_source, cpp_.file_loc, file_source_);
     for (const ir::BodyId function : cpp_.functions) declareFunction(function);
     const std::string variables = this->variables();
-    group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_ + "\n}  // namespace\n\n// ";
+    group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_;
+    // Internal to this file: two POUs may define the same name.
+    if (!cpp_.file_source.empty()) group.code += "\n" + file_source_ + "\n#line 1 \"" + group.stem + ".cpp\"\n";
+    group.code += "\n}  // namespace\n\n// ";
     group.code += string(body_.spelling);
     group.code += '\n';
     appendSignature(group.code, module_, body_);
@@ -106,34 +113,68 @@ class Writer {
     return out + ");\n";
   }
 
-  // Copies the source with its lines kept; #include lines go to the front of the file.
-  void splitSource() {
-    const SourceLocation location = module_.sources.location(cpp_.loc);
+  // A preprocessor directive, `include`; empty: not a directive.
+  static std::string_view directiveOf(std::string_view row) {
+    const auto blanks = [&] {
+      const size_t first = row.find_first_not_of(" \t");
+      row.remove_prefix(std::min(first, row.size()));
+    };
+    blanks();
+    if (!row.starts_with('#')) return {};
+    row.remove_prefix(1);
+    blanks();
+    return row.substr(0, std::min(row.find_first_of(" \t\r<\"(!"), row.size()));
+  }
+  static bool isCondition(std::string_view directive) {
+    return directive.starts_with("if") || directive.starts_with("el") || directive == "endif";
+  }
+
+  // Copies a source with its lines kept. #include lines go to the front of the file, and where conditions surround one
+  // of them, a copy of these too.
+  void splitSource(std::string_view source, Loc loc, std::string& out) {
+    if (source.empty()) return;
+    const SourceLocation location = module_.sources.location(loc);
     std::string path;
     appendQuoted(path, module_.sources.path(body_.file));
-    auto lineDirective = [&](std::string& out, uint32_t line) {
-      out += "#line ";
-      appendUnsigned(out, line);
-      out += ' ' + path + '\n';
+    const auto lineDirective = [&](std::string& to, uint32_t line) {
+      to += "#line ";
+      appendUnsigned(to, line);
+      to += ' ' + path + '\n';
     };
-    uint32_t line = location.line;
-    for (size_t at = 0; at <= cpp_.source.size(); ++line) {
-      const size_t end = std::min(cpp_.source.find('\n', at), cpp_.source.size());
-      std::string_view row = cpp_.source.substr(at, end - at);
+    std::vector<std::string_view> rows;
+    for (size_t at = 0; at <= source.size();) {
+      const size_t end = std::min(source.find('\n', at), source.size());
+      rows.push_back(source.substr(at, end - at));
       at = end + 1;
-      if (line == location.line) {
-        lineDirective(source_, line);
-        source_.append(location.column - 1, ' ');
+    }
+    bool is_nested = false;
+    uint32_t depth = 0;
+    for (const std::string_view row : rows) {
+      const std::string_view directive = directiveOf(row);
+      if (directive.starts_with("if")) ++depth;
+      if (directive == "endif" && depth > 0) --depth;
+      is_nested = is_nested || (directive == "include" && depth > 0);
+    }
+    bool continues = false, moves = false, copies = false;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const uint32_t line = location.line + static_cast<uint32_t>(i);
+      if (i == 0) {
+        lineDirective(out, line);
+        out.append(location.column - 1, ' ');
       } else {
-        source_ += '\n';
+        out += '\n';
       }
-      const size_t begin = row.find_first_not_of(" \t");
-      if (begin != std::string_view::npos && row.substr(begin, 8) == "#include") {
-        lineDirective(file_.front, line);
-        file_.front += std::string(row) + '\n';
-        continue;
+      if (!continues) {
+        const std::string_view directive = directiveOf(rows[i]);
+        moves = directive == "include";
+        copies = is_nested && isCondition(directive);
       }
-      source_ += row;
+      if (moves || copies) {
+        if (!continues) lineDirective(file_.front, line);
+        file_.front += std::string(rows[i]) + '\n';
+      }
+      if (!moves) out += rows[i];
+      continues = (moves || copies) && rows[i].ends_with('\\');
     }
   }
 
@@ -168,6 +209,60 @@ class Writer {
       return of.record_kind == RecordKind::Struct && !holdsBlock(type) ? named(type) : "";
     if (of.kind == TypeKind::Pointer || of.kind == TypeKind::Reference) return "void*";
     return typeKindName(types_, type) + 5;  // RUNG_INT
+  }
+
+  // The C++ type of a located variable: its bytes lie at any address.
+  std::string located(TypeId type) {
+    type = types_.resolve(type);
+    const TypeInfo& of = types_.info(type);
+    if (of.kind == TypeKind::Array) {
+      std::string out = "Array<" + located(of.base);
+      for (const types::Dimension& dimension : of.dimensions) {
+        out += '[';
+        appendUnsigned(out, dimension.count());
+        out += ']';
+      }
+      return out + ">";
+    }
+    const std::string seen = view(type);
+    if (of.kind == TypeKind::Record) return locatedStructure(type, seen);
+    const bool is_bytes = of.size == 1 || (isString(type) && types_.plainKind(type) != TypeKind::WString);
+    if (is_bytes) return seen;
+    return (of.kind == TypeKind::Enum && of.name ? "LocatedEnum<" : "Located<") + seen + ">";
+  }
+
+  // The members of the structure `seen` without alignment; those that overlap an earlier one are not shown.
+  std::string locatedStructure(TypeId type, const std::string& seen) {
+    const std::string name = seen + "_located";
+    for (const TypeId known : located_)
+      if (known == type) return name;
+    located_.push_back(type);
+    std::string fields;
+    uint32_t at = 0, gaps = 0;
+    const auto addGap = [&](uint32_t end) {
+      if (end <= at) return;
+      fields += "  unsigned char rung_gap";
+      appendUnsigned(fields, gaps++);
+      fields += "_[";
+      appendUnsigned(fields, end - at);
+      fields += "];\n";
+      at = end;
+    };
+    const TypeInfo& of = info(type);
+    for (const Field& field : of.fields) {
+      const std::string_view field_name = string(field.name);
+      if (view(field.type).empty() || field_name.empty() || mangled(field_name) != std::string(field_name) + "_" ||
+          field.offset < at)
+        continue;
+      addGap(field.offset);
+      fields += "  " + located(field.type) + ' ' + cppIdentifier(field_name) + ";\n";
+      at += info(field.type).size;
+    }
+    addGap(of.size);
+    definitions_ += "\nstruct RUNG_MAY_ALIAS " + name + " {\n" + fields + "  operator " + seen +
+                    "() const { return rung::cpp::bits<" + seen + ">(*this); }\n  " + name + "& operator=(const " +
+                    seen + "& value) { return *this = rung::cpp::bits<" + name + ">(value); }\n};\n";
+    return name;
   }
 
   // Defines the type, unless already known, and returns its name.
@@ -536,19 +631,93 @@ class Writer {
     return objects.declaration.empty() ? "" : "    " + objects.declaration + objects.begin + ";\n";
   }
 
+  // A global variable in its list.
+  std::string placeOf(const ir::CppBody::Variable& known) {
+    const ir::List& list = module_.lists[known.index];
+    need(list.record);
+    const Field& field = info(list.record).fields[known.offset];
+    std::string block = "(*static_cast<" + recordName(types_, list.record) + "*>(rung_ctx_->blocks[";
+    appendUnsigned(block, facts_.list_block[known.index]);
+    return block + "]))." + mangled(string(field.name));
+  }
+
+  // What declares a name, and what initialises a member of an object.
+  struct Declared {
+    std::string declaration, member, value;
+  };
+  Declared locatedVariable(const ir::CppBody::Variable& known, const std::string& name) {
+    std::string address = "rung_ctx_->areas[";
+    appendUnsigned(address, known.index);
+    address += "] + ";
+    appendUnsigned(address, known.offset);
+    if (known.bit != ir::kNoBit) {
+      const std::string type = known.constant ? "const ConstantBit " : "const LocatedBit ";
+      address += ", ";
+      appendUnsigned(address, known.bit);
+      return {type + name + "(" + address + ")", type + name, "{" + address + "}"};
+    }
+    need(known.type);
+    const std::string seen = located(known.type), type = known.constant ? constantOf(seen) : seen;
+    const std::string value = "*reinterpret_cast<" + type + "*>(" + address + ")";
+    return {type + "& " + name + " = " + value, type + "& " + name, value};
+  }
+
+  // An object for each list of globals that the source names.
+  std::string lists() {
+    std::vector<NameId> names;
+    const auto note = [&](NameId list) {
+      if (list && std::find(names.begin(), names.end(), list) == names.end()) names.push_back(list);
+    };
+    for (const ir::CppBody::Variable& known : cpp_.variables) note(known.list);
+    for (const ir::CppBody::Constant& known : cpp_.constants) note(known.list);
+    std::string out;
+    for (const NameId list : names) {
+      std::string members, values;
+      const auto add = [&](const std::string& member, const std::string& value) {
+        members += "      " + member + ";\n";
+        values += (values.empty() ? "" : ", ") + value;
+      };
+      for (const ir::CppBody::Variable& known : cpp_.variables) {
+        if (!(known.list == list)) continue;
+        const std::string name = cppIdentifier(string(known.name));
+        if (known.in_image) {
+          const Declared declared = locatedVariable(known, name);
+          add(declared.member, declared.value);
+        } else if (holdsBlock(known.type)) {
+          const Objects objects = objectsOf(name, types_.resolve(known.type), placeOf(known));
+          if (objects.declaration.empty()) continue;
+          const bool is_one = objects.begin.front() == '(';
+          add(objects.declaration, is_one ? named(types_.resolve(known.type)) + objects.begin : objects.begin);
+        } else if (const std::string seen = view(known.type); !seen.empty()) {
+          add((known.constant ? constantOf(seen) : seen) + "& " + name,
+              "rung::cpp::view<" + seen + ">(" + placeOf(known) + ")");
+        }
+      }
+      for (const ir::CppBody::Constant& known : cpp_.constants)
+        if (known.list == list)
+          add("const " + view(known.type) + ' ' + cppIdentifier(string(known.name)), constant(known.type, known.bits));
+      out += "    struct {\n" + members + "    } " + cppIdentifier(string(list)) + " = {" + values + "};\n";
+    }
+    return out;
+  }
+
   std::string variables() {
     std::string out;
-    for (const ir::CppBody::Global& global : cpp_.globals) {
-      const ir::List& list = module_.lists[global.list];
-      need(list.record);
-      const Field& field = info(list.record).fields[global.field];
-      std::string block = "(*static_cast<" + recordName(types_, list.record) + "*>(rung_ctx_->blocks[";
-      appendUnsigned(block, facts_.list_block[global.list]);
-      out += variable(string(global.name), field.type, block + "]))." + mangled(string(field.name)), global.constant);
+    for (const ir::CppBody::Variable& known : cpp_.variables) {
+      if (known.list) continue;
+      const std::string name = cppIdentifier(string(known.name));
+      std::string& to = known.of_object ? fields_ : out;
+      if (known.in_image) {
+        to += "    " + locatedVariable(known, name).declaration + ";\n";
+      } else {
+        to += variable(string(known.name), known.type, placeOf(known), known.constant);
+      }
     }
     for (const ir::CppBody::Constant& known : cpp_.constants)
-      out += "    const " + view(known.type) + ' ' + cppIdentifier(string(known.name)) + " = " +
-             constant(known.type, known.bits) + ";\n";
+      if (!known.list)
+        (known.of_object ? fields_ : out) += "    const " + view(known.type) + ' ' + cppIdentifier(string(known.name)) +
+                                             " = " + constant(known.type, known.bits) + ";\n";
+    out += lists();
     if (body_.self) {
       if (isMethod(body_)) {
         const std::string memory = recordName(types_, types_.resolve(body_.self));
@@ -659,7 +828,8 @@ class Writer {
   const ir::Body& body_;
   CppFile file_;
   std::vector<std::pair<TypeId, std::string>> named_;
-  std::string definitions_, functions_, names_, fields_, source_, ending_;
+  std::vector<TypeId> located_;
+  std::string definitions_, functions_, names_, fields_, source_, file_source_, ending_;
 };
 
 }  // namespace

@@ -20,6 +20,9 @@ class Writes {
       forEachRoot(module_, body, body.stmts[s], [&](ExprId root, Use use) {
         if (use != Use::Read) add(body, root);
       });
+    if (body.cpp == 0) return;
+    for (const CppBody::Variable& variable : module_.cpp_bodies[body.cpp - 1].variables)
+      if (variable.in_image && !variable.constant) add(variable.index, variable.offset, variable.bit, variable.type);
   }
 
   std::vector<rung_write> disjoint() {
@@ -50,12 +53,13 @@ class Writes {
   // The whole variable that the place is in.
   void add(const Body& body, ExprId place) {
     const Expr& root = body.expr(rootOf(body, place));
-    const auto* image = root.tryAs<ImageExpr>();
-    if (image == nullptr || module_.areas[image->area].owner == types::AreaOwner::Input) return;
-    const bool is_bit = image->bit != kNoBit;
-    const auto size = is_bit ? 1 : static_cast<uint32_t>(module_.types.info(module_.types.resolve(root.type)).size);
-    found_.push_back(
-        {static_cast<uint8_t>(image->area), static_cast<uint8_t>(is_bit ? 1u << image->bit : 255u), image->byte, size});
+    if (const auto* image = root.tryAs<ImageExpr>()) add(image->area, image->byte, image->bit, root.type);
+  }
+  void add(uint32_t area, uint32_t byte, uint32_t bit, TypeId type) {
+    if (module_.areas[area].owner == types::AreaOwner::Input) return;
+    const bool is_bit = bit != kNoBit;
+    const auto size = is_bit ? 1 : static_cast<uint32_t>(module_.types.info(module_.types.resolve(type)).size);
+    found_.push_back({static_cast<uint8_t>(area), static_cast<uint8_t>(is_bit ? 1u << bit : 255u), byte, size});
   }
 
   const Module& module_;

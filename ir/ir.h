@@ -409,20 +409,29 @@ struct Dispatch {
 
 // A body in C++: its source, and the names that it may use besides the POU's own variables (Body::locals, fields).
 struct CppBody {
-  struct Global {  // VAR_EXTERNAL
+  struct Variable {  // of a list of globals, or located
+    NameId list;     // it is named with this list, `GVL.speed`; none: by its name alone
     NameId name;
-    uint32_t list, field;
+    TypeId type;
+    bool in_image;
+    uint32_t index, offset;  // list and field; in the image area and byte
+    uint32_t bit;            // in the image; kNoBit: none
     bool constant;
+    bool of_object;  // a variable of the method's block, which those of the method may hide
   };
   struct Constant {  // VAR CONSTANT; in `initial` the values that variables of the function begin with
+    NameId list;     // as of a Variable
     NameId name;
     TypeId type;
     uint64_t bits;  // of a string its NameId
+    bool of_object = false;
   };
   BodyId body;
-  std::string_view source;  // between {C++} and {END_C++}; the sources hold it
-  Loc loc;                  // where it begins
-  std::vector<Global> globals;
+  std::string_view source;       // between {C++} and {END_C++}; the sources hold it
+  Loc loc;                       // where it begins
+  std::string_view file_source;  // between {C++ file} and {END_C++}: definitions at file level; empty: none
+  Loc file_loc;
+  std::vector<Variable> variables;
   std::vector<Constant> constants, initial;
   std::vector<BodyId> functions;  // those it may call
 };

@@ -2,6 +2,7 @@
 #include "ir/reachable.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace rung::ir {
 namespace {
@@ -28,8 +29,32 @@ class Walk {
       if (const auto* call = body.exprs[e].tryAs<CallExpr>()) note(call->callee);
     for (size_t s = 1; s < body.stmts.size(); ++s)
       if (const auto* call = body.stmts[s].tryAs<CallStmt>()) noteCall(*call);
-    if (body.cpp != 0)
-      for (const BodyId function : module_.cpp_bodies[body.cpp - 1].functions) note(function);
+    if (body.cpp != 0) scanCpp(body);
+  }
+
+  // A body in C++ may call the functions that it names, and every object that it reaches.
+  void scanCpp(const Body& body) {
+    const CppBody& cpp = module_.cpp_bodies[body.cpp - 1];
+    for (const BodyId function : cpp.functions) note(function);
+    if (body.self)
+      for (const types::Field& field : module_.types.info(module_.types.resolve(body.self)).fields)
+        noteObjects(field.type);
+    for (const Local& local : body.locals) noteObjects(local.type);
+    for (const CppBody::Variable& variable : cpp.variables) noteObjects(variable.type);
+  }
+
+  void noteObjects(TypeId type) {
+    types::TypeTable& types = module_.types;
+    type = types.resolve(type);
+    while (types.kind(type) == types::TypeKind::Array) type = types.resolve(types.info(type).base);
+    if (types.kind(type) != types::TypeKind::Record || !objects_.insert(type.index).second) return;
+    for (const Record& record : module_.records)
+      if (types.resolve(record.type) == type) note(record.body);
+    for (uint32_t i = 1; i < module_.bodies.size(); ++i)
+      if (module_.bodies[i].kind == BodyKind::Function && module_.bodies[i].self &&
+          types.resolve(module_.bodies[i].self) == type)
+        note({i});
+    for (const types::Field& field : types.info(type).fields) noteObjects(field.type);
   }
 
   void noteCall(const CallStmt& call) {
@@ -44,6 +69,7 @@ class Walk {
 
   const Module& module_;
   std::vector<bool> listed_;
+  std::unordered_set<uint32_t> objects_;
   std::vector<BodyId> bodies_;
 };
 

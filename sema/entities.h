@@ -141,10 +141,11 @@ struct Pou {
   std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among `vars`; filled by bodies/ at the first call
   bool library = false;
-  bool excluded = false;         // a test, or only for tests, and not part of this program: checked, not lowered
-  bool cpp = false;              // its body is in C++
-  std::vector<PouId> cpp_calls;  // functions that such a body names
-  bool extensible = false;       // has an {extensible} pin
+  bool excluded = false;           // a test, or only for tests, and not part of this program: checked, not lowered
+  bool cpp = false;                // its body is in C++
+  std::vector<PouId> cpp_calls;    // functions that such a body names
+  std::vector<VarId> cpp_globals;  // variables that it names with their list, `GVL.speed`
+  bool extensible = false;         // has an {extensible} pin
   bool may_fault = false;
   // The pragmas of its declaration (collect.cpp).
   struct Pragmas {

@@ -111,10 +111,14 @@ size_t PouExport::endOfHeader(const PouDecl& pou) const {
 
 // The declaration as written, with the comments above it.
 std::string PouExport::header(const PouDecl& pou) const {
-  const size_t begin = source_.at(pou.h.begin);
-  std::string_view text = source_.cut(source_.commentsBefore(begin), endOfHeader(pou));
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return std::string(text);
+  const size_t begin = source_.commentsBefore(source_.at(pou.h.begin)), end = endOfHeader(pou);
+  std::string text(source_.cut(begin, end));
+  if (pou.cpp_file_begin != pou.cpp_file_end) {  // it goes with the body
+    const size_t first = source_.at(pou.cpp_file_begin);
+    if (first < end) text.erase(first - begin, source_.at(pou.cpp_file_end) - first);
+  }
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.pop_back();
+  return text;
 }
 
 std::string PouExport::documentationOf(const PouDecl& pou) const {
@@ -548,7 +552,11 @@ void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
     to.onlyRung(pou.h.loc, "C++ bodies");
     to.xml.formatted("ST", "");
     AddData data(to);
-    exportOwnText(to, source.cut(source.at(pou.body_begin), source.at(pou.body_end)), data);
+    std::string text;
+    if (pou.cpp_file_begin != pou.cpp_file_end)
+      text.append(source.cut(source.at(pou.cpp_file_begin), source.at(pou.cpp_file_end))).append("\n");
+    text += source.cut(source.at(pou.body_begin), source.at(pou.body_end));
+    exportOwnText(to, text, data);
   } else {
     size_t begin = source.at(pou.body_begin), end = source.at(pou.body_end);
     if (pou.closed || begin != end) begin = source.commentsBefore(begin, true);

@@ -234,8 +234,8 @@ class Lexer {
     if (out_.comments != nullptr) out_.comments->push_back({{loc(begin), loc(end)}, kind});
   }
   const char* pragma(const char* p);
-  bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
-  const char* cppBody(const char* p);
+  uint32_t cppOpening(const char* p) const;
+  const char* cpp(const char* p);
   // `ST?` of Instruction List, without a space.
   bool behindSt(const char* p) const {
     return at(p) >= 2 && sameIdentifier({p - 2, 2}, "ST") && (at(p) == 2 || !kWordChar[static_cast<Byte>(p[-3])]);
@@ -313,7 +313,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
         keep(start, p, CommentKind::Block);
         continue;
       }
-      if (*p == '{' && !atCppBody(p)) {
+      if (*p == '{' && cppOpening(p) == 0) {
         p = pragma(p);
         continue;
       }
@@ -322,7 +322,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     switch (cls) {
       case kLetter: p = word(p); break;
       case kDigit: p = number(p); break;
-      case kPunct: p = *p == '{' ? cppBody(p) : punct(p); break;
+      case kPunct: p = *p == '{' ? cpp(p) : punct(p); break;
       case kQuote: p = quoted(p); break;
       case kStray:
       case kNul: p = stray(p); break;
@@ -616,16 +616,29 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
   return end_;
 }
 
-// {C++} … {END_C++}
-const char* Lexer::cppBody(const char* begin) {
-  const char* p = begin + 5;
+// The length of `{C++}` or `{C++ file}` at `p`; 0: neither.
+uint32_t Lexer::cppOpening(const char* p) const {
+  if (end_ - p <= 5 || !sameIdentifier({p, 4}, "{C++")) return 0;
+  if (p[4] == '}') return 5;
+  const char* word = p + 4;
+  while (*word == ' ' || *word == '\t') ++word;
+  if (word == p + 4 || end_ - word < 5 || !sameIdentifier({word, 4}, "file")) return 0;
+  word += 4;
+  while (*word == ' ' || *word == '\t') ++word;
+  return *word == '}' ? static_cast<uint32_t>(word + 1 - p) : 0;
+}
+
+// {C++} … {END_C++}, {C++ file} … {END_C++}
+const char* Lexer::cpp(const char* begin) {
+  const uint32_t opening = cppOpening(begin);
+  const char* p = begin + opening;
   while (p < end_ && !(*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}"))) ++p;
   if (p == end_) {
-    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(opening);
     return end_;
   }
   p += 9;
-  push(Tok::CppBody, begin, static_cast<uint32_t>(p - begin));
+  push(opening == 5 ? Tok::CppBody : Tok::CppFile, begin, static_cast<uint32_t>(p - begin));
   return p;
 }
 

@@ -172,12 +172,14 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
   const size_t outer_variables = variables_.size();
   pou_end_ = end;
   pou_closes_ = Known::Yes;
-  while (atSection()) {
+  while (at(Tok::CppFile) || atSection()) {
+    if (acceptCppFile(d)) continue;
     const DeclId section = parseSection();
     decls_.push_back(section);
   }
   d.sections = listFrom(decls_, first);
   parseBody(d);
+  checkCppFile(d);
   variables_.resize(outer_variables);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.closed = true;

@@ -245,7 +245,9 @@ void Parser::closePou(PouDecl& d, const Token* open, Tok word, Tok end) {
     const bool outer_ends = (d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action) && isReserved(kind());
     if (!atTopLevelWord() && !at(Tok::End) && !outer_ends) {
       // An END_… of something else, which block repair would have removed.
-      if (d.body_kind == BodyKind::Cpp)
+      if (at(Tok::CppFile))
+        reportCppFile(diag::CppFileAfterBody, here());
+      else if (d.body_kind == BodyKind::Cpp)
         slip(diag::AfterCppBody, t_, {describe(t_)});
       else
         slip(diag::StrayEnd, t_, {textOf(t_)});
@@ -267,7 +269,8 @@ void Parser::parsePouParts(PouDecl& d) {
   std::vector<DeclId> members;
   std::vector<SfcTransition> transitions;
   const size_t first = decls_.size();
-  while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
+  while (at(Tok::CppFile) || (atSection() && (!at(Tok::VarGlobal) || pouCloses()))) {
+    if (acceptCppFile(d)) continue;
     const DeclId section = parseSection();
     decls_.push_back(section);
     const bool is_generic = (tree_.decl(section).bits & kGeneric) != 0;
@@ -287,10 +290,39 @@ void Parser::parsePouParts(PouDecl& d) {
   }
   d.transitions = tree_.addList<SfcTransition>(transitions);
   d.members = tree_.addList<DeclId>(members);
+  checkCppFile(d);
+}
+
+// {C++ file} … {END_C++}: the definitions at file level of a body in C++ (syntax manual 5.8.2), among the declarations.
+bool Parser::acceptCppFile(PouDecl& d) {
+  if (!at(Tok::CppFile)) return false;
+  if (d.cpp_file_begin != d.cpp_file_end) {
+    reportCppFile(diag::SecondCppFile, here());
+  } else {
+    d.cpp_file_begin = here();
+    d.cpp_file_end = endOf(t_);
+  }
+  advance();
+  return true;
+}
+
+// `{C++ file}` alone: what follows it may be many lines.
+void Parser::reportCppFile(Diag diag, Loc at) {
+  const std::string_view text = source_.substr(at.offset - base_);
+  diagnostics_.report(diag, at).length(static_cast<uint32_t>(text.find('}') + 1));
+}
+
+//   passes  FUNCTION f : INT {C++ file} int one() { return 1; } {END_C++} {C++} F = one(); {END_C++} END_FUNCTION
+//   fails   FUNCTION f : INT {C++ file} {END_C++} f := 1; END_FUNCTION          E0176
+void Parser::checkCppFile(const PouDecl& d) {
+  if (d.cpp_file_begin != d.cpp_file_end && d.body_kind != BodyKind::Cpp)
+    reportCppFile(diag::CppFileWithoutBody, d.cpp_file_begin);
 }
 
 // Statements, instructions or {C++}: a body is in one language.
 void Parser::parseBody(PouDecl& d) {
+  while (acceptCppFile(d)) {
+  }
   const Token* first = t_;
   d.body_begin = d.body_end = here();
   if (accept(Tok::CppBody)) {

@@ -32,6 +32,9 @@ class Parser final : public ChartParser {
   void parsePouResult(PouDecl& d, Tok word);
   void parsePouParts(PouDecl& d);
   void closePou(PouDecl& d, const Token* open, Tok word, Tok end);
+  bool acceptCppFile(PouDecl& d);
+  void checkCppFile(const PouDecl& d);
+  void reportCppFile(Diag diag, Loc at);
   void parseBody(PouDecl& d) override;
   bool skipForeign() override { return chartInSt() || instructionInSt(); }
 

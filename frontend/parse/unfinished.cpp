@@ -25,7 +25,9 @@ bool closesBracket(Tok k) { return k == Tok::RightParen || k == Tok::RightBracke
 bool isBoundary(Tok k) {
   static constexpr TokSet kContinue = {Tok::True,   Tok::False, Tok::Null, Tok::Array,
                                        Tok::Struct, Tok::Union, Tok::RefTo};
-  if (k == Tok::End || k == Tok::Network || k == Tok::EndNetwork || k == Tok::CppBody || isObjectWord(k)) return true;
+  if (k == Tok::End || k == Tok::Network || k == Tok::EndNetwork || k == Tok::CppBody || k == Tok::CppFile ||
+      isObjectWord(k))
+    return true;
   return isReserved(k) && !isTypeWord(k) && !isOperator(k) && !kContinue.has(k);
 }
 

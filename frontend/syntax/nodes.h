@@ -503,7 +503,8 @@ struct PouDecl {
   Slice<TypeExprId> implements;
   Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
-  Loc body_begin, body_end;  // its statements or instructions; Cpp: with {C++} and {END_C++}
+  Loc body_begin, body_end;          // its statements or instructions; Cpp: with {C++} and {END_C++}
+  Loc cpp_file_begin, cpp_file_end;  // {C++ file} … {END_C++}, equal: none
 };
 
 enum PropertyBits : uint8_t { kInHalves = 1 };  // PROPERTY_GET, PROPERTY_SET: edition 4

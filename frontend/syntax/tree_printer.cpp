@@ -331,6 +331,7 @@ void Printer::print(const PouDecl& d, int depth) {
   }
   for (DeclId s : tree_.list(d.sections)) decl(s, depth + 1);
   if (d.body_kind == BodyKind::Native) line(depth + 1, "native");
+  if (d.cpp_file_begin != d.cpp_file_end) line(depth + 1, "cpp file");
   if (d.body_kind == BodyKind::Cpp) line(depth + 1, "cpp");
   if (d.body_kind == BodyKind::Il) {
     line(depth + 1, "instructions");

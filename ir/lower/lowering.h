@@ -34,6 +34,7 @@ struct ModuleLowering {
   // Lowers the requested bodies and those that they request. Stops at one whose POU is not checked, and returns that.
   sema::PouId lowerBodies();
   void lowerCpp(sema::PouId id);
+  void addCppVariable(CppBody& cpp, sema::VarId id, NameId list, bool of_object);
   // Lists and instances as known while the project is being checked, without their memory and code.
   void addNames();
   // The body of a POU's code; declares its parameters when first asked for.

@@ -125,6 +125,145 @@ struct RUNG_MAY_ALIAS Array {
   Table table;
 };
 
+/* Little-endian bytes at any address. */
+template <class T>
+T located(const uint8_t* bytes) {
+  static_assert(sizeof(T) == 2 || sizeof(T) == 4 || sizeof(T) == 8, "one byte needs no order");
+  T value;
+  if (sizeof(T) == 2) {
+    const uint16_t raw = rung_get16(bytes);
+    memcpy(static_cast<void*>(&value), &raw, sizeof value);
+  } else if (sizeof(T) == 4) {
+    const uint32_t raw = rung_get32(bytes);
+    memcpy(static_cast<void*>(&value), &raw, sizeof value);
+  } else {
+    const uint64_t raw = rung_get64(bytes);
+    memcpy(static_cast<void*>(&value), &raw, sizeof value);
+  }
+  return value;
+}
+template <class T>
+void locate(uint8_t* bytes, const T& value) {
+  if (sizeof(T) == 2) {
+    uint16_t raw = 0;
+    memcpy(&raw, &value, sizeof value);
+    rung_put16(bytes, raw);
+  } else if (sizeof(T) == 4) {
+    uint32_t raw = 0;
+    memcpy(&raw, &value, sizeof value);
+    rung_put32(bytes, raw);
+  } else {
+    uint64_t raw = 0;
+    memcpy(&raw, &value, sizeof value);
+    rung_put64(bytes, raw);
+  }
+}
+
+/* A variable of several bytes in the process image: converts to its value, and takes one. */
+template <class T>
+struct RUNG_MAY_ALIAS Located {
+  uint8_t bytes[sizeof(T)];
+  operator T() const { return located<T>(bytes); }
+  Located& operator=(T value) {
+    locate(bytes, value);
+    return *this;
+  }
+  template <class U>
+  Located& operator+=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) + by);
+  }
+  template <class U>
+  Located& operator-=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) - by);
+  }
+  template <class U>
+  Located& operator*=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) * by);
+  }
+  template <class U>
+  Located& operator/=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) / by);
+  }
+  template <class U>
+  Located& operator%=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) % by);
+  }
+  template <class U>
+  Located& operator&=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) & by);
+  }
+  template <class U>
+  Located& operator|=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) | by);
+  }
+  template <class U>
+  Located& operator^=(const U& by) {
+    return *this = static_cast<T>(static_cast<T>(*this) ^ by);
+  }
+  Located& operator<<=(int by) { return *this = static_cast<T>(static_cast<T>(*this) << by); }
+  Located& operator>>=(int by) { return *this = static_cast<T>(static_cast<T>(*this) >> by); }
+  Located& operator++() { return *this += 1; }
+  Located& operator--() { return *this -= 1; }
+  T operator++(int) {
+    const T before = *this;
+    ++*this;
+    return before;
+  }
+  T operator--(int) {
+    const T before = *this;
+    --*this;
+    return before;
+  }
+};
+/* An enumeration, which compares with its items. */
+template <class T>
+struct RUNG_MAY_ALIAS LocatedEnum : Located<T> {
+  using Located<T>::operator=;
+  operator typename T::Value() const { return located<T>(this->bytes).value; }
+};
+/* A WSTRING. */
+template <uint32_t N>
+struct RUNG_MAY_ALIAS Located<WideString<N>> {
+  uint8_t bytes[sizeof(WideString<N>)];
+  operator WideString<N>() const {
+    WideString<N> value;
+    for (uint32_t i = 0; i <= N; ++i) value.characters[i] = static_cast<char16_t>(rung_get16(bytes + i * 2));
+    return value;
+  }
+  operator std::u16string() const { return static_cast<WideString<N>>(*this); }
+  Located& operator=(const WideString<N>& value) {
+    const uint32_t end = static_cast<uint32_t>(value.size());
+    for (uint32_t i = 0; i <= end; ++i) rung_put16(bytes + i * 2, value.characters[i]);
+    return *this;
+  }
+  size_t size() const { return static_cast<WideString<N>>(*this).size(); }
+};
+
+/* A BOOL at one bit of the process image. */
+class ConstantBit {
+ public:
+  ConstantBit(uint8_t* byte, uint32_t bit) : byte_(byte), mask_(static_cast<uint8_t>(1u << bit)) {}
+  operator bool() const { return (*byte_ & mask_) != 0; }
+  operator BOOL() const { return static_cast<bool>(*this); }
+
+ protected:
+  uint8_t* byte_;
+  uint8_t mask_;
+};
+class LocatedBit : public ConstantBit {
+ public:
+  using ConstantBit::ConstantBit;
+  LocatedBit(const LocatedBit&) = default;
+  const LocatedBit& operator=(bool value) const {
+    *byte_ = static_cast<uint8_t>(value ? *byte_ | mask_ : *byte_ & ~mask_);
+    return *this;
+  }
+  const LocatedBit& operator=(const LocatedBit& other) const { return *this = static_cast<bool>(other); }
+  const LocatedBit& operator&=(bool other) const { return *this = *this && other; }
+  const LocatedBit& operator|=(bool other) const { return *this = *this || other; }
+  const LocatedBit& operator^=(bool other) const { return *this = static_cast<bool>(*this) != other; }
+};
+
 /* Memory of generated code, seen as the type that a body in C++ has for it, and vice versa. */
 template <class To, class From>
 To& view(From& memory) {
