@@ -544,6 +544,17 @@ static void declareEno(Context& context, PouId id) {
   symbols.pou(id).vars.push_back(created);
 }
 
+static Var hiddenBeside(Context& context, VarId of, const std::string& suffix, TypeId type) {
+  const Var& var = context.symbols.var(of);
+  Var hidden;
+  hidden.name = context.names().intern("__" + toString(context, var.name) + suffix);
+  hidden.loc = var.loc;
+  hidden.type = type;
+  hidden.storage = var.storage;
+  hidden.use.read = hidden.use.written = true;
+  return hidden;
+}
+
 // `t.ENO` reads what the last call of the instance t set, so a hidden variable beside it holds that; TRUE at first.
 // Not of a block that declares an output ENO.
 static bool keepsEno(Context& context, VarId id) {
@@ -719,13 +730,8 @@ void resolvePou(Context& context, PouId id) {
     pou.generic = false;
   }
   const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
-    Var hidden;
-    hidden.name = context.names().intern("__" + toString(context, symbols.var(of).name) + suffix);
-    hidden.loc = symbols.var(of).loc;
-    hidden.type = type;
-    hidden.storage = symbols.var(of).storage;
+    Var hidden = hiddenBeside(context, of, suffix, type);
     hidden.pou = id;
-    hidden.use.read = hidden.use.written = true;
     hidden.field = static_cast<uint32_t>(pou.vars.size());
     hidden.open_array.hidden_input = hidden.storage == Storage::Local;
     const VarId hidden_id{static_cast<uint32_t>(symbols.vars.size())};
@@ -768,13 +774,8 @@ void resolveList(Context& context, ListId id) {
     ensureVarType(context, var);
     if (symbols.var(var).storage == Storage::Global) addField(context, record, var);
     if (symbols.var(var).storage != Storage::Global || !keepsEno(context, var)) continue;
-    Var hidden;
-    hidden.name = context.names().intern("__" + toString(context, symbols.var(var).name) + "_eno");
-    hidden.loc = symbols.var(var).loc;
-    hidden.type = types::kBool;
-    hidden.storage = Storage::Global;
+    Var hidden = hiddenBeside(context, var, "_eno", types::kBool);
     hidden.list = id;
-    hidden.use.read = hidden.use.written = true;
     hidden.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, hidden.loc);
     const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(hidden);
