@@ -116,6 +116,9 @@ struct Options {
   // list
   std::string signature;
 
+  // new
+  std::string project_template = "st";  // --template
+
   std::string moduleName() const { return name.empty() ? "plc" : name; }
 };
 

@@ -24,6 +24,8 @@ enum class Command : uint8_t {
   Graph,
   Fmt,
   List,
+  New,
+  Init,
   Cam,
   Explain,
   Version,
