@@ -111,8 +111,20 @@ bool Compilation::read() {
   for (const LibraryInput& file : inputs.library_files)
     if (ok) libraries.addFile(file.library, file.path, file.file, sources.sourceText(file.file));
   noteLibraries();
+  if (options.verbose) sink_.message(whatIsRead());
   times_.end();
   return ok;
+}
+
+// What `--verbose` says: the inputs, the project's settings, the files, and the libraries beside those of Rung.
+std::string Compilation::whatIsRead() const {
+  std::string out;
+  for (const std::string& input : options.inputs) out += "rung: input: " + input + "\n";
+  if (inputs.project.file) out += "rung: project: " + std::string(sources.displayPath(inputs.project.file)) + "\n";
+  for (const InputFile& file : inputs.files) out += "rung: file: " + file.shown + "\n";
+  for (const auto& [name, folder] : libraries.folders()) out += "rung: library: " + name + " in " + folder + "\n";
+  for (const importer::Library& wanted : inputs.libraries) out += "rung: library of the project: " + wanted.name + "\n";
+  return out;
 }
 
 // The names of the project among the inputs, or of a library given with -I, that has this name; or null.

@@ -63,6 +63,7 @@ struct Options {
   bool color = false;            // of diagnostics
   std::string dump_after;
   bool time_phases = false;
+  bool verbose = false;
   bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
 
   // emit

@@ -69,6 +69,7 @@ enum class Key : uint8_t {
   Color,
   DumpAfter,
   TimePhases,
+  Verbose,
   Emit,
   To,
   Split,
@@ -215,6 +216,7 @@ constexpr OptionRow kOptions[] = {
      "number of C++ compilers to run in parallel"},
     {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print the result of parse, lower or a pass to stderr"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print the time and lines per second of each phase"},
+    {Key::Verbose, "--verbose", nullptr, kReads, "print which project, files and libraries are read"},
     {Key::Later, "--plc-period", "T", bit(Command::Run), nullptr},
     {Key::Later, "--time-slice", "T", bit(Command::Run), nullptr},
     {Key::Help, "--help", nullptr, kAll, nullptr},
@@ -303,6 +305,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.color_choice = static_cast<Color>(choice);
       return error;
     case Key::DumpAfter: options.dump_after = value; return {};
+    case Key::Verbose: options.verbose = true; return {};
     case Key::TimePhases: options.time_phases = true; return {};
     case Key::Emit:
       error = parseChoice(row.name, value, row.value, choice);
