@@ -232,6 +232,7 @@ bool Compilation::check() {
     sema_options.mocks = options.mocks;
     sema_options.pointer_size = options.pointer_size;
     sema_options.native_width = options.native_width;
+    sema_options.edge_coils = options.edge_coils;
     sema_options.scheduled = scheduled;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     FunctionRef<bool(sema::PouId)> ready) {

@@ -56,6 +56,7 @@ enum class Key : uint8_t {
   Name,
   Dialect,
   NativeWidth,
+  EdgeCoils,
   Period,
   Checks,
   Level,
@@ -192,6 +193,8 @@ constexpr OptionRow kOptions[] = {
     {Key::CamNumber, "--slave-unit", "U", bit(Command::Cam), "the same"},
     {Key::Dialect, "--std", "codesys|iec3|iec2", kReads | bit(Command::Init), "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
+    {Key::EdgeCoils, "--edge-coils", "pulse|latch", kCompile | bit(Command::Convert),
+     "edge coils without an edge: FALSE (default), kept"},
     {Key::Period, "--plc-period", "T", kCompile, "period of Main of an NCT program (default: T#10ms)"},
     {Key::Period, "--time-slice", "T", kCompile, "period of Int0 of an NCT program (default: T#2ms)"},
     {Key::Checks, "--checks", "LIST", kCompile,
@@ -269,6 +272,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
     case Key::NativeWidth: options.native_width_given = true; return parseNativeWidth(value, options.native_width);
+    case Key::EdgeCoils: options.edge_coils_given = true; return parseEdgeCoils(value, options.edge_coils);
     case Key::Checks: options.checks_given = true; return parseChecks(value, options.checks);
     case Key::Level:
       options.level_given = true;
