@@ -396,7 +396,9 @@ void Lexer::resolveDeclaredWords() {
                          (next == Tok::At && i + 2 < tokens.size() && tokens[i + 2].kind == Tok::Address);
     const bool name = isPlantWord(token.kind) ? !isName(next) : isPartWord(token.kind) ? operand : !type;
     const bool member = last == Tok::Dot && isReserved(token.kind);
-    if (!member && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
+    const bool pin = (last == Tok::LeftParen || last == Tok::LeftBracket || last == Tok::Comma) &&
+                     (next == Tok::Assign || next == Tok::Arrow);
+    if (!member && !pin && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
     if (isReserved(token.kind)) {
       const auto length = static_cast<uint16_t>(token.value);
       token.value = names_.intern(source_.substr(token.offset, length)).index;
