@@ -201,6 +201,9 @@ bool Compilation::parse() {
 
 bool Compilation::check() {
   if (!parse()) return false;
+  if (!inputs.has_ladder)
+    for (const InputFile& file : inputs.message_files)
+      diagnostics.report(diag::NoLadderOfMessages, sources.begin(file.file), {});
   if (parsed && !diagnostics.hasErrors()) parsed();
   times_.begin("check");
   // Checking follows even after errors of the parser: one run reports as much as it can.

@@ -17,7 +17,7 @@
 namespace rung::driver {
 
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };
-enum class ConvertTo : uint8_t { None, St, Xml };
+enum class ConvertTo : uint8_t { None, St, Xml, Messages };
 enum class BuildKind : uint8_t { Executable, Shared, Static };
 // The engine that runs a program: the interpreter of the IR, or compiled C++.
 enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter when possible

@@ -32,7 +32,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Build, "build", "[FILE|DIR ...] -o FILE", "emit, compile and link"},
     {Command::Run, "run", "[FILE|DIR ...]", "run a program, with inputs and traces"},
     {Command::Test, "test", "[FILE|DIR ...]", "run the POUs marked {test}"},
-    {Command::Convert, "convert", "[FILE|DIR ...] --to st|xml -o DIR",
+    {Command::Convert, "convert", "[FILE|DIR ...] --to st|xml|mes -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "[FILE|DIR ...] -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
     {Command::Fmt, "fmt", "[FILE|DIR|- ...]", "format sources, also inside files of other tools"},
@@ -115,7 +115,7 @@ constexpr OptionRow kOptions[] = {
      bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Cam),
      "output file or folder"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
-    {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
+    {Key::To, "--to", "st|xml|mes", bit(Command::Convert), "Structured Text, PLCopen XML or messages of NCT"},
     {Key::Split, "--split", nullptr, bit(Command::Convert), "to ST: one file for each POU, also of files in ST"},
     {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
     {Key::FmtCheck, "--check", nullptr, bit(Command::Fmt), "write nothing; list files to change, exit 1"},
@@ -317,7 +317,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return error;
     case Key::To:
       error = parseChoice(row.name, value, row.value, choice);
-      options.to = choice == 0 ? ConvertTo::St : ConvertTo::Xml;
+      options.to = choice == 0 ? ConvertTo::St : choice == 1 ? ConvertTo::Xml : ConvertTo::Messages;
       return error;
     case Key::Split: options.splits = true; return {};
     case Key::Depfile: options.depfile = value; return {};
@@ -465,8 +465,8 @@ std::string checkCombination(const Options& options) {
       return std::string("`--trace-calls` needs the interpreter; remove ") +
              (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Convert && (options.output.empty() || options.to == ConvertTo::None))
-    return "`rung convert` needs a target and a folder: add `--to st -o DIR` or `--to xml -o DIR`";
-  if (options.splits && options.to == ConvertTo::Xml) return "`--split` goes with `--to st`: PLCopen XML is one file";
+    return "`rung convert` needs a target and a folder: add `--to st|xml|mes -o DIR`";
+  if (options.splits && options.to != ConvertTo::St) return "`--split` goes with `--to st`: other formats are one file";
   if (options.command == Command::Graph && options.output.empty())
     return "`rung graph` needs a folder for the pictures: add `-o DIR`";
   if (options.command == Command::Fmt && options.lines.last != UINT32_MAX && options.inputs.size() != 1)
