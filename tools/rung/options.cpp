@@ -507,6 +507,18 @@ const char* commandName(Command command) {
   return "help";
 }
 
+std::vector<CommandDescription> describeCommands() {
+  std::vector<CommandDescription> commands;
+  for (const CommandRow& row : kCommands) {
+    CommandDescription command{row.name, row.arguments, row.summary, {}};
+    for (const OptionRow& option : kOptions)
+      if (option.help != nullptr && (option.commands & bit(row.command)) != 0)
+        command.options.push_back({option.name, option.value == nullptr ? "" : option.value, option.help});
+    commands.push_back(std::move(command));
+  }
+  return commands;
+}
+
 std::string expandResponseFiles(std::vector<std::string>& arguments) {
   uint32_t files = 0;
   for (size_t i = 0; i < arguments.size(); i++) {
