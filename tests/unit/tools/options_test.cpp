@@ -53,7 +53,8 @@ TEST(Options, Checks) {
 TEST(Options, EdgeCoils) {
   EXPECT_EQ(parsed({"check", "a.st"}).edge_coils, diagram::EdgeCoils::Pulse);
   EXPECT_EQ(parsed({"run", "a.st", "--edge-coils=latch"}).edge_coils, diagram::EdgeCoils::Latch);
-  EXPECT_EQ(parsed({"convert", "--to=st", "a.st", "--edge-coils", "pulse"}).edge_coils, diagram::EdgeCoils::Pulse);
+  EXPECT_EQ(parsed({"convert", "--to=st", "-o", "out", "a.st", "--edge-coils", "pulse"}).edge_coils,
+            diagram::EdgeCoils::Pulse);
   EXPECT_NE(errorOf({"graph", "a.st", "--edge-coils=latch"}), "");  // a picture shows what is written
 }
 
