@@ -258,7 +258,8 @@ class TypeTable {
   // The representation of an elementary kind: signed or unsigned integer of bitWidth, or floating point.
   // TIME is unsigned in codesys and signed in iec2/iec3.
   bool isSigned(TypeKind k) const;
-  bool time_is_signed = false;
+  // Of the dialect: TIME is unsigned in codesys; LTIME has a sign in iec3 only (docs/language.md).
+  bool time_is_signed = false, long_time_is_signed = false;
   // True when `kind` belongs to the generic type (ANY_NUM holds INT).
   static bool belongsTo(TypeKind kind, TypeKind generic);
   // The same in codesys, which takes bit strings where integers are accepted, and vice versa.
