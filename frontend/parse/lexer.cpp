@@ -202,6 +202,7 @@ class Lexer {
         base_(sources.begin(file).offset),
         source_(sources.sourceText(file)),
         path_(sources.path(file)),
+        any_underscores_(sources.hasAnyUnderscores(file)),
         names_seen_(names.count()) {}
 
   void run(uint32_t begin, uint32_t end);
@@ -258,6 +259,7 @@ class Lexer {
   uint32_t base_;
   std::string_view source_;
   std::string_view path_;
+  bool any_underscores_;
   const char* end_ = nullptr;
   uint32_t names_seen_;
   uint8_t flags_ = kLineStart;
@@ -409,6 +411,7 @@ void Lexer::resolveDeclaredWords() {
 }
 
 void Lexer::checkUnderscores(const char* begin, const char* end) {
+  if (any_underscores_) return;
   std::string_view name(begin, static_cast<size_t>(end - begin));
   // TO___XWORD, INT_TO___UXINT: the conversions to the types whose names begin so. TwinCAT, "Overloading".
   for (const std::string_view type : {"___XWORD", "___UXINT", "___XINT"}) {

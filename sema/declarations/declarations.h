@@ -201,5 +201,7 @@ Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrar
 // The name by which the module knows a POU or type of a library: with the library's name if the bare name means one of
 // the project or of another library.
 NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name);
+// `CAA.PVOID`: how messages name it then.
+NameId nameWithLibrary(Context& context, uint32_t library, NameId name);
 
 }  // namespace rung::sema
