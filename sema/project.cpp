@@ -3,8 +3,10 @@
 
 #include <utility>
 
+#include "frontend/schedule/network_pins.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/invariant.h"
+#include "sema/bodies/signatures.h"
 #include "sema/checks/mocks.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/task_settings.h"
@@ -95,11 +97,9 @@ void checkProgramsRun(Context& context) {
 
 }  // namespace
 
-void check(Project& project) {
+static void declare(Context& context) {
   setPhase("sema");
-  project.diagnostics.closeLines();
-  Scopes scopes;
-  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
+  context.symbols.diagnostics.closeLines();
   internKnownNames(context);
   indexLibraries(context);
   collectFiles(context);
@@ -107,6 +107,30 @@ void check(Project& project) {
   collectConfigurations(context);
   resolveHeaders(context);
   resolveDeclarations(context);
+}
+
+std::vector<bool> inOutsOfBoxes(Project& project) {
+  Scopes scopes;
+  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
+  declare(context);
+  std::vector<bool> in_outs;
+  const auto count = static_cast<uint32_t>(project.pous.size());  // those of libraries are added on demand
+  for (uint32_t i = 1; i < count; ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.library || !pou.decl) continue;
+    const PouDecl& decl = project.tree.as<PouDecl>(pou.decl);
+    if (decl.body_kind != BodyKind::Network) continue;
+    Context there = atPou(context, PouId{i});
+    ProjectSignatures signatures(there);
+    diagram::markInOuts(project.tree, project.names, signatures, decl.diagram, in_outs);
+  }
+  return in_outs;
+}
+
+void check(Project& project) {
+  Scopes scopes;
+  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
+  declare(context);
   markOverloads(context);
   resolveConfigurations(context);
   checkTestPragmas(context);

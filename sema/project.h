@@ -121,4 +121,8 @@ struct Project : Symbols {
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
 
+// For pictures: the pins of boxes that are in-outs of what they call, by their index in the tree. Collects and resolves
+// declarations as check() does; bodies stay as parsed.
+std::vector<bool> inOutsOfBoxes(Project& project);
+
 }  // namespace rung::sema

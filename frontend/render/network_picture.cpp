@@ -282,9 +282,38 @@ std::vector<Plan> planNetworks(const Body& body, int32_t page) {
   return plans;
 }
 
+// CODESYS has no numbers for them in its explicit order: they run with their readers.
+static bool isComposer(const DiagramElement& e) {
+  return e.kind == ElementKind::Compose || e.kind == ElementKind::Select;
+}
+
+// The numbers of the file. If it has none, elements are counted; if some elements have none, `3.1` is the first of
+// those that run after the element with number 3.
+static std::vector<std::string> executionNumbers(std::span<const DiagramElement> elements,
+                                                 std::span<const uint32_t> order) {
+  std::vector<std::string> numbers(elements.size());
+  bool numbered = false;
+  for (size_t k = 0; k < elements.size(); ++k) {
+    if (elements[k].order == 0) continue;
+    numbers[k] = std::to_string(elements[k].order);
+    numbered = true;
+  }
+  uint32_t last = 0, after = 0;
+  for (const uint32_t k : order) {
+    if (elements[k].order != 0) {
+      last = elements[k].order;
+      after = 0;
+    } else if (!numbered || !isComposer(elements[k])) {
+      numbers[k] = (numbered ? std::to_string(last) + "." : "") + std::to_string(++after);
+    }
+  }
+  return numbers;
+}
+
 std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
-                         int32_t page) {
-  const Body body{tree, names, diagram, tree.list(diagram.elements)};
+                         int32_t page, const NetworkNotes& notes) {
+  const std::vector<std::string> numbers = executionNumbers(tree.list(diagram.elements), notes.execution_order);
+  const Body body{tree, names, diagram, tree.list(diagram.elements), numbers, notes.in_outs};
   const int32_t left = diagram.networks.empty() ? kPageMargin : kStrip + kPageMargin;
   std::vector<Plan> plans = planNetworks(body, page == 0 ? 0 : std::max(page - left - kPageMargin, kLeastPage));
   int32_t y = 0, right = 0;

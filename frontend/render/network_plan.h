@@ -25,7 +25,17 @@ struct Body {
   const Names& names;
   const Diagram& diagram;
   std::span<const DiagramElement> elements;
+  std::span<const std::string> numbers = {};   // by element: its place in the execution order; empty: none is shown
+  const std::vector<bool>* in_outs = nullptr;  // NetworkNotes
 
+  std::string_view number(uint32_t element) const {
+    return element < numbers.size() ? std::string_view(numbers[element]) : std::string_view();
+  }
+  bool isInOut(const DiagramElement& e, uint32_t pin) const {
+    const size_t index = e.pins.first + pin;
+    return tree.list(e.pins)[pin].direction == PinDirection::InOut ||
+           (in_outs != nullptr && index < in_outs->size() && (*in_outs)[index]);
+  }
   std::string_view string(uint32_t first, uint32_t length) const { return tree.string({first, length}); }
 };
 

@@ -1,23 +1,32 @@
 // Bodies in LD, FBD, CFC and SFC as pictures that an engineer recognises. In: the tree as parsed, before a scheduler
 // takes the networks or the chart: so the picture shows exactly what is written, even of a program whose library is
-// missing. Out: SVG, equal bytes for equal bodies. Elements are drawn at the file's positions, or laid out where it has
-// none. First comes a plan (positions, pins, lines), then its SVG, so tests can check the plan for overlaps. One router
-// serves both kinds of positions. Corner points of wires in the file are not used: they fit only boxes of the editor's
-// size. Called by `rung graph`.
+// missing; what others know about it is in notes. Out: SVG, equal bytes for equal bodies. Elements are drawn at the
+// file's positions, or laid out where it has none. First comes a plan (positions, pins, lines), then its SVG, so tests
+// can check the plan for overlaps. One router serves both kinds of positions. Corner points of wires in the file are
+// not used: they fit only boxes of the editor's size. Called by `rung graph`.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/syntax/tree.h"
 
 namespace rung::picture {
 
+// What a picture of networks shows besides what is written.
+struct NetworkNotes {
+  // The elements that run, by their index: an element without a number in the file gets one from its place here. Empty:
+  // it gets none.
+  std::vector<uint32_t> execution_order = {};
+  const std::vector<bool>* in_outs = nullptr;  // by the index of a pin in the tree: an in-out of what its box calls
+};
+
 // `name`: the title of the picture, `Pump.Start`. `page`: the width in pixels beyond which networks are continued in a
 // band below; 0: unlimited.
 std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
-                         int32_t page = 0);
+                         int32_t page = 0, const NetworkNotes& notes = {});
 std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name);
 
 }  // namespace rung::picture

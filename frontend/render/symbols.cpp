@@ -79,11 +79,13 @@ Rows rowsOf(const Body& body, const DiagramElement& e, std::span<const NameId> u
 }
 
 constexpr int32_t kInOutMark = 13;
-bool isInOut(const DiagramPin& pin) { return pin.direction == PinDirection::InOut; }
+bool isInOut(const Body& body, const DiagramElement& e, const Terminal& t) {
+  return t.pin != kNone && body.isInOut(e, t.pin);
+}
 
 int32_t labelWidth(const Body& body, const DiagramElement& e, const Terminal& t) {
   const DiagramPin* pin = pinOf(body, e, t);
-  const int32_t mark = pin == nullptr ? 0 : isInOut(*pin) ? kInOutMark : pin->edge != EdgeKind::None ? 8 : 0;
+  const int32_t mark = pin == nullptr ? 0 : isInOut(body, e, t) ? kInOutMark : pin->edge != EdgeKind::None ? 8 : 0;
   return textWidth(body.names.string(t.name)) + mark;
 }
 
@@ -109,8 +111,9 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
   item.area = {-kStub, 0, item.frame.width + 2 * kStub, item.frame.height};
   const std::string instance = operandText(body, e);
   const bool named = e.operand || e.kind == ElementKind::Compose || e.kind == ElementKind::Select;
-  if (named || e.order != 0) {
-    const int32_t above = roundUp(textWidth(instance) + (e.order != 0 ? 70 : 0));
+  const bool numbered = !body.number(item.element).empty();
+  if (named || numbered) {
+    const int32_t above = roundUp(textWidth(instance) + (numbered ? 70 : 0));
     const int32_t wider = std::max(0, above - item.area.width);
     item.area.x -= roundUp(wider / 2);
     item.area.width += 2 * roundUp(wider / 2);
@@ -161,12 +164,14 @@ void drawInOut(Svg& svg, Point border) {
   svg.path(route(line, 2) + route(left, 3) + route(right, 3));
 }
 
-void drawOrder(Svg& svg, const DiagramElement& e, Point corner) {
-  if (e.order == 0) return;
-  const std::string text = std::to_string(e.order);
+// A number that is not in the file is grey.
+void drawOrder(Svg& svg, const Body& body, const Item& item, Point corner) {
+  const std::string_view text = body.number(item.element);
+  if (text.empty()) return;
+  const bool computed = body.elements[item.element].order == 0;
   const int32_t width = static_cast<int32_t>(text.size()) * 6 + 6;
-  svg.rect({corner.x - width, corner.y - 12, width, 12}, "o");
-  svg.text({corner.x - width / 2, corner.y - 3}, Anchor::Middle, text, "s");
+  svg.rect({corner.x - width, corner.y - 12, width, 12}, computed ? "r" : "o");
+  svg.text({corner.x - width / 2, corner.y - 3}, Anchor::Middle, text, computed ? "s g" : "s");
 }
 
 void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
@@ -184,7 +189,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     const Point border{left ? frame.x : frame.right(), end.y};
     svg.line(end, border);
     const DiagramPin* pin = pinOf(body, e, t);
-    const bool in_out = pin != nullptr && isInOut(*pin);
+    const bool in_out = isInOut(body, e, t);
     if (in_out) drawInOut(svg, border);
     const int32_t inset = in_out ? 4 + kInOutMark : pin != nullptr && pin->edge != EdgeKind::None ? 12 : 4;
     svg.text({border.x + (left ? inset : -inset), end.y + 4}, left ? Anchor::Start : Anchor::End,
@@ -194,7 +199,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
   }
   if (hasText(e)) svg.lines({frame.x + 10, below}, textOf(body, e));
   const int32_t behind_name = e.operand ? middle + textWidth(operandText(body, e)) / 2 + 30 : 0;
-  drawOrder(svg, e, {std::max(frame.right(), behind_name), frame.y});
+  drawOrder(svg, body, item, {std::max(frame.right(), behind_name), frame.y});
 }
 
 void drawContact(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
@@ -244,7 +249,7 @@ void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& i
     for (const int32_t x : {frame.x, frame.x + 6})
       svg.path("M" + n(x) + " " + n(y - 5) + "L" + n(x + 6) + " " + n(y) + "L" + n(x) + " " + n(y + 5), "k");
     svg.text({frame.x + 18, y + 4}, Anchor::Start, shown, "b");
-    return drawOrder(svg, e, {frame.right(), frame.y});
+    return drawOrder(svg, body, item, {frame.right(), frame.y});
   } else if (e.kind == ElementKind::Return) {
     shown = "RETURN";
     kind = "b";
@@ -269,7 +274,7 @@ void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& i
   if (e.kind == ElementKind::InOut)
     for (const DiagramPin& pin : body.tree.list(e.pins))
       if (pin.direction == PinDirection::Output) drawModifiers(svg, pin, {frame.right(), y}, false);
-  drawOrder(svg, e, {frame.right(), frame.y + 1});
+  drawOrder(svg, body, item, {frame.right(), frame.y + 1});
 }
 
 void drawComment(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
@@ -332,7 +337,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
         item.area.width += kGrid;
         if (!reads) item.area.x -= kGrid;
       }
-      if (e.order != 0) {
+      if (!body.number(element).empty()) {
         item.area.y -= kGrid;
         item.area.height += kGrid;
       }

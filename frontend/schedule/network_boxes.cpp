@@ -6,11 +6,11 @@
 // readers read a variable that keeps the result, or the instance. An operator that can fault is called as in ST if its
 // ENO is read: ENO is then FALSE.
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <utility>
 
 #include "frontend/schedule/diagnostics.h"
+#include "frontend/schedule/network_pins.h"
 #include "frontend/schedule/network_scheduler.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
@@ -33,8 +33,6 @@ std::optional<Operator> operatorNamed(std::string_view name) {
   if (sameIdentifier(name, kMove)) return Operator{Form::Move, BinaryOp::Or};
   return std::nullopt;
 }
-
-bool isControl(const Names& names, NameId pin) { return rung::isControl(names.string(pin)); }
 
 }  // namespace
 
@@ -64,32 +62,13 @@ uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const
   return kNone;
 }
 
-// Extensible pins are named IN3, IN4, …
-bool Scheduler::hasPin(const Signature& signature, const Ident& pin) const {
-  if (signature.find(names_, pin.name) != nullptr) return true;
-  const std::string_view name = names_.string(pin.name);
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.back())) == 0) return false;
-  return std::any_of(signature.pins.begin(), signature.pins.end(),
-                     [](const PinSignature& known) { return known.extensible; });
-}
-
 //   fails   a pin that the block does not have        E1004
 bool Scheduler::fillArguments(uint32_t element, Call& call) {
   const DiagramElement& e = graph_.elements[element];
   const SignatureKind kind = call.signature.kind;
   const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
                      kind == SignatureKind::Method || kind == SignatureKind::Program;
-  bool named = known || e.operand || e.hidden;
-  // Some editors use different names for all pins.
-  if (named && call.signature.kind == SignatureKind::Function) {
-    bool any = false, all_unknown = true;
-    for (const DiagramPin& pin : tree_.list(e.pins)) {
-      if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;
-      any = true;
-      all_unknown = all_unknown && !hasPin(call.signature, pin.name);
-    }
-    named = !(any && all_unknown && !call.signature.pins.empty());
-  }
+  const bool named = (known || e.operand || e.hidden) && bindsByName(tree_, names_, e, call.signature);
   bool ok = true;
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
@@ -98,7 +77,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
       call.has_en = !graph_.isAlwaysTrue(pin);
       continue;
     }
-    if (known && named && !hasPin(call.signature, pin.name)) {
+    if (known && named && !hasPin(names_, call.signature, pin.name)) {
       std::string_view near;
       std::vector<std::string_view> candidates;
       for (const PinSignature& candidate : call.signature.pins)
@@ -158,7 +137,7 @@ uint32_t Scheduler::soleTarget(uint32_t source) const {
   if (source == kNone || graph_.sources[source].uses != 1 || graph_.sources[source].temporary) return kNone;
   const uint32_t user = graph_.sources[source].user, element = graph_.sources[source].element;
   const DiagramElement& e = graph_.elements[user];
-  if (e.kind != ElementKind::Output || isModified(e) || phase_[user] == Phase::Resolved) return kNone;
+  if (e.kind != ElementKind::Output || isModified(e) || walk_->isResolved(user)) return kNone;
   const DiagramPin* out = graph_.outputPin(source);
   if (out != nullptr && isModified(*out)) return kNone;
   if (e.order != 0 && (graph_.elements[element].order == 0 || order_of_[user] != order_of_[element] + 1)) return kNone;
@@ -356,17 +335,11 @@ void Scheduler::resolveBox(uint32_t element) {
     if (fillArguments(element, call)) resolveOperator(element, call);
     return;
   }
-  if (e.operand) {
-    if (!checkBlock(e)) {
-      failed_[element] = true;
-      return;
-    }
-    call.signature = signatures_.of(e.operand);
-  } else if (e.hidden) {
-    call.signature = signatures_.of(e.hidden);
-  } else {
-    call.signature = signatures_.of(e.path);
+  if (e.operand && !checkBlock(e)) {
+    failed_[element] = true;
+    return;
   }
+  call.signature = signatureOf(signatures_, e);
   if (!fillArguments(element, call)) {
     failed_[element] = true;
     return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frontend/schedule/network_walk.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
 
@@ -14,25 +15,20 @@ class Search {
       : tree_(tree),
         names_(names),
         graph_(graph),
-        phase_(graph.elements.size(), Phase::New),
         order_of_(graph.elements.size(), 0),
         is_found_(graph.sources.size(), false) {
     for (uint32_t k = 0; k < graph.roots.size(); ++k) order_of_[graph.roots[k]] = k + 1;
   }
 
   std::vector<uint32_t> run() {
-    for (const uint32_t root : graph_.roots) walk(root);
+    ExecutionWalk walk(graph_);
+    for (const uint32_t root : graph_.roots) walk.run(root, Visitor{*this, root});
     findHeld();
     std::sort(found_.begin(), found_.end());
     return found_;
   }
 
  private:
-  enum class Phase : uint8_t { New, Busy, Done };
-  struct Frame : InputWalk {
-    uint32_t consumer;
-  };
-
   void find(uint32_t source) {
     if (!is_found_[source]) found_.push_back(source);
     is_found_[source] = true;
@@ -51,38 +47,20 @@ class Search {
     return true;
   }
 
-  void walk(uint32_t root) {
-    const auto isNew = [&](uint32_t k) { return phase_[k] == Phase::New; };
-    std::vector<Frame> stack;
-    const auto push = [&](uint32_t element, uint32_t consumer) {
-      phase_[element] = Phase::Busy;
-      stack.push_back({{element, 0, 0}, consumer});
-    };
-    for (;;) {
-      if (stack.empty()) {
-        if (!isNew(root)) return;
-        const uint32_t first = graph_.firstOfLoop(root, isNew);
-        push(first, first);
-      }
-      const uint32_t source = graph_.nextInput(stack.back());
-      if (source == kNone) {
-        phase_[stack.back().element] = Phase::Done;
-        stack.pop_back();
-        continue;
-      }
-      const uint32_t from = graph_.sources[source].element, consumer = stack.back().consumer;
-      if (graph_.isOrdered(from)) {  // its reader runs when the root runs
-        if (order_of_[from] >= order_of_[root] && isComputed(source)) find(source);
-      } else if (phase_[from] != Phase::Done && graph_.leadsBack(from, consumer) &&
-                 runsInLoops(graph_.elements[from])) {
-        if (isComputed(source)) find(source);
-      } else if (isNew(from)) {
-        const uint32_t first = graph_.firstOfLoop(from, isNew);
-        if (first != from) --stack.back().wire;  // of `from`, which comes afterwards
-        push(first, first != from || runsInLoops(graph_.elements[from]) ? first : consumer);
-      }
+  // What the walk reports about a root.
+  struct Visitor {
+    Search& search;
+    uint32_t root;
+    void resolve(uint32_t) {}
+    void readOrdered(uint32_t source) {  // its reader runs when the root runs
+      const uint32_t from = search.graph_.sources[source].element;
+      if (search.order_of_[from] >= search.order_of_[root] && search.isComputed(source)) search.find(source);
     }
-  }
+    void readLastCycle(uint32_t source, uint32_t) {
+      if (search.isComputed(source)) search.find(source);
+    }
+    void breakCycle(uint32_t) {}
+  };
 
   // The results of functions with EN, where others than variables read them: edge detectors, too.
   void findHeld() {
@@ -107,7 +85,6 @@ class Search {
   const Tree& tree_;
   const Names& names_;
   const Graph& graph_;
-  std::vector<Phase> phase_;
   std::vector<uint32_t> order_of_;
   std::vector<uint32_t> found_;
   std::vector<bool> is_found_;

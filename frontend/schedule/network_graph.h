@@ -69,6 +69,8 @@ class Graph {
   bool isAlwaysTrue(const DiagramPin& pin) const { return isPowered(pin) && !isModified(pin); }
   // Wires are followed through it.
   bool isLink(uint32_t element) const;
+  // Has a place in the execution order: not a contact, an input or a connector.
+  bool runs(uint32_t element) const;
   // Runs where the file's execution order says.
   bool isOrdered(uint32_t element) const;
   // A variable that takes the value of one wire as it is: with a guard it keeps its value.

@@ -90,6 +90,11 @@ bool Graph::isPowered(const DiagramPin& pin) const {
   return false;
 }
 
+bool Graph::runs(uint32_t element) const {
+  const ElementKind kind = elements[element].kind;
+  return acts(elements[element]) || kind == ElementKind::Compose || kind == ElementKind::Select;
+}
+
 bool Graph::isOrdered(uint32_t element) const { return elements[element].order != 0 && acts(elements[element]); }
 
 bool Graph::isTarget(uint32_t element) const {

@@ -189,45 +189,6 @@ ExprId Scheduler::plainValue(uint32_t source) {
 
 // ---- the walk
 
-// Resolves `root` after everything that it reads.
-void Scheduler::visit(uint32_t root) {
-  const auto isNew = [&](uint32_t k) { return phase_[k] == Phase::New; };
-  for (;;) {
-    if (stack_.empty()) {
-      if (!isNew(root)) return;
-      const uint32_t first = graph_.firstOfLoop(root, isNew);
-      push(first, first);
-    }
-    const uint32_t source = graph_.nextInput(stack_.back());
-    if (source == kNone) {
-      const uint32_t done = stack_.back().element;
-      stack_.pop_back();
-      phase_[done] = Phase::Resolved;
-      resolve(done);
-      detectEdges(done);
-      continue;
-    }
-    const uint32_t next = graph_.sources[source].element, consumer = stack_.back().consumer;
-    if (phase_[next] == Phase::Resolved || graph_.isOrdered(next)) continue;
-    const bool begins = runsInLoops(graph_.elements[next]);
-    if (begins && graph_.leadsBack(next, consumer)) {
-      readLastCycle(source, consumer);
-    } else if (phase_[next] == Phase::Busy) {
-      breakCycle(next);
-    } else if (const uint32_t first = graph_.firstOfLoop(next, isNew); first != next) {
-      --stack_.back().wire;  // of `next`, which comes afterwards
-      push(first, first);
-    } else {
-      push(next, begins ? next : consumer);
-    }
-  }
-}
-
-void Scheduler::push(uint32_t element, uint32_t consumer) {
-  phase_[element] = Phase::Busy;
-  stack_.push_back({{element, 0, 0}, consumer});
-}
-
 // The wire back of a feedback loop.
 //   passes  boxes that wait for each other's values
 //   fails   boxes that wait for each other's ENO; a loop in a function, which keeps nothing from call to call E1006
@@ -495,7 +456,6 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
   checkCoils();
   checkHolding(pou);
   const size_t count = graph_.elements.size();
-  phase_.assign(count, Phase::New);
   operand_taken_.assign(count, false);
   assigned_.assign(count, false);
   failed_.assign(count, false);
@@ -523,8 +483,28 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
       network_calls_[graph_.network[k]] = true;  // possibly another view of the same memory
   }
   std::sort(written_.begin(), written_.end());
-  for (const uint32_t root : graph_.roots) visit(root);
+  walk_.emplace(graph_);
+  for (const uint32_t root : graph_.roots) walk_->run(root, Visitor{*this});
   return scheduledBody(tree_, out_, temporaries_);
+}
+
+std::vector<uint32_t> executionOrder(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram) {
+  struct Visitor {
+    const Graph& graph;
+    std::vector<uint32_t>& order;
+    void resolve(uint32_t element) {
+      if (graph.runs(element)) order.push_back(element);
+    }
+    void readOrdered(uint32_t) {}
+    void readLastCycle(uint32_t, uint32_t) {}
+    void breakCycle(uint32_t) {}
+  };
+  Graph graph;
+  std::vector<uint32_t> order;
+  if (!graph.build(tree, names, diagnostics, diagram)) return order;
+  ExecutionWalk walk(graph);
+  for (const uint32_t root : graph.roots) walk.run(root, Visitor{graph, order});
+  return order;
 }
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,

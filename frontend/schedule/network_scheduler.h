@@ -2,16 +2,18 @@
 // jumps), network_boxes.cpp.
 //
 // How it works. Elements with an effect are visited in the order of the graph; the sources of their wires are resolved
-// first, by a walk with an explicit stack, so a chain of 100 000 contacts needs no recursion. Resolving an element
-// emits its statements, or decides that its reader makes it part of an expression. An expression is built only when
-// everything that it reads is resolved, so no statement is emitted in the middle of one.
+// first (network_walk.h). Resolving an element emits its statements, or decides that its reader makes it part of an
+// expression. An expression is built only when everything that it reads is resolved, so no statement is emitted in the
+// middle of one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "frontend/schedule/edge_coils.h"
 #include "frontend/schedule/network_graph.h"
+#include "frontend/schedule/network_walk.h"
 #include "frontend/syntax/clone.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/tree_builder.h"
@@ -29,9 +31,16 @@ class Scheduler {
   ScheduledBody run(const PouDecl& pou);
 
  private:
-  enum class Phase : uint8_t { New, Busy, Resolved };
-  struct Frame : InputWalk {
-    uint32_t consumer;  // the element that the value is computed for, if that can be in a feedback loop
+  // What the walk through the body tells the scheduler.
+  struct Visitor {
+    Scheduler& scheduler;
+    void resolve(uint32_t element) {
+      scheduler.resolve(element);
+      scheduler.detectEdges(element);
+    }
+    void readOrdered(uint32_t) {}
+    void readLastCycle(uint32_t source, uint32_t reader) { scheduler.readLastCycle(source, reader); }
+    void breakCycle(uint32_t element) { scheduler.breakCycle(element); }
   };
 
   void checkCoils();
@@ -42,8 +51,6 @@ class Scheduler {
   PinStorage storageOf(const DiagramElement& e) const;
 
   // ---- the walk
-  void visit(uint32_t root);
-  void push(uint32_t element, uint32_t consumer);
   void readLastCycle(uint32_t source, uint32_t reader);
   void breakCycle(uint32_t first);
   void resolve(uint32_t element);
@@ -77,7 +84,6 @@ class Scheduler {
   void guard(uint32_t element, NameId condition);
   ExprId targetOf(uint32_t element, uint32_t result);
   bool fillArguments(uint32_t element, Call& call);
-  bool hasPin(const Signature& signature, const Ident& pin) const;
   uint32_t resultOf(uint32_t element, const Signature& signature) const;
   ExprId readBox(uint32_t source);
 
@@ -118,7 +124,7 @@ class Scheduler {
   NetworkLanguage language_ = NetworkLanguage::Ladder;
   const char* function_ = nullptr;  // the kind of POU if it keeps no state
   Graph graph_;
-  std::vector<Phase> phase_;
+  std::optional<ExecutionWalk> walk_;
   std::vector<bool> operand_taken_;
   std::vector<bool> target_of_;                         // sources that a variable reads
   std::vector<bool> failed_;                            // elements with a reported error: their readers report none
@@ -127,7 +133,6 @@ class Scheduler {
   std::vector<uint32_t> calls_open_;                    // sources whose pending value contains a call
   std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
   std::vector<bool> network_calls_;                     // by the network's first element
-  std::vector<Frame> stack_;
   std::vector<StmtId> out_;
   std::vector<DeclId> temporaries_;
 };

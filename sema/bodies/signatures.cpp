@@ -126,7 +126,7 @@ Signature ProjectSignatures::signatureOf(const Resolved& resolved) {
       case PouKind::Method:
       case PouKind::Action: return signatureOf(id, SignatureKind::Method);
       case PouKind::Program: return signatureOf(id, SignatureKind::Program);
-      case PouKind::FunctionBlock: return {SignatureKind::Block, false, {}};
+      case PouKind::FunctionBlock: return signatureOf(id, SignatureKind::Block);
       case PouKind::Class:
       case PouKind::Interface: return {SignatureKind::Other, false, {}};
     }

@@ -199,6 +199,49 @@ bool Compilation::parse() {
   return true;
 }
 
+sema::Options Compilation::semaOptions() {
+  sema::Options sema_options;
+  sema_options.dialect = options.dialect;
+  if (!options.name.empty()) sema_options.name = options.name;
+  library_files_ = libraries.files();
+  // The variables of the numerical control are in the memory of its ladder.
+  if (!types::findArea(inputs.project.areas, 'N'))
+    std::erase_if(library_files_,
+                  [](const auto& file) { return std::string_view(file.path).ends_with("nct/symbols.st"); });
+  hideOtherVendors(library_files_);
+  sema_options.libraries = library_files_;
+  sema_options.library_aliases = libraries.aliases();
+  sema_options.project_names = inputs.project_names;
+  for (const std::vector<std::string>& names : inputs.library_names)
+    sema_options.library_projects.push_back({names, {}});
+  for (const InputFile& input : inputs.files)
+    if (input.is_library) sema_options.library_projects[input.library].files.push_back(input.file);
+  sema_options.free_subranges = inputs.is_twincat;
+  sema_options.pool_bytes = inputs.project.pool_bytes;
+  sema_options.areas = inputs.project.areas;
+  sema_options.aligned_globals = inputs.project.aligned_globals;
+  sema_options.io_modules = inputs.project.io_modules;
+  sema_options.task_durations = inputs.project.task_durations;
+  sema_options.default_interval_ns = options.default_interval_ns;
+  sema_options.with_tests = options.with_tests;
+  sema_options.mocks = options.mocks;
+  sema_options.pointer_size = options.pointer_size;
+  sema_options.native_width = options.native_width;
+  sema_options.edge_coils = options.edge_coils;
+  sema_options.scheduled = scheduled;
+  sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
+                                  FunctionRef<bool(sema::PouId)> ready) {
+    return ir::interpreter::callConstant(in, function, values, {rung::natives::table, rung::natives::count}, ready);
+  };
+  return sema_options;
+}
+
+std::vector<bool> Compilation::inOutsOfBoxes() {
+  Diagnostics unreported(sources);
+  sema::Project declared(sources, names, unreported, tree, semaOptions());
+  return sema::inOutsOfBoxes(declared);
+}
+
 bool Compilation::check() {
   if (!parse()) return false;
   if (!inputs.has_ladder)
@@ -208,40 +251,7 @@ bool Compilation::check() {
   times_.begin("check");
   // Checking follows even after errors of the parser: one run reports as much as it can.
   if (!diagnostics.full()) {
-    sema::Options sema_options;
-    sema_options.dialect = options.dialect;
-    if (!options.name.empty()) sema_options.name = options.name;
-    std::vector<sema::LibraryFile> library_files = libraries.files();
-    // The variables of the numerical control are in the memory of its ladder.
-    if (!types::findArea(inputs.project.areas, 'N'))
-      std::erase_if(library_files,
-                    [](const auto& file) { return std::string_view(file.path).ends_with("nct/symbols.st"); });
-    hideOtherVendors(library_files);
-    sema_options.libraries = library_files;
-    sema_options.library_aliases = libraries.aliases();
-    sema_options.project_names = inputs.project_names;
-    for (const std::vector<std::string>& names : inputs.library_names)
-      sema_options.library_projects.push_back({names, {}});
-    for (const InputFile& input : inputs.files)
-      if (input.is_library) sema_options.library_projects[input.library].files.push_back(input.file);
-    sema_options.free_subranges = inputs.is_twincat;
-    sema_options.pool_bytes = inputs.project.pool_bytes;
-    sema_options.areas = inputs.project.areas;
-    sema_options.aligned_globals = inputs.project.aligned_globals;
-    sema_options.io_modules = inputs.project.io_modules;
-    sema_options.task_durations = inputs.project.task_durations;
-    sema_options.default_interval_ns = options.default_interval_ns;
-    sema_options.with_tests = options.with_tests;
-    sema_options.mocks = options.mocks;
-    sema_options.pointer_size = options.pointer_size;
-    sema_options.native_width = options.native_width;
-    sema_options.edge_coils = options.edge_coils;
-    sema_options.scheduled = scheduled;
-    sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
-                                    FunctionRef<bool(sema::PouId)> ready) {
-      return ir::interpreter::callConstant(in, function, values, {rung::natives::table, rung::natives::count}, ready);
-    };
-    project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
+    project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, semaOptions());
     sema::check(*project);
   }
   setPhaseSubject("", 0);

@@ -52,6 +52,8 @@ class Compilation {
   bool parse();
   bool check();
   bool lower();  // and optimize
+  // After parse(), for pictures: see sema/project.h. Mistakes in declarations are not reported.
+  std::vector<bool> inOutsOfBoxes();
   bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
   // Reports native bodies that no C++ file defines. Called before the code becomes a program; a library leaves them to
   // the product that links it. False: stop.
@@ -88,6 +90,7 @@ class Compilation {
  private:
   void noteLibraries();
   std::string whatIsRead() const;
+  sema::Options semaOptions();
   void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
   std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;
@@ -97,6 +100,7 @@ class Compilation {
   void dump(const std::string& text) const;
   bool verified(const char* after);
 
+  std::vector<sema::LibraryFile> library_files_;  // what sema refers to
   PhaseTimes& times_;
   Sink& sink_;
   std::string usage_error_, internal_error_;

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "frontend/render/picture.h"
+#include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
@@ -15,8 +16,12 @@ namespace {
 
 class Grapher {
  public:
-  Grapher(const Compilation& compilation, uint32_t page)
-      : tree_(compilation.tree), names_(compilation.names), page_(static_cast<int32_t>(page)) {}
+  Grapher(Compilation& compilation, uint32_t page)
+      : tree_(compilation.tree),
+        names_(compilation.names),
+        unreported_(compilation.sources),
+        in_outs_(compilation.inOutsOfBoxes()),
+        page_(static_cast<int32_t>(page)) {}
   std::vector<TextFile> pictures();
 
  private:
@@ -25,8 +30,12 @@ class Grapher {
   void visitPou(const PouDecl& pou, const std::string& name);
   void add(const PouDecl& pou, const std::string& name);
 
-  const Tree& tree_;
-  const Names& names_;
+  std::string networks(const Diagram& diagram, const std::string& name);
+
+  Tree& tree_;
+  Names& names_;
+  Diagnostics unreported_;  // what keeps a body from running does not keep it from being drawn
+  const std::vector<bool> in_outs_;
   const int32_t page_;
   std::unordered_set<std::string> taken_;  // lower case: a file system may ignore the case of letters
   std::vector<TextFile> pictures_;
@@ -36,9 +45,16 @@ void Grapher::add(const PouDecl& pou, const std::string& name) {
   if (pou.body_kind != BodyKind::Network && pou.body_kind != BodyKind::Sfc) return;
   std::string file = name;
   for (uint32_t n = 2; !taken_.insert(foldedIdentifier(file)).second; ++n) file = name + "_" + std::to_string(n);
-  pictures_.push_back({file + ".svg", pou.body_kind == BodyKind::Sfc
-                                          ? picture::drawChart(tree_, names_, pou, name)
-                                          : picture::drawNetworks(tree_, names_, pou.diagram, name, page_)});
+  pictures_.push_back({file + ".svg", pou.body_kind == BodyKind::Sfc ? picture::drawChart(tree_, names_, pou, name)
+                                                                     : networks(pou.diagram, name)});
+}
+
+// A chart is not read in lines: it has the numbers of its execution order, those of other languages would say nothing.
+std::string Grapher::networks(const Diagram& diagram, const std::string& name) {
+  picture::NetworkNotes notes{{}, &in_outs_};
+  if (diagram.language == NetworkLanguage::Continuous)
+    notes.execution_order = diagram::executionOrder(tree_, names_, unreported_, diagram);
+  return picture::drawNetworks(tree_, names_, diagram, name, page_, notes);
 }
 
 // A condition of a transition with a body is an action that the parser made; its picture is named after the transition.

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kMostDigits = 15;
 constexpr size_t kLongestMessage = 255;  // bytes: a STRING(255) holds it
 
-bool isDigits(std::string_view text) {
+bool hasOnlyDigits(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 // 0: not one of a message.
@@ -64,7 +64,7 @@ class FileReader {
     const uint32_t value = numberOf(number.text);
     if (value == 0) {
       program_.lost_messages = true;
-      if (isDigits(number.text))
+      if (hasOnlyDigits(number.text))
         reportAt(diagnostics_, diag::NctMessageRange, number, {number.text});
       else
         reportAt(diagnostics_, diag::NctMessageLine, number, {});

@@ -1,5 +1,6 @@
-// Networks: generated logic as ST, IL, LD, FBD and CFC and as PLCopen XML gets the same random inputs for many cycles,
-// and all forms must give the trace of the ST.
+// Networks: generated logic as ST, IL, LD, FBD and CFC (with an execution order, without, with the one that Rung
+// computes) and as PLCopen XML gets the same random inputs for many cycles, and all forms must give the trace of the
+// ST.
 //   network_differential [--first=SEED] [--count=N] [--cycles=N] [--engine=interp|native] [-j N] [--rung=PATH]
 //   [--folder=PATH] network_differential --print=SEED        all forms of one block and a program that runs them
 // Blocks go in batches of 10, one project each: its trace has a checksum of all outputs per form and cycle. A batch
@@ -11,6 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "frontend/parse/parse.h"
+#include "frontend/schedule/network_schedule.h"
 #include "tests/fuzz/generated/options.h"
 #include "tests/fuzz/networks/drawing.h"
 #include "tests/runner/process.h"
@@ -22,7 +25,7 @@ namespace fs = std::filesystem;
 using generated::Options;
 
 constexpr uint64_t kBatch = 10;
-const char* const kForms[] = {"st", "il", "ld", "fbd", "cfc", "flow", "xml_ld", "xml_fbd", "xml_cfc"};
+const char* const kForms[] = {"st", "il", "ld", "fbd", "cfc", "flow", "numbered", "xml_ld", "xml_fbd", "xml_cfc"};
 
 const char* const kDeclarations =
     R"(TYPE Memory : STRUCT flag : BOOL; small : INT; END_STRUCT END_TYPE
@@ -70,6 +73,26 @@ struct File {
   std::string name, text;
 };
 
+// A drawing without an execution order with the numbers that its picture shows, which say the same.
+Drawing numbered(const Drawing& drawing, const std::string& text) {
+  Sources sources;
+  Diagnostics diagnostics(sources);
+  Names names;
+  Tree tree;
+  const FileUnit unit =
+      text::parseFile(tree, names, sources, sources.add("drawn.st", text), Dialect::Codesys, diagnostics);
+  const Diagram diagram = tree.as<PouDecl>(tree.list(unit.decls)[0]).diagram;
+  Drawing result{Language::Ordered, drawing.elements};
+  unsigned place = 0;
+  for (const uint32_t element : diagram::executionOrder(tree, names, diagnostics, diagram)) {
+    const uint64_t number = tree.list(diagram.elements)[element].number;
+    ++place;
+    for (Element& e : result.elements)
+      if (e.number == number) e.order = place;
+  }
+  return result;
+}
+
 // The project of some seeds, and the variables with the checksums.
 std::vector<File> project(uint64_t first, uint64_t count, std::string& watch) {
   std::string text = kDeclarations, pous[kEditors];
@@ -84,7 +107,9 @@ std::vector<File> project(uint64_t first, uint64_t count, std::string& watch) {
     const Drawing ordered = draw(logic, Language::Ordered, seed), flow = draw(logic, Language::Flow, seed);
     text += structuredText(logic, name + "st") + instructionList(logic, name + "il");
     text += notation(logic, ladder, name + "ld", seed) + notation(logic, blocks, name + "fbd", seed);
-    text += notation(logic, ordered, name + "cfc", seed) + notation(logic, flow, name + "flow", seed);
+    const std::string drawn = notation(logic, flow, name + "flow", seed);
+    text += notation(logic, ordered, name + "cfc", seed) + drawn;
+    text += notation(logic, numbered(flow, drawn), name + "numbered", seed);
     std::string& xml = pous[static_cast<size_t>(editor)];
     xml += xmlPou(logic, draw(logic, Language::Ladder, seed + 1), name + "xml_ld", editor, seed);
     xml += xmlPou(logic, draw(logic, Language::Blocks, seed + 1), name + "xml_fbd", editor, seed);

@@ -14,6 +14,7 @@
 #include "frontend/import/xml.h"
 #include "frontend/parse/parse.h"
 #include "frontend/render/picture.h"
+#include "frontend/schedule/network_schedule.h"
 #include "frontend/source/dialect.h"
 
 namespace rung {
@@ -33,20 +34,25 @@ struct Outcome {
   bool written = false;
 };
 
-void drawMembers(const Tree& tree, const Names& names, Slice<DeclId> decls, const std::string& program, Outcome& out);
+void drawMembers(Tree& tree, Names& names, Slice<DeclId> decls, const std::string& program, Outcome& out);
 
-void draw(const Tree& tree, const Names& names, const PouDecl& pou, const std::string& program, Outcome& out) {
+// With the numbers of the execution order in each language.
+void draw(Tree& tree, Names& names, const PouDecl& pou, const std::string& program, Outcome& out) {
   std::vector<std::string> pictures;
   if (pou.body_kind == BodyKind::Sfc) pictures.push_back(picture::drawChart(tree, names, pou, "p"));
-  if (pou.body_kind == BodyKind::Network)
+  if (pou.body_kind == BodyKind::Network) {
+    const Sources none;
+    Diagnostics unreported(none);
+    const picture::NetworkNotes notes{diagram::executionOrder(tree, names, unreported, pou.diagram)};
     for (const int32_t page : {0, 400, 1200})
-      pictures.push_back(picture::drawNetworks(tree, names, pou.diagram, "p", page));
+      pictures.push_back(picture::drawNetworks(tree, names, pou.diagram, "p", page, notes));
+  }
   for (const std::string& svg : pictures) EXPECT_TRUE(isWellFormed(svg)) << program;
   out.pictures += static_cast<uint32_t>(pictures.size());
   drawMembers(tree, names, pou.members, program, out);
 }
 
-void drawMembers(const Tree& tree, const Names& names, Slice<DeclId> decls, const std::string& program, Outcome& out) {
+void drawMembers(Tree& tree, Names& names, Slice<DeclId> decls, const std::string& program, Outcome& out) {
   for (const DeclId id : tree.list(decls))
     if (tree.kind(id) == DeclKind::Pou) draw(tree, names, tree.as<PouDecl>(id), program, out);
 }
