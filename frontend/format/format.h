@@ -43,6 +43,9 @@ std::string formatted(std::string_view source, const Bodies& bodies, const Style
 // An NCT program: elements indented by their branches, the columns of its symbols aligned.
 std::string formattedLadder(std::string_view source, const Style& style, LineRange range = {});
 
+// The messages of such a program: a tab between number and text.
+std::string formattedMessages(std::string_view source, const Style& style, LineRange range = {});
+
 // The parts of a file in which a tool keeps other data as well; all else stays byte for byte.
 std::string formattedParts(std::string_view source, const std::vector<Span>& parts, const Bodies& bodies,
                            const Style& style, Dialect dialect);

@@ -39,6 +39,7 @@ constexpr Format kFormats[] = {
     {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
     {FileKind::Il, "", ".il", nullptr, nullptr},
     {FileKind::Nct, "", ".nct", nullptr, nct::readProgram},
+    {FileKind::Messages, "", ".mes", nullptr, nullptr},
     {FileKind::Cam, "", ".cam", nullptr, cams::readProgram},
 };
 

@@ -18,6 +18,7 @@ enum class FileKind : uint8_t {
   Il,
   Xml,             // of an unknown kind
   Nct,             // machine-tool ladder
+  Messages,        // texts of its messages
   Cam,             // cam tables
   TwinCat,         // .TcPOU .TcDUT .TcGVL .TcIO .TcTTO
   PlcProject,      // .plcproj of TwinCAT
@@ -44,12 +45,20 @@ struct LadderSettings {
   uint32_t kept = 4000, volatile_ = 5024;  // PLCNVRAM, PLCRAM
 };
 
+// Of a ladder.
+struct Message {
+  uint32_t number;
+  std::string text;
+};
+
 struct ReadContext {
   Sources& sources;
   Diagnostics& diagnostics;
   std::vector<Library>& libraries;  // those that the files ask for are added
   LadderSettings ladder = {};
-  bool for_pictures = false;  // `rung graph` draws what is read: a ladder becomes networks, not statements
+  bool for_pictures = false;               // `rung graph` draws what is read: a ladder becomes networks, not statements
+  std::vector<FileId> message_files = {};  // with texts of the ladder
+  std::vector<Message> messages = {};      // of the ladder that has been read, those of the files among them
   std::vector<std::string> task_configurations = {};  // of CODESYS 2.3, without blanks: those that have been read
 };
 

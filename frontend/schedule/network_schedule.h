@@ -9,6 +9,7 @@
 // its value of the last cycle.
 #pragma once
 
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/schedule/scheduled_body.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/signatures.h"
@@ -17,7 +18,7 @@
 namespace rung::diagram {
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                               const PouDecl& pou);
+                               EdgeCoils edge_coils, const PouDecl& pou);
 
 // The hidden variables of a body of networks, as a section of `kind`: instances that detect edges, instances of blocks
 // without a name, composed structures, values of functions that are fed back. None: none needed. `prefix`: of their

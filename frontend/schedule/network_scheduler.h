@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/schedule/network_graph.h"
 #include "frontend/syntax/clone.h"
 #include "frontend/syntax/diagram.h"
@@ -22,8 +23,8 @@ constexpr uint16_t kMaxHeight = 100;
 
 class Scheduler {
  public:
-  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
-      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, EdgeCoils edge_coils)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures), edge_coils_(edge_coils) {}
 
   ScheduledBody run(const PouDecl& pou);
 
@@ -38,6 +39,7 @@ class Scheduler {
   void checkBooleans();
   void checkModifiers();
   bool isStored(uint32_t element, const DiagramPin& pin) const;
+  PinStorage storageOf(const DiagramElement& e) const;
 
   // ---- the walk
   void visit(uint32_t root);
@@ -112,6 +114,7 @@ class Scheduler {
   Names& names_;
   Diagnostics& diagnostics_;
   Signatures& signatures_;
+  EdgeCoils edge_coils_;
   NetworkLanguage language_ = NetworkLanguage::Ladder;
   const char* function_ = nullptr;  // the kind of POU if it keeps no state
   Graph graph_;

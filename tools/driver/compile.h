@@ -87,6 +87,7 @@ class Compilation {
 
  private:
   void noteLibraries();
+  std::string whatIsRead() const;
   void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
   std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;

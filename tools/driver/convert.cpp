@@ -1,9 +1,9 @@
 // `rung convert`: the program as Structured Text. Bodies in ST and all declarations stay as written; bodies that a
 // scheduler turned into statements are printed, with their comments and the temporaries that they need. Files of other
 // tools become the ST that Rung reads from them, one file for each of their POUs. `--to xml`: the whole program as one
-// PLCopen XML file. Printing happens between scheduling and checking (sema::Options::scheduled), because sema inserts
-// nodes that ST cannot express; only the types of temporaries are asked for afterwards. Nothing is written when there
-// are errors.
+// PLCopen XML file. `--to mes`: the messages of an NCT ladder as a message file. Printing happens between scheduling
+// and checking (sema::Options::scheduled), because sema inserts nodes that ST cannot express; only the types of
+// temporaries are asked for afterwards. Nothing is written when there are errors.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -439,6 +439,7 @@ bool Converter::becomesFolder(const InputFile& input) const {
     case FileKind::Il:
     case FileKind::Xml:
     case FileKind::Nct:
+    case FileKind::Messages:
     case FileKind::Cam:
     case FileKind::TwinCat:
     case FileKind::PlcProject:
@@ -549,6 +550,18 @@ std::string projectXml(Compilation& compilation) {
                                 projectName(compilation), compilation.diagnostics);
 }
 
+// The message file of the ladder; no file: there are no messages.
+std::optional<TextFile> messageFile(const Inputs& inputs) {
+  if (inputs.messages.empty()) return {};
+  std::vector<importer::Message> messages = inputs.messages;
+  std::sort(messages.begin(), messages.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  std::string text;
+  for (const importer::Message& message : messages) text += std::to_string(message.number) + '\t' + message.text + '\n';
+  const auto ladder = std::find_if(inputs.files.begin(), inputs.files.end(),
+                                   [](const InputFile& input) { return input.kind == FileKind::Nct; });
+  return TextFile{fs::path(ladder->below).stem().generic_string() + ".mes", std::move(text)};
+}
+
 // The output folder must differ from that of the sources, or the next run would read both.
 std::string refusal(const Compilation& compilation) {
   std::error_code error;
@@ -565,22 +578,27 @@ int runConvert(const Options& options, Sink& sink) {
   Compilation compilation(options, times, sink);
   std::optional<Converter> converter;
   std::vector<TextFile> outputs;
-  if (options.to == ConvertTo::St)
-    converter.emplace(compilation);
-  else
+  if (options.to == ConvertTo::St) converter.emplace(compilation);
+  if (options.to == ConvertTo::Xml)
     compilation.parsed = [&] { outputs.push_back({projectName(compilation) + ".xml", projectXml(compilation)}); };
   if (compilation.check()) {
     times.begin("print");
     if (converter) outputs = converter->outputs();
-    std::string settings = settingsOf(compilation);
-    if (converter) settings += converter->taskOfPrograms();
-    settings.erase(0, std::min(settings.find_first_not_of('\n'), settings.size()));
-    if (compilation.inputs.project.file || !settings.empty()) outputs.push_back({"rung.project", std::move(settings)});
+    if (options.to == ConvertTo::Messages) {
+      if (std::optional<TextFile> messages = messageFile(compilation.inputs)) outputs.push_back(std::move(*messages));
+    } else {
+      std::string settings = settingsOf(compilation);
+      if (converter) settings += converter->taskOfPrograms();
+      settings.erase(0, std::min(settings.find_first_not_of('\n'), settings.size()));
+      if (compilation.inputs.project.file || !settings.empty())
+        outputs.push_back({"rung.project", std::move(settings)});
+    }
     times.end();
   }
   int exit = compilation.finish();
   if (exit == kSuccess)
     if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(sink, problem);
+  if (exit == kSuccess && outputs.empty()) exit = usageError(sink, "no messages to write: no ladder has any");
   if (exit == kSuccess) exit = writeFiles(options.output, outputs, sink);
   if (options.time_phases) sink.message(times.table());
   return exit;

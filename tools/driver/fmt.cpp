@@ -140,8 +140,9 @@ class FileFormatter {
 
   // The exit code.
   int run() {
-    for (const InputFile& input : compilation_.inputs.files)
-      if (!input.is_library && canFormat(input) && !format(input)) return kUsage;
+    for (const std::vector<InputFile>* files : {&compilation_.inputs.files, &compilation_.inputs.message_files})
+      for (const InputFile& input : *files)
+        if (!input.is_library && canFormat(input) && !format(input)) return kUsage;
     if (compilation_.options.only_checks && !compilation_.options.shows_changes) {
       const std::string error = sink_.output(listed_);
       if (!error.empty()) return usageError(sink_, error);
@@ -162,6 +163,7 @@ class FileFormatter {
                                  options.lines);
       }
       case FileKind::Nct: return format::formattedLadder(source, style, options.lines);
+      case FileKind::Messages: return format::formattedMessages(source, style, options.lines);
       case FileKind::TwinCat:
       case FileKind::Plcopen:
       case FileKind::Iec10: return format::formattedXml(source, style, options.dialect);
@@ -186,7 +188,8 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
-    const bool is_text = input.kind == FileKind::St || input.kind == FileKind::Il || input.kind == FileKind::Nct;
+    const bool is_text = input.kind == FileKind::St || input.kind == FileKind::Il || input.kind == FileKind::Nct ||
+                         input.kind == FileKind::Messages;
     if (!is_text && compilation_.options.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);

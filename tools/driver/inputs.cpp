@@ -45,13 +45,17 @@ class Collector {
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
       return a.below != b.below ? a.below < b.below : a.named > b.named;
     });
+    has_ladder_ = std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& candidate) {
+      return importer::kindOfExtension(candidate.path) == FileKind::Nct;
+    });
     const Candidate* last = nullptr;
     for (const Candidate& candidate : candidates_) {
       if (last == nullptr || last->below != candidate.below) addFile(candidate);
       last = &candidate;
     }
     addLibraryPrograms();
-    if (inputs_.files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() && !options_.inputs.empty())
+    if (inputs_.files.empty() && inputs_.message_files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() &&
+        !options_.inputs.empty())
       fail(diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
   }
 
@@ -201,7 +205,7 @@ class Collector {
   }
 
   void addLibraryFile(const std::string& path, const std::string& library, bool named) {
-    if (isLibraryInSt(path)) return;
+    if (isLibraryInSt(path) || importer::kindOfExtension(path) == FileKind::Messages) return;
     SourceFile source;
     if (!read(path, path, named, source)) return;
     inputs_.library_files.push_back({path, library, source.kind, source.file});
@@ -230,7 +234,7 @@ class Collector {
 
   void addProjectFolder(const std::string& folder) {
     inputs_.folders.push_back(folder);
-    const std::string file = (folder.back() == '/' ? folder : folder + "/") + "rung.project";
+    const std::string file = prefixOf(folder) + "rung.project";
     struct stat info;
     const bool on_disk = stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
     if (!on_disk && !files_.isUnsaved(file)) return addFolder(folder);
@@ -245,12 +249,12 @@ class Collector {
     FileId id = sources_.add("rung.project", std::move(read.content));
     if (!id) return fail(diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
-    sources_.setDisplayPath(id, folder + "/rung.project");
+    sources_.setDisplayPath(id, file);
     project_shown_ = file;
     parseProjectFile(sources_, id, diagnostics_, inputs_.project);
     if (inputs_.project.sources.empty()) return addFolder(folder);
     for (const std::string& source : inputs_.project.sources) {
-      std::string path = source[0] == '/' ? source : (folder.back() == '/' ? folder : folder + "/") + source;
+      std::string path = source[0] == '/' ? source : prefixOf(folder) + source;
       struct stat entry;
       if (files_.isUnsaved(path)) {
         addNamedFile(path);
@@ -274,7 +278,7 @@ class Collector {
     const size_t before = candidates_.size();
     setScannedRoot(folder);
     scan(folder, 0);
-    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
+    const std::string prefix = prefixOf(folder);
     for (const std::string& below : files_.newFilesIn(folder))
       if (importer::holdsProgram(importer::kindOfExtension(below)))
         candidates_.push_back({absolutePath(prefix + below), prefix + below, {}, false});
@@ -349,7 +353,7 @@ class Collector {
     if (source.kind == FileKind::Binary) return failed(diag::BinaryFile, {path});
     if (source.kind == FileKind::Unknown) return failed(diag::UnknownFileKind, {path});
     if (importer::isProject(source.kind)) return false;
-    if (!importer::holdsProgram(source.kind)) {
+    if (!importer::holdsProgram(source.kind) && source.kind != FileKind::Messages) {
       const std::string_view name = importer::formatOf(source.kind).name;
       if (named) return failed(diag::KindNotRead, {path, name});
       diagnostics_.report(diag::KindIgnored, {}, {path, name}).path(path);
@@ -363,9 +367,12 @@ class Collector {
 
   void addFile(const Candidate& candidate) {
     SourceFile source;
+    const bool holds_messages = importer::kindOfExtension(candidate.path) == FileKind::Messages;
+    if (holds_messages && !candidate.named && !has_ladder_) return;  // such a file may be anything
     if (!read(candidate.path, candidate.below, candidate.named, source)) return;
-    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, source.kind, source.file,
-                             candidate.is_library, candidate.library});
+    std::vector<InputFile>& files = source.kind == FileKind::Messages ? inputs_.message_files : inputs_.files;
+    files.push_back({candidate.path, candidate.path, candidate.below, source.kind, source.file, candidate.is_library,
+                     candidate.library});
   }
 
   const Options& options_;
@@ -378,6 +385,7 @@ class Collector {
   std::vector<std::string> bases_;  // folders of the inputs, absolute
   std::string scanned_root_;        // of the folder that is read, without links
   std::string project_shown_;
+  bool has_ladder_ = false;  // among the candidates
 };
 
 }  // namespace
@@ -404,6 +412,7 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bo
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 
   importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder, for_pictures};
+  for (const InputFile& input : inputs.message_files) context.message_files.push_back(input.file);
   const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
   const std::vector<ProjectSection>& sections = inputs.project.sections;
   const auto is_about_control = [](const ProjectSection& section) { return section.kind == "nct"; };
@@ -420,10 +429,14 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bo
       inputs.unread = true;
       continue;
     }
-    if (is_nct(input)) ladder = input.file;
+    if (is_nct(input)) {
+      ladder = input.file;
+      inputs.has_ladder = true;
+    }
     input.file = format.read(context, input.file);
     if (!input.file) inputs.unread = true;
   }
+  inputs.messages = std::move(context.messages);
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
   for (LibraryInput& input : inputs.library_files) {
     const importer::Format& format = importer::formatOf(input.kind);

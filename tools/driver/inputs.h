@@ -44,10 +44,13 @@ struct Inputs {
   std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
   std::vector<std::vector<std::string>> library_names;  // of each .plcproj given with -I
   std::vector<LibraryInput> library_files;
-  bool is_twincat = false;     // a .plcproj was read
-  bool unread = false;         // a vendor's file could not be understood: its declarations are missing
-  uint32_t missing_files = 0;  // that a .plcproj lists: one error each, and the others are checked
-  bool io_error = false;       // something could not be read: exit 2
+  std::vector<InputFile> message_files;     // of the ladder among the files, sorted as these
+  std::vector<importer::Message> messages;  // of this ladder
+  bool has_ladder = false;                  // a .nct file was read
+  bool is_twincat = false;                  // a .plcproj was read
+  bool unread = false;                      // a vendor's file could not be understood: its declarations are missing
+  uint32_t missing_files = 0;               // that a .plcproj lists: one error each, and the others are checked
+  bool io_error = false;                    // something could not be read: exit 2
 };
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);

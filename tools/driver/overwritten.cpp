@@ -1,5 +1,5 @@
 // See overwritten.h. A source is a file that the command line names, and in a folder that it names any file that holds
-// a program; results of an earlier run are replaced, in a folder of sources too.
+// a program or the messages of one; results of an earlier run are replaced, in a folder of sources too.
 #include "tools/driver/overwritten.h"
 
 #include <filesystem>
@@ -43,7 +43,7 @@ bool holdsSource(const std::string& path) {
   file.read(text.data(), kBeginning);
   text.resize(static_cast<size_t>(file.gcount()));
   const importer::FileKind kind = importer::kindOf(path, text);
-  return importer::holdsProgram(kind) || importer::isProject(kind);
+  return importer::holdsProgram(kind) || importer::isProject(kind) || kind == importer::FileKind::Messages;
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "frontend/import/nct/operands.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "frontend/import/diagnostics.h"
+#include "frontend/import/nct/messages.h"
 #include "frontend/import/nct/services.h"
 #include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
@@ -165,13 +167,19 @@ void Operands::checkDrivers() {
 }
 
 // NCT manual 6.13.
-//   fails   MSG #5 #0 #0, without a row 5 in MESSAGES                             E1421
+//   fails   MSG #5 #0 #0, without a text 5 in MESSAGES or a file                  E1421
 //   fails   MSGF #5 …, whose text has {#0:F0}                                     E1422
-//   fails   MSG #5 #100 #0                                                        E1433
+//   fails   MSG #5 #100 #0, MSG #1000 #0 #0                                       E1433
 bool Operands::checkMessage(const Element& element, std::span<const Operand> operands) {
-  for (size_t k = 1; k < 3; ++k) {
-    if (operands[k].kind != OperandKind::Integer || (operands[k].value >= 0 && operands[k].value <= 99)) continue;
-    report(diag::NctMessageNumber, element.operands[k], {element.operands[k].text, k == 1 ? "channel" : "index"});
+  static constexpr struct {
+    std::string_view what;
+    int64_t least, most;
+  } kNumbers[] = {{"number", 1, kMostMessage}, {"channel", 0, 99}, {"index", 0, 99}};
+  for (size_t k = 0; k < std::size(kNumbers); ++k) {
+    const auto& [what, least, most] = kNumbers[k];
+    if (operands[k].kind != OperandKind::Integer || (operands[k].value >= least && operands[k].value <= most)) continue;
+    report(diag::NctMessageNumber, element.operands[k],
+           {element.operands[k].text, what, std::to_string(least), std::to_string(most)});
     return false;
   }
   if (operands[0].kind != OperandKind::Integer) return true;
@@ -179,15 +187,15 @@ bool Operands::checkMessage(const Element& element, std::span<const Operand> ope
   const auto text = std::find_if(program_.messages.begin(), program_.messages.end(),
                                  [&](const MessageLine& line) { return line.number == number; });
   if (text == program_.messages.end()) {
-    report(diag::NctNoMessage, element.operands[0], {element.operands[0].text});
+    if (!program_.lost_messages) report(diag::NctNoMessage, element.operands[0], {element.operands[0].text});
     return false;
   }
   const bool is_double = upper(element.word.text).ends_with("F");
-  const bool has_integer = text->text.text.find("{#") != std::string_view::npos;
-  const bool has_double = text->text.text.find("{*") != std::string_view::npos;
+  const bool has_integer = text->text.find("{#") != std::string_view::npos;
+  const bool has_double = text->text.find("{*") != std::string_view::npos;
   if ((has_integer && is_double) || (has_double && !is_double)) {
     report(diag::NctMessageItem, element.word, {element.word.text, has_integer ? "an integer" : "a double"})
-        .declaredHere(text->text.loc);
+        .declaredHere(text->written.loc);
     return false;
   }
   return true;

@@ -1,11 +1,12 @@
 // An NCT program as it is written: its symbols, messages and the elements of its modules, line by line. In: a `.nct`
-// file (docs/nct.md). Out: a Program whose texts point into the file. Used by the reader (read.cpp), the resolver of
+// file (docs/nct.md). Out: a Program whose words point into the file. Used by the reader (read.cpp), the resolver of
 // addresses (memory.h) and the writer of ST (write.cpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -90,11 +91,12 @@ struct SymbolLine {
 };
 struct MessageLine {
   uint32_t number;
-  Word text;  // without its quotes
+  Word written;  // its text in the ladder, without its quotes, or in a message file
+  std::string text;
 };
 struct ButtonLine {
   uint32_t number;
-  std::string_view title;
+  std::string title;
 };
 
 struct Module {
@@ -107,6 +109,7 @@ struct Program {
   Word name;
   std::vector<SymbolLine> symbols;
   std::vector<MessageLine> messages;
+  bool lost_messages = false;  // a line has been reported: missing texts may be in it
   std::vector<ButtonLine> buttons;
   Module main, int0;
   Loc end;  // of the file

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "frontend/import/diagnostics.h"
+#include "frontend/import/nct/messages.h"
 #include "frontend/import/nct/program.h"
 #include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
@@ -20,9 +21,7 @@ constexpr Instruction kInstructions[] = {
 
 constexpr std::string_view kPins[] = {"CK", "U/D", "R", "L/R", "D", "EN", "BID", "DIR", "INC", "PRE"};
 constexpr uint32_t kMostNesting = 200;
-constexpr uint32_t kMostMessage = 999, kMostButton = 32;
-constexpr uint32_t kMostDigits = 15;
-constexpr size_t kLongestMessage = 255;  // bytes: a STRING(255) holds it
+constexpr uint32_t kMostButton = 32;
 
 struct Line {
   std::vector<Word> words;  // without strings
@@ -106,6 +105,15 @@ class ProgramReader {
       diagnostics_.report(diag::NctNotClosed, loc(begin - 1), {"the text", "\""});
   }
 
+  // A quote in a text is doubled.
+  static std::string unquoted(std::string_view text) {
+    std::string out;
+    for (size_t k = 0; k < text.size(); ++k) {
+      out += text[k];
+      if (text[k] == '"') ++k;
+    }
+    return out;
+  }
   static std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
   Report report(Diag diag, const Word& at, std::initializer_list<std::string_view> arguments) {
     return reportAt(diagnostics_, diag, at, arguments);
@@ -180,38 +188,21 @@ class ProgramReader {
   }
   void readMessage() {
     uint32_t number = 0;
-    if (!readNumbered(kMostMessage, "write a number from 1 to 999 and a text", number)) return;
+    if (!readNumbered(kMostMessage, "write a number from 1 to 999 and a text", number))
+      return void(program_.lost_messages = true);
     for (const MessageLine& other : program_.messages)
       if (other.number == number)
         return void(
-            report(diag::NctTwice, first(), {"message " + std::to_string(number)}).declaredHere(other.text.loc));
-    checkMessageText(line_.text);
-    program_.messages.push_back({number, line_.text});
-  }
-  // One item at most, {#0:F0} or {*0:F0} to {*0:F15}. NCT manual 6.13.
-  void checkMessageText(const Word& text) {
-    const auto refuse = [&](std::string_view why) { report(diag::NctMessageText, text, {why}); };
-    if (text.text.size() > kLongestMessage) return refuse("255 bytes is the longest");
-    if (text.empty()) return refuse("an empty text shows nothing");
-    uint32_t items = 0;
-    for (size_t at = text.text.find('{'); at != std::string_view::npos; at = text.text.find('{', at + 1)) {
-      const std::string_view rest = text.text.substr(at + 1);
-      if (!rest.starts_with("#") && !rest.starts_with("*")) continue;
-      const size_t close = rest.find('}');
-      uint32_t digits = 0;
-      if (close == std::string_view::npos || rest.substr(1, 3) != "0:F" ||
-          !readNumber(rest.substr(4, close - 4), kMostDigits, digits) || (rest[0] == '#' && digits != 0))
-        return refuse("an item is `{#0:F0}`, or `{*0:F0}` to `{*0:F15}`");
-      ++items;
-    }
-    if (items > 1) refuse("it prints one number at most");
+            report(diag::NctTwice, first(), {"message " + std::to_string(number)}).declaredHere(other.written.loc));
+    program_.messages.push_back({number, line_.text, unquoted(line_.text.text)});
+    checkMessageText(program_.messages.back(), diagnostics_);
   }
   void readButton() {
     uint32_t number = 0;
     if (!readNumbered(kMostButton, "write a number from 1 to 32 and a title", number)) return;
     for (const ButtonLine& other : program_.buttons)
       if (other.number == number) return void(report(diag::NctTwice, first(), {"button " + std::to_string(number)}));
-    program_.buttons.push_back({number, line_.text.text});
+    program_.buttons.push_back({number, unquoted(line_.text.text)});
   }
 
   // ---- modules

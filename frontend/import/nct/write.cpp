@@ -617,16 +617,15 @@ class Writer {
   }
   std::string textOf(int64_t number) const {
     for (const MessageLine& line : program_.messages)
-      if (line.number == number) return stringLiteral(line.text.text);
+      if (line.number == number) return stringLiteral(line.text);
     return "''";
   }
-  // In ST: `$` and quotes are escaped there, and a quote of the ladder is doubled.
+  // In ST: `$` and quotes are escaped there.
   static std::string stringLiteral(std::string_view text) {
     std::string literal = "'";
-    for (size_t k = 0; k < text.size(); ++k) {
-      if (text[k] == '\'' || text[k] == '$') literal += '$';
-      literal += text[k];
-      if (text[k] == '"') ++k;
+    for (const char c : text) {
+      if (c == '\'' || c == '$') literal += '$';
+      literal += c;
     }
     return literal + "'";
   }
@@ -635,7 +634,7 @@ class Writer {
     if (!finds_messages_) return;
     std::string text = "METHOD PRIVATE _message : STRING(255)\nVAR_INPUT number : DINT; END_VAR\nCASE number OF\n";
     for (const MessageLine& line : program_.messages)
-      text += "  " + std::to_string(line.number) + ": _message := " + stringLiteral(line.text.text) + ";\n";
+      text += "  " + std::to_string(line.number) + ": _message := " + stringLiteral(line.text) + ";\n";
     out_.put(loc, text + "END_CASE\nEND_METHOD\n");
   }
 

@@ -176,5 +176,11 @@ TEST(Format, Ladders) {
   EXPECT_EQ(formattedLadder(once, {}), once);
 }
 
+TEST(Format, MessagesHaveATabAfterTheNumber) {
+  EXPECT_EQ("5\tdoor  \n\n6\t lid\n7\n", formattedMessages("\n5   door  \n\n\n  6 \t lid\n7\n\n", {}));
+  EXPECT_EQ("5\tdoor\n6 lid\n", formattedMessages("5 door\n6 lid", {}, {1, 1}));
+  EXPECT_EQ("", formattedMessages("", {}));
+}
+
 }  // namespace
 }  // namespace rung::format
