@@ -1,5 +1,5 @@
-// Message files of NCT ladders, docs/nct.md: a line is a number and its text, with a tab between them. Only blanks before
-// the text change; the text itself stays byte for byte.
+// Message files of NCT ladders, docs/nct.md: a line is a number and its text, with a tab between them. Only blanks
+// before the text change; the text itself stays byte for byte.
 #include <algorithm>
 
 #include "frontend/format/format.h"

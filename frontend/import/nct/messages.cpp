@@ -13,9 +13,6 @@ namespace {
 constexpr uint32_t kMostDigits = 15;
 constexpr size_t kLongestMessage = 255;  // bytes: a STRING(255) holds it
 
-bool isDigits(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 // 0: not one of a message.
 uint32_t numberOf(std::string_view text) {
   uint32_t value = 0;
@@ -64,7 +61,7 @@ class FileReader {
     const uint32_t value = numberOf(number.text);
     if (value == 0) {
       program_.lost_messages = true;
-      if (isDigits(number.text))
+      if (number.text.find_first_not_of("0123456789") == std::string_view::npos)
         reportAt(diagnostics_, diag::NctMessageRange, number, {number.text});
       else
         reportAt(diagnostics_, diag::NctMessageLine, number, {});
