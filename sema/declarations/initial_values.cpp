@@ -433,9 +433,10 @@ struct Initializer {
 
   std::string_view nearestMember(TypeId type, NameId written) const {
     std::vector<std::string_view> candidates;
-    for (const types::Field& field : context.types().info(context.types().resolve(type)).fields) {
-      candidates.push_back(context.names().string(field.name));
-    }
+    const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+    for (const types::Field& field : info.fields)
+      if (findMember(context, type, field.name)) candidates.push_back(context.names().string(field.name));
+    for (const types::BitMember& bit : info.bits) candidates.push_back(context.names().string(bit.name));
     return nearest(context.names().string(written), candidates);
   }
 
