@@ -153,6 +153,7 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   const bool in_order = e.order == 0 || (order_of_[s.user] != kNone && order_of_[s.user] == order_of_[element] + 1);
   if (!s.temporary && s.uses == 1 && in_order && s.height < kMaxHeight) {
     if (hasCall(tree_, value)) calls_open_.push_back(result);
+    notePending(result);
     return;
   }
   keep(result, wireName(element));

@@ -5,6 +5,7 @@
 
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_scheduler.h"
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
 
@@ -37,7 +38,80 @@ ExprId Scheduler::outputOf(NameId sensor, Loc loc) {
 void Scheduler::emit(StmtId statement) {
   for (const uint32_t source : std::exchange(calls_open_, {}))
     if (graph_.sources[source].pending) keep(source, wireName(graph_.sources[source].element));
+  keepReadersOf(statement);
   out_.push_back(statement);
+}
+
+// A box with one reader becomes part of the reader's expression, which comes later: no variable that it reads may be
+// written in between. Blocks that write global variables are not seen.
+void Scheduler::notePending(uint32_t source) {
+  const auto visit = [&](const auto& self, ExprId expr) -> void {
+    if (tree_.kind(expr) == ExprKind::Name) readers_[names_.key(tree_.as<NameExpr>(expr).name).index].push_back(source);
+    forEachOperand(tree_, expr, [&](ExprId operand) { self(self, operand); });
+  };
+  visit(visit, graph_.sources[source].pending);
+}
+
+void Scheduler::keepReadersOf(ExprId written) {
+  for (;;) {
+    const ExprKind kind = tree_.kind(written);
+    if (kind == ExprKind::Name) break;
+    if (kind == ExprKind::Member)
+      written = tree_.as<MemberExpr>(written).base;
+    else if (kind == ExprKind::Index)
+      written = tree_.as<IndexExpr>(written).base;
+    else if (kind == ExprKind::Deref)
+      written = tree_.as<DerefExpr>(written).base;
+    else if (kind == ExprKind::BitAccess)
+      written = tree_.as<BitAccessExpr>(written).base;
+    else
+      return;
+  }
+  const auto found = readers_.find(names_.key(tree_.as<NameExpr>(written).name).index);
+  if (found == readers_.end()) return;
+  for (const uint32_t source : std::exchange(found->second, {}))
+    if (graph_.sources[source].pending) keep(source, wireName(graph_.sources[source].element));
+}
+
+void Scheduler::keepAllPending() {
+  std::vector<uint32_t> all;
+  for (const auto& [name, sources] : std::exchange(readers_, {})) all.insert(all.end(), sources.begin(), sources.end());
+  std::sort(all.begin(), all.end());
+  for (const uint32_t source : all)
+    if (graph_.sources[source].pending) keep(source, wireName(graph_.sources[source].element));
+}
+
+void Scheduler::keepReadersOf(StmtId statement) {
+  if (readers_.empty()) return;
+  const auto call = [&](ExprId expr) {
+    if (!expr || tree_.kind(expr) != ExprKind::Call) return;
+    keepReadersOf(tree_.as<CallExpr>(expr).callee);
+    for (const Argument& argument : tree_.list(tree_.as<CallExpr>(expr).arguments))
+      if (argument.value) keepReadersOf(argument.value);  // an in-out, perhaps
+  };
+  switch (tree_.kind(statement)) {
+    case StmtKind::Assign:
+      keepReadersOf(tree_.as<AssignStmt>(statement).target);
+      return call(tree_.as<AssignStmt>(statement).value);
+    case StmtKind::Call: return call(tree_.as<CallStmt>(statement).call);
+    case StmtKind::If:
+      if (tree_.stmt(statement).op != kConditionalOp) return keepAllPending();
+      for (const IfBranch& branch : tree_.list(tree_.as<IfStmt>(statement).branches))
+        for (const StmtId inner : tree_.list(branch.body)) keepReadersOf(inner);
+      return;
+    case StmtKind::Error:
+    case StmtKind::Empty:
+    case StmtKind::Exit:
+    case StmtKind::Continue:
+    case StmtKind::Jump:
+    case StmtKind::Return: return;
+    case StmtKind::Case:
+    case StmtKind::For:
+    case StmtKind::While:
+    case StmtKind::Repeat:
+    case StmtKind::Try:
+    case StmtKind::Label: return keepAllPending();
+  }
 }
 
 NameId Scheduler::newTemporary(const std::string& base, Loc loc) {

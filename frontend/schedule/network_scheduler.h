@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frontend/schedule/edge_coils.h"
@@ -103,6 +104,11 @@ class Scheduler {
   ExprId sensed(NameId sensor, ExprId value, Loc loc);
   ExprId outputOf(NameId sensor, Loc loc);
   void emit(StmtId statement);
+  // Pending values that read what the statement writes are evaluated before it.
+  void keepReadersOf(StmtId statement);
+  void keepReadersOf(ExprId written);
+  void keepAllPending();
+  void notePending(uint32_t source);
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
     emit(build_.assign(op, target, value, loc));
   }
@@ -126,13 +132,15 @@ class Scheduler {
   Graph graph_;
   std::optional<ExecutionWalk> walk_;
   std::vector<bool> operand_taken_;
-  std::vector<bool> target_of_;                         // sources that a variable reads
-  std::vector<bool> failed_;                            // elements with a reported error: their readers report none
-  std::vector<bool> assigned_;                          // variables that a box with EN assigns itself
-  std::vector<uint32_t> order_of_;                      // of an element with an effect: its index among the roots
-  std::vector<uint32_t> calls_open_;                    // sources whose pending value contains a call
-  std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
-  std::vector<bool> network_calls_;                     // by the network's first element
+  std::vector<bool> target_of_;     // sources that a variable reads
+  std::vector<bool> failed_;        // elements with a reported error: their readers report none
+  std::vector<bool> assigned_;      // variables that a box with EN assigns itself
+  std::vector<uint32_t> order_of_;  // of an element with an effect: its index among the roots
+  std::unordered_map<uint32_t, std::vector<uint32_t>> readers_;  // by the key of a name: sources whose pending value
+                                                                 // reads it
+  std::vector<uint32_t> calls_open_;                             // sources whose pending value contains a call
+  std::vector<std::pair<uint32_t, uint32_t>> written_;           // network, key of a name that it writes; sorted
+  std::vector<bool> network_calls_;                              // by the network's first element
   std::vector<StmtId> out_;
   std::vector<DeclId> temporaries_;
 };

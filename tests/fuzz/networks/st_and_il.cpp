@@ -33,6 +33,7 @@ class Printer {
     return name;
   }
   std::string outputOf(int action, const std::string& pin) const;
+  std::string enableOf(const Action& a) const;
 
   // ST
   void demand(int n);
@@ -58,6 +59,16 @@ std::string Printer::outputOf(int action, const std::string& pin) const {
   const Action& a = logic_.actions[static_cast<size_t>(action)];
   if (a.kind == ActionKind::Block && pin != "ENO") return a.instance + "." + pin;
   return "o" + std::to_string(action) + "_" + pin;
+}
+
+// What is FALSE while a variable at an output of a block keeps its value, because the block does not run; else empty.
+std::string Printer::enableOf(const Action& a) const {
+  if (a.kind != ActionKind::Assign && a.kind != ActionKind::Set && a.kind != ActionKind::Reset &&
+      a.kind != ActionKind::Pulse)
+    return {};
+  const Node& n = node(a.value);
+  const bool is_output = n.kind == NodeKind::Pin && n.text != "ENO";
+  return is_output && logic_.actions[static_cast<size_t>(n.action)].en >= 0 ? outputOf(n.action, "ENO") : std::string();
 }
 
 // ---- ST
@@ -109,13 +120,14 @@ void Printer::action(int number) {
     arguments += (arguments.empty() ? "" : ", ") + argument.pin +
                  " := " + (argument.node >= 0 ? expr(argument.node) : argument.variable);
   if (a.en >= 0) out_ += outputOf(number, "ENO") + " := " + expr(a.en) + ";\nIF " + outputOf(number, "ENO") + " THEN ";
+  const std::string enable = enableOf(a);
+  if (a.kind == ActionKind::Pulse) out_ += a.instance + "(CLK := " + value + ");\n";
+  if (!enable.empty()) out_ += "IF " + enable + " THEN ";
   switch (a.kind) {
     case ActionKind::Assign: out_ += a.target + " := " + (a.negated ? "NOT " : "") + value + ";\n"; break;
     case ActionKind::Set: out_ += "IF " + value + " THEN " + a.target + " := TRUE; END_IF\n"; break;
     case ActionKind::Reset: out_ += "IF " + value + " THEN " + a.target + " := FALSE; END_IF\n"; break;
-    case ActionKind::Pulse:
-      out_ += a.instance + "(CLK := " + value + ");\n" + a.target + " := " + a.instance + ".Q;\n";
-      break;
+    case ActionKind::Pulse: out_ += a.target + " := " + a.instance + ".Q;\n"; break;
     case ActionKind::Block: out_ += a.instance + "(" + arguments + ");\n"; break;
     case ActionKind::Guarded: out_ += a.target + " := " + value + ";\n"; break;
     case ActionKind::Split:
@@ -127,7 +139,7 @@ void Printer::action(int number) {
     case ActionKind::Return: out_ += "IF " + value + " THEN RETURN; END_IF\n"; break;
     case ActionKind::Jump: jump_ = value; break;
   }
-  if (a.en >= 0) out_ += "END_IF\n";
+  if (a.en >= 0 || !enable.empty()) out_ += "END_IF\n";
 }
 
 void Printer::items(const std::vector<Item>& items) {
@@ -170,9 +182,13 @@ std::string Printer::compute(int number) {
       const int right = n.operands[1];
       const bool negated = right >= 0 && node(right).kind == NodeKind::Not && !node(right).shared() &&
                            (n.text == "AND" || n.text == "OR" || n.text == "XOR");
-      const std::string name = negated ? operand(node(right).operands[0]) : of(1);
+      // A variable would cut an intermediate result to its type.
+      const bool is_wide = right >= 0 && node(right).kind == NodeKind::Operator && node(right).type == Type::Int;
+      const std::string code = is_wide && !done_[static_cast<size_t>(right)] ? load(right) : std::string();
+      const bool is_nested = !code.empty() && !done_[static_cast<size_t>(right)];
+      const std::string name = negated ? operand(node(right).operands[0]) : is_nested ? "(\n" + code + ")" : of(1);
       const std::string left = n.operands[0] == kSelf ? "LD " + kept(number) + "\n" : load(n.operands[0]);
-      return left + n.text + (negated ? "N " : " ") + name + "\n";
+      return left + n.text + (negated ? "N " : is_nested ? "" : " ") + name + "\n";
     }
     case NodeKind::Function: {
       std::string rest;
@@ -217,14 +233,19 @@ void Printer::listed(int number) {
     out_ += load(a.en);
     out_ += "ST " + outputOf(number, "ENO") + "\nJMPCN " + after + "\n";
   }
+  if (a.kind == ActionKind::Pulse) {
+    out_ += value + "ST " + a.instance + ".CLK\nCAL " + a.instance + "\n";
+    value = "LD " + a.instance + ".Q\n";
+  }
+  if (const std::string enable = enableOf(a); !enable.empty()) {
+    after = "e" + std::to_string(labels_++);
+    out_ += "LD " + enable + "\nJMPCN " + after + "\n";
+  }
   switch (a.kind) {
     case ActionKind::Assign: out_ += value + (a.negated ? "STN " : "ST ") + a.target + "\n"; break;
     case ActionKind::Set: out_ += value + "S " + a.target + "\n"; break;
     case ActionKind::Reset: out_ += value + "R " + a.target + "\n"; break;
-    case ActionKind::Pulse:
-      out_ +=
-          value + "ST " + a.instance + ".CLK\nCAL " + a.instance + "\nLD " + a.instance + ".Q\nST " + a.target + "\n";
-      break;
+    case ActionKind::Pulse: out_ += value + "ST " + a.target + "\n"; break;
     case ActionKind::Block: out_ += "CAL " + a.instance + "(" + arguments + ")\n"; break;
     case ActionKind::Guarded: out_ += value + "ST " + a.target + "\n"; break;
     case ActionKind::Split:
