@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "frontend/syntax/standard_names.h"

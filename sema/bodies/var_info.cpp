@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
 #include "sema/bodies/diagnostics.h"

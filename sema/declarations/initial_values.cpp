@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
 // constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
 // place; surplus array elements are removed and repetition counts are literals.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Name lookup: the meaning of a name at a location, members of records, the name nearest to a misspelled one.
 #include <algorithm>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver: read → parse → check → lower → optimize → emit, with timings, dumps and the verifier between phases.
 // In: Options. Out: the tree, the project, the IR module, generated files; diagnostics go to the sink at the end of the
 // run. Called by the commands, one Compilation for each project; several may exist at a time, also in several threads.

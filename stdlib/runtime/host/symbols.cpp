@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths of variables: see symbols.h.
 #include "symbols.h"
 
