@@ -213,7 +213,8 @@ class CheckWriter : public BodyPart {
 
  private:
   void checkNode(ExprId id, const Expr& expr);
-  void indexChecks(const Expr& expr);
+  void prepareElement(const Expr& expr);
+  void indexCheck(Loc loc, ExprId index, const types::Dimension& dimension);
   void nullCheck(const Expr& expr);
   void divisionCheck(const Expr& expr);
   void convertCheck(const Expr& expr);

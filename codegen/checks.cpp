@@ -56,8 +56,12 @@ void CheckWriter::prepareChildren(const Expr& e) {
 
 void CheckWriter::prepare(ExprId id) {
   const Expr& e = expr(id);
-  prepareChildren(e);
-  if (e.checks != 0) checkNode(id, e);
+  if (e.kind == ExprKind::Index) {
+    prepareElement(e);
+  } else {
+    prepareChildren(e);
+    if (e.checks != 0) checkNode(id, e);
+  }
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
     strings().materializeString(id);
   } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
@@ -69,9 +73,6 @@ void CheckWriter::prepare(ExprId id) {
 
 void CheckWriter::checkNode(ExprId id, const Expr& e) {
   switch (e.kind) {
-    case ExprKind::Index:
-      if ((e.checks & ir::kCheckIndex) != 0) indexChecks(e);
-      return;
     case ExprKind::Field:
     case ExprKind::Deref:
       if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) != 0) nullCheck(e);
@@ -102,6 +103,7 @@ void CheckWriter::checkNode(ExprId id, const Expr& e) {
     case ExprKind::Global:
     case ExprKind::Program:
     case ExprKind::Image:
+    case ExprKind::Index:
     case ExprKind::Bits:
     case ExprKind::Select:
     case ExprKind::Call:
@@ -201,27 +203,33 @@ void CheckWriter::subrangeCheck(const Expr& e) {
   endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
 }
 
-void CheckWriter::indexChecks(const Expr& e) {
+// Each index is checked before the next one is evaluated, as in the interpreter.
+void CheckWriter::prepareElement(const Expr& e) {
   const ir::IndexExpr& node = e.as<ir::IndexExpr>();
   const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
-  for (uint32_t i = 0; i < node.indices.count && i < array.dimensions.size(); ++i) {
-    if (e.isProven(i)) continue;
-    const ExprId id = body_->list(node.indices)[i];
-    const types::Dimension& dimension = array.dimensions[i];
-    if (expr(id).kind == ExprKind::Const) {
-      const auto index = static_cast<int64_t>(ir::bitsOf(expr(id)));
-      if (index >= dimension.low && index <= dimension.high) continue;
-    }
-    const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
-    beginCheck();
-    out_ += narrow ? "(uint32_t)(" : "(uint64_t)(";
-    places().indexValue(id, dimension);
-    out_ += ") >= ";
-    appendUnsigned(out_, dimension.count());
-    out_ += narrow ? "u" : "ULL";
-    endCheck(e.loc, Fault::Index, "(" + captured([&] { values().value(id, Prec::Comma); }) + ")", dimension.low,
-             dimension.high);
+  prepare(node.base);
+  for (uint32_t i = 0; i < node.indices.count; ++i) {
+    const ExprId index = body_->list(node.indices)[i];
+    prepare(index);
+    if ((e.checks & ir::kCheckIndex) != 0 && i < array.dimensions.size() && !e.isProven(i))
+      indexCheck(e.loc, index, array.dimensions[i]);
   }
+}
+
+void CheckWriter::indexCheck(Loc loc, ExprId id, const types::Dimension& dimension) {
+  if (expr(id).kind == ExprKind::Const) {
+    const auto index = static_cast<int64_t>(ir::bitsOf(expr(id)));
+    if (index >= dimension.low && index <= dimension.high) return;
+  }
+  const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
+  beginCheck();
+  out_ += narrow ? "(uint32_t)(" : "(uint64_t)(";
+  places().indexValue(id, dimension);
+  out_ += ") >= ";
+  appendUnsigned(out_, dimension.count());
+  out_ += narrow ? "u" : "ULL";
+  endCheck(loc, Fault::Index, "(" + captured([&] { values().value(id, Prec::Comma); }) + ")", dimension.low,
+           dimension.high);
 }
 
 void CheckWriter::overflowCheck(ExprId id) {

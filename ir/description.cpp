@@ -110,7 +110,9 @@ class Describer {
     const TypeKind plain = types_.plainKind(id);
     row.library = library_blocks_.count(types_.resolve(id).index) != 0 ? 1 : 0;
     row.is_signed = TypeTable::isScalar(plain) && types_.isSigned(plain) ? 1 : 0;
-    row.name = string(types_.toString(id));
+    // A structure written in place is STRUCT in messages; tools know it by its C++ name.
+    const bool is_unnamed = info->shown_name && types_.names().string(info->shown_name) == "STRUCT";
+    row.name = string(is_unnamed ? std::string(types_.names().string(info->name)) : types_.toString(id));
     row.size = static_cast<uint32_t>(info->size);
     row.length = info->length;
     out_.types[index] = row;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/function_ref.h"
 #include "sema/ids.h"
@@ -66,8 +67,9 @@ struct ConfiguredModule {
 struct Options {
   Dialect dialect = Dialect::Codesys;
   uint32_t pointer_size = 8;
-  uint32_t native_width = 32;              // codesys: intermediate results have at least so many bits, 32 or 64
-  std::string_view name = "plc";           // of the module: instance paths begin with it
+  uint32_t native_width = 32;  // codesys: intermediate results have at least so many bits, 32 or 64
+  diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;  // of LD
+  std::string_view name = "plc";                              // of the module: instance paths begin with it
   std::span<const LibraryFile> libraries;  // sources that outlive the project; declarations are parsed on first use
   std::vector<LibraryProject> library_projects;
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`

@@ -32,6 +32,7 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
       options(std::move(the_options)) {
   for (const types::MemoryArea& area : options.areas) area_bytes.push_back(area.bytes);
   types.time_is_signed = dialect != Dialect::Codesys;
+  types.long_time_is_signed = dialect == Dialect::Iec3;
 }
 
 VarId ResourceGlobals::of(NameId resource) const {

@@ -202,6 +202,7 @@ class Lexer {
         base_(sources.begin(file).offset),
         source_(sources.sourceText(file)),
         path_(sources.path(file)),
+        any_underscores_(sources.hasAnyUnderscores(file)),
         names_seen_(names.count()) {}
 
   void run(uint32_t begin, uint32_t end);
@@ -258,6 +259,7 @@ class Lexer {
   uint32_t base_;
   std::string_view source_;
   std::string_view path_;
+  bool any_underscores_;
   const char* end_ = nullptr;
   uint32_t names_seen_;
   uint8_t flags_ = kLineStart;
@@ -396,7 +398,9 @@ void Lexer::resolveDeclaredWords() {
                          (next == Tok::At && i + 2 < tokens.size() && tokens[i + 2].kind == Tok::Address);
     const bool name = isPlantWord(token.kind) ? !isName(next) : isPartWord(token.kind) ? operand : !type;
     const bool member = last == Tok::Dot && isReserved(token.kind);
-    if (!member && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
+    const bool pin = (last == Tok::LeftParen || last == Tok::LeftBracket || last == Tok::Comma) &&
+                     (next == Tok::Assign || next == Tok::Arrow);
+    if (!member && !pin && (!declared[static_cast<size_t>(token.kind)] || !name)) continue;
     if (isReserved(token.kind)) {
       const auto length = static_cast<uint16_t>(token.value);
       token.value = names_.intern(source_.substr(token.offset, length)).index;
@@ -407,6 +411,7 @@ void Lexer::resolveDeclaredWords() {
 }
 
 void Lexer::checkUnderscores(const char* begin, const char* end) {
+  if (any_underscores_) return;
   std::string_view name(begin, static_cast<size_t>(end - begin));
   // TO___XWORD, INT_TO___UXINT: the conversions to the types whose names begin so. TwinCAT, "Overloading".
   for (const std::string_view type : {"___XWORD", "___UXINT", "___XINT"}) {

@@ -340,6 +340,7 @@ bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValu
     diagnostics.report(diag::DateForm, loc, {text, "D#2026-12-31"});
     return false;
   }
+  value.is_negative = days < 0;
   value.value = static_cast<uint64_t>(days) * kDay;
   return true;
 }
@@ -368,6 +369,7 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     diagnostics.report(diag::TimeTooLong, loc, {text});
     return false;
   }
+  value.is_negative = days < 0;
   value.value = static_cast<uint64_t>(days) * kDay + time;
   return true;
 }

@@ -23,7 +23,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
 struct TimeValue {
   LiteralKind kind = LiteralKind::Duration;
   bool is_long = false;      // LT#, LD#, LTOD#, LDT#
-  bool is_negative = false;  // T#-5s
+  bool is_negative = false;  // T#-5s; a date before 1970
   bool is_unsigned = false;  // set by the caller: LDATE and LDT count in an unsigned number, up to 2554
   uint64_t value = 0;        // nanoseconds, two's complement
   bool overflows = false;    // a part of a duration after the first exceeds its unit: T#1h90m

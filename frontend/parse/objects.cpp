@@ -16,6 +16,20 @@ static bool lineLacksSemicolon(const std::vector<Token>& tokens, size_t at) {
   return true;
 }
 
+// `class AT %MW2`, and `STEP class AT 0, 40` of a chart.
+static bool isPlaced(const Token* name) {
+  return name[1].kind == Tok::At &&
+         (name[2].kind == Tok::Address || name[2].kind == Tok::Number || name[2].kind == Tok::Minus);
+}
+
+// Words after which the name of something follows on the same line: `TRANSITION class FROM`, `PROGRAM class WITH`.
+static bool needsName(Tok kind) {
+  static constexpr TokSet kWords = {Tok::Function, Tok::FunctionBlock, Tok::Program,    Tok::Class,     Tok::Interface,
+                                    Tok::Method,   Tok::Property,      Tok::Action,     Tok::Namespace, Tok::Extends,
+                                    Tok::Resource, Tok::Task,          Tok::Transition, Tok::With};
+  return kWords.has(kind);
+}
+
 // Keywords that are names unless a declaration begins with them: `METHOD Start`. Others become names here, so that the
 // parser and the block repair need no further check; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
 void resolveObjectKeywords(TokenStream& stream) {
@@ -29,13 +43,13 @@ void resolveObjectKeywords(TokenStream& stream) {
     if (isObjectWord(k) || k == Tok::Using) {
       const Tok before = i == 0 ? Tok::Semicolon : tokens[i - 1].kind;
       const Token& next = tokens[i + 1];
-      const bool names_something = isName(next.kind) && (next.flags & kLineStart) == 0;
+      const bool names_something = isName(next.kind) && (next.flags & kLineStart) == 0 && !isPlaced(&tokens[i]);
       const bool behind_operator = (before > Tok::Semicolon && before <= Tok::EqualLess) ||
                                    (before >= Tok::And && before <= Tok::Not) || before == Tok::Mod;
       const bool line_start = (tokens[i].flags & kLineStart) != 0;
       const bool lost_its_name =
           k == Tok::Method && line_start && !names_something && closes_methods && lineLacksSemicolon(tokens, i);
-      if ((!names_something && !lost_its_name) || (!line_start && behind_operator)) {
+      if ((!names_something && !lost_its_name) || (!line_start && (behind_operator || needsName(before)))) {
         k = Tok::Ident;
         continue;
       }

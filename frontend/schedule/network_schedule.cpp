@@ -402,12 +402,19 @@ void Scheduler::resolveAssignment(uint32_t element) {
     keep(own, value, wireName(element));
     value = plainValue(own);
   }
-  if (!graph_.isTarget(element)) return assignTo(element, value, e.storage, {});
+  if (!graph_.isTarget(element)) return assignTo(element, value, storageOf(e), {});
   // A set or reset output applies to the variables connected to it.
   const uint32_t source = graph_.sourceOf(*pin, 0);
   const DiagramPin* out = graph_.outputPin(source);
-  const bool takes = out != nullptr && e.storage == PinStorage::None;
-  assignTo(element, value, takes ? out->storage : e.storage, graph_.sources[source].guard);
+  const bool takes = out != nullptr && e.storage == PinStorage::None && out->storage != PinStorage::None;
+  assignTo(element, value, takes ? out->storage : storageOf(e), graph_.sources[source].guard);
+}
+
+// A coil that detects an edge and keeps its variable without one sets it. The manual has no such coil that negates.
+PinStorage Scheduler::storageOf(const DiagramElement& e) const {
+  const bool latches = edge_coils_ == EdgeCoils::Latch && e.kind == ElementKind::Coil && e.edge != EdgeKind::None &&
+                       e.storage == PinStorage::None && !e.negated;
+  return latches ? PinStorage::Set : e.storage;
 }
 
 // A composer fills its structure; a selector reads the members of its input.
@@ -472,7 +479,7 @@ void Scheduler::checkCoils() {
   for (const uint32_t k : graph_.roots) {
     const DiagramElement& e = graph_.elements[k];
     if (e.kind == ElementKind::Jump || e.kind == ElementKind::Return) return;
-    if (e.kind == ElementKind::Coil && e.storage == PinStorage::None && tree_.kind(e.operand) == ExprKind::Name)
+    if (e.kind == ElementKind::Coil && storageOf(e) == PinStorage::None && tree_.kind(e.operand) == ExprKind::Name)
       coils.emplace_back(names_.key(tree_.as<NameExpr>(e.operand).name).index, k);
   }
   std::stable_sort(coils.begin(), coils.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -575,8 +582,8 @@ std::vector<uint32_t> executionOrder(Tree& tree, Names& names, Diagnostics& diag
 }
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                               const PouDecl& pou) {
-  return Scheduler(tree, names, diagnostics, signatures).run(pou);
+                               EdgeCoils edge_coils, const PouDecl& pou) {
+  return Scheduler(tree, names, diagnostics, signatures, edge_coils).run(pou);
 }
 
 }  // namespace rung::diagram

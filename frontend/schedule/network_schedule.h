@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/schedule/scheduled_body.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/signatures.h"
@@ -19,7 +20,7 @@
 namespace rung::diagram {
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                               const PouDecl& pou);
+                               EdgeCoils edge_coils, const PouDecl& pou);
 
 // The elements of a body, by their index, in the order in which they run: boxes, composers and selectors, variables
 // that are written, coils, jumps, labels, returns. Empty: the wires are wrong, which was reported. Pictures show it.

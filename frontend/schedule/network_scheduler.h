@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/schedule/network_graph.h"
 #include "frontend/schedule/network_walk.h"
 #include "frontend/syntax/clone.h"
@@ -25,8 +26,8 @@ constexpr uint16_t kMaxHeight = 100;
 
 class Scheduler {
  public:
-  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
-      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, EdgeCoils edge_coils)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures), edge_coils_(edge_coils) {}
 
   ScheduledBody run(const PouDecl& pou);
 
@@ -48,6 +49,7 @@ class Scheduler {
   void checkBooleans();
   void checkModifiers();
   bool isStored(uint32_t element, const DiagramPin& pin) const;
+  PinStorage storageOf(const DiagramElement& e) const;
 
   // ---- the walk
   void readLastCycle(uint32_t source, uint32_t reader);
@@ -124,6 +126,7 @@ class Scheduler {
   Names& names_;
   Diagnostics& diagnostics_;
   Signatures& signatures_;
+  EdgeCoils edge_coils_;
   NetworkLanguage language_ = NetworkLanguage::Ladder;
   const char* function_ = nullptr;  // the kind of POU if it keeps no state
   Graph graph_;

@@ -58,6 +58,10 @@ class Sources {
     files_[file.index].display_path = std::move(display_path);
   }
 
+  // Another language decides which names the file may have (the ladder of NCT): `a__b` and `a_` too.
+  void allowAnyUnderscores(FileId file) { files_[file.index].any_underscores = true; }
+  bool hasAnyUnderscores(FileId file) const { return files_[file.index].any_underscores; }
+
   Loc begin(FileId file) const { return {files_[file.index].base}; }
   std::string_view path(FileId file) const { return files_[file.index].path; }
   std::string_view displayPath(FileId file) const {
@@ -94,6 +98,7 @@ class Sources {
     mutable std::vector<uint32_t> line_starts;  // filled on first use
     mutable bool ascii;                         // valid once line_starts is filled
     std::string active = {};
+    bool any_underscores = false;
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
 

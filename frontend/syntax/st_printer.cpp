@@ -143,22 +143,26 @@ void StPrinter::clock(uint64_t ns) {
 }
 
 void StPrinter::time(const LiteralExpr& e) {
-  constexpr int64_t kDay = 86'400'000'000'000;
+  constexpr uint64_t kDay = 86'400'000'000'000;
   if ((e.h.bits & kLiteralLong) != 0) out += 'L';
-  const auto value = static_cast<int64_t>(e.value());
+  const uint64_t value = e.value();
+  const auto days = [&] {  // until 2554, or before 1970
+    if ((e.h.bits & kLiteralNegative) == 0) return static_cast<int64_t>(value / kDay);
+    return -static_cast<int64_t>((0 - value + kDay - 1) / kDay);
+  };
   if (e.literal() == LiteralKind::Date) {
     out += "D#";
-    return date(value / kDay);
+    return date(days());
   }
   if (e.literal() == LiteralKind::TimeOfDay) {
     out += "TOD#";
-    return clock(static_cast<uint64_t>(value));
+    return clock(value);
   }
   if (e.literal() == LiteralKind::DateTime) {
     out += "DT#";
-    date(value / kDay);
+    date(days());
     out += '-';
-    return clock(static_cast<uint64_t>(value % kDay));
+    return clock(value - static_cast<uint64_t>(days()) * kDay);
   }
   struct Unit {
     uint64_t ns;

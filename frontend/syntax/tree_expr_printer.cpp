@@ -40,10 +40,10 @@ void TreeExprPrinter::literal(const LiteralExpr& e) {
   const bool negative = (e.h.bits & kLiteralNegative) != 0;
   const auto nanoseconds = [&](const char* short_prefix, const char* long_prefix) {
     out += (e.h.bits & kLiteralLong) != 0 ? long_prefix : short_prefix;
-    if (e.literal() == LiteralKind::Duration && !negative)
-      number(e.value());
-    else
+    if (negative)
       out += std::to_string(static_cast<int64_t>(e.value()));
+    else
+      number(e.value());
     out += "ns";
   };
   switch (e.literal()) {

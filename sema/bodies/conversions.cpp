@@ -43,7 +43,14 @@ std::string conversionName(const Context& constant, TypeId from, TypeId to) {
   Context context = constant;
   const auto word = [&](TypeId type) -> std::string {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
-    if (own.kind == TypeKind::Enum) return own.name ? std::string(string(context, own.name)) : std::string("ANY");
+    if (own.kind == TypeKind::Enum)
+      return own.name && !own.shown_name ? std::string(string(context, own.name)) : std::string("ANY");
+    if (own.kind == TypeKind::Pointer && type == from && !context.iec()) {  // a number in codesys
+      const types::TypeInfo& target = context.types().info(context.types().resolve(own.base));
+      const bool is_interface = target.kind == TypeKind::Record && target.record_kind == types::RecordKind::Interface;
+      if (is_interface || !TypeTable::isInteger(context.types().plainKind(to))) return {};
+      return context.types().pointerSize() == 8 ? "LWORD" : "DWORD";
+    }
     const TypeId plain = context.types().plain(type);
     const TypeKind kind = context.types().info(plain).kind;
     if (!TypeTable::isElementary(kind)) return {};

@@ -340,14 +340,17 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   if ((node.h.bits & kLiteralOverflows) != 0)
     context.report(context.iec() ? diag::DurationOverflow : diag::DurationOverflowWarning, node.h.loc,
                    {context.symbols.sources.tokenAt(node.h.loc)});
-  // A duration is 64 bits of nanoseconds; the signed LTIME has one bit less.
+  // A duration is 64 bits of nanoseconds; LTIME with a sign has one bit less, without one no negative values.
   const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
-  const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
-  if (is_long && beyond && context.types().isSigned(longer)) {
+  const bool is_signed = context.types().isSigned(longer);
+  const bool is_negative = (node.h.bits & kLiteralNegative) != 0 && node.value() != 0;
+  const bool beyond = is_signed ? !is_negative && node.value() >> 63 != 0 : is_negative;
+  if (is_long && longer == TypeKind::LTime && beyond) {
+    const uint64_t low = is_signed ? uint64_t{1} << 63 : 0, high = ~uint64_t{0} >> (is_signed ? 1 : 0);
     context.report(diag::ConstantOutOfRange, node.h.loc,
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(longer)),
-                    types::toString(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
-                    types::toString(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
+                    types::toString(context.types(), context.names(), {types::kLTime, low}),
+                    types::toString(context.types(), context.names(), {types::kLTime, high})});
     return node.h.type = types::kError;
   }
   if (is_long) return node.h.type = types::idOf(longer);

@@ -112,7 +112,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
         return header.type = {};
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
       if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
-      if (takesAddress(access)) return header.type = pou.record ? pou.record : types::kError;
+      if (takesAddress(access) && pou.record) return header.type = pou.record;
       if (isFirstReport(context, name))
         context.report(diag::NotAValue, loc, {string(context, name), kindName(pou.kind)});
       return header.type = types::kError;

@@ -196,7 +196,12 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   }
   const Property property = accessorsOf(context, member.index);
   const PouId accessor = property.get ? property.get : property.set;
-  if (!accessor) return header.type = types::kError;
+  if (!accessor) {
+    const bool writes_only = writesValue(access) && access != Access::Call;
+    context.report(writes_only ? diag::PropertyWithoutSet : diag::PropertyWithoutGet, loc,
+                   {string(context, property.name)});
+    return header.type = types::kError;
+  }
   resolvePou(context, accessor);
   const TypeId declared = property.get ? context.symbols.pou(property.get).result
                                        : context.symbols.var(pinsOf(context, property.set)[0]).type;

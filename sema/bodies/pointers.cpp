@@ -1,6 +1,6 @@
 // Pointers and references: taking addresses, binding references, and arithmetic on addresses as in CODESYS.
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
-// TM/TP manual 5.2, 5.3 (ADR, BITADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
+// TM/TP manual 5.2, 5.3 (ADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
@@ -44,28 +44,6 @@ TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
   if (!checkAddressable(context, lvalue) || !checkReferable(context, lvalue, call.name)) return types::kError;
   context.replace(expr, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
   return context.tree().expr(expr).type;
-}
-
-// BITADR(x) of a located BOOL: its bit offset, with the area in the two highest bits: %M 2#01, %I 2#10, %Q 2#11.
-TypeId checkBitAdr(Context& context, ExprId& expr, const PseudoCall& call) {
-  ExprId lvalue = call.arguments[0].value;
-  const Loc loc = context.tree().loc(expr);
-  if (check(context, lvalue, {}, Access::Address) == types::kError) return types::kError;
-  std::optional<ImageView> view;
-  if (context.tree().kind(lvalue) == ExprKind::Address) {
-    view = resolveAddress(context, context.tree().as<AddressExpr>(lvalue).address, loc, {});
-  } else if (const Entity entity = entityOf(context, lvalue); entity.entityKind() == EntityKind::Var) {
-    const Var& var = context.symbols.vars[entity.index];
-    if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
-  }
-  if (!view) {
-    context.report(diag::NoBitAddress, context.tree().begin(lvalue));
-    return types::kError;
-  }
-  const uint32_t area = view->area == types::kMemoryArea ? 1 : view->area == types::kInputArea ? 2 : 3;
-  const auto number = static_cast<int64_t>(uint64_t{area} << 30 | (view->byte * 8 + view->bit));
-  context.replace(expr, makeLiteral(context, LiteralKind::Integer, types::kDWord, number, loc));
-  return types::kDWord;
 }
 
 // VAL(p) is p^. IEC syntax manual 5.3.1.3.2.

@@ -24,12 +24,13 @@ std::string_view nearestPseudoFunction(Context& context, NameId written);
 // Each checks the call `expr`, may replace it, and returns its type; kError after a report.
 using PseudoHandler = TypeId(Context& context, ExprId& expr, const PseudoCall& call);
 
-PseudoHandler checkAssert, checkAssertEq, checkAssertNear;    // assertions.cpp
-PseudoHandler checkSizeOf, checkLengthLimit;                  // sizes.cpp
-PseudoHandler checkAdr, checkVal, checkBitAdr, checkIsValid;  // pointers.cpp
-PseudoHandler checkLowerBound, checkUpperBound;               // open_arrays.cpp
-PseudoHandler checkQueryInterface, checkQueryPointer;         // attempts.cpp
-PseudoHandler checkDelete;                                    // dynamic_memory.cpp
-PseudoHandler checkVarInfo, checkPouName, checkPosition;      // var_info.cpp
+PseudoHandler checkAssert, checkAssertEq, checkAssertNear;  // assertions.cpp
+PseudoHandler checkSizeOf, checkLengthLimit;                // sizes.cpp
+PseudoHandler checkAdr, checkVal, checkIsValid;             // pointers.cpp
+PseudoHandler checkBitAdr;                                  // bit_addresses.cpp
+PseudoHandler checkLowerBound, checkUpperBound;             // open_arrays.cpp
+PseudoHandler checkQueryInterface, checkQueryPointer;       // attempts.cpp
+PseudoHandler checkDelete;                                  // dynamic_memory.cpp
+PseudoHandler checkVarInfo, checkPouName, checkPosition;    // var_info.cpp
 
 }  // namespace rung::sema

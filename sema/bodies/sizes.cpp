@@ -1,6 +1,7 @@
 // SIZEOF and LEN_MAX: sizes that are known at compile time. Out: untyped literals.
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
+#include "sema/declarations/declarations.h"
 
 namespace rung::sema {
 
@@ -20,7 +21,8 @@ TypeId checkSizeOf(Context& context, ExprId& expr, const PseudoCall& call) {
   if (isUntyped(context, type)) type = finalizeUntyped(context, operand);
   if (!type || type == types::kError) return types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
-  if (!context.types().layout(type)) return types::kError;
+  if (!checkLayout(context, "SIZEOF", type, context.tree().begin(operand)) || !context.types().layout(type))
+    return types::kError;
   const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
   const auto size = static_cast<int64_t>(context.types().info(context.types().resolve(type)).size);
   context.replace(expr, makeLiteral(context, LiteralKind::Integer, untyped, size, loc));

@@ -460,7 +460,8 @@ static void schedule(Context& context, PouDecl& decl) {
     declareTemporaries(context, created.temporaries);
   };
   if (kind == BodyKind::Network) {
-    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, decl));
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
+                                   decl));
   } else if (kind == BodyKind::Il) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
   } else {

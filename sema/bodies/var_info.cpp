@@ -141,8 +141,8 @@ TypeId checkVarInfo(Context& context, ExprId& expr, const PseudoCall& pseudo) {
     return types::kError;
   }
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
-  if (!ensureLayout(context, type)) return types::kError;
   const Loc begin = context.tree().begin(lvalue);
+  if (!checkLayout(context, "__VARINFO", type, begin) || !ensureLayout(context, type)) return types::kError;
   const CallExpr& call = context.tree().as<CallExpr>(expr);
   const FileId file = context.symbols.sources.fileOf(begin);
   std::string_view written = context.symbols.sources.sourceText(file);

@@ -222,7 +222,11 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.library_name = scopes.libraries.list[library].name;
   declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
   pou.unique_name = uniqueNameInLibrary(context, library, pou.name);
-  if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
+  if (pou.record) {
+    context.types().edit(pou.record).name = pou.unique_name;
+    if (pou.unique_name != pou.name)
+      context.types().edit(pou.record).shown_name = nameWithLibrary(context, library, pou.name);
+  }
   collectMembers(context, pou_id);
 }
 
@@ -250,6 +254,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
     case TypeExprKind::Pointer: type = table.addAlias(name, types::kError); break;
   }
   const bool is_structure = tree.kind(decl.type) == TypeExprKind::Struct;
+  if (library != kNoLibrary && name != decl.name && tree.kind(decl.type) != TypeExprKind::Error)
+    table.edit(type).shown_name = nameWithLibrary(context, library, decl.name);
   checkAttributes(context, decl.h, is_structure ? Attributed::Structure : Attributed::OtherType);
   NamedType& named = addNamed(context, type);
   named.decl = id;

@@ -57,7 +57,11 @@ Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
       if (TypeTable::isCharacter(kind)) return {type, characterOf(text, kind)};
       return {type, symbols.names.intern(text).index};
     }
-    case LiteralKind::Duration: return types::convert(table, {types::kLTime, literal.value()}, type).value;
+    case LiteralKind::Duration: {
+      if (kind != TypeKind::Time) return {type, literal.value()};
+      const uint64_t ms = (negative ? 0 - literal.value() : literal.value()) / 1'000'000;
+      return types::convert(table, {types::kLInt, negative ? 0 - ms : ms}, type).value;
+    }
     case LiteralKind::Date: return types::convert(table, {types::idOf(TypeKind::LDate), literal.value()}, type).value;
     case LiteralKind::TimeOfDay:
       return types::convert(table, {types::idOf(TypeKind::LTimeOfDay), literal.value()}, type).value;

@@ -167,6 +167,8 @@ TypeId lookUpType(Context& context, NameId name, Loc loc = {});
 void resolveDeclarations(Context& context);
 // Lays out a type, with what it holds resolved first. False when it is too large.
 bool ensureLayout(Context& context, TypeId type);
+// Whether the layout of a type can be known now; reports one that the expression with `function` determines itself.
+bool checkLayout(Context& context, std::string_view function, TypeId type, Loc loc);
 
 // ---- constants.cpp
 // A constant integer, as in bounds and lengths; reports an expression that is not one.
@@ -199,5 +201,7 @@ Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrar
 // The name by which the module knows a POU or type of a library: with the library's name if the bare name means one of
 // the project or of another library.
 NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name);
+// `CAA.PVOID`: how messages name it then.
+NameId nameWithLibrary(Context& context, uint32_t library, NameId name);
 
 }  // namespace rung::sema

@@ -22,6 +22,8 @@ std::string identifierOf(const types::TypeTable& table, TypeId type) {
     }
   }
   while (!name.empty() && name.back() == '_') name.pop_back();
+  for (TypeId at = type; at; at = table.info(at).base)  // messages may name two types alike
+    if (table.info(at).shown_name) return name.append("_").append(table.names().string(table.info(at).name));
   return name;
 }
 
@@ -134,7 +136,10 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   if (own && written.generics.empty()) return around;
   std::vector<GenericValue> values;
   if (!readGenerics(context, block, names, written, values)) return {};
-  std::string unique = toString(context, block.name) + "_";
+  std::string unique = toString(context, block.name) + "_", shown = toString(context, block.name);
+  for (const GenericValue& given : values)
+    shown += (&given == values.data() ? "<" : ", ") + std::to_string(*given.value);
+  shown += '>';
   for (const GenericValue& given : values)
     unique += *given.value < 0 ? "_m" + std::to_string(0 - static_cast<uint64_t>(*given.value))
                                : "_" + std::to_string(*given.value);
@@ -159,8 +164,11 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
     context.scopes.instances.insert(key, entity(id));
     Context there = at(context, {}, block.file, block.library, context.scopes.pous[block_id.index].region);
     collectDecl(there, decl, block.file, block.library ? libraryNamed(context, block.library_name) : kNoLibrary);
-    symbols.pou(id).generic_of = block_id;
-    symbols.pou(id).generic_depth = depth;
+    Pou& made = symbols.pou(id);
+    made.name = context.names().intern(shown);
+    if (made.record) context.types().edit(made.record).shown_name = made.name;
+    made.generic_of = block_id;
+    made.generic_depth = depth;
     return id;
   }
   return block_id;

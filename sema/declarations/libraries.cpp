@@ -386,6 +386,11 @@ NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name) {
   return context.names().intern(toString(context, libraries.list[library].name) + "__" + toString(context, name));
 }
 
+NameId nameWithLibrary(Context& context, uint32_t library, NameId name) {
+  const Namespace& space = context.scopes.libraries.list[library];
+  return context.names().intern(toString(context, space.name) + "." + toString(context, name));
+}
+
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   const Entity own = findInLibraries(context, key, library);
   if (own || library == kNoLibrary) return own;

@@ -1,6 +1,7 @@
 // Resolves declarations: types, POUs and lists; cuts types that contain themselves, lays everything out and checks
 // initial values. Runs after collecting the files, and again whenever a library declaration was read.
 #include <algorithm>
+#include <unordered_set>
 
 #include "sema/declarations/attributes.h"
 #include "sema/declarations/declarations.h"
@@ -153,6 +154,55 @@ void checkFieldInits(Context& context, TypeId type) {
 bool ensureLayout(Context& context, TypeId type) {
   resolveHeld(context, type);
   return context.types().layout(type);
+}
+
+namespace {
+
+// What holds the fields of a record is resolved: the POU, the list of globals or the type.
+bool isResolved(Context& context, TypeId record) {
+  resolveNamed(context, record);
+  const NamedType* named = context.scopes.named(record);
+  if (named == nullptr) return true;
+  if (named->pou) return context.scopes.pous[named->pou.index].resolved == State::Done;
+  if (named->type) return named->resolved == State::Done;
+  for (size_t i = 0; i < context.symbols.global_lists.size(); ++i) {
+    if (context.symbols.global_lists[i].record != record) continue;
+    resolveList(context, ListId{static_cast<uint32_t>(i)});
+    return context.scopes.lists[i].resolved == State::Done;
+  }
+  return true;
+}
+
+// A part of a type that is being resolved; none: all of it is known.
+TypeId unresolvedPart(Context& context, TypeId type) {
+  std::vector<TypeId> open{type};
+  std::unordered_set<uint32_t> seen;
+  while (!open.empty()) {
+    const TypeId part = open.back();
+    open.pop_back();
+    const TypeKind kind = context.types().info(part).kind;
+    if (kind != TypeKind::Alias && kind != TypeKind::Array && kind != TypeKind::Record) continue;
+    if (context.types().info(part).laid_out || !seen.insert(part.index).second) continue;
+    if (!isResolved(context, part)) return part;
+    const TypeInfo& info = context.types().info(part);
+    if (kind != TypeKind::Record) {
+      open.push_back(info.base);
+      continue;
+    }
+    for (const types::Field& field : info.fields)
+      if (!field.by_reference) open.push_back(field.type);
+  }
+  return {};
+}
+
+}  // namespace
+
+// Forbids a size or bit number in the declaration that determines it. CODESYS, "SIZEOF": known at compile time.
+//   fails   FUNCTION_BLOCK A VAR list : ARRAY[0..SIZEOF(A)] OF INT; END_VAR …       E1023
+bool checkLayout(Context& context, std::string_view function, TypeId type, Loc loc) {
+  const TypeId part = unresolvedPart(context, type);
+  if (part) context.report(diag::LayoutOfItself, loc, {function, context.types().toString(part)});
+  return !part;
 }
 
 void resolveDeclarations(Context& context) {

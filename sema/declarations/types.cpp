@@ -442,6 +442,7 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
     }
     case TypeExprKind::Struct: {
       const TypeId type = addStructure(context, id, anonymousTypeName(context, tree.loc(id)));
+      table.edit(type).shown_name = context.names().intern("STRUCT");
       addAnonymousType(context, type, id);
       return type;
     }

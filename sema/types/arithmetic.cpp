@@ -455,7 +455,8 @@ bool isLossless(const TypeTable& table, TypeId from, TypeId to) {
   if (isNumber(a) && b == TypeKind::LReal) return TypeTable::bitWidth(a) <= 32;
   if (a == TypeKind::Real) return b == TypeKind::LReal || b == TypeKind::Real;
   if (a == TypeKind::Bool) return b == TypeKind::Bool || TypeTable::isBits(b);
-  return a == b || (a == TypeKind::Time && b == TypeKind::LTime) || (a == TypeKind::Date && b == TypeKind::LDate) ||
+  if (a == TypeKind::Time && b == TypeKind::LTime) return !table.isSigned(a) || table.isSigned(b);
+  return a == b || (a == TypeKind::Date && b == TypeKind::LDate) ||
          (a == TypeKind::TimeOfDay && b == TypeKind::LTimeOfDay) ||
          (a == TypeKind::DateTime && b == TypeKind::LDateTime) ||
          (TypeTable::isCharacter(a) && TypeTable::isCharacter(b) && a < b);

@@ -127,7 +127,7 @@ std::string TypeTable::toString(TypeId id) const {
     appendNumber(text, info.length);
     return text + ']';
   }
-  if (info.name) return std::string(names_.string(info.name));
+  if (info.name) return std::string(names_.string(info.shown_name ? info.shown_name : info.name));
   if (info.kind == TypeKind::Array) {
     text = "ARRAY[";
     for (uint32_t i = 0; i < info.length; ++i) text += i == 0 ? "*" : ", *";

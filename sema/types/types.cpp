@@ -285,7 +285,8 @@ uint32_t TypeTable::bitWidth(TypeKind k) {
 }
 
 bool TypeTable::isSigned(TypeKind k) const {
-  return isSignedInteger(k) || isReal(k) || (isDuration(k) && time_is_signed);
+  return isSignedInteger(k) || isReal(k) || (k == TypeKind::Time && time_is_signed) ||
+         (k == TypeKind::LTime && long_time_is_signed);
 }
 
 // The tree of generic types, IEC 61131-3 ed. 3 figure 5.

@@ -129,7 +129,8 @@ struct TypeInfo {
   bool named_values = false;  // enumerations with a base type: its values have names, others have none
   bool strict = false;        // enumerations: no numbers for items ({attribute 'strict'})
   bool qualified = false;     // enumerations: TYPE#item only ({attribute 'strict'} or 'qualified_only')
-  NameId name;                // named types
+  NameId name;                // named types, unique in generated code
+  NameId shown_name;          // in messages, where it is another one: `CAA.PVOID` for `CAA__PVOID`
   TypeId base;  // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
   uint32_t length =
       0;  // strings: capacity in bytes, of a WString in 16-bit units; Array without `dimensions`: how many are open
@@ -256,9 +257,9 @@ class TypeTable {
   static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UChar; }  // elementary, not a string
   static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for types that are not scalar
   // The representation of an elementary kind: signed or unsigned integer of bitWidth, or floating point.
-  // TIME is unsigned in codesys and signed in iec2/iec3.
   bool isSigned(TypeKind k) const;
-  bool time_is_signed = false;
+  // Of the dialect: TIME is unsigned in codesys; LTIME has a sign in iec3 only (docs/language.md).
+  bool time_is_signed = false, long_time_is_signed = false;
   // True when `kind` belongs to the generic type (ANY_NUM holds INT).
   static bool belongsTo(TypeKind kind, TypeKind generic);
   // The same in codesys, which takes bit strings where integers are accepted, and vice versa.

@@ -9,8 +9,12 @@
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
 //   ```console broken         a session that must mention the page's code
+//       rung …               an indented line that begins with rung succeeds in that folder; one with a word in
+//       capitals
+//                            or brackets is a synopsis, and two blanks end a command
 //   <!-- no program: why -->  on a page of docs/errors whose mistake no test can provoke
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "tests/runner/console.h"
@@ -27,9 +31,30 @@ struct Block {
   size_t line;  // of the fence, from 1
 };
 
+// FILE, X.svg, FILE|DIR, [options]: what a reader replaces.
+bool isPlaceholder(const std::string& word) {
+  if (word[0] == '[') return true;
+  const std::string name = word.substr(0, word.find_first_of(".|"));
+  return !name.empty() &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) != 0 || c == '_'; });
+}
+
+// The command of an indented line, without the remark after it; empty: none, or a synopsis.
+std::string commandOf(const std::string& line) {
+  if (!startsWith(line, "    rung ")) return {};
+  const std::string command = line.substr(4, line.find("  ", 4) - 4);
+  const std::vector<std::string> words = splitWords(command);
+  return std::any_of(words.begin(), words.end(), isPlaceholder) ? "" : command;
+}
+
 std::vector<Block> blocksOf(const std::vector<std::string>& lines) {
   std::vector<Block> blocks;
   for (size_t i = 0; i < lines.size(); ++i) {
+    if (const std::string command = commandOf(lines[i]); !command.empty()) {
+      // Its output is shown only if it fails.
+      blocks.push_back({"command", "", {}, {"$ " + command + " > said 2>&1 || cat said"}, i + 1});
+      continue;
+    }
     const size_t ticks = std::min(lines[i].find_first_not_of('`'), lines[i].size());
     if (ticks < 3) continue;
     const std::string fence(ticks, '`');
@@ -71,7 +96,7 @@ class Page {
       broken = broken || block.kind == "broken";
       fixed = fixed || block.kind == "fixed";
       const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
-      if (block.language == "console") {
+      if (block.language == "console" || block.language == "command") {
         runConsole(block);
       } else if ((block.language == "st" || block.language == "xml" || block.language == "nct") &&
                  (block.kind == "broken" || block.kind == "fixed" || block.kind == "check")) {
@@ -173,7 +198,7 @@ class Page {
       return line.find("[" + code_ + "]") != std::string::npos;
     });
     if (block.kind == "broken" && !mentioned) problem += "  " + code_ + " is not reported\n";
-    if (setting_.update && updated != block.lines) {
+    if (setting_.update && block.language == "console" && updated != block.lines) {
       lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_),
                    lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_ + block.lines.size()));
       lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_), updated.begin(), updated.end());

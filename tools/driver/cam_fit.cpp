@@ -4,24 +4,12 @@
 #include "cam/design/text_form.h"
 #include "frontend/import/cam/points_file.h"
 #include "tools/driver/cam_commands.h"
+#include "tools/driver/cam_fit_module.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/output_files.h"
-#ifdef RUNG_CAM_FIT
-#include "cam/fit/fit.h"
-#endif
 
 namespace rung::driver {
-
-#ifndef RUNG_CAM_FIT
-
-int runCamFit(const CamRun&, Sink& sink) {
-  return usageError(sink,
-                    "this rung was built without `rung cam fit`; install libceres-dev and libeigen3-dev, and build it "
-                    "with -DRUNG_CAM_FIT=ON");
-}
-
-#else
 
 namespace {
 
@@ -103,7 +91,8 @@ int runCamFit(const CamRun& run, Sink& sink) {
   const FileId file = readCamSource(path, input);
   if (!file || !readPoints(input.sources, file, input.diagnostics, points)) return finishCamInput(input, sink);
   const cam::FitRequest request = requestOf(options, points);
-  cam::FitResult result = cam::fit(request);
+  cam::FitResult result;
+  if (const std::string missing = fitWithModule(request, result); !missing.empty()) return usageError(sink, missing);
   if (!result.error.empty()) {
     input.diagnostics.report(diag::CamFit, {}, {result.error}).path(path);
     return finishCamInput(input, sink);
@@ -116,7 +105,5 @@ int runCamFit(const CamRun& run, Sink& sink) {
   const std::string error = writeFile(run.output, text);
   return error.empty() ? printResult(sink, shown) : usageError(sink, error);
 }
-
-#endif
 
 }  // namespace rung::driver

@@ -30,6 +30,10 @@ int runGraph(const Options& options, Sink& sink);
 int runFormat(const Options& options, Sink& sink);
 // Libraries, POUs, warnings, or the declaration of options.signature.
 int runList(const Options& options, Sink& sink);
+// Makes a folder with a small project of a template.
+int runNew(const Options& options, Sink& sink);
+// Writes a rung.project for the sources of a folder.
+int runInit(const Options& options, Sink& sink);
 // The page of the code options.inputs[0].
 int runExplain(const Options& options, Sink& sink);
 // The version, and the paths of the parts that generated code needs.

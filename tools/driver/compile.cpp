@@ -111,8 +111,20 @@ bool Compilation::read() {
   for (const LibraryInput& file : inputs.library_files)
     if (ok) libraries.addFile(file.library, file.path, file.file, sources.sourceText(file.file));
   noteLibraries();
+  if (options.verbose) sink_.message(whatIsRead());
   times_.end();
   return ok;
+}
+
+// What `--verbose` says: the inputs, the project's settings, the files, and the libraries beside those of Rung.
+std::string Compilation::whatIsRead() const {
+  std::string out;
+  for (const std::string& input : options.inputs) out += "rung: input: " + input + "\n";
+  if (inputs.project.file) out += "rung: project: " + std::string(sources.displayPath(inputs.project.file)) + "\n";
+  for (const InputFile& file : inputs.files) out += "rung: file: " + file.shown + "\n";
+  for (const auto& [name, folder] : libraries.folders()) out += "rung: library: " + name + " in " + folder + "\n";
+  for (const importer::Library& wanted : inputs.libraries) out += "rung: library of the project: " + wanted.name + "\n";
+  return out;
 }
 
 // The names of the project among the inputs, or of a library given with -I, that has this name; or null.
@@ -215,6 +227,7 @@ sema::Options Compilation::semaOptions() {
   sema_options.mocks = options.mocks;
   sema_options.pointer_size = options.pointer_size;
   sema_options.native_width = options.native_width;
+  sema_options.edge_coils = options.edge_coils;
   sema_options.scheduled = scheduled;
   sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                   FunctionRef<bool(sema::PouId)> ready) {

@@ -90,6 +90,7 @@ class Compilation {
  private:
   void noteLibraries();
   sema::Options semaOptions();
+  std::string whatIsRead() const;
   void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
   std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;

@@ -50,10 +50,15 @@ void add(std::string path, Folder& folder) {
 
 }  // namespace
 
+std::string prefixOf(const std::string& folder) {
+  if (folder == ".") return "";
+  return folder.back() == '/' ? folder : folder + "/";
+}
+
 std::string readFolder(const std::string& path, const std::string& root, Folder& folder) {
   DIR* dir = opendir(path.c_str());
   if (dir == nullptr) return strerror(errno);
-  const std::string prefix = path.back() == '/' ? path : path + "/";
+  const std::string prefix = prefixOf(path);
   while (const dirent* entry = readdir(dir)) {
     if (entry->d_name[0] == '.') continue;
     std::string inner = prefix + entry->d_name;

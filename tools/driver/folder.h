@@ -15,6 +15,9 @@ struct Folder {
   std::vector<std::pair<std::string, std::string>> outside;  // links to files elsewhere, with their targets
 };
 
+// What comes before the names of a folder's files: nothing in the current folder, so that messages say `main.st`.
+std::string prefixOf(const std::string& folder);
+
 // Hidden entries and links to folders are left out: loops and `.git` do not belong to a project. So are links to files
 // that are not below `root`, which would make the project depend on what its folder does not hold. The result is an
 // error, or empty.

@@ -234,7 +234,7 @@ class Collector {
 
   void addProjectFolder(const std::string& folder) {
     inputs_.folders.push_back(folder);
-    const std::string file = (folder.back() == '/' ? folder : folder + "/") + "rung.project";
+    const std::string file = prefixOf(folder) + "rung.project";
     struct stat info;
     const bool on_disk = stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
     if (!on_disk && !files_.isUnsaved(file)) return addFolder(folder);
@@ -249,12 +249,12 @@ class Collector {
     FileId id = sources_.add("rung.project", std::move(read.content));
     if (!id) return fail(diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
-    sources_.setDisplayPath(id, folder + "/rung.project");
+    sources_.setDisplayPath(id, file);
     project_shown_ = file;
     parseProjectFile(sources_, id, diagnostics_, inputs_.project);
     if (inputs_.project.sources.empty()) return addFolder(folder);
     for (const std::string& source : inputs_.project.sources) {
-      std::string path = source[0] == '/' ? source : (folder.back() == '/' ? folder : folder + "/") + source;
+      std::string path = source[0] == '/' ? source : prefixOf(folder) + source;
       struct stat entry;
       if (files_.isUnsaved(path)) {
         addNamedFile(path);
@@ -278,7 +278,7 @@ class Collector {
     const size_t before = candidates_.size();
     setScannedRoot(folder);
     scan(folder, 0);
-    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
+    const std::string prefix = prefixOf(folder);
     for (const std::string& below : files_.newFilesIn(folder))
       if (importer::holdsProgram(importer::kindOfExtension(below)))
         candidates_.push_back({absolutePath(prefix + below), prefix + below, {}, false});

@@ -1,6 +1,7 @@
 // The installed parts of Rung; see installation.h.
 #include "tools/driver/installation.h"
 
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include <climits>
@@ -13,9 +14,14 @@ bool exists(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
 
 std::string executableFolder() {
   char path[PATH_MAX];
-  ssize_t length = readlink("/proc/self/exe", path, sizeof path);
-  if (length <= 0) return {};
-  std::string full(path, static_cast<size_t>(length));
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
+  if (length > 0) {
+    path[length] = '\0';
+  } else {  // no /proc, as in a bare chroot: the path that started it
+    const auto* started = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+    if (started == nullptr || realpath(started, path) == nullptr) return {};
+  }
+  const std::string full = path;
   return full.substr(0, full.rfind('/'));
 }
 
@@ -26,14 +32,14 @@ Installation find() {
   homes[1] = executableFolder() + "/..";
   const std::string include_folders[] = {homes[0].empty() ? "" : homes[0] + "/share/rung/include",
                                          homes[0].empty() ? "" : homes[0] + "/include",
-                                         homes[1] + "/share/rung/include", RUNG_BUILD_INCLUDE};
+                                         homes[1] + "/share/rung/include"};
   for (const std::string& folder : include_folders) {
     if (folder.empty() || !exists(folder + "/rung/module.h")) continue;
     found.include = folder;
     break;
   }
   const std::string library_folders[] = {homes[0].empty() ? "" : homes[0] + "/lib", homes[1] + "/lib",
-                                         homes[1] + "/lib64", RUNG_BUILD_LIB};
+                                         homes[1] + "/lib64"};
   for (const std::string& folder : library_folders) {
     if (folder.empty() || !exists(folder + "/librung_runtime.a") || !exists(folder + "/librung_host.a")) continue;
     found.runtime_library = folder + "/librung_runtime.a";
@@ -52,6 +58,13 @@ Installation find() {
 const Installation& installation() {
   static const Installation found = find();
   return found;
+}
+
+std::string camFitModule() {
+  const char* const home = std::getenv("RUNG_HOME");
+  const std::string root = home != nullptr && home[0] != '\0' ? home : executableFolder() + "/..";
+  const std::string path = root + "/lib/rung/rung_cam_fit.so";
+  return exists(path) ? path : "";
 }
 
 const char* version() { return RUNG_VERSION; }

@@ -14,8 +14,11 @@ struct Installation {
   std::string error;            // empty: all found
 };
 const Installation& installation();
+// rung_cam_fit.so, which `rung cam fit` loads; empty: not installed. Where RUNG_HOME is set it is looked for only
+// there.
+std::string camFitModule();
 
-// "0.1.0"
+// "0.2.0"
 const char* version();
 
 }  // namespace rung::driver

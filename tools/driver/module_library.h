@@ -8,6 +8,9 @@
 
 namespace rung::driver {
 
+// Whether this process can load a shared object: not where it is linked statically.
+bool loadsCode();
+
 class ModuleLibrary {
  public:
   ModuleLibrary() = default;

@@ -19,6 +19,7 @@
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/file_provider.h"
 #include "tools/driver/installation.h"
+#include "tools/driver/module_library.h"
 #include "tools/driver/output_files.h"
 #include "tools/driver/process.h"
 
@@ -483,6 +484,15 @@ std::vector<std::string> compilerCommand() {
 }
 
 NativeResult makeShared(Cache& cache, const NativeRequest& request, Sink& sink) {
+  if (!loadsCode()) {
+    NativeResult refused;
+    refused.exit = kUsage;
+    refused.message =
+        "this rung is one file that cannot load compiled programs; run what `rung build` makes, which has the options "
+        "of "
+        "`rung run`, or use the Debian package";
+    return refused;
+  }
   Builder builder(cache, request, sink);
   if (builder.compile()) {
     const std::string entry = cache.path(builder.linkKey(), "so");

@@ -9,6 +9,7 @@
 #include "frontend/source/scanner.h"
 #include "native_table.h"
 #include "tools/driver/file_provider.h"
+#include "tools/driver/folder.h"
 
 namespace rung::driver {
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::string NativeSources::readFolder(const std::string& folder, const std::string& library, Inputs& inputs,
                                       Sources& sources) {
-  const fs::path natives = fs::path(folder) / "native";
+  const fs::path natives = fs::path(prefixOf(folder)) / "native";
   std::error_code none;
   std::vector<std::string> paths;
   for (const fs::directory_entry& entry : fs::directory_iterator(natives, none))

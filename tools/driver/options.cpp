@@ -76,6 +76,13 @@ std::string parseNativeWidth(std::string_view bits, uint32_t& width) {
   return error;
 }
 
+std::string parseEdgeCoils(std::string_view name, diagram::EdgeCoils& edge_coils) {
+  uint32_t choice = 0;
+  std::string error = parseChoice("--edge-coils", name, "pulse|latch", choice);
+  if (error.empty()) edge_coils = choice == 0 ? diagram::EdgeCoils::Pulse : diagram::EdgeCoils::Latch;
+  return error;
+}
+
 std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
   const size_t equal = text.find('=');
   const std::string_view name = text.substr(0, equal);

@@ -10,6 +10,7 @@
 #include "frontend/format/format.h"
 #include "frontend/parse/conditions.h"
 #include "frontend/parse/parse.h"
+#include "frontend/schedule/edge_coils.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
 
@@ -63,6 +64,7 @@ struct Options {
   bool color = false;            // of diagnostics
   std::string dump_after;
   bool time_phases = false;
+  bool verbose = false;
   bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
 
   // emit
@@ -92,6 +94,8 @@ struct Options {
   uint32_t pointer_size = 8;
   uint32_t native_width = 32;  // of intermediate results in codesys
   bool native_width_given = false;
+  diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;
+  bool edge_coils_given = false;
   bool counts_steps = false;                     // set by run.cpp and test.cpp
   int64_t default_interval_ns = 10'000'000;      // set from --interval by run.cpp
   int64_t plc_period_ns = 0, time_slice_ns = 0;  // of an NCT program; 0: as rung.project says
@@ -116,11 +120,15 @@ struct Options {
   // list
   std::string signature;
 
+  // new
+  std::string project_template = "st";  // --template
+
   std::string moduleName() const { return name.empty() ? "plc" : name; }
 };
 
 // The bits of `div,index,…`, `default`, `all` or `none`.
 [[nodiscard]] std::string parseNativeWidth(std::string_view bits, uint32_t& width);
+[[nodiscard]] std::string parseEdgeCoils(std::string_view name, diagram::EdgeCoils& edge_coils);
 [[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
 // NAME or NAME=VALUE.
 [[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);

@@ -22,7 +22,7 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std native-width libraries checks optimize warnings defines globals"},
+    {"project", false, "name sources std native-width edge-coils libraries checks optimize warnings defines globals"},
     {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
     {"module", true, "type station task inputs outputs"},
     {"axis", true, nullptr},  // project_axes.cpp checks them
@@ -164,6 +164,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "native-width") {
       project.has_native_width = true;
       error = parseNativeWidth(entry.value, project.native_width);
+    } else if (entry.key == "edge-coils") {
+      project.has_edge_coils = true;
+      error = parseEdgeCoils(entry.value, project.edge_coils);
     } else if (entry.key == "checks") {
       project.has_checks = true;
       std::string checks;
@@ -444,6 +447,7 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
 void applyProjectFile(const ProjectFile& project, Options& options) {
   if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
   if (project.has_native_width && !options.native_width_given) options.native_width = project.native_width;
+  if (project.has_edge_coils && !options.edge_coils_given) options.edge_coils = project.edge_coils;
   if (project.has_checks && !options.checks_given) options.checks = project.checks;
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;

@@ -35,9 +35,10 @@ struct ProjectFile {
 
   std::vector<std::string> sources, libraries;  // paths relative to `folder`
   std::string name;
-  bool has_dialect = false, has_native_width = false, has_checks = false, has_level = false;
+  bool has_dialect = false, has_native_width = false, has_edge_coils = false, has_checks = false, has_level = false;
   Dialect dialect = Dialect::Codesys;
   uint32_t native_width = 32;
+  diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;
   uint8_t checks = 0;
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given

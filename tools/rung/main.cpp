@@ -26,6 +26,8 @@ int runCommand(const rung::tool::Options& options, Console& console) {
     case Command::Graph: return rung::driver::runGraph(options, console);
     case Command::Fmt: return rung::driver::runFormat(options, console);
     case Command::List: return rung::driver::runList(options, console);
+    case Command::New: return rung::driver::runNew(options, console);
+    case Command::Init: return rung::driver::runInit(options, console);
     case Command::Cam: return rung::driver::runCam(options.inputs, options.cam, options.output, console);
     case Command::Explain: return rung::driver::runExplain(options, console);
     case Command::Version: return rung::driver::runVersion(console);

@@ -8,6 +8,7 @@
 #include "frontend/source/dialect.h"
 #include "ir/ir.h"
 #include "rung/host.h"
+#include "tools/driver/new_project.h"
 
 namespace rung::tool {
 namespace {
@@ -34,8 +35,10 @@ constexpr CommandRow kCommands[] = {
     {Command::Convert, "convert", "[FILE|DIR ...] --to st|xml|mes -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "[FILE|DIR ...] -o DIR", "draw LD, FBD, CFC, SFC and NCT as SVG pictures"},
-    {Command::Fmt, "fmt", "[FILE|DIR|- ...]", "format sources in place, also inside files of other tools"},
+    {Command::Fmt, "fmt", "[FILE|DIR|- ...]", "format sources, also inside files of other tools"},
     {Command::List, "list", "libraries|warnings | pous|tasks PATH ...", "list libraries, warnings, POUs or tasks"},
+    {Command::New, "new", "NAME", "make a folder with a small project and its test"},
+    {Command::Init, "init", "[DIR]", "write a rung.project for the sources of a folder"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
@@ -53,6 +56,7 @@ enum class Key : uint8_t {
   Name,
   Dialect,
   NativeWidth,
+  EdgeCoils,
   Period,
   Checks,
   Level,
@@ -66,6 +70,7 @@ enum class Key : uint8_t {
   Color,
   DumpAfter,
   TimePhases,
+  Verbose,
   Emit,
   To,
   Split,
@@ -92,6 +97,7 @@ enum class Key : uint8_t {
   Separate,
   TargetPointer,
   Signature,
+  Template,
   CamNumber,
   Later,
   Help,
@@ -112,7 +118,7 @@ constexpr OptionRow kOptions[] = {
     {Key::To, "--to", "st|xml|mes", bit(Command::Convert), "Structured Text, PLCopen XML or messages of NCT"},
     {Key::Split, "--split", nullptr, bit(Command::Convert), "to ST: one file for each POU, also of files in ST"},
     {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
-    {Key::FmtCheck, "--check", nullptr, bit(Command::Fmt), "write nothing; list the files that would change, exit 1"},
+    {Key::FmtCheck, "--check", nullptr, bit(Command::Fmt), "write nothing; list files to change, exit 1"},
     {Key::FmtDiff, "--diff", nullptr, bit(Command::Fmt), "write nothing; print what would change"},
     {Key::FmtLines, "--lines", "A:B", bit(Command::Fmt), "change only lines A to B, of one file"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write a make rule that lists every file read"},
@@ -158,6 +164,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write coverage for lcov and genhtml"},
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "treat each file as a separate project"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "show the declaration of a function, block or type"},
+    {Key::Template, "--template", "NAME", bit(Command::New), "what kind of project (default: st)"},
     {Key::CamNumber, "--stroke", "S", bit(Command::Cam), "way of the slave (default: 1)"},
     {Key::CamNumber, "--length", "X", bit(Command::Cam), "way of the master (default: 1)"},
     {Key::CamNumber, "--v0", "V", bit(Command::Cam), "velocity at the begin, per unit of the master"},
@@ -184,8 +191,10 @@ constexpr OptionRow kOptions[] = {
     {Key::CamNumber, "--loss-scale", "E", bit(Command::Cam), "error from which they count less"},
     {Key::CamNumber, "--master-unit", "U", bit(Command::Cam), "unit in the file, such as deg"},
     {Key::CamNumber, "--slave-unit", "U", bit(Command::Cam), "the same"},
-    {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
+    {Key::Dialect, "--std", "codesys|iec3|iec2", kReads | bit(Command::Init), "dialect (default: codesys)"},
     {Key::NativeWidth, "--native-width", "32|64", kCompile, "codesys: bits of intermediate results (default: 32)"},
+    {Key::EdgeCoils, "--edge-coils", "pulse|latch", kCompile | bit(Command::Convert),
+     "edge coils without an edge: FALSE (default), kept"},
     {Key::Period, "--plc-period", "T", kCompile, "period of Main of an NCT program (default: T#10ms)"},
     {Key::Period, "--time-slice", "T", kCompile, "period of Int0 of an NCT program (default: T#2ms)"},
     {Key::Checks, "--checks", "LIST", kCompile,
@@ -210,6 +219,7 @@ constexpr OptionRow kOptions[] = {
      "number of C++ compilers to run in parallel"},
     {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print the result of parse, lower or a pass to stderr"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print the time and lines per second of each phase"},
+    {Key::Verbose, "--verbose", nullptr, kReads, "print which project, files and libraries are read"},
     {Key::Later, "--plc-period", "T", bit(Command::Run), nullptr},
     {Key::Later, "--time-slice", "T", bit(Command::Run), nullptr},
     {Key::Help, "--help", nullptr, kAll, nullptr},
@@ -262,6 +272,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
     case Key::NativeWidth: options.native_width_given = true; return parseNativeWidth(value, options.native_width);
+    case Key::EdgeCoils: options.edge_coils_given = true; return parseEdgeCoils(value, options.edge_coils);
     case Key::Checks: options.checks_given = true; return parseChecks(value, options.checks);
     case Key::Level:
       options.level_given = true;
@@ -298,6 +309,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.color_choice = static_cast<Color>(choice);
       return error;
     case Key::DumpAfter: options.dump_after = value; return {};
+    case Key::Verbose: options.verbose = true; return {};
     case Key::TimePhases: options.time_phases = true; return {};
     case Key::Emit:
       error = parseChoice(row.name, value, row.value, choice);
@@ -344,6 +356,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       error = parseChoice(row.name, value, row.value, choice);
       options.pointer_size = choice == 0 ? 8 : 4;
       return error;
+    case Key::Template: options.project_template = value; return {};
     case Key::Signature: options.signature = value; return {};
     case Key::CamNumber: return setCamOption(row.name, value, options.cam);
     case Key::Later: return backquoted(row.name) + " is not supported in this version of rung";
@@ -413,6 +426,12 @@ std::string checkCombination(const Options& options) {
       if (options.inputs.empty() && options.signature.empty())
         return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `tasks FILE|DIR ...`, `warnings` or `--signature "
                "NAME`";
+      break;
+    case Command::New:
+      if (options.inputs.size() != 1) return "`rung new` takes one name, that of the folder to make";
+      break;
+    case Command::Init:
+      if (options.inputs.size() > 1) return "`rung init` takes one folder";
       break;
     case Command::Cam:
       if (options.inputs.empty()) return "`rung cam` needs a subcommand: law, check, show, convert or fit";
@@ -486,6 +505,18 @@ const char* commandName(Command command) {
   for (const CommandRow& row : kCommands)
     if (row.command == command) return row.name;
   return "help";
+}
+
+std::vector<CommandDescription> describeCommands() {
+  std::vector<CommandDescription> commands;
+  for (const CommandRow& row : kCommands) {
+    CommandDescription command{row.name, row.arguments, row.summary, {}};
+    for (const OptionRow& option : kOptions)
+      if (option.help != nullptr && (option.commands & bit(row.command)) != 0)
+        command.options.push_back({option.name, option.value == nullptr ? "" : option.value, option.help});
+    commands.push_back(std::move(command));
+  }
+  return commands;
 }
 
 std::string expandResponseFiles(std::vector<std::string>& arguments) {
@@ -620,6 +651,7 @@ std::string helpText(Command command) {
     if (row.command == command && row.arguments[0] != '\0') out += std::string(" ") + row.arguments;
   out += '\n';
   if (!options.empty()) out += "\noptions:\n" + options;
+  if (command == Command::New) out += "\ntemplates:\n" + templateHelp();
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/driver/cam.h"
@@ -24,6 +25,8 @@ enum class Command : uint8_t {
   Graph,
   Fmt,
   List,
+  New,
+  Init,
   Cam,
   Explain,
   Version,
@@ -49,6 +52,17 @@ struct Options : driver::Options {
 // One screen of help: of rung (Command::None) or of one command.
 std::string helpText(Command command);
 const char* commandName(Command command);
+// The commands and their options as data, for a man page and completions. `value`: its name, or its values with `|`;
+// empty: none. A help of several lines has line ends.
+struct OptionDescription {
+  std::string_view name, value, help;
+};
+struct CommandDescription {
+  std::string_view name, arguments, summary;
+  std::vector<OptionDescription> options;
+};
+std::vector<CommandDescription> describeCommands();
+
 // Whether the inputs of the command are sources, so that without them it takes the project around the current folder.
 bool readsProject(Command command);
 

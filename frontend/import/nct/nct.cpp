@@ -22,7 +22,9 @@ FileId readProgram(ReadContext& context, FileId file) {
     write(program, memory, settings, context.diagnostics, out);
   }
   if (context.diagnostics.errorCount() != errors) return {};
-  return out.finish(context.sources, file);
+  const FileId made = out.finish(context.sources, file);
+  if (made) context.sources.allowAnyUnderscores(made);
+  return made;
 }
 
 }  // namespace rung::importer::nct

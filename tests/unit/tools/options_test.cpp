@@ -50,6 +50,14 @@ TEST(Options, Checks) {
   EXPECT_NE(parseChecks("", checks), "");
 }
 
+TEST(Options, EdgeCoils) {
+  EXPECT_EQ(parsed({"check", "a.st"}).edge_coils, diagram::EdgeCoils::Pulse);
+  EXPECT_EQ(parsed({"run", "a.st", "--edge-coils=latch"}).edge_coils, diagram::EdgeCoils::Latch);
+  EXPECT_EQ(parsed({"convert", "--to=st", "-o", "out", "a.st", "--edge-coils", "pulse"}).edge_coils,
+            diagram::EdgeCoils::Pulse);
+  EXPECT_NE(errorOf({"graph", "a.st", "--edge-coils=latch"}), "");  // a picture shows what is written
+}
+
 TEST(Options, Warnings) {
   Options options = parsed({"check", "a.st", "-Wno-W0101", "-Wunused", "-Werror"});
   ASSERT_EQ(options.warnings.size(), 2u);

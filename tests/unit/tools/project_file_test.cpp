@@ -51,6 +51,18 @@ TEST_F(ProjectFileTest, AllSections) {
   EXPECT_EQ(chosen.dialect, Dialect::Iec3);  // the command line wins
 }
 
+TEST_F(ProjectFileTest, EdgeCoils) {
+  read("[project]\nedge-coils = latch\n");
+  EXPECT_EQ(messages(), std::vector<std::string>{});
+  Options options;
+  applyProjectFile(project, options);
+  EXPECT_EQ(options.edge_coils, diagram::EdgeCoils::Latch);
+  Options chosen;
+  chosen.edge_coils_given = true;
+  applyProjectFile(project, chosen);
+  EXPECT_EQ(chosen.edge_coils, diagram::EdgeCoils::Pulse);  // the command line wins
+}
+
 TEST_F(ProjectFileTest, MistakesHaveTheirLocation) {
   read("std = iec3\n[projekt]\nx = 1\n[project]\n  nmae = a\nstd=iec9\nwhat\n[task]\n[safe all]\n[project\n");
   EXPECT_EQ(messages(),
