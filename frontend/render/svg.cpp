@@ -18,7 +18,11 @@ constexpr std::string_view kStyle =
     ".b{font-weight:bold}.s{font-size:9px}.g{fill:#666}.m{text-anchor:middle}.e{text-anchor:end}"
     ".w{fill:#fff}.d{fill:#000;stroke:none}.t{stroke-width:3}.k{stroke-width:2}.x{fill:#f6f6f6}"
     ".n{fill:#e4e8ee;stroke:none}.o{fill:#dff0d8;stroke:#3c763d}.c{fill:#fffbe0;stroke:#b8a860}.r{stroke:#aaa}.z{"
-    "opacity:.4}";
+    "opacity:.4}"
+    // A page that shows the picture as an image has the reader's scheme, too.
+    "@media(prefers-color-scheme:dark){text{fill:#e6edf3}path,rect,circle{stroke:#c9d1d9}.g{fill:#9198a1}"
+    ".w{fill:#0d1117}.d{fill:#e6edf3;stroke:none}.x{fill:#161b22}.n{fill:#21262d;stroke:none}"
+    ".o{fill:#12261e;stroke:#3fb950}.c{fill:#272115;stroke:#9e8c3c}.r{stroke:#484f58}}";
 
 // The byte length of the character at `p`; 0: not UTF-8.
 size_t characterAt(std::string_view text, size_t p, uint32_t& c) {

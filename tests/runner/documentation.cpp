@@ -12,7 +12,8 @@
 //   ```console broken         a session that must mention the page's code
 //       rung …               an indented line that begins with rung succeeds in that folder; one with a word in
 //       capitals
-//                            or brackets is a synopsis, and two blanks end a command
+//                            or brackets is a synopsis, and two blanks end a command; not of samples, whose commands
+//                            belong to their folder
 //   <!-- no program: why -->  on a page of docs/errors whose mistake no test can provoke
 #include <algorithm>
 #include <cctype>
@@ -97,7 +98,7 @@ class Page {
       broken = broken || block.kind == "broken";
       fixed = fixed || block.kind == "fixed";
       const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
-      if (block.language == "console" || block.language == "command") {
+      if (block.language == "console" || (block.language == "command" && !startsWith(file_, "samples/"))) {
         runConsole(block);
       } else if ((block.language == "st" || block.language == "xml" || block.language == "nct") &&
                  (block.kind == "broken" || block.kind == "fixed" || block.kind == "check")) {
