@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that building Rung needs, and those of the tests that compile for other processors;
 # does nothing when all are there. Works as root or through sudo. Called by tools/quickstart.sh and tools/test.sh.
 #   tools/install-packages.sh [--tests]
 set -eu
 packages=(g++ cmake ninja-build libgtest-dev python3)
 [ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user
-    libceres-dev libeigen3-dev socat libmodbus-dev python3-pymodbus python3-serial-asyncio)
+    libceres-dev libeigen3-dev socat libmodbus-dev python3-pymodbus python3-serial-asyncio python3-markdown-it)
 
 missing=()
 for package in "${packages[@]}"; do
