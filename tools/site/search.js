@@ -10,29 +10,33 @@
   const status = found.querySelector('p');
   const list = found.querySelector('ul');
   const shown = 40;
-  let entries = null;  // [{page, anchor, text, title, folded}]
+  let entries = null;  // of each: page, anchor, text, title of the page; folded, around, spaced: what rank() compares
 
   window.rungIndex = ([pages, rows]) => {
     const titles = {};
     for (const [page, anchor, text] of rows) if (!anchor) titles[page] = text;
-    entries = rows.map(([page, anchor, text]) => (
-      {page: pages[page], anchor, text, title: titles[page], folded: text.toLowerCase()}));
+    entries = rows.map(([page, anchor, text]) => {
+      const folded = fold(text);
+      return {page: pages[page], anchor, text, title: titles[page], folded, around: `${folded} ${fold(titles[page])}`,
+        spaced: ' ' + folded.replace(/[^\p{L}\p{N}]+/gu, ' ')};
+    });
     search();
   };
 
+  // `unused-variable` and `unused variable` are one question.
+  const fold = text => text.toLowerCase().replace(/([a-z])-(?=[a-z])/g, '$1 ').trim();
+
   // How well an entry answers, smaller is better; null: not at all. Words may also be in the title of the page.
   function rank(entry, query, words) {
-    const around = entry.anchor ? ' ' + entry.title.toLowerCase() : '';
-    if (!words.every(word => (entry.folded + around).includes(word))) return null;
-    if (!words.some(word => entry.folded.includes(word))) return null;
-    const begins = text => (' ' + text).search(/[^\p{L}\p{N}]/u) >= 0 &&
-      words.every(word => (' ' + text.replace(/[^\p{L}\p{N}]+/gu, ' ')).includes(' ' + word));
-    const place = entry.folded === query ? 0 : entry.folded.startsWith(query) ? 2 : begins(entry.folded) ? 4 : 6;
+    const {folded, around} = entry;
+    if (!words.every(word => around.includes(word)) || !words.some(word => folded.includes(word))) return null;
+    const beginWords = words.every(word => entry.spaced.includes(' ' + word));
+    const place = folded === query ? 0 : folded.startsWith(query) ? 2 : beginWords ? 4 : 6;
     return place + (entry.anchor ? 1 : 0);
   }
 
   function search() {
-    const query = input.value.trim().toLowerCase();
+    const query = fold(input.value);
     found.hidden = !query;
     if (!query) return;
     if (!entries) {

@@ -263,7 +263,7 @@ def render(job):
 <a class="name" href="{root}/index.html">Rung</a>
 <a class="menu" href="{way}">Contents</a>
 <form class="search" role="search" hidden>
-<input type="search" name="q" placeholder="Search ( / )" aria-label="Search titles, names and codes" autocomplete="off" spellcheck="false">
+<input type="search" name="q" placeholder="Search" title="Search titles, names and codes: /" aria-keyshortcuts="/" autocomplete="off" spellcheck="false">
 <div class="found" hidden><p role="status"></p><ul></ul></div>
 </form>
 </header>
@@ -295,7 +295,9 @@ def main():
             wanted -= done
     pages = sorted({page for page, _, _ in index})
     number = {page: at for at, page in enumerate(pages)}
-    entries = [[number[page], anchor, text] for page, anchor, text in sorted(index)]
+    # Of equally good answers, a page that explains comes before one that lists.
+    index.sort(key=lambda entry: (not entry[0].startswith(('cli/', 'errors/', 'library/')), entry))
+    entries = [[number[page], anchor, text] for page, anchor, text in index]
     data = json.dumps([pages, entries], ensure_ascii=False, separators=(',', ':'))
     (out / 'search-index.js').write_text(f'rungIndex({data});\n')
     for file in ('style.css', 'search.js'):
