@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Search over the titles of pages, headings, codes and names. The index is a script, which pages opened from disk can load too; it
-// is loaded at the first use. `/` goes to the field, the arrows through the results; `?q=TON` in the address searches at once.
+// Search over the titles of pages, headings, codes and names. The index is a script, which pages opened from disk can load
+// too; it is loaded at the first use. `/` goes to the field, the arrows through the results; `?q=TON` in the address
+// searches at once.
 'use strict';
 (() => {
   const root = document.currentScript.dataset.root;

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders the documentation as HTML: site.py DIR. Called by site.sh.
 docs/README.md is the first page, and its sections and their links are the navigation. A file outside of docs/ that a page
-links to becomes a page below source/. The anchor of a heading is the one of code hosts, so that links work in both."""
+links to becomes a page below source/; tests, of which the statements of compliance name hundreds, share one for their
+folder. The anchor of a heading is the one of code hosts, so that links work in both."""
 import html
 import json
 import multiprocessing
@@ -22,7 +23,7 @@ CAPTIONS = {'broken': 'With the mistake', 'fixed': 'Corrected', 'output': 'Outpu
 
 ST = re.compile(r"""(?P<c>\(\*.*?\*\)|//[^\n]*|/\*.*?\*/)|(?P<p>\{[^}]*\})|(?P<s>'(?:\$.|[^'$])*'|"(?:\$.|[^"$])*")|(?P<k>\b(?:
     (?:END_)?(?:PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD|PROPERTY|INTERFACE|CLASS|NAMESPACE|CONFIGURATION|RESOURCE|TYPE|STRUCT|
-    UNION|VAR|IF|CASE|FOR|WHILE|REPEAT|STEP|INITIAL_STEP|TRANSITION|ACTION|NETWORK|GET|SET)|
+    UNION|VAR|IF|CASE|FOR|WHILE|REPEAT|STEP|INITIAL_STEP|TRANSITION|ACTION|NETWORK)|
     VAR_(?:INPUT|OUTPUT|IN_OUT|TEMP|GLOBAL|EXTERNAL|STAT|INST|ACCESS|CONFIG)|RETAIN|NON_RETAIN|PERSISTENT|CONSTANT|AT|OF|
     THEN|ELSE|ELSIF|DO|TO|BY|UNTIL|EXIT|CONTINUE|RETURN|JMP|EXTENDS|IMPLEMENTS|ABSTRACT|FINAL|OVERRIDE|PUBLIC|PRIVATE|
     PROTECTED|INTERNAL|THIS|SUPER|ARRAY|POINTER|REFERENCE|REF_TO|TASK|WITH|ON|USING|FROM|NOT|AND|OR|XOR|MOD|TRUE|FALSE|NULL|
@@ -39,11 +40,18 @@ def highlighted(text):
     return ''.join(parts) + html.escape(text[end:], False)
 
 
+def is_test(path):
+    """Whether it is a file that is shown on the page of its folder."""
+    return path.startswith('tests/') and (ROOT / path).is_file()
+
+
 def page_of(path):
     """The page or file of the site for a file or folder of the project."""
     if path in NAMES:
         return NAMES[path]
     inside, is_folder = path.startswith('docs/'), (ROOT / path).is_dir()
+    if is_test(path):
+        path = os.path.dirname(path)
     path = path[5:] if inside else 'source/' + path
     if is_folder:
         return path + '/index.html'
@@ -117,6 +125,8 @@ def rewritten(source, page, link, wanted):
     if not (ROOT / path).exists():
         sys.exit(f'{source}: dead link to {link}')
     wanted.add(path)
+    if is_test(path):
+        hash_sign, anchor = '#', os.path.basename(path)
     return relative(page, page_of(path)) + hash_sign + anchor
 
 
@@ -165,11 +175,18 @@ def body_of_folder(source, page):
     return source, f'<h1>{html.escape(source)}</h1>\n<ul>\n' + '\n'.join(rows) + '\n</ul>', [], wanted
 
 
-def body_of_source(source):
+def code_of(source):
     """A file that is not Markdown, as it is."""
     text = (ROOT / source).read_text(errors='replace')
     code = highlighted(text) if source.endswith(('.st', '.iecst')) else html.escape(text, False)
-    return source, f'<h1>{html.escape(source)}</h1>\n<pre><code>{code}</code></pre>', [], set()
+    return f'<pre><code>{code}</code></pre>\n'
+
+
+def body_of_tests(source, files):
+    """Files of a folder one below the other, each with its name as anchor."""
+    parts = [f'<h2 id="{html.escape(os.path.basename(file))}">{html.escape(os.path.basename(file))}</h2>\n{code_of(file)}'
+             for file in files]
+    return source, f'<h1>{html.escape(source)}</h1>\n' + ''.join(parts), [], set()
 
 
 def navigation():
@@ -188,7 +205,7 @@ def navigation():
 
 
 NAVIGATION = navigation()
-NAMED = {page_of(str(path.relative_to(ROOT))): path.open().readline().lstrip('# ').strip() for path in (ROOT / 'docs').glob('*.md')}
+NAMED = {page_of(f'docs/{path.name}'): path.open().readline().lstrip('# ').strip() for path in (ROOT / 'docs').glob('*.md')}
 NAMED |= {target: text for _, links in NAVIGATION for text, target in links}
 LISTED = {target for _, links in NAVIGATION for _, target in links}
 VERSION = re.search(r'project\(\w+\s+VERSION (\S+)', (ROOT / 'CMakeLists.txt').read_text()).group(1)
@@ -226,15 +243,17 @@ def trail(page):
 
 
 def render(job):
-    """Writes the page of a file or folder; (files that it needs, entries of the search index)."""
-    source, out = job
-    page = page_of(source)
+    """Writes the page of a file or folder, or of tests in it; (files that it needs, entries of the search index)."""
+    source, tests, out = job
+    page = page_of((tests or [source])[0])
     target = out / page
     target.parent.mkdir(parents=True, exist_ok=True)
-    if page.endswith('.svg'):
+    if tests:
+        title, body, headings, wanted = body_of_tests(source, tests)
+    elif page.endswith('.svg'):
         shutil.copyfile(ROOT / source, target)
         return set(), []
-    if (ROOT / source).is_dir():
+    elif (ROOT / source).is_dir():
         readme = f'{source}/README.md'
         if page_of(readme) == page and (ROOT / readme).exists():
             return {readme}, []
@@ -242,7 +261,7 @@ def render(job):
     elif source.endswith('.md'):
         title, body, headings, wanted = body_of_markdown(source, page)
     else:
-        title, body, headings, wanted = body_of_source(source)
+        title, body, headings, wanted = source, f'<h1>{html.escape(source)}</h1>\n{code_of(source)}', [], set()
     is_leaf = page.startswith('source/') or CODE.match(os.path.basename(page))
     beside = '' if is_leaf else contents(page, headings)
     root = relative(page, '.')
@@ -263,7 +282,8 @@ def render(job):
 <a class="name" href="{root}/index.html">Rung</a>
 <a class="menu" href="{way}">Contents</a>
 <form class="search" role="search" hidden>
-<input type="search" name="q" placeholder="Search" title="Search titles, names and codes: /" aria-keyshortcuts="/" autocomplete="off" spellcheck="false">
+<input type="search" name="q" placeholder="Search" title="Search titles, names and codes: /" aria-keyshortcuts="/"
+ autocomplete="off" spellcheck="false">
 <div class="found" hidden><p role="status"></p><ul></ul></div>
 </form>
 </header>
@@ -286,13 +306,17 @@ def main():
     done, index = set(), []
     with multiprocessing.Pool() as pool:
         while wanted:
-            batch = sorted(wanted)
+            jobs = [(source, None, out) for source in sorted(wanted) if not is_test(source)]
             done |= wanted
             wanted = set()
-            for more, entries in pool.imap(render, [(source, out) for source in batch], chunksize=8):
+            for more, entries in pool.imap(render, jobs, chunksize=8):
                 wanted |= more
                 index += entries
             wanted -= done
+        folders = {}
+        for test in sorted(filter(is_test, done)):
+            folders.setdefault(os.path.dirname(test), []).append(test)
+        pool.map(render, [(folder, tests, out) for folder, tests in folders.items()])
     pages = sorted({page for page, _, _ in index})
     number = {page: at for at, page in enumerate(pages)}
     # Of equally good answers, a page that explains comes before one that lists.

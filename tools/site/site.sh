@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes static HTML of the documentation that can be read from disk: docs/ with the library and error pages, and the files they link to.
+# Makes static HTML of the documentation that can be read from disk: docs/ with the library and error pages, and the files
+# that they link to.
 #   tools/site/site.sh [-o DIR]     (default: build/site, which is replaced); needs the package python3-markdown-it
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
