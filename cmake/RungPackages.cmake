@@ -8,6 +8,17 @@ install(DIRECTORY samples DESTINATION share/rung COMPONENT common)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/rung.pc.in ${PROJECT_BINARY_DIR}/rung.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/rung.pc DESTINATION lib/pkgconfig COMPONENT common)
 
+# The documentation as HTML, when tools/site/site.sh has made it: in the folder $RUNG_SITE, else in build/site.
+install(CODE "set(rung_site \"${PROJECT_BINARY_DIR}/site\")" COMPONENT common)
+install(CODE [[
+  if(DEFINED ENV{RUNG_SITE})
+    set(rung_site "$ENV{RUNG_SITE}")
+  endif()
+  if(EXISTS "${rung_site}/index.html")
+    file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/share/doc/rung/html" TYPE DIRECTORY FILES "${rung_site}/")
+  endif()
+]] COMPONENT common)
+
 # What Debian wants in each of its packages; the date is that of the newest heading in CHANGELOG.md.
 file(STRINGS CHANGELOG.md rung_heading REGEX "^## " LIMIT_COUNT 1)
 string(REGEX MATCH "[0-9]+-[0-9]+-[0-9]+" rung_date "${rung_heading}")

@@ -125,7 +125,7 @@ class Diagnostics {
   uint32_t max_errors = 100;
   bool keeps_all_warnings = false;  // beyond ten times max_errors
   bool warnings_are_errors = false;
-  // -W options such as "no-W0101" or "no-unused-variable", see docs/cli.md. False when the name is unknown.
+  // -W options such as "no-W0101" or "no-unused-variable", see docs/cli/README.md. False when the name is unknown.
   bool setWarning(std::string_view name, bool on);
   bool enabled(Diag diag) const;
   // {warning disable CODE} and {warning restore CODE}: `on` from `loc` to `end` of its source or the next such call.

@@ -23,7 +23,7 @@ enum class BuildKind : uint8_t { Executable, Shared, Static };
 // The engine that runs a program: the interpreter of the IR, or compiled C++.
 enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter when possible
 
-// The exit codes of rung (docs/cli.md).
+// The exit codes of rung (docs/cli/README.md).
 enum Exit : int { kSuccess = 0, kInputErrors = 1, kUsage = 2, kFault = 3, kTestFailed = 4, kInternal = 70 };
 
 struct WarningSwitch {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Makes what users install, in build/packages or the folder of -o: the Debian packages rung and rung-cam-fit, and the archive
-# rung-VERSION-linux-x86_64.tar.gz, one folder that runs on any Linux.
+# rung-VERSION-linux-x86_64.tar.gz, one folder that runs on any Linux; both with the documentation as HTML.
 #   tools/package/package.sh [--no-build] [-o DIR] [deb|tar ...]     (default: both)
 # --no-build: of what build/ has.
 # SOURCE_DATE_EPOCH is the time of all files in the archive (default: that of the last commit).
@@ -26,6 +26,8 @@ quietly() { "$@" >"$log" 2>&1 || { tail -40 "$log" >&2; exit 1; }; }
 [ -e build/build.ninja ] || quietly cmake --preset release
 build() { [ $builds = no ] || quietly cmake --build build "$@"; }
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
+quietly tools/site/site.sh -o "$work/site"
+export RUNG_SITE=$work/site
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' build/CMakeCache.txt)
 
 for kind; do
