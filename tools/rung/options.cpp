@@ -130,7 +130,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files that include all the others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
-    {Key::Debug, "-g", nullptr, bit(Command::Build), "for debuggers: names and values of ST in gdb; -O0 unless given"},
+    {Key::Debug, "-g", nullptr, bit(Command::Build), "for gdb, with names and values of ST; default: -O0"},
     {Key::Symbols, "--symbols", "FILE", bit(Command::Build), "write where the variables are, as JSON"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and print its folder"},

@@ -225,7 +225,9 @@ class Mutator {
 std::vector<std::string> programs() {
   std::vector<std::string> all;
   for (const char* folder : {"tests", "samples"})
-    for (const std::string& path : pathsBelow(folder, ".nct")) all.push_back(readFile(path).content);
+    for (const std::string& path : pathsBelow(folder, ".nct"))
+      if (!path.ends_with("/message_file.nct"))  // its texts are in a file beside it, which this test does not read
+        all.push_back(readFile(path).content);
   return all;
 }
 
