@@ -63,12 +63,9 @@ class Exporter {
 
   std::string run() {
     if (std::string error = readRules(); !error.empty()) return error;
-    std::vector<std::string> paths = filesBelow(options_.root, "tests/conformance", {".st", ".xml"});
-    for (const std::string& path : filesBelow(options_.root, "tests/programs", {".st", ".xml"})) paths.push_back(path);
+    std::vector<std::string> paths;
+    if (std::string error = findPrograms(options_, paths); !error.empty()) return error;
     for (const std::string& path : paths) {
-      if (!options_.programs.empty() &&
-          std::find(options_.programs.begin(), options_.programs.end(), path) == options_.programs.end())
-        continue;
       Program program = readProgram(options_.root, path);
       if (path.starts_with("tests/programs/") && (program.features.empty() || program.trace.empty())) continue;
       exportProgram(program);
@@ -101,8 +98,12 @@ class Exporter {
     return foreignTo(profile.edition, source, vocabulary_);
   }
 
-  void refuse(const Program& program, const std::string& test, const std::string& reason) {
-    suite_.refusals.push_back({program.path, test, reason, program.features});
+  // Without the folder, which is another one each time.
+  void refuse(const Program& program, const std::string& test, std::string reason) {
+    const std::string folder = options_.folder + "/";
+    for (size_t at = reason.find(folder); at != std::string::npos; at = reason.find(folder))
+      reason.erase(at, folder.size());
+    suite_.refusals.push_back({program.path, test, std::move(reason), program.features});
   }
 
   // tests/conformance/table43/rs.st → table43/rs
@@ -538,6 +539,20 @@ class Exporter {
 };
 
 }  // namespace
+
+std::string findPrograms(const ExportOptions& options, std::vector<std::string>& paths) {
+  paths = filesBelow(options.root, "tests/conformance", {".st", ".xml"});
+  for (const std::string& path : filesBelow(options.root, "tests/programs", {".st", ".xml"})) paths.push_back(path);
+  const auto isAmong = [](const std::vector<std::string>& all, const std::string& path) {
+    return std::find(all.begin(), all.end(), path) != all.end();
+  };
+  for (const std::string& wanted : options.programs)
+    if (!isAmong(paths, wanted))
+      return "`" + wanted + "` is not a program of tests/conformance or tests/programs below `" + options.root + "`";
+  if (!options.programs.empty())
+    std::erase_if(paths, [&](const std::string& path) { return !isAmong(options.programs, path); });
+  return {};
+}
 
 std::string exportSuite(const ExportOptions& options, Suite& suite) { return Exporter(options, suite).run(); }
 

@@ -17,6 +17,9 @@ struct ExportOptions {
   std::vector<std::string> programs;  // only these, relative to the root; empty: all
 };
 
+// The programs that are exported, relative to the root. The error names one that is not there.
+[[nodiscard]] std::string findPrograms(const ExportOptions& options, std::vector<std::string>& paths);
+
 // The error names what could not be read or written.
 [[nodiscard]] std::string exportSuite(const ExportOptions& options, Suite& suite);
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// rung_conformance export DIR: the conformance programs of the project for any compiler, docs/conformance.md.
-//   rung_conformance export DIR [--profile=NAME]... [--root=DIR] [PROGRAM...]
-// Exit codes: 0 written, 1 a row of edition 3 is neither exported nor has a reason, or has both, 2 usage or I/O.
+// rung_conformance: writes the conformance programs of the project for any compiler, docs/conformance.md. kHelp says
+// how.
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 
 #include "frontend/source/files.h"
 #include "tools/conformance/export.h"
+#include "tools/driver/installation.h"
 #include "tools/driver/output_files.h"
 
 namespace rung::conformance {
@@ -14,20 +16,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int usage(const std::string& problem) {
-  std::fprintf(
-      stderr,
-      "rung_conformance: %s\nusage: rung_conformance export DIR [--profile=ed2-text|ed3-text|ed3-oop|plcopen-xml|"
-      "motion]... [--root=DIR] [PROGRAM...]\n",
-      problem.c_str());
+constexpr const char* kHelp = R"(rung_conformance: a conformance suite for compilers of IEC 61131-3
+
+Usage:
+  rung_conformance export DIR [PROGRAM...] [OPTION...]
+
+Commands:
+  export DIR       write the suite into DIR: a folder that needs nothing of Rung;
+                   DIR/README.md says how to run it
+  export DIR PROGRAM...
+                   only the cases of these programs, such as
+                   tests/conformance/table43/sr.st
+
+Options:
+  --profile=NAME   only cases of this profile; may be repeated: ed2-text,
+                   ed3-text, ed3-oop, plcopen-xml, motion (default: all)
+  --root=DIR       Rung's sources (default: the current folder where it has
+                   them, or else those that were installed)
+  --help           print this
+  --version        print the version
+
+SOURCE_DATE_EPOCH sets the date in the suite (default: that of the version).
+
+Exit codes: 0 written, 1 a row of edition 3 is neither exported nor has a
+reason, or has both, 2 wrong usage, or a file cannot be read or written.
+)";
+
+int fail(const std::string& problem) {
+  std::fprintf(stderr, "rung_conformance: error: %s\n", problem.c_str());
   return 2;
 }
-int fail(const std::string& problem) {
-  std::fprintf(stderr, "rung_conformance: %s\n", problem.c_str());
-  return 2;
+int usage(const std::string& problem) { return fail(problem + "; see `rung_conformance --help`"); }
+
+// Of SOURCE_DATE_EPOCH, where it is set. The error says what is wrong with it.
+std::string setDate(Suite& suite) {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+  if (epoch == nullptr || epoch[0] == '\0') return {};
+  char* end = nullptr;
+  const std::time_t seconds = std::strtoll(epoch, &end, 10);
+  std::tm date{};
+  char text[16];
+  if (*end != '\0' || gmtime_r(&seconds, &date) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%d", &date) != 10)
+    return std::string("SOURCE_DATE_EPOCH: expected seconds since 1970, found `") + epoch + "`";
+  suite.date = text;
+  return {};
 }
 
-std::string copyRunner(const ExportOptions& options) {
+std::string replaced(std::string text, std::string_view from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// Makes the folder, or empties one that an earlier export wrote.
+std::string prepareFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return "cannot create `" + folder + "`: " + error.message();
+  const bool is_empty = fs::is_empty(folder, error);
+  if (!error && !is_empty && !fs::exists(folder + "/manifest.json", error))
+    return "`" + folder + "` is neither empty nor an exported suite";
+  for (const Profile& profile : kProfiles)
+    if (!error) fs::remove_all(folder + "/" + profile.name, error);
+  return error ? "cannot empty `" + folder + "`: " + error.message() : std::string();
+}
+
+// The runner with its adapters, the README for this version, and the licence.
+std::string copyRunner(const ExportOptions& options, const Suite& suite) {
   std::error_code error;
   fs::create_directories(options.folder + "/adapters", error);
   const fs::path from = fs::path(options.root) / "tools/conformance/runner";
@@ -37,7 +92,13 @@ std::string copyRunner(const ExportOptions& options) {
     fs::copy_file(entry.path(), to, fs::copy_options::overwrite_existing, error);
     if (error) return "cannot write `" + to.string() + "`: " + error.message();
   }
-  return error ? from.string() + ": " + error.message() : std::string();
+  if (error) return from.string() + ": " + error.message();
+  fs::copy_file(options.root + "/LICENSE", options.folder + "/LICENSE", fs::copy_options::overwrite_existing, error);
+  if (error) return "cannot copy `" + options.root + "/LICENSE`: " + error.message();
+  const ReadResult readme = readFile(from.string() + "/README.md");
+  if (!readme.error.empty()) return from.string() + "/README.md: " + readme.error;
+  return driver::writeFile(options.folder + "/README.md",
+                           replaced(replaced(readme.content, "@VERSION@", suite.version), "@DATE@", suite.date));
 }
 
 // Every row of edition 3 is exported or has its reason; only where everything was exported can that be said.
@@ -63,9 +124,22 @@ int checkRows(const Suite& suite) {
 
 int runTool(int count, char** arguments) {
   ExportOptions options;
+  options.root.clear();
   std::vector<std::string> words;
   for (int i = 1; i < count; ++i) {
-    const std::string word = arguments[i];
+    std::string word = arguments[i];
+    if (word == "--help" || word == "-h") {
+      std::fputs(kHelp, stdout);
+      return 0;
+    }
+    if (word == "--version") {
+      std::printf("rung_conformance %s\n", driver::version());
+      return 0;
+    }
+    if (word == "--profile" || word == "--root") {
+      if (i + 1 == count) return usage("`" + word + "` needs a value");
+      word += std::string("=") + arguments[++i];
+    }
     if (word.starts_with("--profile=")) {
       const Profile* profile = findProfile(word.substr(10));
       if (profile == nullptr) return usage("unknown profile `" + word.substr(10) + "`");
@@ -78,20 +152,31 @@ int runTool(int count, char** arguments) {
       words.push_back(word);
     }
   }
-  if (words.size() < 2 || words[0] != "export") return usage("expected `export DIR`");
+  if (words.empty()) return usage("expected a command");
+  if (words[0] != "export") return usage("unknown command `" + words[0] + "`");
+  if (words.size() < 2) return usage("`export` needs the folder to write");
   options.folder = words[1];
-  options.programs.assign(words.begin() + 2, words.end());
+  for (size_t i = 2; i < words.size(); ++i) options.programs.push_back(fs::path(words[i]).lexically_normal().string());
   const bool is_whole = options.profiles.empty() && options.programs.empty();
   if (options.profiles.empty())
     for (const Profile& profile : kProfiles) options.profiles.push_back(&profile);
 
   std::error_code error;
-  fs::create_directories(options.folder, error);
-  if (error) return fail("cannot create `" + options.folder + "`: " + error.message());
+  const char* const kFeatures = "tests/conformance/features.tsv";
+  if (options.root.empty()) {
+    options.root = fs::exists(kFeatures, error) ? "." : driver::sharedFolder("conformance");
+    if (options.root.empty()) return fail("the current folder is not that of Rung's sources; name it with --root=DIR");
+  } else if (!fs::exists(options.root + "/" + kFeatures, error)) {
+    return fail("`" + options.root + "` is not the folder of Rung's sources: it has no " + kFeatures);
+  }
   Suite suite;
   std::string problem = readTables(options.root, suite);
+  if (problem.empty()) problem = setDate(suite);
+  std::vector<std::string> paths;
+  if (problem.empty()) problem = findPrograms(options, paths);
+  if (problem.empty()) problem = prepareFolder(options.folder);
   if (problem.empty()) problem = exportSuite(options, suite);
-  if (problem.empty()) problem = copyRunner(options);
+  if (problem.empty()) problem = copyRunner(options, suite);
   const std::pair<const char*, std::string> tables[] = {{"manifest.json", manifest(suite, options.profiles)},
                                                         {"rows.tsv", rowTable(suite)},
                                                         {"refusals.tsv", refusalTable(suite)}};

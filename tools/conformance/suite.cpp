@@ -19,6 +19,21 @@ std::vector<std::string> cells(const std::string& line) {
   return all;
 }
 
+// `## 0.2.0 (2026-11-27)`
+std::string readRelease(const std::string& root, Suite& suite) {
+  const ReadResult changes = readFile(root + "/CHANGELOG.md");
+  if (!changes.error.empty()) return "CHANGELOG.md: " + changes.error;
+  for (const std::string& line : linesOf(changes.content)) {
+    if (!line.starts_with("## ")) continue;
+    const std::vector<std::string> words = wordsOf(line);
+    if (words.size() != 3 || words[2].size() != 12) break;
+    suite.version = words[1];
+    suite.date = words[2].substr(1, 10);
+    return {};
+  }
+  return "CHANGELOG.md: expected a heading `## VERSION (DATE)`";
+}
+
 class Json {
  public:
   void field(const char* name, const std::string& value) {
@@ -92,6 +107,7 @@ std::set<std::string> Suite::exported() const {
 }
 
 std::string readTables(const std::string& root, Suite& suite) {
+  if (std::string error = readRelease(root, suite); !error.empty()) return error;
   const ReadResult features = readFile(root + "/tests/conformance/features.tsv");
   if (!features.error.empty()) return "tests/conformance/features.tsv: " + features.error;
   std::string table;
@@ -115,7 +131,8 @@ std::string readTables(const std::string& root, Suite& suite) {
 
 std::string manifest(const Suite& suite, const std::vector<const Profile*>& profiles) {
   const std::set<std::string> exported = suite.exported();
-  std::string out = "{\n\"format\": 1,\n\"profiles\": [";
+  std::string out = "{\n\"format\": 1,\n\"version\": " + jsonQuote(suite.version) +
+                    ",\n\"date\": " + jsonQuote(suite.date) + ",\n\"licence\": \"Apache-2.0\",\n\"profiles\": [";
   for (size_t i = 0; i < profiles.size(); ++i) out += (i == 0 ? "" : ", ") + jsonQuote(profiles[i]->name);
   out += "],\n\"features\": [\n";
   const char* separator = "";

@@ -61,12 +61,14 @@ struct Suite {
   std::vector<Feature> features;
   std::vector<Case> cases;
   std::vector<Refusal> refusals;
+  std::string version, date;                   // of the project: `0.2.0`, `2026-11-27`
   std::map<std::string, std::string> reasons;  // by feature: why nothing proves it outside of Rung
 
   std::set<std::string> exported() const;  // features
 };
 
-// tests/conformance/features.tsv, tools/conformance/reasons.tsv. The error names what could not be read.
+// tests/conformance/features.tsv, tools/conformance/reasons.tsv, the newest heading of CHANGELOG.md. The error names
+// what could not be read.
 [[nodiscard]] std::string readTables(const std::string& root, Suite& suite);
 
 std::string manifest(const Suite& suite, const std::vector<const Profile*>& profiles);

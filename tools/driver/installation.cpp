@@ -26,6 +26,11 @@ std::string executableFolder() {
   return full.substr(0, full.rfind('/'));
 }
 
+std::string home() {
+  const char* const set = std::getenv("RUNG_HOME");
+  return set != nullptr && set[0] != '\0' ? set : executableFolder() + "/..";
+}
+
 Installation find() {
   Installation found;
   std::string homes[3];
@@ -62,9 +67,12 @@ const Installation& installation() {
 }
 
 std::string camFitModule() {
-  const char* const home = std::getenv("RUNG_HOME");
-  const std::string root = home != nullptr && home[0] != '\0' ? home : executableFolder() + "/..";
-  const std::string path = root + "/lib/rung/rung_cam_fit.so";
+  const std::string path = home() + "/lib/rung/rung_cam_fit.so";
+  return exists(path) ? path : "";
+}
+
+std::string sharedFolder(const std::string& name) {
+  const std::string path = home() + "/share/rung/" + name;
   return exists(path) ? path : "";
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the parts of Rung that generated code needs: runtime headers and libraries. Searched under $RUNG_HOME,
 // beside the executable (bin/../lib, bin/../share/rung/include), and where Rung was built.
-// Out: paths, or an error that names the missing part. Called by native.cpp and by `rung version`.
+// Out: paths, or an error that names the missing part. Called by native.cpp, `rung version` and rung_conformance.
 #pragma once
 
 #include <string>
@@ -18,6 +18,8 @@ const Installation& installation();
 // rung_cam_fit.so, which `rung cam fit` loads; empty: not installed. Where RUNG_HOME is set it is looked for only
 // there.
 std::string camFitModule();
+// share/rung/NAME, found in the same way; empty: not installed.
+std::string sharedFolder(const std::string& name);
 
 // "0.2.0"
 const char* version();

@@ -22,6 +22,7 @@ class Export : public testing::Test {
     root_.write("tools/conformance/kept.tsv", "program\treason\n");
     root_.write("tools/conformance/reasons.tsv", "feature\treason\n");
     root_.write("tests/conformance/features.tsv", "feature\teditions\tname\n1\t\tTable\n1/1\t3+4\tFeature\n");
+    root_.write("CHANGELOG.md", "# Changes\n\n## 1.2.3 (2026-01-02)\n");
   }
   void add(const std::string& text) const { root_.write("tests/conformance/x/one.st", text); }
   void run(const char* profile) {

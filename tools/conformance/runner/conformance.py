@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Puts a compiler of IEC 61131-3 through an exported conformance suite; docs/conformance.md.
+"""Puts a compiler of IEC 61131-3 through this conformance suite. README.md tells how.
 
-  conformance.py run [--adapter "COMMAND"] [--name NAME] [--profile P]... [--case GLOB]... [--feature ID]...
+  conformance.py run --adapter "COMMAND" [--name NAME] [--profile P]... [--case GLOB]... [--feature ID]...
                      [-j N] [--timeout S] [--json F] [--html F] [--junit F] [--baseline F] [--suite DIR]
   conformance.py compare RESULTS.json... [--html F]
   conformance.py baseline RESULTS.json -o BASELINE.json
@@ -15,10 +15,19 @@ An adapter is a command that is called in an empty folder as
                                     the trace is; INPUTS is - when there are none
 It exits with 0: accepted, or run; 1: rejected, with messages on stderr, best as `file:line: text`; 3: this adapter cannot
 try such a source. Anything else, or a signal, is a crash. WATCH is a file with one path a line; the trace goes to stdout
-as CSV: header `cycle,PATH,...`, one row after each cycle, further columns are ignored.
+as CSV: header `cycle,PATH,...`, one row after each cycle, further columns are ignored. CONFORMANCE_EDITION in its
+environment is the edition of the standard that the case is of: 2 or 3.
 
-Exit codes: 0 all cases are supported, or with --baseline none is worse; 1 some are not; 2 usage.
-Needs nothing but Python 3.7.
+An adapter may answer all cases in one process. It is started as
+  COMMAND serve
+and prints the line {"protocol": 1}. Then it reads a request from each line of stdin, and answers it by a line on stdout:
+  {"operation": "run", "edition": 3, "folder": ..., "source": ..., "cycles": 2, "interval_ms": 10, "watch": [PATH, ...],
+   "inputs": FILE or null, "first": cycles or null}
+  {"exit": 0, "trace": CSV, "messages": TEXT}
+An adapter that prints another line, or ends, is called once for each operation instead.
+
+Exit codes: 0 all cases are supported, or with --baseline none is worse; 1 some are not; 2 usage, or a file cannot be read or
+written. Needs nothing but Python 3.7.
 """
 import argparse
 import concurrent.futures
@@ -29,16 +38,20 @@ import io
 import json
 import os
 import re
+import select
 import shlex
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xml.sax.saxutils as saxutils
 
 VERDICTS = ['supported', 'wrong', 'rejected', 'crashed', 'untried']
+PROTOCOL = 1
+LONGEST_ANSWER = 1 << 28  # bytes
 WORST = {'supported': 0, 'untried': 1, 'rejected': 2, 'wrong': 3, 'crashed': 4}
 
 
@@ -91,28 +104,193 @@ def compare_traces(expected, actual):
 # ---- one case
 
 class Adapter:
+    """The command that is called once for each operation."""
+
     def __init__(self, command, timeout):
-        # The adapter runs in another folder: what names a file here must name it there.
-        self.command = [os.path.abspath(word) if os.sep in word and os.path.exists(word) else word
-                        for word in shlex.split(command)]
+        self.command = command
         self.timeout = timeout
 
-    def call(self, arguments, folder):
-        """Exit code (None: ran too long), stdout, stderr. A new session, so that all it started ends with it."""
+    def call(self, request):
+        """Exit code (None: ran too long), trace, messages. A new session, so that all it started ends with it."""
+        operation, folder, inputs = request['operation'], request['folder'], request.get('inputs')
+        arguments = [operation, request['source']]
+        if operation != 'check':
+            watch = os.path.join(folder, 'watch.txt')
+            write(watch, ''.join(path + '\n' for path in request['watch']))
+            arguments += [str(request['cycles']), str(request['interval_ms']), watch] + ([inputs] if inputs else [])
+        if operation == 'restart':
+            arguments += ([] if inputs else ['-']) + [str(request['first'])]
         process = subprocess.Popen(self.command + arguments, cwd=folder, stdin=subprocess.DEVNULL,
+                                   env=dict(os.environ, CONFORMANCE_EDITION=str(request['edition'])),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
         try:
             out, err = process.communicate(timeout=self.timeout)
             code = process.returncode
         except subprocess.TimeoutExpired:
             code = None
-        try:
-            os.killpg(process.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            pass
+        kill_session(process)
         if code is None:
             out, err = process.communicate()
         return code, out.decode('utf-8', 'replace'), err.decode('utf-8', 'replace')
+
+    def close(self):
+        pass
+
+
+def kill_session(process):
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except (ProcessLookupError, PermissionError):
+        pass
+
+
+class NoAnswer(Exception):
+    """The process ended, printed something else, or said nothing in time: what happened (None: ran too long), messages."""
+
+
+class ServingAdapter:
+    """The adapter as one process that answers request after request. One that fails is started again for the next."""
+
+    def __init__(self, command, timeout):
+        self.command = command
+        self.timeout = timeout
+        self.process = None
+
+    def start(self):
+        """Whether the adapter has this form."""
+        self.rest, self.before = b'', 0
+        self.stderr = tempfile.TemporaryFile()
+        self.process = subprocess.Popen(self.command + ['serve'], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=self.stderr, start_new_session=True)
+        os.set_blocking(self.process.stdin.fileno(), False)
+        try:
+            if json.loads(self.exchange(b'').decode('utf-8')) == {'protocol': PROTOCOL}:
+                return True
+        except (NoAnswer, ValueError):
+            pass
+        self.stop()
+        return False
+
+    def stop(self):
+        if self.process is None:
+            return
+        kill_session(self.process)
+        self.process.wait()
+        self.process.stdin.close()
+        self.process.stdout.close()
+        self.stderr.close()
+        self.process = None
+
+    def close(self):
+        """It may end by itself: what it started is its own business until then."""
+        if self.process is not None:
+            try:
+                self.process.stdin.close()
+                self.process.wait(timeout=5)
+            except (OSError, subprocess.TimeoutExpired):
+                pass
+            self.stop()
+
+    def exchange(self, request):
+        """Writes the request and reads a line."""
+        out, into = self.process.stdout.fileno(), self.process.stdin.fileno()
+        end = time.monotonic() + self.timeout
+        while b'\n' not in self.rest:
+            left = end - time.monotonic()
+            ready = select.select([out], [into] if request else [], [], max(left, 0))
+            if left <= 0:
+                raise NoAnswer(None, '')
+            if ready[1]:
+                try:
+                    request = request[os.write(into, request):]
+                except OSError:
+                    request = b''  # it has ended, which reading tells
+            if ready[0]:
+                read = os.read(out, 1 << 16)
+                if not read:
+                    raise NoAnswer(self.end_of_process(end), self.said())
+                self.rest += read
+                if len(self.rest) > LONGEST_ANSWER:
+                    raise NoAnswer('its answer is longer than %d bytes' % LONGEST_ANSWER, '')
+        line, self.rest = self.rest.split(b'\n', 1)
+        return line
+
+    def end_of_process(self, end):
+        try:
+            code = self.process.wait(timeout=max(end - time.monotonic(), 0.1))
+        except subprocess.TimeoutExpired:
+            return 'no answer: it has closed its output'
+        return code if code < 0 else 'no answer: it ended with exit code %d' % code
+
+    def said(self):
+        """What this request wrote to stderr."""
+        self.stderr.seek(self.before)
+        return self.stderr.read().decode('utf-8', 'replace')
+
+    def call(self, request):
+        """Like Adapter.call; the code may also be a text that says why there is none."""
+        if self.process is not None and select.select([self.process.stdout], [], [], 0)[0]:
+            self.stop()  # it said more than its last answer, or has ended since
+        if self.process is None and not self.start():
+            return 'the adapter does not start again', '', ''
+        self.before = os.fstat(self.stderr.fileno()).st_size
+        try:
+            line = self.exchange(json.dumps(request).encode('utf-8') + b'\n')
+            try:
+                answer = json.loads(line.decode('utf-8'))
+            except ValueError:
+                raise NoAnswer('not an answer: ' + shown(line), '')
+            parts = [answer.get('exit'), answer.get('trace', ''), answer.get('messages', '')] if isinstance(answer, dict) else []
+            if [type(part) for part in parts] != [int, str, str]:
+                raise NoAnswer('not an answer: ' + shown(line), '')
+            if self.rest:
+                raise NoAnswer('more than one line: ' + shown(self.rest), '')
+            return tuple(parts)
+        except NoAnswer as no_answer:
+            self.stop()
+            return no_answer.args[0], '', no_answer.args[1]
+
+
+def shown(line):
+    return short(line.decode('utf-8', 'replace'), 200)
+
+
+class Adapters:
+    """An adapter for each thread, of the form that the command has."""
+
+    def __init__(self, command, timeout, serves):
+        # It runs in another folder: what names a file here must name it there.
+        self.command = [os.path.abspath(word) if os.sep in word and os.path.exists(word) else word for word in command]
+        self.timeout = timeout
+        self.all = []
+        self.mine = threading.local()
+        if shutil.which(self.command[0]) is None:
+            stop('cannot start %s: No such file or directory' % self.command[0])
+        first = ServingAdapter(self.command, timeout)
+        try:
+            self.form = ServingAdapter if serves and first.start() else Adapter
+        except OSError as error:
+            stop('cannot start %s: %s' % (self.command[0], error.strerror))
+        if self.form is ServingAdapter:
+            self.all.append(first)
+            self.spare = [first]
+        else:
+            self.spare = []
+        self.lock = threading.Lock()
+
+    def get(self):
+        if not hasattr(self.mine, 'adapter'):
+            with self.lock:
+                if self.spare:
+                    self.mine.adapter = self.spare.pop()
+                else:
+                    self.mine.adapter = self.form(self.command, self.timeout)
+                    self.all.append(self.mine.adapter)
+        return self.mine.adapter
+
+    def close(self):
+        for adapter in self.all:
+            adapter.close()
 
 
 def short(text, most=600):
@@ -128,7 +306,8 @@ def verdict_of(code, err):
         return 'rejected', short(err)
     if code == 3:
         return 'untried', short(err)
-    return 'crashed', ('signal %d' % -code if code < 0 else 'exit code %d' % code) + (': ' + short(err) if err.strip() else '')
+    what = code if isinstance(code, str) else 'signal %d' % -code if code < 0 else 'exit code %d' % code
+    return 'crashed', what + (': ' + short(err) if err.strip() else '')
 
 
 def failed_checks(case, difference):
@@ -140,31 +319,30 @@ def failed_checks(case, difference):
     return difference
 
 
+def request_of(suite, case, folder, operation, source):
+    return {'operation': operation, 'edition': case.get('edition', 3), 'folder': folder, 'source': os.path.join(suite, source)}
+
+
 def run_case(suite, adapter, case, folder):
-    source = os.path.join(suite, case['source'])
-    watch = os.path.join(folder, 'watch.txt')
-    with open(watch, 'w', encoding='utf-8') as file:
-        file.write(''.join(path + '\n' for path in case['watch']))
-    arguments = ['run', source, str(case['cycles']), str(case['interval_ms']), watch]
-    if 'inputs' in case:
-        arguments.append(os.path.join(suite, case['inputs']))
-    if 'restart_after' in case:
-        arguments = ['restart'] + arguments[1:] + ([] if 'inputs' in case else ['-']) + [str(case['restart_after'])]
-    code, out, err = adapter.call(arguments, folder)
+    request = request_of(suite, case, folder, 'restart' if 'restart_after' in case else 'run', case['source'])
+    request.update(cycles=case['cycles'], interval_ms=case['interval_ms'], watch=case['watch'],
+                   inputs=os.path.join(suite, case['inputs']) if 'inputs' in case else None, first=case.get('restart_after'))
+    with open(os.path.join(suite, case['trace']), encoding='utf-8') as file:
+        expected = file.read()
+    code, out, err = adapter.call(request)
     if code != 0:
         return verdict_of(code, err)
-    with open(os.path.join(suite, case['trace']), encoding='utf-8') as file:
-        difference = compare_traces(file.read(), out)
+    difference = compare_traces(expected, out)
     return ('supported', '') if difference is None else ('wrong', failed_checks(case, difference))
 
 
 def reject_case(suite, adapter, case, folder):
     """An error is due, and the same source without it is accepted: who rejects everything supports nothing."""
-    code, _, err = adapter.call(['check', os.path.join(suite, case['control'])], folder)
+    code, _, err = adapter.call(request_of(suite, case, folder, 'check', case['control']))
     if code != 0:
         verdict, detail = verdict_of(code, err)
         return verdict, 'without the error: ' + detail
-    code, _, err = adapter.call(['check', os.path.join(suite, case['source'])], folder)
+    code, _, err = adapter.call(request_of(suite, case, folder, 'check', case['source']))
     if code == 0:
         return 'wrong', 'the error of line %d is not noticed: %s' % (case['line'], case['rule'])
     if code != 1:
@@ -173,14 +351,47 @@ def reject_case(suite, adapter, case, folder):
     return 'supported', '' if at_line else 'the message does not name line %d' % case['line']
 
 
-def try_case(suite, adapter, case):
+def try_case(suite, adapters, case, progress):
     folder = tempfile.mkdtemp(prefix='conformance.')
+    progress.begins(case['id'])
     begin = time.time()
     try:
-        verdict, detail = (run_case if case['kind'] == 'run' else reject_case)(suite, adapter, case, folder)
+        verdict, detail = (run_case if case['kind'] == 'run' else reject_case)(suite, adapters.get(), case, folder)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+        progress.ends(case['id'])
     return {'id': case['id'], 'verdict': verdict, 'detail': detail, 'seconds': round(time.time() - begin, 3)}
+
+
+class Progress:
+    """On a terminal, one line that is written again and again: how many, how fast, and the case that runs longest."""
+
+    def __init__(self, total):
+        self.total, self.done, self.running = total, 0, []
+        self.begin, self.lock, self.is_shown = time.monotonic(), threading.Lock(), sys.stderr.isatty()
+
+    def begins(self, name):
+        with self.lock:
+            self.running.append(name)
+            self.show()
+
+    def ends(self, name):
+        with self.lock:
+            self.running.remove(name)
+            self.done += 1
+            self.show()
+
+    def show(self):
+        if self.is_shown:
+            rate = self.done / max(time.monotonic() - self.begin, 0.001)
+            line = '%d of %d, %.1f/s %s' % (self.done, self.total, rate, self.running[0] if self.running else '')
+            sys.stderr.write('\r\x1b[K' + line[:shutil.get_terminal_size().columns - 1])
+            sys.stderr.flush()
+
+    def clear(self):
+        if self.is_shown:
+            sys.stderr.write('\r\x1b[K')
+            sys.stderr.flush()
 
 
 # ---- rows of features
@@ -321,8 +532,11 @@ def side_by_side(reports):
 # ---- commands
 
 def write(path, text):
-    with open(path, 'w', encoding='utf-8') as file:
-        file.write(text)
+    try:
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+    except OSError as error:
+        stop('%s: %s' % (path, error.strerror))
 
 
 def stop(message):
@@ -331,12 +545,22 @@ def stop(message):
     sys.exit(2)
 
 
-def read_json(path):
+def read_json(path, what, *keys):
+    """The file as an object that has the keys, or the end: `what` it should be."""
     try:
         with open(path, encoding='utf-8') as file:
-            return json.load(file)
-    except (OSError, ValueError) as error:
-        stop('%s: %s' % (path, error))
+            read = json.load(file)
+    except OSError as error:
+        stop('%s: %s' % (path, error.strerror))
+    except ValueError as error:
+        stop('%s: not JSON: %s' % (path, error))
+    if not isinstance(read, dict) or any(key not in read for key in keys):
+        stop('%s: not %s' % (path, what))
+    return read
+
+
+def read_results(path):
+    return read_json(path, 'results of `conformance.py run --json`', 'name', 'rows', 'results')
 
 
 def regressions(baseline, results):
@@ -347,28 +571,41 @@ def regressions(baseline, results):
 
 
 def command_run(options):
-    manifest = read_json(os.path.join(options.suite, 'manifest.json'))
+    manifest = read_json(os.path.join(options.suite, 'manifest.json'), 'the manifest of a suite', 'format', 'features', 'cases')
+    if manifest['format'] != 1:
+        stop('%s: of format %s, which this program does not know' % (os.path.join(options.suite, 'manifest.json'), manifest['format']))
+    unknown = set(options.profile or []) - set(manifest.get('profiles', options.profile or []))
+    if unknown:
+        stop('unknown profile %s; the suite has %s' % (sorted(unknown)[0], ', '.join(manifest['profiles'])))
     cases = [case for case in manifest['cases']
              if (not options.profile or case['profile'] in options.profile)
              and (not options.case or any(fnmatch.fnmatch(case['id'], glob) for glob in options.case))
              and (not options.feature or set(options.feature) & set(case['features']))]
     if not cases:
         stop('no case matches')
-    adapter = Adapter(options.adapter, options.timeout)
-    if shutil.which(adapter.command[0]) is None:
-        stop('cannot start %s: No such file or directory' % adapter.command[0])
+    baseline = read_json(options.baseline, 'a baseline', 'cases') if options.baseline else None
+    if baseline is not None and not isinstance(baseline['cases'], dict):
+        stop('%s: not a baseline' % options.baseline)
+    for report in (options.json, options.html, options.junit):  # not only after all cases
+        if report and not os.access(os.path.dirname(report) or '.', os.W_OK):
+            stop('%s: cannot be written' % report)
+    adapters = Adapters(options.adapter, options.timeout, options.serve)
     suite = os.path.abspath(options.suite)
+    progress = Progress(len(cases))
     results = []
-    with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
-        for case, result in zip(cases, pool.map(lambda one: try_case(suite, adapter, one), cases)):
-            results.append(dict(result, features=case['features']))
-            if sys.stderr.isatty():
-                sys.stderr.write('\r%d of %d' % (len(results), len(cases)))
-    if sys.stderr.isatty():
-        sys.stderr.write('\r')
+    try:
+        with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
+            for case, result in zip(cases, pool.map(lambda one: try_case(suite, adapters, one, progress), cases)):
+                results.append(dict(result, features=case['features']))
+    except OSError as error:
+        progress.clear()
+        stop('%s: %s' % (error.filename, error.strerror))
+    finally:
+        progress.clear()
+        adapters.close()
     rows = rows_by_feature(manifest, results)
-    report = {'name': options.name or os.path.basename(shlex.split(options.adapter)[0]), 'adapter': options.adapter,
-              'rows': rows, 'results': results}
+    report = {'name': options.name or os.path.basename(options.adapter[0]), 'adapter': ' '.join(shlex.quote(word) for word in options.adapter),
+              'suite': {'version': manifest.get('version', ''), 'date': manifest.get('date', '')}, 'rows': rows, 'results': results}
     if options.json:
         write(options.json, json.dumps(report, indent=1) + '\n')
     if options.html:
@@ -376,7 +613,7 @@ def command_run(options):
     if options.junit:
         write(options.junit, junit(report))
     if options.baseline:
-        worse = regressions(read_json(options.baseline), results)
+        worse = regressions(baseline, results)
         print('\n'.join(worse) if worse else 'nothing is worse than the baseline')
         return 1 if worse else 0
     table = text_table(rows, options.quiet)
@@ -391,7 +628,7 @@ def command_run(options):
 
 
 def command_compare(options):
-    reports = [read_json(path) for path in options.results]
+    reports = [read_results(path) for path in options.results]
     print(side_by_side(reports))
     if options.html:
         write(options.html, html_page('Conformance, side by side',
@@ -400,10 +637,31 @@ def command_compare(options):
 
 
 def command_baseline(options):
-    report = read_json(options.results)
+    report = read_results(options.results)
     write(options.output, json.dumps({'name': report['name'], 'cases': {r['id']: r['verdict'] for r in report['results']}},
                                      indent=1, sort_keys=True) + '\n')
     return 0
+
+
+def command_line(text):
+    """The words of an adapter's command."""
+    try:
+        words = shlex.split(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error))
+    if not words:
+        raise argparse.ArgumentTypeError('expected a command')
+    return words
+
+
+def positive(kind, name):
+    def read(text):
+        value = kind(text)
+        if not 0 < value < 1e6:
+            raise argparse.ArgumentTypeError('must be greater than 0')
+        return value
+    read.__name__ = name  # in messages
+    return read
 
 
 def main():
@@ -413,18 +671,20 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest='command')
     run = commands.add_parser('run', help='run the suite with one adapter')
-    run.add_argument('--adapter', required=True, help='the command of the adapter, with its options')
+    run.add_argument('--adapter', required=True, type=command_line, help='the command of the adapter, with its options')
     run.add_argument('--suite', default=here, help='the exported folder; default: that of this program')
     run.add_argument('--name', help='of the compiler, in reports')
     run.add_argument('--profile', action='append', help='only cases of this profile')
     run.add_argument('--case', action='append', help='only cases whose id matches')
     run.add_argument('--feature', action='append', help='only cases that prove this row')
-    run.add_argument('-j', dest='jobs', type=int, default=os.cpu_count() or 1, help='cases at a time')
-    run.add_argument('--timeout', type=float, default=30, help='seconds for one call of the adapter')
-    run.add_argument('--json')
-    run.add_argument('--html')
-    run.add_argument('--junit')
-    run.add_argument('--baseline', help='report only what is worse than in this file')
+    run.add_argument('-j', dest='jobs', type=positive(int, 'number'), default=os.cpu_count() or 1,
+                     help='cases at a time; default: the number of processors')
+    run.add_argument('--timeout', type=positive(float, 'number'), default=30, help='seconds for one call of the adapter; default: 30')
+    run.add_argument('--no-serve', dest='serve', action='store_false', help='call the adapter once for each operation')
+    run.add_argument('--json', metavar='F', help='write the results')
+    run.add_argument('--html', metavar='F', help='write a page')
+    run.add_argument('--junit', metavar='F', help='write a report for CI')
+    run.add_argument('--baseline', metavar='F', help='report only what is worse than in this file')
     run.add_argument('-q', dest='quiet', action='store_true', help='no rows that are supported')
     run.add_argument('-v', dest='verbose', action='store_true', help='also each case that is not supported')
     compare = commands.add_parser('compare', help='several results side by side')
