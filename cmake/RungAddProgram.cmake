@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # rung_add_program(<target> SOURCES <file|folder>... [NAME <id>] [ROOT <folder>] [OPTIONS <option>...] [FILES <n>])
 #
 # Compiles PLC programs with `rung emit` and adds the C++ to <target> (an existing executable or library). The module

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # rung_embed(<target> <name> [PREFIX <prefix>] <file>...)
 # Compiles files into <target>, which the same CMakeLists.txt defines, as a table sorted by name. The target includes
 # "<name>.h": namespace rung::embedded { struct File { string_view name, text; }; extern const File <name>[]; extern

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` and cpack put into packages: the Debian packages rung and rung-cam-fit. tools/package.sh makes them,
 # and the archive for any Linux.
 set(RUNG_MAINTAINER "The authors of Rung <rung@example.org>" CACHE STRING "Who answers for the Debian packages")

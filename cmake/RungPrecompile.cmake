@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # rung_precompile(<target> [HEADERS <header>...])      makes the precompiled header that others reuse
 # rung_precompile(<target> REUSE <owner>)               uses that of <owner>, whose flags must be the same
 # Without it two thirds of a build go into parsing standard headers. Off (RUNG_PRECOMPILE) in the preset fuzz,

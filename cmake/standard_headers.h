@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The standard headers that the compiler uses, precompiled once (RungPrecompile.cmake). Not included by any file.
 #pragma once
 

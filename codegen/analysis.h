@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All that codegen knows of a body before a line of it is written: the results of the analyses, in the order in which
 // they read each other. In: a verified body and the facts of the module. Out: BodyAnalysis. Called by body.cpp; the
 // printer reads the results and decides nothing of this itself.

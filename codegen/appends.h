@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Appended texts: `line := CONCAT(line, DINT_TO_STRING(n))` makes the text of `n` in a temporary and copies it to the
 // end of the line. Where nothing else reads the temporary, the text is made at the end of the line at once. In: the
 // measured strings of a body, and where their lengths are known. Out: the statements that make such a text. Called by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Integer arithmetic in C++: sums, products, divisions, shifts and powers. In: an operator of the IR. Out: C++ that
 // agrees with the arithmetic kernel. Integers are computed in unsigned types of their width, or in int where no
 // intermediate value can leave it, and cut back. Called by expressions.cpp and conversions.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The function around the statements of a body: signature, variables, exits. See body.h.
 #include "codegen/body.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes one IR body as a C++ function. In: a verified body and the facts of the module. Out: code in the group, and
 // what the group must include and declare for it. Called by emit.cpp for each body of a group.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all writers of a body share: see body_part.h.
 #include "codegen/body_part.h"
 

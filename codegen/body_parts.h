@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The writers of a body, a class for each subject; what they share is in body_part.h. Internal to codegen/: body.cpp
 // makes them for each body, and they call each other.
 #pragma once

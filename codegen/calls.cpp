@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls in C++: a call becomes a plan (what is passed how, what is copied, where the result goes) and then text. In: a
 // CallStmt or a CallExpr. Out: the call, with the copies before and after it. Called by statements.cpp, expressions.cpp
 // and strings.cpp.

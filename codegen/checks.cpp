@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks in front of a statement, in the order in which its expressions are evaluated (ir.h): each is a compare and a
 // branch to the body's fault block. A check is numbered by its row among the group's sites, so a change of one POU
 // renumbers nothing in other groups.

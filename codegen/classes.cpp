@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Class numbers and dispatch tables: see classes.h.
 #include "codegen/classes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Class numbers and the dispatch tables of methods. In: the module's classes and dispatches. Out: `classes.cpp`, and
 // the declarations by which other files use it. All numbers and tables are defined there and `extern` elsewhere, so a
 // new class recompiles that file and its own, no other POU. Every method takes `void* object`: one table type serves

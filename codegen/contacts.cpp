@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Contacts in C++: conditions over bits of the process image, which are evaluated without jumps and without cutting
 // each bit from its byte. In: a BOOL expression. Out: an integer that has its value at one bit. Called by
 // expressions.cpp, and by image.cpp for coils.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conversions in C++. In: a Convert expression. Out: C++ that agrees with the arithmetic kernel: reals are rounded,
 // subranges clamped, times scaled. Called by expressions.cpp.
 #include "codegen/body_parts.h"

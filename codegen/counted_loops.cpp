@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice of counted loops: see counted_loops.h.
 #include "codegen/counted_loops.h"
 

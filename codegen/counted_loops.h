@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which FOR loops count in their control itself: those whose control only the loop writes, in a C++ local wide enough
 // for one step beyond the limit, which makes a plain C++ loop that g++ can vectorize. In: the uses of a body and its
 // cached fields. Out: those loops, and the widths of the controls. Called by analysis.cpp; written by loops.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in C++: see cpp_bodies.h. Everything is a reference into the instance (views marked may_alias), so nothing is
 // copied, except in-outs of blocks, which are values (syntax manual 5.8.6). Each kind of name in the facade:
 //   scalar, string, array, structure     a reference to its memory, as a type of rung/cpp.h or a view defined here

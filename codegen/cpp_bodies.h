@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file of a POU whose body is in C++: the source of the body between a facade of its variables and the function
 // that other generated code calls. In: a row of Module::cpp_bodies. Out: a Group with the code of that file, and the
 // lines at its beginning. Called by emit.cpp, one file for each body: such bodies never share a file in a batch.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names in the facade of a body in C++: see cpp_names.h.
 #include "codegen/cpp_names.h"
 

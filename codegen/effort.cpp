@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The estimate of a body's work: see effort.h.
 #include "codegen/effort.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much optimization a body deserves. In: a body. Out: which passes of the C++ compiler it gets.
 // Called by body.cpp for each body.
 //

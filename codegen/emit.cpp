@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Assembles the parts of codegen: facts, groups, bodies, headers, description. See emit.h.
 #include "codegen/emit.h"
 

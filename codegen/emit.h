@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Code generation: IR to C++ files, the symbol map and the manifest. In: a verified ir::Module. Out: file
 // contents by relative path, deterministic to the byte; write.h puts them on disk. Called by the driver.
 #pragma once

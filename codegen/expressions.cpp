@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions in C++: values, conditions, operators and calls of functions. In: an expression that needs no more
 // checks. Out: its C++ with the parentheses that its context needs. Called by the writers of statements, places and
 // checks. Integers are computed in arithmetic.cpp, conversions written in conversions.cpp.

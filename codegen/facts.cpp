@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Facts about the module: see facts.h.
 #include "codegen/facts.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Facts about the whole module that codegen needs before it writes a body: block numbers, which bodies are inlined,
 // and which fields other code than their own block may reach while that block runs.
 // In: the module. Out: tables by index. Called once by emit.cpp, read by all others.

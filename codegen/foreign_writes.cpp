@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See foreign_writes.h.
 #include "codegen/foreign_writes.h"
 

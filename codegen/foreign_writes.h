@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which statements may change a variable that more than this body reaches: an in-out, or a variable whose address left
 // the body. Such a variable may be the same memory as another in-out, as the target of a pointer, or as a field that
 // was passed by reference somewhere. In: a body and the exposure of fields. Out: an answer for each statement. Called

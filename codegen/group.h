@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One generated source: the bodies of about fifty POUs, and what they use. In: bodies sorted by name (groups.cpp cuts
 // them into groups). Out: the code of the group once every body is written (emit.cpp assembles it).
 #pragma once

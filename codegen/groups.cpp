@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts the bodies into groups: see group.h. A POU and the initialiser of its record stay together. Once a group holds
 // kLeast POUs, it ends before the first name whose hash asks for it, so a new POU changes one group only.
 #include <algorithm>

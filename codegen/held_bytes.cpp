@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See held_bytes.h. Follows the statements of each block with the bytes that are held there, and lets go of one at the
 // first statement that may reach it in another way, or leave the block.
 #include "codegen/held_bytes.h"

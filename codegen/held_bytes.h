@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coils: bytes of the process image that stay in a C++ variable from one store of a bit to the last. In: a verified
 // body. Out: the bytes, and the statements between which each is held. Called by analysis.cpp; written by image.cpp.
 //

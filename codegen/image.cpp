@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Views of the process image in C++: little-endian bytes at any address, therefore read and written by the helpers of
 // rung/code.h. In: a place whose root is an area. Out: its address, its value, or a store. Called by places.cpp and
 // expressions.cpp.

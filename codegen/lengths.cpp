@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice of measured strings, and where their lengths are known: see lengths.h.
 #include "codegen/lengths.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lengths of strings in C++ locals. A string that sized functions use keeps its length beside it, so nothing counts its
 // characters again: `s := CONCAT(s, c)` appends at the end, MID knows whether its position is inside. Every write of
 // such a string sets its length. The length is counted before the first use in a block; a loop counts in front what it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice of cached fields: see locals.h.
 #include "codegen/locals.h"
 

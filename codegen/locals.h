@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which fields of the instance live in C++ locals: scalars that nothing else can reach while the body runs and that it
 // uses often are loaded at entry, and written back at the exits and in the fault block. In: the uses of a body. Out: a
 // flag for each variable. Called by analysis.cpp.

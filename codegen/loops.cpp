@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops of a body in C++: a FOR as a plain C++ loop where counted_loops.h says so, else with a flag that guards the
 // step. In: a loop statement. Out: its C++. Called by statements.cpp.
 #include "codegen/body_parts.h"

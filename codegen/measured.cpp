@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured strings and slices in C++: the declarations of their lengths and addresses, the counting, the sized forms of
 // native functions. In: what lengths.h and slices.h decided. Out: C++. Called by body.cpp, statements.cpp, calls.cpp,
 // expressions.cpp and strings.cpp.

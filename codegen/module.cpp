@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The description of the module as C++: see module.h. Its content comes from ir/description.h.
 #include "codegen/module.h"
 

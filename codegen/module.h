@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The description of the module (rung/module.h): tables of types, symbols, blocks, tasks, tests and check sites.
 // In: the IR module, its facts, the groups after all bodies were written. Out: the code of `module.cpp` and
 // `sites.cpp`, and `symbols.json`. A change inside a POU's body changes at most `sites.cpp`. All is constant: nothing

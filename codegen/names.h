@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the generated code: the only mangling scheme, and how numbers and literals are appended.
 // In: names as the user wrote them. Out: C++ names. Called by every file of codegen.
 //   variable, field      level    -> level_          C, C++ and POSIX define no name that ends like this

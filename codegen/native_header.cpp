@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Header for native blocks: see native_header.h.
 #include "codegen/native_header.h"
 

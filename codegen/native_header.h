@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header for native blocks: what a C++ file that defines their bodies includes. In: a module and native bodies of
 // one library in it. Out: for each body its prototype, and the structs and enumerations that it works on, as C++. The
 // layout is asserted beside each struct, so a compiler that would lay it out differently refuses the file. Called by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lvalues in C++: variables, fields, elements, targets of pointers. In: a place of the IR. Out: its C++ as an lvalue,
 // as an argument, or as the target of a store. Called by all writers of a body; views of the image are in image.cpp.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Definitions of records, in sources or headers: see records.h.
 #include "codegen/records.h"
 

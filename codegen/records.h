@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the struct of each record is defined. In: the records that each source of the module needs complete. Out:
 // their definitions as C++ code. Called by emit.cpp, after the bodies were written.
 //

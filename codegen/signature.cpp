@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signatures of functions: see signature.h.
 #include "codegen/signature.h"
 

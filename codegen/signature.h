@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The signature of a body's function: `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. In: a body. Out:
 // C++ code. Called for definitions (body.cpp), prototypes and tables, and by the tool that checks the natives.
 #pragma once

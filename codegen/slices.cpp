@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice of slices: see slices.h. Starts with all candidates and drops those that break a condition.
 #include "codegen/slices.h"
 

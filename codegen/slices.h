@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices: strings that need no memory while the body runs, because they are parts of strings that do not change.
 // In `rest := MID(rest, LEN(rest) - at, at + 1)` nothing moves: the address and the length of `rest` change, and at the
 // exits and in the fault block its characters are copied into the instance, once. A string becomes a slice when

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements of a body and their lines: see body.h. The lines of the generated code follow those of the source; `#line`
 // appears only where they diverge, which keeps the code small.
 #include <algorithm>

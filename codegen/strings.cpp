@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings in C++: stored in place, NUL-terminated, cut to the capacity of their target; read without a
 // copy, compared with short literals without a call.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The symbol file: see symbols.h. A changed meaning of a key, or a key that goes, needs a new kFormat.
 #include "codegen/symbols.h"
 

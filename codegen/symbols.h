@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The symbol file: where each variable lies, as JSON, for monitors, HMIs and other tools that do not link the module.
 // In: the description of a module. Out: one object, a row per line; docs/embedding.md describes it. Called by
 // module.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // C++ names of types, constants and record definitions: see types.h.
 #include <algorithm>
 

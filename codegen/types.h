@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types in C++: names, declarations, constants, the struct of each record.
 // In: types of the type table, laid out. Out: C++ code appended to `out`. Called by every file of codegen.
 #pragma once

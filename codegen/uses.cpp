@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One walk over the body: see uses.h.
 #include "codegen/uses.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a body uses its variables: how often, in loops or not, who writes them, whether an address leaves. In: a verified
 // body and the facts of the module. Out: Uses, a row for each variable. Called by analysis.cpp; the choices of locals,
 // counted loops, lengths and slices read it.

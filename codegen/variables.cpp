@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of variables: see variables.h.
 #include "codegen/variables.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variables of a body that codegen may keep in C++ locals, numbered: first the body's locals, then the fields of
 // the instance. In: a body. Out: the number of the variable that a place means. Called by the analyses of a body
 // (uses.h, locals.h, counted_loops.h, lengths.h, slices.h), whose results are tables by this number, and by the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old
 // one every new content is first written beside its file; once all are there they are renamed, the manifest last.
 // A temporary name ends in the process id; the next run removes what a killed process left.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a set of generated files to a folder: all or nothing. Files with equal content stay untouched; files that the
 // manifest (`rung.manifest`) lists and this run no longer makes are deleted.
 #pragma once

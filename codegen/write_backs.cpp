@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fields to write back before calls: see write_backs.h. One walk in the order of execution; after a loop, and in a
 // body with labels, all that the loop or the body writes counts as written.
 #include "codegen/write_backs.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cached fields must be in memory before a call: a fault of the callee leaves this body by longjmp, past its
 // exits, and a caller that catches it (EN/ENO, __TRY), the host and the debugger read the instance. In: a body and its
 // cached fields. Out: for each call of what may fault, the fields that may have been written since the last write-back.

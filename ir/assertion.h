@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report of a failed assertion, for both engines. In: an Assert statement. Out: the strings of rung_assertion and
 // how its values are formatted. Called by the interpreter's translation and by codegen.
 #pragma once

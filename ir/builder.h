@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds expressions and statements of one body: the constructors that lowering, the reader of IR text and passes
 // share. In: ids of operands already made. Out: ids in the body's pools. An expression is a tree: an id is used as
 // operand once; `copy` makes a second one. Statements are appended to the open block:

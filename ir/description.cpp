@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The description of a module: see description.h.
 #include "ir/description.h"
 

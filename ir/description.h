@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The description of a module for its host, as the tables of rung/module.h: types, symbols, memory blocks, kept ranges,
 // tasks and tests. In: the IR module. Out: tables numbered in the order in which the blocks, sorted by name, reach
 // their rows, so that the order of the inputs does not show. Codegen prints them; the interpreter passes them to its

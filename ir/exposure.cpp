@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See exposure.h. One walk over all expressions and statements.
 #include "ir/exposure.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which fields of blocks can be reached by more than their own block: through a pointer, a reference or an in-out. In:
 // the module. Out: tables by record. Used by passes, which forget only what a write can reach, and by codegen, which
 // keeps the other fields in C++ locals.

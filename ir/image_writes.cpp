@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See image_writes.h.
 #include "ir/image_writes.h"
 

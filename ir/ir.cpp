@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constructors of IR nodes: see builder.h.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The intermediate representation: typed, structured, small; everything implicit in the source is explicit here.
 // In: bodies made by lowering (lower.h) or read from the text form (text.h). Out: bodies that passes rewrite, the
 // interpreter runs and codegen prints. Types are those of types::TypeTable, aliases stripped; no generic and no untyped

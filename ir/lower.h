@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering: checked syntax trees to IR. In: a sema::Project without errors. Out: an ir::Module with the code of every
 // POU in use; each call, conversion, check and initial value explicit. Called by the driver after check().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See reachable.h.
 #include "ir/reachable.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which bodies a task can reach. Of a virtual call, all that it may call.
 #pragma once
 

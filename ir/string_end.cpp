@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ir/string_end.h"
 
 #include "ir/walk.h"

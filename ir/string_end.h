@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings that other variables may overlap: in a UNION, in a memory area, through a pointer. What is written there can
 // take the final zero away, so a string read from there is at most as long as its type, whatever follows it. Called by
 // lowering, which reads such a string through a temporary, and by codegen.

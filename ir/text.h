@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The text form of the IR (docs/ir.md is its manual): printed by `rung emit --emit=ir` and --dump-after, read back by
 // the tests of passes. print(parse(print(m))) == print(m).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the code of a body: statements, places, values (docs/ir.md). Called by text_parser.cpp when all declarations
 // have been read.
 #include <charconv>

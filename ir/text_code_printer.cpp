@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the code of a body: statements, places, values (docs/ir.md). Called by text_printer.cpp.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The keywords of IR text: see text_keywords.h.
 #include "ir/text_keywords.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the printer and the reader of IR text: the keywords, the letters of elementary types and the check that a
 // bare `!` means. Internal to text_printer.cpp and text_parser.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tokens of IR text: see text_lexer.h.
 #include "ir/text_lexer.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tokens of IR text. In: the content of a file. Out: all tokens, the last of kind End. `;` is white space: a line that
 // begins with it is a comment, elsewhere it separates fields or statements for the reader's eye.
 #pragma once

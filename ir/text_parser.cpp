@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads IR text (docs/ir.md) into a module. Three walks over the items: names of types, then declarations and
 // signatures, then code; so an item may use one below it. A mistake ends its item and the next one is read.
 #include <charconv>

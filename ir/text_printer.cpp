@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the text form of the IR: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that
 // of the module, so equal modules give equal bytes.
 #include "frontend/source/quoting.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of IR text, a class in two files: items and types in text_parser.cpp, the code of bodies in
 // text_code_parser.cpp. Internal to them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The printer of IR text, a class in two files: types and items in text_printer.cpp, the code of bodies in
 // text_code_printer.cpp. Internal to them.
 #pragma once

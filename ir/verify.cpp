@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verifier (see verify.h), and with it the specification of the IR. Invariants of a module:
 //
 //    1  Names are unique: of records, lists, program instances and tasks, each by itself; of functions and blocks

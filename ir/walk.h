@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walks over the expressions and statements of a body, without allocation and without std::function.
 // Called by lowering, passes, the verifier, printer and codegen. The order is that of evaluation, left to right.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sema/charts.h"
 
 #include "sema/declarations/declarations.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scheduling of charts (SFC). In: the context of the POU whose chart is scheduled.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cams that the source declares; see constant_cams.h.
 #include "sema/constant_cams.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cams whose table the source declares: variables with the members of MC_CAM_REF whose `pce` is the address of an
 // array with an initial value, while no body changes either. In: a project whose bodies are checked. Out: each such cam
 // as cam/design knows it, and where its parts are written. Called by checks/cam_tables.cpp and by `rung cam`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state that the parts of sema share: the project, the current scope, and the few functions through which
 // declarations (declarations/, types, constants, libraries) and bodies (bodies/, calls, checks/) use each other.
 // Internal to sema/.

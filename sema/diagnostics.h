@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagnostics shared by declarations, checks and bodies, one constant for each row of diagnostics.def.
 #pragma once
 

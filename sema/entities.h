@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The entities that names mean, resolved and laid out: variables, POUs, enumeration items, lists of globals, and calls.
 // In: the syntax trees of all files and the libraries they use. Out: Symbols, the tables that each rule of sema and
 // lowering reads. Index 0 of each table is unused.

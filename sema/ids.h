@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ids of resolved entities: indices into the tables of entities.h. 0: none.
 #pragma once
 

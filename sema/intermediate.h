@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The width of intermediate results. In codesys + - * / MOD, negation and ABS of integers and bit strings below the
 // native width (--native-width, 32 bits by default) compute in the native width: signed operands in DINT, all others
 // modulo 2^32. Assigning, passing and converting cut the value; another operation and a comparison see it uncut. The

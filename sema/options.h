@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver's options for sema: dialect, libraries, mocks, and its callbacks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The project and its check: collect, resolve, then every body; library POUs join as they are used.
 #include "sema/project.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole project as sema understands it: the symbols, and what runs them: tasks, instances, addresses, initial
 // values. In: the syntax trees of all files and the libraries they use. Out: tables that lowering, code generation, the
 // symbol map and the tools read.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scopes: the hash tables for names, and sema's state while it resolves declarations on demand. Lives as long as one
 // check(). Tables are keyed by Names::key, so every spelling of an identifier is the same. Internal to sema/.
 #pragma once

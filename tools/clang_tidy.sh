@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs clang-tidy on the project's own sources, or on the files given; no output means clean.
 #   tools/clang_tidy.sh [FILE.cpp...]      needs a configured build folder (BUILD=build)
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # What takes long: hours of generated programs, mutants and checked builds. Each part is seeded and repeatable, ends with
 # a line of its own figures, and fails with exit code 1 when it finds something.
 #   tools/long.sh [PART...]      all parts without one

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # From a fresh clone to a running program: installs packages, builds the compiler, runs a sample and shows its trace.
 set -eu
 cd "$(dirname "$0")/.."

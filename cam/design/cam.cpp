@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cams and their curves; see cam.h.
 #include "cam/design/cam.h"
 

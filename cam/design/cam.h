@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cam as its designer sees it: the table that a program will have, and what is known besides: units, limits, whether
 // it repeats. In: what a reader of a file or a fit fills in. Out: the same cam as a curve with exact derivatives.
 // Called by the readers of frontend/import/cam, by the writers of this folder and by `rung cam`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Peaks and limits of cams; see peaks.h.
 #include "cam/design/peaks.h"
 

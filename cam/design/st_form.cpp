@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cams in ST; see st_form.h.
 #include "cam/design/st_form.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cam as declarations in ST: `<name>_A` with its rows, `<name>_S` with its segments and `<name>_T` with its tappets,
 // where it has them, and the MC_CAM_REF `<name>`. What a program does not need, such as units and limits, is in an
 // attribute of that variable, as lines of a `.cam` file. In: a cam. Out: the text, from which `rung cam convert` makes

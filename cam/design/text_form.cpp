@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The writer of `.cam` files; see text_form.h.
 #include "cam/design/text_form.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cam as the text of a `.cam` file (docs/cam.md). In: a cam. Out: text from which frontend/import/cam makes the same
 // cam, to the last bit of each number. Called by `rung cam`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The words of a `.cam` file (docs/cam.md), once for its reader and its writer. In: an enumerator. Out: its word.
 #pragma once
 

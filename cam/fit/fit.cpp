@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit of cams; see fit.h. Knots are chosen without limits, by the Bayesian information criterion or the tolerance;
 // then the limits are added one after the other where the curve exceeds them most, at exact extremes of its pieces,
 // until it exceeds none (the exchange method of semi-infinite programming).

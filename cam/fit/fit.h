@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits a cam to points: the smooth curve of the least squared error that meets wishes and keeps limits, also between
 // the points. In: points with weights, and the wishes. Out: a cam of quintic points and a report, or why there is no
 // such curve. The same request gives the same cam, bit for bit. Called by `rung cam fit`.

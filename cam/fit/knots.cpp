@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Knots and unknowns of a fit; see knots.h.
 #include "cam/fit/knots.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A curve of quintic pieces as numbers to solve for: position, slope and second derivative at each knot, some of them
 // known, equal to each other, or a known distance apart. In: knots and wishes. Out: for each derivative at a knot the
 // unknown that it is; rows of the linear system. Called by fit.cpp and robust.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of `rung cam fit` that is loaded on demand (rung_cam_fit.so), so that no other command starts with the
 // libraries of Ceres. Its types are those of the tool that it was built with: tools/driver/cam_fit_module.cpp compares
 // the versions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Goldfarb and Idnani's method; see quadratic_program.h. The names J, R, d, z, r, t are those of the paper: R is the
 // triangle of the active normals in the basis J.
 #include "cam/fit/quadratic_program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983): the minimum of
 // x'Gx/2 + g'x under linear constraints, which may be added one after the other. In: a positive definite G,
 // constraints. Out: the minimum, or the constraints that contradict each other. Called by fit.cpp.

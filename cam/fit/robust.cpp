@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Robust weights; see robust.h.
 #include "cam/fit/robust.h"
 

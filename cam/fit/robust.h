@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much each point counts under a robust loss, by Ceres: the curve of the least loss without limits, and the weight
 // of each point there. In: points and unknowns. Out: weights from 0 to 1. Called by fit.cpp.
 #pragma once

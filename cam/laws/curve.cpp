@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curves in pieces; see curve.h.
 #include "cam/laws/curve.h"
 

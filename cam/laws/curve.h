@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A curve y(x) in pieces, each a polynomial plus sines, with its exact derivatives and the extremes of each. In: pieces
 // in ascending order without gaps. Called by laws.cpp, which builds curves, and by `rung cam`, which prints and draws
 // them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion laws; see laws.h.
 //
 // Most laws are two pulses of acceleration: the first takes the velocity from v0 to vm, up to the turning point, the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The motion laws of VDI 2143 as normalised curves: s(z) over z in [0, 1] with s(0) = 0 and s(1) = 1. In: a law, and
 // the velocities, accelerations and jerks at both ends where the law takes them. Out: a curve with exact derivatives.
 // Called by `rung cam`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extremes of cam tables; see bounds.h. A derivative's extremes are at the ends of its segment and at the roots of the
 // next derivative, which lie between the extremes of that one.
 #include "cam/table/bounds.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exact extremes of a cam table: of position, slope and curvature between the ends of the table. In: a table that
 // check() accepts. Out: the extremes, segment by segment, so that a caller can spread the work over cycles. Called by
 // the cam blocks (stdlib/motion/blocks/cam_bounds.cpp): no allocation.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cam tables: the position of a slave as a function of the position of its master. In: the points as a program declares
 // them, which it may change at any time; out: position, slope and curvature at a master position. Called by the cam
 // blocks (stdlib/motion/blocks/cam.cpp) in each cycle: no allocation, no exceptions, no state but the caller's Segment.

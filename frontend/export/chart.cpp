@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts as TC6 elements; see exporter.h. The textual chart names the steps of each transition; here these become
 // elements and wires. Steps come in source order, then the transitions, so that the import finds both orders again; a
 // wire leads down, and a link up or across becomes a jump.

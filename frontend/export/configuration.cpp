@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configurations, resources and tasks as TC6 elements; see exporter.h. Text is added where the elements cannot express
 // the declaration: tasks without programs, arguments of programs, programs in another order than their tasks.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the parts of the export. Private to frontend/export: plcopen.cpp (the project and its POUs),
 // types.cpp, configuration.cpp, chart.cpp, networks.cpp.
 #pragma once

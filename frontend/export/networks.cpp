@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks as TC6 elements: <LD>, <FBD>, and a <CFC> in addData; see exporter.h. Elements keep their order and, if they
 // have one, their position; others are arranged in rows, one for each element with an effect, in source order.
 #include <algorithm>

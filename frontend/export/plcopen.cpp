@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The project, its POUs and their members as TC6; see plcopen.h and exporter.h.
 #include "frontend/export/plcopen.h"
 

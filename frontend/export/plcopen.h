@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program as PLCopen TC6 XML, version 2.01. In: the tree as parsed, before sema changes it: bodies are quoted from
 // the source, structures printed from the tree. Out: one file that is valid by the schema and from which readProject()
 // makes the same program. Declarations are written as TC6 elements. Where these would lose something (`is_lossless` is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The source of a file as the export quotes it, with lookup of comments and words. In: a parsed file. Out: offsets in
 // it, and the content of its comments. One pass on construction; each lookup is a binary search and a short walk.
 #pragma once

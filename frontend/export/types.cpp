@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types, values and variables as TC6 elements; see exporter.h.
 #include <algorithm>
 

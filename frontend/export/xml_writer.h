@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes XML. In: elements, attributes and content, in the order of the file. Out: UTF-8, indented by two spaces per
 // level; equal calls give equal bytes. Called by the export to PLCopen XML.
 #pragma once

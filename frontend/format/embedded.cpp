@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a file are formatted on their own, and the rest is copied: in XML of TwinCAT, PLCopen and IEC 61131-10 what
 // is between the tags of declarations, of ST and of IL; in text of other tools what the reader of the format says.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines become rows of output: first each with its blanks, then the columns of rows that belong together. A row that
 // is too long becomes several, at a comma or before an operator, in the outermost brackets where that helps.
 #include "frontend/format/format.h"

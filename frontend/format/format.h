@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The formatter of ST, IL, textual SFC and the notation of networks. In: a source, which may be a fragment such as the
 // declarations of a POU. Out: the same source with other white space and keywords in one case: every token, comment and
 // pragma is kept, and every line break; only lines that are too long are broken further. What is formatted once does

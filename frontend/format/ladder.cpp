@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NCT ladder text, docs/nct.md: a line is one element, so only its indentation and the blanks between its words change.
 // Words keep their spelling; what is in quotes and after `//` stays as it is.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Message files of NCT ladders, docs/nct.md: a line is a number and its text, with a tab between them. Only blanks
 // before the text change; the text itself stays byte for byte.
 #include <algorithm>

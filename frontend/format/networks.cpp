@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A walk along the grammar of frontend/parse/network.cpp. The source has been parsed without an error; where it does
 // not follow the grammar, the walk goes on at the next `;`.
 #include "frontend/format/networks.h"

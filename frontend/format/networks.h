@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The notation of networks for the formatter. In: the pieces of a source. Out: in the bodies between {network LD} and
 // {end_network}, what each piece is, the case of its letters, and the blanks that it needs. Expressions and statements
 // inside of elements stay as they are elsewhere. Used by format.cpp.

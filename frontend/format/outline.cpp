@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pass over the pieces with a stack of what is open. A token at the beginning of a statement decides what the
 // statement is; a line takes the level of the statement that begins in it.
 #include "frontend/format/outline.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lines of a source and how deep each is indented. In: pieces; the lines stay as the author broke them. Out: a
 // level for each line, and what it is. Used by format.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A source divided for the formatter: tokens, comments and pragmas in the order of the source, with nothing but blanks
 // between them. In: ST, IL, textual SFC or networks, also a fragment of them. Out: the pieces, whose spelling never
 // changes except for the case of keywords. Used by outline.cpp and format.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The white space between two pieces on one line. In: both pieces. Out: whether a blank separates them. What is not
 // said here stays as it was written. Used by format.cpp.
 #pragma once

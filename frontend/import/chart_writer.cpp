@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "frontend/import/chart_writer.h"
 
 namespace rung::importer {

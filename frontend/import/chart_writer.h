@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes charts as textual SFC (docs/language.md, frontend/parse/sfc.cpp), as source-mapped text. In: steps and
 // transitions, described as a reader finds them in its file. Called by the readers of SFC, which resolve wires and
 // branches.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads names, values and content of XML elements and writes them as parts of ST. In: elements of one document. Out:
 // source-mapped text, with the locations of the file. Shared by the readers of PLCopen XML and of IEC 61131-10.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of the XML reader and of all importers. One constant for each row of diagnostics.def.
 #pragma once
 

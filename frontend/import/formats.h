@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of file formats: how the kind of a file is recognised, and how its program is read. In: the path and text
 // of a file. Out: its kind; its program as source-mapped text (frontend/import/source_mapped_text.h) that the parser
 // reads, with locations in that file. A new format is a row of formats.cpp. Called by the driver for each input file.

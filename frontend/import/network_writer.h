@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the notation of networks (docs/networks.md, frontend/parse/network.cpp) as source-mapped text. In: the
 // elements of a body, described as a reader finds them in its file. Out: {network} … {end_network}, in place of
 // statements, with the locations of the file. Called by the readers of LD, FBD and CFC.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // POUs in several files. In two: declaration and body are stored separately, Motor.pou and Motor.st, Motor.decl and
 // Motor.impl, Motor_declaration.st and Motor_body.st, Motor/declaration.st and Motor/implementation.st. A member in a
 // file of its own: Motor.Start.st, or Start.st in a folder Motor. In: the sources in ST. Out: those that belong

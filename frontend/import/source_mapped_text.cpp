@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text put together from parts of files; see source_mapped_text.h.
 #include "frontend/import/source_mapped_text.h"
 

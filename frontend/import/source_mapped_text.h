@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ST put together from parts of one or more files, with a segment for each part that leads its bytes back to the file.
 // In: source ranges, content of XML elements, keywords that the files leave out. Out: a source-mapped file of Sources.
 // Used by all readers of vendor files.

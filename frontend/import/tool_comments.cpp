@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "frontend/import/tool_comments.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The comments in which tools keep their data, at the beginning of an exported file: `(* @PATH := …`, `(*@KEY@: …`.
 #pragma once
 

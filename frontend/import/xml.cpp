@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of XML files; see xml.h. One loop over the source and no recursion, so depth costs no stack.
 #include "frontend/import/xml.h"
 

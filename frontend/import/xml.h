@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of XML files. In: one source (UTF-8). Out: its elements, attributes and runs of characters with their
 // locations, in flat lists; or one error where the source is not well-formed XML. Namespace prefixes are dropped,
 // comments and processing instructions skipped. A document type is rejected and only the five entities of XML and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements with blocks: IF, CASE, FOR, WHILE, REPEAT, __TRY; their headers and ends.
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/statements.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sequential Function Chart. Private to frontend/parse; see cursor.h. sfc.cpp, sfc_macros.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conditional pragmas of the codesys dialect, accepted in all dialects: {define}, {undefine}, {IF}, {ELSIF}, {ELSE},
 // {END_IF}. A filter in front of the parser. In: the sources of a project and the defines of the command line. Out:
 // sources to parse, in which the pragmas and the code that they exclude are blanks: locations stay valid, messages show

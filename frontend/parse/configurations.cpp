@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CONFIGURATION, RESOURCE, TASK and program instances.
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/parser.h"

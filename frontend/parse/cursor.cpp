@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tokens and error reporting of the parser.
 #include "frontend/parse/cursor.h"
 

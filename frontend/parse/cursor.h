@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The token cursor that all parts of the parser share: the current token, errors, and the ends of nodes. Private to
 // frontend/parse. The parser is a chain of classes, one subject each, which all see the same tokens:
 //   Cursor > ExpressionParser > DeclarationParser > StatementParser > IlParser > NetworkParser > ChartParser > Parser

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names and sections, and resynchronization after errors in declarations.
 #include "frontend/parse/declarations.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Declarations: TYPE entries, sections and variables, types, initial values, modifiers. Private to frontend/parse; see
 // cursor.h. declarations.cpp, variables.cpp, types.cpp, initial_values.cpp, modifiers.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of the lexer and the parsers of ST, IL, textual SFC and the notation of networks. One constant for each row
 // of diagnostics.def.
 #pragma once

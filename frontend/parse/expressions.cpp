@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions: precedence climbing over kOperators, postfix chains, literals and arguments.
 #include <algorithm>
 

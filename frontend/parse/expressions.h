@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions: precedence climbing over a table of operators, postfix chains, literals and arguments. Private to
 // frontend/parse; see cursor.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // C in braces: Beremiz and matiec copy `{ … }` and `{{ … }}` in a body into the C code that they generate. In: the
 // content of a pragma. Out: whether it can only be C. Called by the lexer and by conditions.cpp.
 #pragma once

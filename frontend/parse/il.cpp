@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in Instruction List: one instruction a line, kept as IlInstruction until il_schedule.cpp turns them into
 // statements. IEC 61131-3 ed. 2 annex B.2, ed. 3 tables 67 to 70; TM/TP manual 5.4.
 //   instruction = [label ":"] [operator operands | function operands | ")"]

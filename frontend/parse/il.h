@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instruction List. Private to frontend/parse; see cursor.h. il.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values of declarations: expressions, arrays with repetitions, structures. In: the tokens after `:=`. Out:
 // expressions of the tree; sema decides whether `n(1, 2)` is a call or a repetition.
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lexer of the text languages. In: the source of a file, which ends in a NUL. Out: one array of tokens, closed by
 // kLookahead End tokens, with the pragmas and doc comments beside it. Names are interned directly from the source.
 // Literals are evaluated by literals.h only when the parser consumes them, so a token that recovery skips causes no

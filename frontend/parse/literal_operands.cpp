@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Literals and addresses as operands: their tokens become nodes, by the values that literals.h reads.
 #include <cstring>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values of literals. In: the spelling of one token of the lexer. Out: a value, and diagnostics for malformed
 // literals (digits, units, calendar, escapes). Called by expressions.cpp; sema checks that values fit their types.
 #pragma once

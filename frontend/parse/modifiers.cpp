@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Modifiers of headers: access levels, ABSTRACT, FINAL, OVERRIDE; and lists of type names after EXTENDS and IMPLEMENTS.
 #include "frontend/parse/declarations.h"
 #include "frontend/parse/diagnostics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The notation of networks, between {network} and {end_network}. All readers of LD, FBD and CFC (TC6 XML, TwinCAT
 // archives) write it into source-mapped text, and tests write it by hand, so that expressions, locations and errors
 // come from one parser. Wires are numbers, resolved once at the end, so dangling and repeated ids have one message for

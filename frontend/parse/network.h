@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The notation of networks. Private to frontend/parse; see cursor.h. network.cpp.
 #pragma once
 

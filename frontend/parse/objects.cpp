@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
 // CLASS and INTERFACE are POUs of parser.cpp.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parser of Structured Text files. In: one source. Out: its declarations in the tree, and diagnostics.
 // One mistake gives one error: after it the parser resumes at the next statement, section or POU (recovery in
 // recover.cpp). Called by the driver for each file and by sema for library declarations on first use.

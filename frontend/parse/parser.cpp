@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files and POUs; the interface of the parser.
 #include "frontend/parse/parser.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parser of the text languages: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. This part: files, POUs and
 // configurations (parser.cpp, configurations.cpp), objects (objects.cpp). Private to frontend/parse; see cursor.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pragmas and doc comments of declarations, as the lexer found them before a token.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Block repair: makes the blocks of a token array balance before the parser sees it. Finds a missing, misspelled,
 // surplus or wrong END_…, a misspelled or missing opening keyword and `ELSE IF` by comparing the keywords that open and
 // close blocks and, only where those do not balance, by the indentation; so the layout of a correct program never

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in textual Sequential Function Chart. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 tables 54 to 61.
 //   chart      = {step | transition | macro (sfc_macros.cpp) | ACTION … END_ACTION}
 //   step       = (INITIAL_STEP | STEP) name [position] ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Macro steps of a chart: a named part of it. The notation is specific to Rung, since the standard has none for text.
 //   macro = MACRO_STEP name ["(" (ENTRY | EXIT) ":=" step {"," …} ")"] ":" {step | transition | macro} END_MACRO_STEP
 // The parser inlines the part: a transition to the macro activates its entry, one from it leaves its exit; by default

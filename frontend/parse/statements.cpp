@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements, and resynchronization after errors.
 #include "frontend/parse/statements.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements, and resynchronization after errors in them. Private to frontend/parse; see cursor.h. statements.cpp,
 // blocks.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kinds of tokens, and sets and tables over them. tokens.def lists the kinds.
 #pragma once
 

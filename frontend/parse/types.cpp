@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types: the entries of TYPE … END_TYPE, and the types of variables and entries. In: the current tokens. Out: TypeDecl
 // and type expressions. Called by declarations.cpp, objects.cpp and parser.cpp.
 #include <algorithm>

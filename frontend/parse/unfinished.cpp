@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines that are not finished, as while typing. In: a token that is the first of its line, where the line above still
 // needs something. Out: whether it begins something new, so that what is missing is missing at the end of the line
 // above. Called by the parsers where they read an operand, a name or a type, and by the reports of missing tokens.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variables of a section or structure: names, address, type and initial value.
 #include <charconv>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The automatic layout of networks: columns by data flow, from left to right; rows so that the source of an element's
 // first pin is in the element's row. A variable that only one pin uses is attached to that pin. In ladder diagrams
 // coils are at the right rail, and each contact at the left rail has a separate row. Labels and comments have separate

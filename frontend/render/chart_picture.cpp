@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A chart as a picture: steps with their action blocks, transitions with their conditions, and the lines between.
 // IEC 61131-3 ed. 3, tables 54 to 57; TM/TP manual 5.5.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layout of charts, from top to bottom. Nodes (steps and transitions) that can be reached only through a node are
 // laid out below it: its branches side by side, then the nodes where they meet again (those that it dominates), each
 // below the ends that are connected to it. An end that cannot reach its step by a straight line becomes a jump, and so

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan of a chart: the positions of its steps, transitions, lines and jumps. In: steps and transitions as parsed.
 // chart_positions.cpp takes the positions of the file; chart_plan.cpp finds the branches and lays them out;
 // chart_picture.cpp measures and draws. Private to frontend/render.

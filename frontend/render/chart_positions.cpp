@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions of steps and transitions in the file in which a chart was drawn. Names and actions may be larger here
 // than there, so rows and columns are spread where nodes would be too close to each other. The file's divergences and
 // jumps are reconstructed from the connections: a bar is drawn between the nodes above and below it, and a link upwards

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A body of networks as a picture: each network is planned separately and drawn below the one before, beside a strip
 // with its number and under its title.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan of a picture of networks: elements with their sizes, positions and pins, and the wires between them. In: the
 // elements of a body as parsed. symbols.cpp measures and draws elements, arrange.cpp and positions.cpp position them,
 // wrap.cpp cuts networks that are too wide, route.cpp routes the wires; network_picture.cpp calls all of these. Private

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in LD, FBD, CFC and SFC as pictures that an engineer recognises. In: the tree as parsed, before a scheduler
 // takes the networks or the chart: so the picture shows exactly what is written, even of a program whose library is
 // missing; what others know about it is in notes. Out: SVG, equal bytes for equal bodies. Elements are drawn at the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions of elements in the file. Their unit depends on the editor: pixels, or cells as high as a pin. Names and
 // boxes may be larger here than there, so rows and columns are spread where elements would overlap; elements in one row
 // or column stay in it, and the order from left to right and from top to bottom is kept.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Routes wires along the grid: each net is a tree of right-angled lines that grows pin by pin, by the cheapest path
 // from the pin to the existing tree. Paths go around elements; corners, crossings and lanes beside other wires cost,
 // and sharing the lane of another net costs so much that it happens only when there is no other path. Several sources

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions of a file in one direction, spread where elements need more room than in its editor.
 // Private to frontend/render: networks (positions.cpp) and charts (chart_positions.cpp).
 #pragma once

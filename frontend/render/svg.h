@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture as SVG: lines, boxes and strings in one fixed-width font that every viewer has, so that widths are known
 // without asking a font. In: shapes in pixels. Out: one well-formed file, equal bytes for equal calls. Called by the
 // drawings of networks and charts.

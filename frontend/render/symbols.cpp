@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The symbols of LD, FBD and CFC: the size of each element, the positions of its pins, and its drawing.
 // IEC 61131-3 ed. 3, tables 74 to 76 (LD) and 8.3 (FBD); TM/TP manual 5.1 to 5.3 and 5.6.
 #include <algorithm>

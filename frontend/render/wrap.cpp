@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Long networks on a page. A network wider than the page is cut between its elements into bands, which are drawn below
 // each other; a cut wire ends in a flag with a number and continues at the flag with the same number. In: elements with
 // their positions. Out: a plan for each band, in separate coordinates. Each band has the rails that it needs.

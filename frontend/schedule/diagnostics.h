@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of the schedulers of IL, SFC and networks. One constant for each row of diagnostics.def.
 #pragma once
 

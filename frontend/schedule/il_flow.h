@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the accumulator of an instruction list is read, which instructions are reachable, and where labels are. In: the
 // instructions, and the signatures of their callees. Called by il_schedule.cpp before it creates statements.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How it works. The accumulator is an expression that is not part of a statement yet; LD begins a new one, operators
 // wrap it, ST, JMPC and the like put it into a statement. Values that must be evaluated before another statement become
 // temporaries: the accumulator where an instruction reads it afterwards, and the values in front of open parentheses.

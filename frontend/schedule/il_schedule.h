@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scheduler of Instruction List: instructions become ordinary statements, the accumulator expressions in them. In:
 // the instructions of a body and the signatures of names. Out: statements, and temporaries without type where the
 // accumulator is read again after another statement, or where paths meet at a label. Called by sema when the

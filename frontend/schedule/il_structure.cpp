@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two rules, applied from the last statement to the first, so that the statements after are already structured:
 //   IF c THEN JMP l; END_IF  s…  l:            becomes   IF NOT c THEN s… END_IF  l:
 //   IF c THEN r… JMP l; END_IF  s…  l:         becomes   IF c THEN r… ELSE s… END_IF  l:

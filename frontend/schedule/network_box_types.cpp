@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The result type of a box, found without sema: from the name of the operator or function, from the types of the
 // sources wired to the box, or from the variables that receive its value.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boxes: operators become expressions, everything else calls. A function with one reader becomes part of the reader's
 // expression; a function block is called at its place in the execution order and its outputs are read from the
 // instance.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hidden variables that networks need in addition to those declared.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How messages describe the elements of diagrams: "network 3 of `Main`, contact `start`, number 12".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values that are read before they are computed, in feedback loops or by elements that are earlier in the execution
 // order, and results of functions whose EN may be FALSE. A variable keeps each from the last cycle. Variables are laid
 // out before bodies are checked, so its type is found from names and from the declarations of the POU alone. Private to

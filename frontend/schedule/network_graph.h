@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elements of one body and their connections. Private to frontend/schedule.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feedback loops of one body. The element of a loop that is farthest left runs first, without positions the first one
 // in the file; the wires that lead back to it carry values of the last cycle. Where loops remain without it, each of
 // them has a first element of its own. IEC 61131-3 ed. 3, 8.1.4 (feedback path); docs/networks.md, "Execution order" 4.

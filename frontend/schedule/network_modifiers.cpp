@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which modifiers the elements and pins of networks may have. docs/networks.md, "Modifiers", has the same table.
 // Inputs apply theirs in Scheduler::valueOf(), outputs in Scheduler::read(), whatever the element is.
 #include <algorithm>

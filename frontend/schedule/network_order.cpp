@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The connections of a body, and the execution order of its elements.
 #include <algorithm>
 #include <compare>

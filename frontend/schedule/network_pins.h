@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the pins of a box are bound to those of what it calls. Used by the scheduler, and for pictures by sema.
 #pragma once
 

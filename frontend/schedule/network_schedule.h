@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scheduler of networks: LD, FBD and CFC become ordinary statements. Contacts and operators become expressions,
 // boxes calls, and a wire that is read more than once a temporary without type, which sema types. In: the elements of a
 // body and the signatures of names. Out: its statements. Called by sema when it is about to check the body;

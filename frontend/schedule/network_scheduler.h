@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The implementation of scheduleNetworks(). Private to frontend/schedule: network_schedule.cpp (wires, contacts, coils,
 // jumps), network_boxes.cpp.
 //

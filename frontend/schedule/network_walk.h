@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walk through a body in the order in which it runs: everything that a root reads before it, the first element of a
 // feedback loop before the others (docs/networks.md, "Execution order"). The scheduler, the search for values of the
 // last cycle and pictures walk here, so they agree about the order. With an explicit stack: a chain of 100 000 contacts

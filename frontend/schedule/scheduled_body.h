@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the schedulers of IL and of networks make of a body. Called by sema, which checks it.
 #pragma once
 

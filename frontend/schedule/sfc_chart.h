@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by both parts of the scheduler of charts (see sfc_schedule.h): the chart with its actions and flags, and the
 // writer of the generated ST. Private to frontend/schedule: sfc_declare.cpp, sfc_schedule.cpp, sfc_flags.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules for a chart as a whole. Regions describe which steps can be active together: the region of a step is the set of
 // parallel branches that its token represents. A transition to several steps splits a region into as many branches; one
 // from several steps unites theirs, and all branches of a split together are the region that was split. A step that

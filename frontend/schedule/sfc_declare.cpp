@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variables of a chart; see sfc_schedule.h. Those of a chart in an action are VAR_INST, so that it keeps its state.
 // Flags from other declarations are not known yet: the variables they need are declared where their name occurs
 // anywhere in the project.

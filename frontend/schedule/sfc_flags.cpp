@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flags of a chart and the time limits of its steps; see sfc_scheduler.h. TM/TP manual 5.5.2.5.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a chart as declarations and statements; see sfc_schedule.h. The statements of a cycle, in this order (TM/TP
 // manual 5.5; syntax manual 5.9.8):
 //   1. flags: SFCInit, SFCReset, SFCQuitError, SFCPause

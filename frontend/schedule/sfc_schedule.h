@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scheduler of Sequential Function Charts: a chart becomes declarations and statements, written as source-mapped
 // ST, so that conditions and times are quoted with their locations in the chart and `rung convert` prints exactly the
 // ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements in its PouDecl,

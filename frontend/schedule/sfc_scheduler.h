@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the statements of a chart; see sfc_schedule.h. Private to frontend/schedule: sfc_schedule.cpp implements the
 // cycle, sfc_flags.cpp the flags and the time limits of steps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dates of the proleptic Gregorian calendar, for printing literals and values.
 #pragma once
 

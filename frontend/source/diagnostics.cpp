@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of diagnostics: warning switches, limits, duplicates, order.
 #include "frontend/source/diagnostics.h"
 

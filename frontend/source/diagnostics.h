@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagnostics: what is wrong, where, and how to fix it. In: reports from all phases. Out: an ordered list that render.h
 // prints as text, JSON or SARIF. Reporting does not stop a phase: it continues and uses the Error type to suppress
 // follow-up errors.

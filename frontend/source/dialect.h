@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dialects of the language: edition 2 and 3 of IEC 61131-3, and CODESYS (--std).
 #pragma once
 

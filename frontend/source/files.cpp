@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of input sources, and the mapping from a 32-bit location back to file, line and column. Line starts are
 // computed on first use; a file that is plain ASCII needs no counting of characters.
 #include "frontend/source/files.h"

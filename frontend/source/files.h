@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sources: the source of every input file, and the 32-bit locations that point into it.
 // In: paths or sources. Out: Loc (an offset in one address space over all files), and the line and column of a Loc.
 // Files get consecutive ranges. Each source ends in a NUL that is not part of the file, so lexers need no end test.

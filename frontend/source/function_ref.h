@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A non-owning reference to a callable, for parameters that are called only during the call they are passed to. Costs
 // two words and no <functional>; must not be stored.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Terminates a run that violated an invariant: prints the phase, the POU and the invariant, exits with 70.
 #include "frontend/source/invariant.h"
 

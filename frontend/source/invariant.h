@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RUNG_INVARIANT(cond, "what must hold"): bugs of Rung itself. On in release builds; prints phase, POU and source line,
 // asks for a bug report and exits with 70. Never reachable from user input.
 #pragma once

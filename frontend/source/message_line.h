@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A line of a message file of an NCT ladder (docs/nct.md): `number<TAB>text`. Used by its reader
 // (frontend/import/nct/messages.h) and by the formatter.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interning of identifiers: a chained hash table over the case-folded spelling. A hit costs one hash, one bucket and
 // one comparison and allocates nothing. All spellings of an identifier are in one chain, so a miss finds its key there.
 // Lexers call this for every identifier: it is on the hot path of the compiler.

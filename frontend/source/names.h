@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names: every identifier is interned once. A NameId denotes one exact spelling; key(id) is the id that all spellings
 // of the same identifier share (IEC identifiers are not case-sensitive), so scopes hash keys while messages print what
 // the user wrote. In: spellings from lexers and readers. Out: 32-bit ids. Called by every layer.

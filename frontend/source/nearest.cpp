@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // "Did you mean": the candidate with the least Damerau-Levenshtein distance (optimal string alignment, case folded), or
 // one with the same beginning.
 // Candidates are rejected by length and character set first, so a scope of 100 000 names is cheap.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CODESYS 2.3 writes in front of each object whether comments nest in it: (* @NESTEDCOMMENTS := 'Yes' *). In: a
 // comment. Out: its value. Called by the lexer and by the readers of vendor files.
 #pragma once

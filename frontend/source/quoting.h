@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Characters of strings in the notation of the standard: `$$`, `$'`, `$0A`. Used by everything that prints literals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The registry of messages: the rows of every folder in one table, by number. In: the diagnostics.def files. Out:
 // diagInfo(), findDiag() and allDiags() of diagnostics.h. The lists of later layers that it includes hold rows and no
 // code.

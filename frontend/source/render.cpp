@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text, JSON and SARIF renderings of a list of diagnostics. All three escape what a terminal or a parser could
 // interpret as a command: control bytes, bytes that are not UTF-8, and characters that reorder text.
 #include "frontend/source/render.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders a list of diagnostics. In: Diagnostics and Sources. Out: text for people (path:line:col: error[E0412]: …, the
 // source line, a caret, notes), JSON (one object) or SARIF 2.1.0. Called by the tool at the end of a run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Divides ST into comments, pragmas, strings, names and numbers without parsing it. In: a source. Out: its units one
 // after the other; blanks are left out, any other character is a unit of its own. For readers of vendor files, which
 // look for the beginnings and ends of POUs, and for all others that handle source as text. The lexer of frontend/parse

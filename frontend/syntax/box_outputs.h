@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outputs of boxes that wires name but the file does not list: the result of a function, ENO. Pictures draw a pin for
 // each, and the export lists them. In: the elements of a body. Out: their names by element; no name: the result of a
 // function, or the first output of a block. Called by frontend/render and frontend/export.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walks over the nodes below a node, made from the columns of nodes.def that list the fields with other nodes.
 // forEachField: the ids and lists of a node itself, as clone.cpp copies them. forEachChild: every id in them, in source
 // order, also those in branches, arguments and items. forEachOperand: the expressions among the children.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies of expressions as the parser creates them: for expressions that a diagram or a list uses several times, so
 // that each copy has its own annotations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A body of networks as the parser creates it: the elements of LD, FBD and CFC with their wires, in the order of the
 // file. It stays in the tree until the scheduler (frontend/schedule/network_schedule.h) turns it into statements. One
 // model serves the three languages, which differ only in how an editor shows them. IEC 61131-3 ed. 3, 8; TM/TP

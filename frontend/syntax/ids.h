@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ids of the syntax tree, and the ids with which a checked tree is annotated, opaque numbers to the tree itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instruction List as the parser creates it: one entry per instruction. It stays in the tree until the scheduler
 // (frontend/schedule/il_schedule.h) turns it into statements. IEC 61131-3 ed. 2, 3.2; ed. 3, 7.2; TM/TP manual 5.4.
 #pragma once

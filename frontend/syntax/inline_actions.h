@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Actions that an XML file has inside a step (<action><inline>): the import declares them, with a name that it makes
 // and the pragma {inline}. Pictures show their statements instead of the name, and the export writes them inside the
 // step again. In: the POU of a chart. Out: these of its actions. Called by frontend/render and frontend/export.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nodes of the syntax tree: trivial structs, one for each row of nodes.def, and the small structs in their lists.
 // Fields marked "annotation" are empty until a check of the program fills them. Stored and read by tree.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties of a pin that declarations and diagrams share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Sequential Function Chart as the parser creates it: steps and transitions in source order, which is the order in
 // which they are evaluated. Actions are members of the POU; of a MACRO_STEP only its steps and transitions remain. The
 // chart becomes statements when the body is about to be checked (frontend/schedule/sfc_schedule.h). IEC

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only questions that the scheduler of a body may ask about a name: whether it can be called, and with which pins.
 // Types are not available to it. The checker of programs implements this interface and passes it to the
 // scheduler when it is about to check the body. Answers are valid as long as the object.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements as Structured Text: the output of `rung convert --to st` for bodies that a scheduler made, before they
 // are checked. In: the tree as parsers and schedulers create it. Out: source that parses to the same tree.
 #pragma once

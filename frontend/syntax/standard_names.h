@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that the standard gives a meaning wherever they occur: the functions of operators, the pins EN and ENO, and the
 // blocks that detect edges. Used by IL, diagrams and sema.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The syntax tree of all languages. In: nodes from the parsers (and from the schedulers of diagrams, IL and NCT), made
 // by tree_builder.h. Out: what was written, with its source ranges, and the annotations of a checked program.
 // Nodes and lists are trivial structs in one arena of fixed chunks, addressed by typed 32-bit ids; references to nodes,

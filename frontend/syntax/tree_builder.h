@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the nodes of the tree: for the parsers, for the schedulers of IL, charts and networks, and for checks of a
 // program, whose nodes replace what was written (Tree::replace). In: the parts of a node and its location. Out: its id.
 // The parser notes afterwards where a node ends.

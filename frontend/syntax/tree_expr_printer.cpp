@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "frontend/syntax/tree_expr_printer.h"
 
 #include <charconv>

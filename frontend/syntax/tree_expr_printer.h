@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions as the tree's text form prints them, in parentheses on one line: a part of tree_printer.cpp, which adds
 // the lines of statements, types and declarations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tree as text, as it was written: what a check of the program inserted is left out. A line per declaration,
 // statement and type; expressions in parentheses on the line of their statement.
 #include <string>

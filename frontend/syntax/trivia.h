@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The comments of parsed files, kept beside the tree for a formatter or an editor. In: the comments that the lexer saw,
 // when it is asked to keep them (text::parseFile). Out: those at a node, found by its range (Tree::range).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of the translated code: a caller writes the arguments into the frame that the callee is going to have, after
 // its own; the result is read from there. See translate.h.
 #include <algorithm>

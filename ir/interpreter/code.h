@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The compact form of a module that the interpreter executes: one array of instructions over the same memory layout as
 // native code. In: verified IR, translated by translate.cpp. Out: instructions that dispatch.h runs.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Constant functions: see constant_call.h.
 #include "ir/interpreter/constant_call.h"
 

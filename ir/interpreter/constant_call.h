@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Constant functions: a call with constant inputs, run while the program is checked, where the standard wants constants
 // (bounds, CASE labels, initial values of constants). In: the function and the values of its inputs; `ready` checks
 // each body on request. Out: its result; none when it reads or writes anything but its own variables, faults, or

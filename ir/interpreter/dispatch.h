@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How one instruction reaches the next, and how instructions read and write their operands. Optimized builds jump from
 // instruction to instruction (a call in tail position), which costs one indirect jump each; without optimization or
 // with sanitizers, where such a call would need stack, each returns to the loop of execute().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of the translated code: see translate.h. An expression has no effect, so its operands may stay in memory until
 // the instruction that reads them.
 #include <limits>

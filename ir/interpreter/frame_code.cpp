@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instructions, labels, operands and the frame of a body: see frame_code.h.
 #include "ir/interpreter/frame_code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The code of one body while it is made: instructions with labels and the frame of the body. Operands are where their
 // values are; nothing is emitted that does not change something. In: handlers and operands. Out: Code. The base of
 // BodyTranslator (translate.h), which walks the IR.

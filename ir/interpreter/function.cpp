@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs one function with a budget: see function.h.
 #include "ir/interpreter/function.h"
 

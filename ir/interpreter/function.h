@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs one function with a budget: constant functions, and the `run:` lines of IR tests. In: a verified module, a
 // function, values for its inputs and in-outs. Out: its result or its fault, or the reason why it has none.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The instructions, by operation and by where their operands are. In: an operator, the type in memory, the modes of the
 // operands. Out: the function of an Insn. Called by the translator only. Each group says which fields of the Insn its
 // instructions read. Operators share rung/code.h with generated code, and a unit test compares all of them with the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Operators, conversions and their checks: see handlers.h. They agree with the arithmetic kernel bit for bit
 // (tests/unit/ir/interpreter), as the helpers of rung/code.h do, which they share with generated code.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comparisons, branches, loops and switches: see handlers.h.
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls, faults and assertions: see handlers.h.
 #include "ir/interpreter/dispatch.h"
 #include "ir/interpreter/handlers.h"

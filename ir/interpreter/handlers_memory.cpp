@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves, loads, stores, elements of arrays and addresses: see handlers.h.
 #include <cstring>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings: see handlers.h. The runtime's functions do the work, as in generated code.
 #include "ir/interpreter/dispatch.h"
 #include "ir/interpreter/handlers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places of the translated code: where variables, fields, elements and bits are. See translate.h.
 #include "ir/builder.h"
 #include "ir/interpreter/translate.h"

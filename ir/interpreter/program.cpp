@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module that the interpreter runs: see program.h.
 #include "ir/interpreter/program.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module that the interpreter runs, as its host sees it. It fills the same tables (ir/description.h) that codegen
 // prints, has the same memory layout, and leaves code by the same longjmp; so scheduler, image, traces, forcing,
 // retained data, faults and tests exist once. One function serves all tasks: `rung_context::entry` says which. In: a

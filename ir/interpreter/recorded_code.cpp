@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See recorded_code.h.
 #include "ir/interpreter/recorded_code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns values known when the translator runs into template arguments: calls f with a type or with constants of Mode.
 // Used by the handlers_*.cpp to choose among their instantiations.
 #pragma once

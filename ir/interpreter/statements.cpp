@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements of the translated code: see translate.h.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings of the translated code: in memory, NUL-terminated, cut to the capacity of their target. See translate.h.
 #include <algorithm>
 #include <cstring>

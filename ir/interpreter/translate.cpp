@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole bodies and entries, and the data beside them: see translate.h.
 #include "ir/interpreter/translate.h"
 

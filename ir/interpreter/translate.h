@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // IR to the compact form (code.h). In: a verified module after its passes, where the blocks of memory are, and the
 // available native functions. Out: code, or the name of a native function that is missing. Called by program.cpp.
 // Coverage and traced calls are instructions that exist only on request; for coverage the IR is translated before any

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Activation of program instances. In: connections (PROGRAM p : Main(in := x)), open addresses in instances (AT %I*)
 // and initial values of VAR_CONFIG. Out: a `run` function for each program that needs more than its body called, and a
 // `setup` function where an instance has initial values of its own. IEC 61131-3 ed. 3, 6.8.1.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What {attribute 'call_after_global_init_slot'} calls when all variables have their initial values, by ascending slot.
 // In: functions, programs and methods of a checked project. Out: Module::after_init, and ProgramInstance::after_init
 // for the instances in a test; functions without parameters, or none. CODESYS, "Attribute:

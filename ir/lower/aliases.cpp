@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Proves from names alone that two variables do not overlap in memory. In: checked expressions. Out: yes, or "not
 // sure". Called by calls.cpp before it lets a chain of string functions work in the variable that is assigned.
 #include "ir/lower/lowering.h"

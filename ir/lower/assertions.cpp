@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of ASSERT, ASSERT_EQ and ASSERT_NEAR. In: calls that sema has resolved. Out: Assert statements; of a
 // condition that compares also its sides and their source. Called by calls.cpp.
 #include "ir/assertion.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all parts of lowering do with a body: make nodes with the checks that the options ask for, temporaries, and the
 // order of evaluation. BodyPart is the base of the parts (lowering.h); it changes nothing but the body's IR. The nodes
 // are made in building.cpp; what moves to a temporary is decided in evaluation_order.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Building blocks of lowering: see body_part.h.
 #include "ir/lower/lowering.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of calls: EN and ENO, function blocks and programs. In: calls that sema has resolved. Out: Call statements.
 // Functions are in function_calls.cpp, operators in operator_calls.cpp, assertions in assertions.cpp.
 #include <algorithm>

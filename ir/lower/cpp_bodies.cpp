@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in C++: their source and the names that it may use. In: a checked POU. Out: a row of Module::cpp_bodies.
 // Called by lowerBodies(); the body itself has no code, and codegen/cpp_bodies.cpp writes a file for it.
 #include <algorithm>

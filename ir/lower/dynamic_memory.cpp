@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of __NEW and __DELETE. The pool is a list of globals and its functions are ST (stdlib/__system); this file
 // adds what depends on the type: initial values and FB_Init after the allocation, FB_Exit before the release.
 #include "ir/lower/lowering.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of evaluation in lowering: which values move to a temporary, because a statement that follows could change
 // what they read. In: expressions that are not part of a statement yet. Out: the same values, and the assignments of
 // the temporaries. Called by all parts of lowering (body_part.h).

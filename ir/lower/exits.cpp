@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FB_Exit, called when objects end. In: the objects of a checked project. Out: for each record that holds an object
 // with FB_Exit, at any depth, a function that ends all of them, and Module::exit, which ends those of the whole
 // project. The order is the reverse of that of FB_Init: a derived object before its base, the whole before its parts,

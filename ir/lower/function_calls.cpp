@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of calls of functions and methods: a plan says what is passed how and where the result goes, then the call
 // is emitted in the order of evaluation. In: a call that sema has resolved. Out: a Call statement with temporaries for
 // its results; of a pure function an expression. Called by calls.cpp, initial_values.cpp and exits.cpp. By-reference

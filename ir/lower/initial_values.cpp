@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of initial values. In: checked initialisers and type defaults. Out: assignments that give a place its
 // initial value; arrays of constants become one blob of bytes.
 #include <algorithm>

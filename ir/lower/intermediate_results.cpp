@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of intermediate results that may be wider than their type says (sema/intermediate.h). In: checked operations
 // on narrow integers. Out: operations in the native type, or, where only the last bits are wanted, in the type that
 // wants them: `i := i + 1` adds in INT. Called by values.cpp and by all who see a value uncut.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FOR in codesys evaluates its end value before every turn (SA0081). Lowering makes such a loop: it counts to the limit
 // of the type, and leaves when the control variable is past the end value. Where nothing in the loop can change the end
 // value, which is known when all bodies are lowered, it becomes a loop that counts to it.

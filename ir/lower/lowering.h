@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of lowering. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies, records and instances
 // of a project; BodyLowering walks one checked body and appends IR to it, a class for each subject: places, values,
 // calls, objects, statements. What the classes share is in body_part.h.

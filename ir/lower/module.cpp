@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of a whole project: which bodies, records, lists, program instances and tasks the module has. In: a checked
 // sema::Project. Out: a complete ir::Module. The order of everything follows names and declarations, never hashing.
 // Tests are not part of the product: sema checks them and marks them `excluded`, this file skips them, and no later

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of objects: class numbers, dispatch tables, tests of an object's kind, constructors. In: the objects of a
 // checked project. Out: Module::classes and dispatches. The body of a block, its end and the test of its kind are small
 // functions (`Pump()`, `Pump~`, `Pump?`; see also exits.cpp), so that tables, `?=` and FB_Exit need nothing new in the

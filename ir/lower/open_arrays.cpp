@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of ARRAY[*], allowed for a VAR_IN_OUT and for any pin of a function. In memory and in a call it is a pointer
 // to the first element and two numbers for each dimension (sema::Var::bounds). An element is reached through a pointer
 // to one row of elements, long enough for all; its check is a statement before the access, because the bounds vary.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of operators in call form: ADD, GT, SEL, MUX, MOVE and conversions. In: calls that sema has resolved to an
 // operator. Out: values; `if` and `switch` where an input is evaluated only when it is chosen. Called by calls.cpp.
 #include <numeric>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of lvalues: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
 #include "ir/lower/lowering.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values of a large array that repeat: loops that store them, instead of data as large as the array. In: the
 // bytes of the array's initial value. Out: assignments, or nothing when the value does not repeat. Called by
 // initial_values.cpp for every array of constants.

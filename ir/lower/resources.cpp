@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Code that several resources run and that names a global variable of which each has its own: a copy of each such body
 // for each resource. In: the lowered bodies, with the places that name such variables (noteGlobal). Out: copies whose
 // places and calls are those of the resource, and program instances and block tasks that run them.

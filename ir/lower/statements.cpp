@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body. An assignment
 // evaluates the calls of its right side first, then the place, then stores: `a[i] := f()` uses the `i` that `f` left.
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Methods that each activation of a task calls in front of its programs ({before_task}) and after them ({after_task}),
 // for every instance that the task serves. In: such methods, the tasks, lowered bodies. Out: Task::before and
 // Task::after, and those of tests; functions without parameters, or none. An instance in a program belongs to the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // VAR_TEMP that actions share with the body that calls them (sema/declarations/shared_temporaries.cpp). In: the body of
 // a block, of a program or of an action. Out: the statements around it. A body saves the fields, gives them their
 // initial values and restores them when it returns, so that a call of the same instance inside of the call, as

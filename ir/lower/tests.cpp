@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tests of the module: each POU marked {test} is a test, or each of its cases ({case a := 1}). In: POUs with
 // checked cases. Out: Module::tests. A block with cases has one instance: a function sets its inputs before the first
 // cycle. A function with parameters is called by one without: its open inputs have their initial values.

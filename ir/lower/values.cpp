@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lowering of values: literals, operators, conversions. In: checked expressions. Out: IR expressions; calls inside them
 // become statements before, and values that were read before a call move to a temporary (evaluation_order.cpp).
 #include "frontend/source/dialect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See counters.h.
 #include "ir/passes/counters.h"
 

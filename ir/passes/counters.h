@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counters: how often a FOR runs at most, and how far an iteration moves the variables that its body only counts up or
 // down by constants (`n := n + 1`). In: a body. Out: bounds for every iteration, which hold whatever else the loop
 // does. Called by remove_checks.cpp, whose intervals alone cannot tell that `n` grows as often as the loop runs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See effects.h.
 #include "ir/passes/effects.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a write to a place can change of the variables that a pass knows: the locals and the fields of self. In: a body
 // and its private locals (support.h). Out: the effect of one place. Used by the passes about checks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Constant folding: see fold_constants.h. All arithmetic is the kernel's (sema/types/arithmetic.h).
 #include "ir/passes/fold_constants.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Constant folding: operators, conversions and selects of constants become constants; identities that are exact in IEC
 // semantics (x + 0, x AND FALSE, NOT NOT x) become their operand; checks that a constant proves are removed.
 //   needs  verified IR

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hoisting: see hoist_checks.h. Inner loops come first, so that what leaves them may leave the outer one as well.
 #include "ir/passes/hoist_checks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hoisting: a check that gives the same answer in every iteration of a loop, and that the first iteration reaches
 // before it changes anything that others see, is done once, in front of the loop:
 //   for k: 1 to n { x = add x, ptr^![k] }   becomes   if le 1, n { evaluate ptr^! }  for k: 1 to n { x = add x, ptr^[k]

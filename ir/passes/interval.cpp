@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interval arithmetic: see interval.h.
 #include "ir/passes/interval.h"
 

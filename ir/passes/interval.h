@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Intervals of integer values, for range analysis. In: the intervals of operands. Out: the interval of the result of
 // IEC arithmetic, wrap-around included. 128 bits hold every value of every type, and sums and products of two.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See known_variables.h.
 #include "ir/passes/known_variables.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variables that range analysis knows, by number: the private locals, the fields of self and, again by field, the
 // pointers in fields that are references. In: a body. Out: the number of the variable that an expression names. Used by
 // range_facts.h and counters.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of passes: see passes.h.
 #include "ir/passes/passes.h"
 

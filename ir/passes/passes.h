@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All passes in the order in which they run: the list that --dump-after, --time-phases and the verifier read.
 // In: a verified module. Out: the same module, smaller. Each pass sees one body at a time, and what others may reach.
 // -O0 runs none, -O1 and -O2 run all of them: -O2 only makes the C++ compiler optimize every body (codegen/effort.h).

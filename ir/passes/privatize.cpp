@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Privatization: see privatize.h.
 #include "ir/passes/privatize.h"
 

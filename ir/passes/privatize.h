@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Privatization: a variable that each iteration of a loop sets, updates in an inner loop and stores at the end,
 //   for j: 1 to 4 { acc = 0.0  for k: 1 to 4 { acc = add acc, … }  c[i, j] = acc }
 // becomes a temporary of the iteration. After the loop it gets what the last iteration stored: `acc = c[i, 4]`. So no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Propagation: see propagate.h. An array holds what is known of each local; changes go to a trail, so that the end of a
 // branch takes them back and knows what the branch assigned.
 #include "ir/passes/propagate.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Propagation: a read of a temporary or variable of the call that holds a known constant becomes the constant; one
 // that holds a copy of another local becomes that local.
 //   needs  verified IR; feeds folding, branches and dead code

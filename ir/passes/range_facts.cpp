@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See range_facts.h.
 #include "ir/passes/range_facts.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Range analysis: see remove_checks.h. Walks the statements with the facts that hold at each (range_facts.h).
 #include "ir/passes/remove_checks.h"
 

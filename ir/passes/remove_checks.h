@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Range analysis: clears the checks (div, index, null, subrange, convert, overflow) that intervals prove. Intervals
 // come from types and subranges, constants, arithmetic (MOD, AND masks), FOR bounds, comparisons and CASE values that
 // dominate the use, and from checks: what comes after one has passed it. Of a pointer they tell whether it is null.

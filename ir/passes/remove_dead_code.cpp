@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dead code: see remove_dead_code.h.
 #include "ir/passes/remove_dead_code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dead code: removes assignments to temporaries and variables of the call that nothing reads, evaluations that cannot
 // fault, and calls of pure functions whose result is not used.
 //   needs  verified IR; finds more after propagation

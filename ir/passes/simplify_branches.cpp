@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Branch and CASE simplification: see simplify_branches.h.
 #include "ir/passes/simplify_branches.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Branch and CASE simplification: an `if` or `switch` on a constant keeps only the branch that it takes; branches
 // without statements and unreachable statements are removed.
 //   needs  verified IR; finds more after folding

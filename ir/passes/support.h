@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Questions that several passes ask about a body. Only the returned vectors allocate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conditions: see thread_conditions.h. Lowering makes of `IF a AND b THEN …`
 //   t = a   if t { …; t = b }   if t { … } else { … }
 // and of a longer AND one more `if` in the middle for each operand; of OR the same with `if not t`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conditions: a temporary that holds the result of an AND or OR whose right operand may fault or calls, and so cannot
 // be part of an expression, becomes branches if one `if` is its only reader.
 //   needs  verified IR

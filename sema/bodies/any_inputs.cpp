@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inputs of type ANY, ANY_NUM … of a POU in codesys: the caller passes the address, the length and the type class of
 // its variable (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds one.
 #include "sema/bodies/bodies.h"

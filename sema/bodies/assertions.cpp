@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ASSERT(cond [, 'text']), ASSERT_EQ(expected, actual [, 'text']), ASSERT_NEAR(expected, actual, tolerance [, 'text'])
 // of tests. In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
 // with the operands in order, both sides brought to one type.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Assignment attempts: an object as a type that it may have, tested when the program runs. `target ?= source` of
 // edition 3, __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BITADR(x): the number of a bit, known at compile time. In: a checked operand. Out: a DWORD literal.
 //
 // The number counts from the beginning of the memory that the operand's first name is in: an area of the image, a list

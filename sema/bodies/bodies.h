@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the files of bodies/: how an expression is checked, converted and written to. Internal to bodies/ and
 // checks/; the rest of sema uses the functions of context.h.
 // Every function that may replace an expression takes the id by reference: it is the parent's child field.

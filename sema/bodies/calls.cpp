@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls: the callee, the pin of each argument, and the result. In: CallExpr. Out: a sema::Call with
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls whose names follow a rule instead of a declaration: conversions `<A>_TO_<B>`, `TO_<B>`, `ANY_TO_<B>`,
 // `<A>_TRUNC_<B>`, `TRUNC_<B>`, and typed names `<FUNC>_<TYPE>` (MUX_INT, ADD_TIME). In: a call of a name that is not
 // declared. Out: a ConvertExpr, or a call of the library function that the rule names.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. docs/language.md "Dialects".
 #include "frontend/source/dialect.h"

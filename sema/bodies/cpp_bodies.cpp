@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies in C++: the checks that rung can make before g++ reads them. The source is not changed; a word in upper case
 // that names a function counts as a call (syntax manual 5.8.5), and so does a method or action of the object; `GVL.x`
 // uses a global variable of the list GVL. Reports variables for which the generated facade (codegen/cpp_bodies.cpp) has

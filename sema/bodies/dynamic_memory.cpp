@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // __NEW and __DELETE: memory from the bounded pool of the program (stdlib/__system/dynamic_memory.st). codesys.
 // In: a NewExpr, a call of __DELETE. Out: the same with the types, the functions of the pool and the arguments of
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.

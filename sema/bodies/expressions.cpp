@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions: dispatch over the kinds, and those that are not names, literals, operators or calls.
 // In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
 // conversions written into the tree. Called by statements.cpp and by the declarations.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of generic and extensible library functions: inputs of one generic type name share one type, and a result of
 // that name follows it. In: a call whose pins have generic types. Out: the same call to an instance for these types,
 // parsed again (declarations/generics.cpp), so that bodies are checked with concrete types only. Called by calls.cpp;

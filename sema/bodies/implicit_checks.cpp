@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A project's own POUs for implicit checks, as CODESYS and TwinCAT call them: CheckBounds for array indices,
 // CheckDivDInt and its kin for divisors, CheckRangeSigned and its kin for subranges, CheckPointer for `^`. In: a
 // checked expression of a body of the project. Out: the expression in a call of the function, where the project has it

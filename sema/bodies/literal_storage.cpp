@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory for strings whose address is taken: ADR('text') of codesys needs memory for the literal. Equal strings of one
 // POU share it; CODESYS leaves open what happens when it is written through the pointer. In: literals of one POU. Out:
 // constants in a separate global list, which no name in a program can reach. The list is declared when the body is

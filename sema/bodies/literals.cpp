@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Literals. In: literals as parsed. Out: typed literals; untyped numbers keep the type IntegerLiteral or RealLiteral
 // until their context gives them one (adapt) or they take their default (finalizeUntyped).
 // An untyped expression is a tree of untyped literals and arithmetic on them: it is computed exactly, and only its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "frontend/syntax/standard_names.h"
@@ -172,7 +173,11 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
 std::string_view nearestField(Context& context, TypeId record, NameId written) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(record));
   std::vector<std::string_view> candidates;
-  for (const types::Field& field : info.fields) candidates.push_back(string(context, field.name));
+  const PouId object = pouOf(context, record);  // whose VAR_INST and hidden fields cannot be named
+  for (const types::Field& field : info.fields)
+    if (!object || findMember(context, record, field.name)) candidates.push_back(string(context, field.name));
+  std::erase_if(candidates, [](std::string_view name) { return name.starts_with("__"); });
+  for (const types::BitMember& bit : info.bits) candidates.push_back(string(context, bit.name));
   for (const auto& item : info.items) candidates.push_back(string(context, item.first));
   return nearest(string(context, written), candidates);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean one of
 // these. Out: a sema::Call of kind Method; reading a property calls its GET, writing it calls its SET. Called by
 // names.cpp, calls.cpp and statements.cpp.

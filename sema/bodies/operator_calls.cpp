@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Operators in call form: ADD(a, b, c), SEL, MUX, MOVE, SHL … (library functions declared with {operator '…'}, which
 // names an operator of the arithmetic kernel). In: a call of such a function. Out: CallKind::Operator with the operands
 // in order, open ones without a value (they count as 0), or a BinaryExpr for times and dates, or a ConvertExpr for

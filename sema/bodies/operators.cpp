@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Operators: the common type of both sides, and the type of the result. In: UnaryExpr, BinaryExpr, and the operands of
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
 // The type of an integer operation is that of its operands; the target of an assignment does not widen it. In codesys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Overload resolution: which of several functions or methods of one name a call means. In: the call, its arguments not
 // checked. Out: the best match; its arguments are then checked (Arguments::checked), except literals, which depend on
 // the pin. Edition 3.

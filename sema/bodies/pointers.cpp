@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pointers and references: taking addresses, binding references, and arithmetic on addresses as in CODESYS.
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
 // TM/TP manual 5.2, 5.3 (ADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).

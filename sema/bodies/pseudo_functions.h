@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that work on a type, an lvalue or the source, and so cannot be declared in a library: SIZEOF, ADR,
 // LOWER_BOUND, __NEW, ASSERT … One row of the table in pseudo_functions.cpp and one function each, here by file. A
 // declaration of the same name hides them. Called by calls.cpp for a name that is not declared.

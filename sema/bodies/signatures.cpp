@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sema/bodies/signatures.h"
 
 #include "sema/bodies/bodies.h"

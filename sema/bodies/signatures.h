@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The answers to the schedulers of IL, diagrams and NCT (frontend/syntax/signatures.h), taken from the declarations.
 // In: names and paths of a body as parsed. Out: kinds and pins; the path itself is not marked or changed.
 // Created by statements.cpp for each body that is not in ST, and by variables.cpp for hidden variables of networks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SIZEOF and LEN_MAX: sizes that are known at compile time. Out: untyped literals.
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
 #include "frontend/schedule/il_schedule.h"

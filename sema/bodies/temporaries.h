@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Temporaries of the compiler: variables without declared type that the schedulers of IL and diagrams use. Such a
 // variable has the type of the values assigned to it, which they share. Literals adapt to that type or, if there are
 // only literals, to the type that the first reader wants.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arithmetic on times and dates: TIME * INT, TIME / REAL, DT - DT, TOD + TIME … (IEC 61131-3 ed. 3 table 35).
 // In: a BinaryExpr with a time or date on one side. Out: the same as arithmetic on integers of the type's own unit,
 // with conversions at both ends, so that lowering and the kernel know one kind of arithmetic.

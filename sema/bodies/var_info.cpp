@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
 #include "sema/bodies/diagnostics.h"
@@ -41,7 +42,8 @@ std::string commentOf(const Context& context, const Var& var) {
   return std::string(text);
 }
 
-void addLvalue(Facts& facts, ExprId lvalue) {
+// False: reported.
+bool addLvalue(Facts& facts, ExprId lvalue) {
   Context& context = facts.context;
   int64_t bit = -1;
   if (context.tree().kind(lvalue) == ExprKind::BitAccess) {
@@ -60,6 +62,7 @@ void addLvalue(Facts& facts, ExprId lvalue) {
     if (var->pou) holder = context.symbols.pou(var->pou).record;
     if (var->list) holder = context.symbols.global_lists[var->list.index].record;
     const bool in_record = var->storage == Storage::Field || var->storage == Storage::Global;
+    if (in_record && holder && !checkLayout(context, "__VARINFO", holder, context.tree().begin(lvalue))) return false;
     if (in_record && holder && ensureLayout(context, holder))
       offset = context.types().info(context.types().resolve(holder)).fields[var->field].offset;
     if (var->storage == Storage::Global) area = 0, memory = 4;
@@ -79,6 +82,7 @@ void addLvalue(Facts& facts, ExprId lvalue) {
   facts.add("BitAddress", bit_address);
   facts.add("MemoryArea", memory);
   facts.add("Comment", comment);
+  return true;
 }
 
 void addType(Facts& facts, TypeId type, bool is_bit) {
@@ -151,7 +155,7 @@ TypeId checkVarInfo(Context& context, ExprId& expr, const PseudoCall& pseudo) {
   while (!written.empty() && (written.back() == ' ' || written.back() == ')')) written.remove_suffix(1);
 
   Facts facts{context, loc, TypeId{record.index}, {}};
-  addLvalue(facts, lvalue);
+  if (!addLvalue(facts, lvalue)) return types::kError;
   addType(facts, type, is_bit);
   facts.add("Symbol", written.substr(0, 39));
   const ExprId members = typed(context, context.build().structInit(facts.fields, loc), facts.record);

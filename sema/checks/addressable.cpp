@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids the address of an expression without memory: one bit, a value, and in iec a constant number. Arrays,
 // structures and strings have memory even when they are constant. TM/TP manual 5.2 (ADR).
 //   passes  p := ADR(level);  p := ADR(motors[2].speed);  p := ADR(table) where table is VAR CONSTANT

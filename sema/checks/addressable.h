@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids the address of an expression without memory; see addressable.cpp.
 #pragma once
 

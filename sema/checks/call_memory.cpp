@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids variables that live for one call, the result included, beyond 4 MiB: compiled code has them on its stack, of
 // which a thread has 8 MiB on Linux.
 //   passes  FUNCTION Sum : LREAL VAR_IN_OUT table : ARRAY[0..3000000] OF LREAL; END_VAR

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids bodies whose calls need more memory than a stack has; see call_memory.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids cams that MC_CamTableSelect would refuse at run time (errors 750 and 751), where the source tells: the array
 // of the cam has an initial value, and no body changes it. Warns of one that jumps where it repeats. TM/TP
 // manual 1.8.3, 7.2.3.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules for cams whose table the source declares; see cam_tables.cpp.
 #pragma once
 

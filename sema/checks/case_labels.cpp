@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a CASE label that an earlier one covers, and a range with its bounds reversed. IEC 61131-3 ed. 3, 7.3.3.3.3:
 // only the first branch would ever run.
 //   passes  1, 2: …   3..9: …

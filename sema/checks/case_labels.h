@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids CASE labels that overlap or run backwards; see case_labels.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a comparison of an integer variable with a literal that all values of its type decide alike. PLCopen coding
 // rule CP2 for conditions of this kind; gcc has it as -Wtype-limits.
 //   passes  IF speed > 100 THEN          speed : SINT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of comparisons that the type of an operand decides; see comparison_range.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an IF whose condition is a literal: one of its branches never runs. PLCopen coding rule CP2.
 //   passes  IF ready THEN
 //   fails   IF TRUE THEN

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an IF on a literal; see constant_condition.cpp.
 #pragma once
 

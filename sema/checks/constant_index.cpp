@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a constant index outside of the array's bounds. IEC 61131-3 ed. 3, 6.4.4.5.
 //   passes  readings[5] := 1;   (ARRAY[1..5])
 //   fails   readings[9] := 1;

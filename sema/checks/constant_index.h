@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a constant index outside of the bounds; see constant_index.cpp.
 #pragma once
 

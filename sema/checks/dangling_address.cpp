@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids (codesys: warns of) storing the address of a variable that lives for one call in memory that lives longer.
 // IEC 61131-3 ed. 3, 6.4.4.10.2: a reference to a temporary variable must not leave its POU.
 //   passes  FUNCTION f … VAR p : REF_TO INT; x : INT; END_VAR p := REF(x);

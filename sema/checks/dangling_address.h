@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an address that outlives its variable; see dangling_address.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagnostics of the rules in sema/checks, one constant for each row of diagnostics.def.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a division of integers, or MOD in codesys, by a constant zero. IEC 61131-3 ed. 3, 7.3.2 (an error that is
 // known at compile time). A division of REAL is infinity, and MOD in iec is 0 by the standard's definition: a warning.
 //   passes  share := total / 4;

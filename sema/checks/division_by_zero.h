@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a division by a constant zero; see division_by_zero.cpp.
 #pragma once
 

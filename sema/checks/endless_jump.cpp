@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a jump back to statements from which no path leads to the end of the body, to a RETURN or out of a loop: the
 // task never ends. TM/TP manual 5.2.4 (its example 5.15) and 5.4.3.7.
 //   passes  again: n := n + 1; IF n < 3 THEN JMP again; END_IF

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of jumps back from which nothing leaves; see endless_jump.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requires of FOR: the control variable is an integer variable, the step is not 0, and constant limits are reached.
 // IEC 61131-3 ed. 3, 7.3.3.4.2.
 //   passes  FOR i := 1 TO 9 BY 2 DO

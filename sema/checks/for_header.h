@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks the control variable, limits and step of FOR; see for_header.cpp.
 #pragma once
 

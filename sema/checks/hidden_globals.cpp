@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a local variable with the name of a global of the project: the bare name means the local one, and a reader,
 // or a later deletion of the local, takes the other. CODESYS Static Analysis SA0013 "Declarations with the same
 // variable name". Pins are not reported: a block is written without knowledge of the project's globals.

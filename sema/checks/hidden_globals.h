@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of locals that hide globals of the project; see hidden_globals.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids jumps to undeclared or unreachable labels; see jump_labels.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mocks of tests. A mock replaces a function or block in the tests that name it. It has the same pins and result, so
 // each test is checked with the original; for `rung test`, tests with mocks are then checked and translated once more
 // for each set of mocks (Options::mocks), where the replaced names mean the mocks. Layout, initial values and calls

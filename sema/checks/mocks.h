@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mocks: {replaces 'X'} before a function or block, {mock 'M'} before a test; see mocks.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids objects that break the contract of their bases and interfaces: a missing method of an interface or an
 // abstract base; an override with another signature; overriding a FINAL method; OVERRIDE without a method to override,
 // and in edition 3 overriding without OVERRIDE; an abstract method in an object that is not ABSTRACT; a redeclared

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids incomplete and conflicting members of objects; see object_members.cpp.
 #pragma once
 

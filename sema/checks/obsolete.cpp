@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of the use of what {attribute 'obsolete' := 'text'} precedes. CODESYS, "Attribute: obsolete".
 //   warns   {attribute 'obsolete' := 'use Pump2'} FUNCTION_BLOCK Pump … p : Pump;      W0647
 #include "sema/checks/obsolete.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an output of the process image (AT %Q) that two POUs write: the last one in the cycle wins. Several writes
 // in one POU, mostly in branches, are not reported. CODESYS Static Analysis SA0004 "Multiple write access on output";
 // PLCopen coding rule CP12. Where the two run in different tasks, W0829 has spoken.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of outputs that two POUs write; see output_writers.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who may use a variable of a block or program through which path. Forbids, from outside: its VAR_TEMP and in-outs; to
 // write its locals and outputs, also as the control of a FOR, by S= or +=, as a bit, as an in-out or as the target of a
 // REFERENCE; in iec also to read a block's locals and inputs, in codesys those locals of a library. In methods:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids uses of a block's variables from outside that its sections do not allow; see outside_access.cpp.
 #pragma once
 

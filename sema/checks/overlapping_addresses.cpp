@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of two located variables that share bytes and are both written, unless they are the same view: equal address
 // and type. Bits of a word that others write may be read: views exist for that. Manual 4.1.1; IEC 61131-3 ed. 3, 6.5.5.
 //   passes  word AT %MW0 : WORD; bit AT %MX0.3 : BOOL;   only one of them is written

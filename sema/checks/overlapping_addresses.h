@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of located variables that overwrite parts of each other; see overlapping_addresses.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of `=` and `<>` between REAL values: rounding makes equal results differ. PLCopen coding rule CP8.
 // Comparison with a literal 0 is the usual guard of a division and passes.
 //   passes  IF ABS(a - b) < 0.001 THEN   IF b <> 0.0 THEN

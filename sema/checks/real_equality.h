@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of REAL values compared for equality; see real_equality.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a POU that calls itself, directly or through others (codesys: warning). IEC 61131-3 ed. 3, 6.6.1.
 //   passes  Outer calls Inner
 //   fails   Fact := n * Fact(n - 1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids POUs that call themselves; see recursion.cpp.
 #pragma once
 

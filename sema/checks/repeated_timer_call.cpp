@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of two calls of one timer that both run in each cycle: the second one sees no edge that the first one has seen,
 // or starts what the first one stopped. A timer is a library block with a TIME input and a TIME output. Calls in
 // branches and a call with a constant FALSE, which resets the timer, are not reported, and neither is Instruction List,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a timer that is called twice in one cycle; see repeated_timer_call.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a call that leaves a VAR_IN_OUT, an ARRAY[*] or a {required} input open, and a call of a function by position
 // with too few arguments. IEC 61131-3 ed. 3, table 40 and 6.6.1.4; syntax manual 5.4.1 (an informal call has the exact
 // number).

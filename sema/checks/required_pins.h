@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids calls that leave required pins open; see required_pins.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a function whose body never assigns its result. Syntax manual 5.6.1.3: the result is the type's default.
 //   passes  FUNCTION Twice : INT … Twice := 2 * x;
 //   fails   FUNCTION Twice : INT … y := 2 * x;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a function that never assigns its result; see result_assigned.cpp.
 #pragma once
 

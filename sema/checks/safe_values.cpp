@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids safe values of anything but outputs. The function marked {safe_values}, which the section [safe] of
 // rung.project becomes, runs when the program has stopped, maybe in the middle of a cycle: it sees nothing but the
 // output image.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a function marked {safe_values} may write; see safe_values.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an instance of a library block whose in-out refers to a block, such as an axis or an encoder, and to another
 // one in another call of the same body: the instance keeps the state of one. TM/TP manual 1.7.1.
 //   passes  power(Axis := left);   power2(Axis := right);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of an instance that serves two objects; see served_object.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a variable outside of the program that the programs of two tasks write: one task may interrupt the other
 // between its read and its write. Globals are shared without a copy per task (docs/language.md "Tasks").
 //   passes  one task writes `level`, the other reads it

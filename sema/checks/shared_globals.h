@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of globals that two tasks write; see shared_globals.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of SHL and SHR by a constant that is at least the width of the shifted value: nothing of it is left. CODESYS
 // Static Analysis SA0053.
 //   passes  low := SHR(mask, 8);         mask : WORD

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of shifts that leave nothing; see shift_width.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a task that runs a block which needs another one. What a block needs is written at its declaration:
 //   {attribute 'task_interval' := '1, 2, 4'}   a cyclic task of one of these intervals in ms. TM/TP manual 9.1
 //   {attribute 'task_priority' := '16'}        a task of this priority or a lower one (a greater number). TM/TP 6.17.2

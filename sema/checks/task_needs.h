@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of tasks that do not fit the blocks that they run; see task_needs.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules on the settings of tasks; see task_settings.h. Tasks of one resource share a CPU, so each rule compares the
 // tasks of one resource only. Linear in tasks but for the periods, which are at most 100 a resource.
 #include "sema/checks/task_settings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules on the settings of tasks that concern several tasks of a resource. Called by check() once.
 #pragma once
 

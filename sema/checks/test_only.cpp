@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids the use of a POU marked {test_only}, or of a mock, in a POU that is not for tests: otherwise a program that
 // moves its own clock could run in the plant.
 //   passes  {test} PROGRAM opens_late … TEST_ADVANCE(T#100ms);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids test-only POUs outside of tests; see test_only.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids pragmas of tests that would have no effect. A function marked {setup} runs before each test of its file, one
 // marked {teardown} after it; nothing gives them arguments.
 //   passes  {setup} FUNCTION fill ...                  {test} {skip 'needs the new valve'} PROGRAM closes ...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // {setup}, {teardown} and {skip 'why'} at POUs that they do not fit; see test_pragmas.cpp.
 #pragma once
 

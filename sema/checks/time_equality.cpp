@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of `=` and `<>` between a TIME output of a block, such as the ET of a timer, and a constant other than 0:
 // between two cycles the time passes over the value. CODESYS Static Analysis SA0054 has the same for REAL. Comparisons
 // of two variables, mostly settings, are not reported, and neither are tests, which advance the time themselves.

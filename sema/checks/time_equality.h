@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of = and <> between an elapsed time and another time; see time_equality.cpp.
 #pragma once
 

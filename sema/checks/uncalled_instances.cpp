@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a local instance whose outputs are read but that nothing calls: the outputs never change. Only instances are
 // reported of which nothing but the outputs is used, and that neither other code nor a task can reach.
 //   passes  delay(IN := run, PT := T#1s); lamp := delay.Q;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of instances that are never called; see uncalled_instances.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids copies of blocks marked {no_copy}, such as MUTEX and SEMA: the owner of a lock must not exist twice, and a
 // lock that lives for one call guards nothing. Edition 4, 6.9; which variables: our decision.
 //   passes  VAR_GLOBAL m : MUTEX; END_VAR … VAR_IN_OUT m : MUTEX; END_VAR … LOCK(m);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids copies of {no_copy} blocks; see uncopied.cpp.
 #pragma once
 

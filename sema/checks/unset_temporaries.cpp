@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a VAR_TEMP without an initial value that is read in a statement before any statement sets it: it begins each
 // call with the default of its type, which looks like a value kept from the call before. In a loop, a value set later
 // in the loop counts.

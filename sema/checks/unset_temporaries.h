@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of temporary variables that are read before they are set; see unset_temporaries.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a local that is never read or written, of a local of a function or block that is read and never written, and
 // of an output that its block never writes. Located variables, a program's own and the flags of a chart may be accessed
 // from outside.

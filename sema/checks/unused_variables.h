@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of variables that are never read or written; see unused_variables.cpp.
 #pragma once
 

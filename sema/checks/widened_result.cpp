@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a product or sum of integers, or a difference of unsigned ones, that is converted to a wider type only after
 // it was calculated in the narrow one. In iec alone: codesys calculates in at least 32 bits (sema/intermediate.h). The
 // same as SA0130 of CODESYS Static Analysis.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warns of a sum or product that is widened after it was calculated; see widened_result.cpp.
 #pragma once
 

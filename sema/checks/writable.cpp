@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids a target that is not a variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
 // own POU (codesys: warning); the control variable of an enclosing FOR (codesys: warning); the state of a chart; a
 // global marked {test_only}, outside of tests.

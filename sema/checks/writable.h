@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbids writing to anything but a variable that is writable here; see writable.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // VAR_ACCESS: names under which the host finds single variables. In: the sections of configurations and programs, once
 // all instances are known. Out: Project::access_paths, each with the location that it names. Without a direction an
 // access path is READ_ONLY. IEC 61131-3 ed. 3 table 62, 10 and table 47, 9.

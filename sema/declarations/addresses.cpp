@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Located variables and direct addresses: %IX0.3, %QW4, %ID48 as views of the process image. A number counts units of
 // the size letter (%ID48 begins at byte 192); %IX5 is byte 0, bit 5.
 #include <algorithm>

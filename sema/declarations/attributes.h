@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attributes whose value or position matters: {attribute 'pack_mode' := '1'}. In: the pragmas of a declaration. Out:
 // the value, checked; a warning for an attribute that has no effect before such a declaration. Called by those who
 // collect and resolve declarations. The pages are "Attribute: …" of the CODESYS help and "Attribute '…'" of the TwinCAT

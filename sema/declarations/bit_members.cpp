@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Members of type BIT (codesys): eight in a row share a byte, the first is its lowest bit. In: variables declared BIT.
 // Out: hidden BYTE fields, the position of each bit, and the byte made of the bits' initial values. In bodies such a
 // member is a BitAccess to that byte (bodies/names.cpp). In a union each is bit 0.

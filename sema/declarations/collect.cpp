@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects declarations: every POU, type, enumeration item and global of the files gets its entity and its name, so
 // that the order of files and declarations does not matter. Nothing is resolved here.
 #include <string>

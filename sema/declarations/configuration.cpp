@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CONFIGURATION, RESOURCE, TASK and PROGRAM … WITH: the tasks and program instances of the project, or the one task of
 // a project without a configuration. docs/language.md "Tasks and configuration".
 #include "sema/declarations/configuration.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CONFIGURATION and its contents. collectConfigurations() declares its globals; resolveConfigurations() creates the
 // tasks and program instances, after all declarations are resolved. Called by check().
 #pragma once

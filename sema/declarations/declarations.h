@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the files of declarations/. Declarations are resolved on demand: collect() gives every name its entity,
 // resolveDeclarations() resolves, lays out and checks everything declared since the last time, and a library
 // declaration joins when it is first looked up. The rest of sema uses the functions of context.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagnostics of declarations, configurations and initial values, one constant for each row of diagnostics.def.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances of generic library functions and of blocks with VAR_GENERIC CONSTANT: the source is parsed again for each
 // tuple of types or values, so that the instance is checked and lowered like any other POU.
 #include "frontend/parse/parse.h"

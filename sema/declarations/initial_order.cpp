@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of initial values that read variables (codesys): each is set after those that it reads. In: checked initial
 // values, and the variables whose value is not constant (Scopes::reading_inits). Out: Project::late, the global
 // variables that are set after all lists, and Pou::late, those of one instance; both in order of dependence. Functions

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
 // constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
 // place; surplus array elements are removed and repetition counts are literals.
@@ -433,9 +434,10 @@ struct Initializer {
 
   std::string_view nearestMember(TypeId type, NameId written) const {
     std::vector<std::string_view> candidates;
-    for (const types::Field& field : context.types().info(context.types().resolve(type)).fields) {
-      candidates.push_back(context.names().string(field.name));
-    }
+    const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+    for (const types::Field& field : info.fields)
+      if (findMember(context, type, field.name)) candidates.push_back(context.names().string(field.name));
+    for (const types::BitMember& bit : info.bits) candidates.push_back(context.names().string(bit.name));
     return nearest(context.names().string(written), candidates);
   }
 

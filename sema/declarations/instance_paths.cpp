@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Open addresses and VAR_CONFIG: see instance_paths.h. A variable AT %I* of a list, or of a program with one instance,
 // is a view of the image like any located variable. One of a block has a field in each instance, which the program's
 // activation copies from and to the image (ir/lower). {attribute 'instance-path'} is an initial value of the same kind.

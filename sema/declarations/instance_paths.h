@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variables of single instances: open addresses (AT %I*) and VAR_CONFIG. In: the project, every POU resolved, every
 // body checked. Out: addresses of the variables that are views of the image, and Project::instance_paths for those that
 // live in an instance. Called once by check().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names of items as strings, {attribute 'to_string'}. In: an enumeration. Out: a function of the library __SYSTEM;
 // its source is composed here, so that it is checked and lowered like any other. CODESYS, "Attribute: to_string".
 // Called for TO_STRING and TO_WSTRING of an enumeration.

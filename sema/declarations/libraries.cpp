@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Library declarations: indexed by a light scan, read on first use. A library costs a program that does not use it
 // nothing but the scan.
 #include "sema/declarations/libraries.h"

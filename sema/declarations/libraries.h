@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The index of a library source: the names that it declares and where, found by a light scan without parsing. In: the
 // source of one library file. Out: its declarations with the range of source to parse when one of them is first used.
 // Called by check() at its start, for every library file.

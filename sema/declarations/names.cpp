@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Name lookup: the meaning of a name at a location, members of records, the name nearest to a misspelled one.
 #include <algorithm>
 #include <vector>
@@ -333,7 +334,10 @@ std::string_view nearestOf(Context& context, NameId written, bool callable) {
   context.scopes.pous_and_types.forEach(addDeclared);
   context.scopes.globals.forEach(addDeclared);
   context.scopes.items.forEach(addDeclared);
-  context.scopes.qualifiers.forEach(add);
+  context.scopes.qualifiers.forEach([&](NameId key, Entity) {
+    const std::string_view name = names.string(key);  // not the lists of VAR_STAT and of literals
+    if (!name.ends_with("__static") && !name.ends_with("__texts")) candidates.push_back(name);
+  });
   const size_t declared = candidates.size();
   const Libraries& libraries = context.scopes.libraries;
   libraries.index.forEach(

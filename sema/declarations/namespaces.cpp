@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NAMESPACE and USING: the namespaces of the project, which of them are visible at a location, and the meaning of names
 // there. In: the declarations of all files. Out: a Namespace, as for a library, for each NAMESPACE; a Region for each
 // piece of source with its own view of names (none in a project without namespaces). POUs and types in a namespace have

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects: the methods, actions and properties of a block, class or interface, what it extends and implements, and the
 // hidden fields with which its instances begin.
 //

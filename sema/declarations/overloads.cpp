@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions and methods of one name, distinguished by the types of their parameters. Edition 3 only: ed. 2 and codesys
 // keep such names for the library. In: declarations. Out: lists of overloads, Pou::overloads and next_overload.
 // bodies/overloads.cpp chooses the one that a call means.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions and methods of one name: see overloads.cpp. Called where declarations are collected and checked.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structures whose members have AT offsets, AT %B2: the members in the order of their offsets, with hidden fields for
 // the gaps, so that the natural layout equals the one written. In: the members, resolved. Out: the fields of the
 // record. IEC 61131-3 ed. 3 table 11, 8 and 9. A BOOL at %X3.0 is a bit. With OVERLAP the record is a union whose

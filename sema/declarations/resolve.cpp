@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resolves declarations: types, POUs and lists; cuts types that contain themselves, lays everything out and checks
 // initial values. Runs after collecting the files, and again whenever a library declaration was read.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // VAR_TEMP outside of the body that declares it. In: a POU whose bases are resolved. Out: a hidden field for each
 // VAR_TEMP that an action names, and a variable of its own for each VAR_TEMP of a base that the POU's body names.
 //

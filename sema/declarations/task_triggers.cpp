@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variable that starts a task; see task_triggers.h.
 #include "sema/declarations/task_triggers.h"
 

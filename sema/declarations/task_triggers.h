@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The variable that starts an event or status task. In: the expression of SINGLE or TRIGGER, once all program instances
 // are known. Out: its path in the symbol map, which the host reads. Called by configuration.cpp.
 #pragma once

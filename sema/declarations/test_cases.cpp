@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cases of tests: see test_cases.h. The values have the form and the rules of initial values.
 //   passes  {test} {case a := 1, b := 2, sum := 3} PROGRAM adds VAR_INPUT a, b, sum : INT; END_VAR …
 //   fails   {case a := 1} PROGRAM adds …                                    E1180

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
 // blocks within blocks need no deep recursion.

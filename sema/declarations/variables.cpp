@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory areas that addresses name: %IX0.0 is a bit of the area `I`. In: the rows below, which every program has,
 // and those of `[area …]` sections in rung.project. Out: Symbols::areas, an AreaId for each located variable, and the
 // table that a host reads (rung_area in rung/module.h). Nothing else knows how many areas exist or what they mean.

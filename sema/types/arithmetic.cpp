@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arithmetic kernel (see arithmetic.h). Compiled with -ffp-contract=off: a REAL result is rounded after each
 // operation, as in generated code.
 #include "sema/types/arithmetic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arithmetic kernel: the single implementation of IEC semantics on typed values. In: values and an operator. Out: a
 // value or the fault that it raises. Used for constants in sema, folding in the IR and the interpreter; differential
 // tests check that generated code agrees with it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types and values in messages, traces and generated comments.
 #include <charconv>
 #include <cmath>

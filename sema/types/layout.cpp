@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layout of types in memory: natural alignment where no pack mode says less, 64-bit scalars on 8, arrays row-major,
 // strings with their NUL, in-outs as pointers. An empty record takes one byte, as in C++, so that offsets agree.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The type table: elementary types by name, interned structural types, named types (layout.cpp lays them out).
 #include "sema/types/types.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of the language and their layout in memory. In: types that sema resolves from declarations, or the IR reader.
 // Out: TypeIds that syntax annotations, IR, code generation and the interpreter share.
 // Structural types (arrays, strings, pointers, references) are interned: equal types have equal ids. Named types

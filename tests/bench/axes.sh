@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Processor time of one axis in a cycle: 1 000 axes in a task of 1 ms, each with MC_Power and a motion block, in a
 # compiled program. Virtual axes and simulated drives; steady motion, and moves that end and begin again all the time.
 # The same program without axes is taken off. Half of the 1 ms is 500 ns for an axis: exit code 1 when one needs more.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measurement of cams.sh. Out: two lines; exit code 1: a moving master costs more than 20 ns.
 #include <algorithm>
 #include <cstdio>

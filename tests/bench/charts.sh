@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The cost of a chart's cycle: with 2 steps and with 1000, one of them active. The second may cost more only by the scan
 # of 16 words. Usage: tests/bench/charts.sh [RUNG]
 rung=${1:-build/bin/rung}

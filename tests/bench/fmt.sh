@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The CPU time of `rung fmt` for 100 000 lines of ST that all change, and for the same lines once more, when none does
 # (wanted: less than 0.5 s). The least of five runs each.
 # Usage: tests/bench/fmt.sh [RUNG]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a Structured Text project of about LINES lines for the benchmarks: stations of a line, each a scaling function
 // and a block with history, filter, steps, timers and messages; areas that call twenty stations; one task per area.
 //   generate LINES > project.st      equal LINES give equal bytes

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The cost of Instruction List against the same ST: CPU time of both as compiled C++, and their ratio (wanted: 1).
 # Usage: tests/bench/il.sh [RUNG]
 rung=${1:-build/bin/rung}

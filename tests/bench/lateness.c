@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The reference of lateness.sh: a bare loop of clock_nanosleep with the period, policy and CPU of the task it is compared
  * with. Prints the 99.9th percentile of its lateness in microseconds. Argument: seconds. */
 #define _GNU_SOURCE

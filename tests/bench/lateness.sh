@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # How late a task of 1 ms begins under load, beside a bare loop of clock_nanosleep: five runs of each in turn, their
 # 99.9th percentiles and the medians of them.
 #   tests/bench/lateness.sh [SECONDS]      of each run; default 60

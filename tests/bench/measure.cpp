@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times kernels, see measure_hand.h: what `rung build --shared` made, as it ships, against code by hand. The modules
 // are listed in RUNG_BENCH_MODULES as `who=path`, separated by colons. Task T_name runs program instance P_name with
 // the input `rounds` and the output `check`. CPU time: other load on the machine does not count, and turns of all take

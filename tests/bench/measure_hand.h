@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures a kernel written by hand. In: a type with run(rounds). Used by the hand.cpp of each set of kernels.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Requests per second of a Modbus TCP server, with masters that ask as fast as they get replies: the block ModbusTCP_Slave
 # in a compiled program with a task of 10 ms, beside a server in C with libmodbus. Five runs of each in turn; processor
 # time of the server for a thousand requests, and the median ratio. Needs libmodbus-dev.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The reference of modbus.sh: a Modbus TCP server for many masters with libmodbus and select, as its own example for
  * bandwidth is made. Argument: the port. Holding register 3 is 16#1234, which flood.c checks. */
 #include <modbus.h>

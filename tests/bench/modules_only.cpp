@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times the kernels of modules, for code by hand that has a main of its own. Arguments: name=rounds.
 #include <cstdlib>
 #include <string>

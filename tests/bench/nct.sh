@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # An NCT ladder of 10 000 rungs of the usual mix against the same logic in C++ over an array, and how fast it is read.
 #   tests/bench/nct.sh [CYCLES]        default 20000
 # cycle     CPU time of `rung build` code as a multiple of that of g++ -O2 (wanted: 1.2); both end with the same sum

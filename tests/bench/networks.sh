@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Networks: their cost compared with the same logic in ST, and how fast a large project of them is read.
 #   tests/bench/networks.sh [SEEDS] [MEGABYTES]
 # code     CPU seconds of generated blocks in LD, FBD and CFC as multiples of their ST, native at -O2 (wanted: 1.05)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by lateness.sh and overhead.sh: $folder with `app`, a program with a task of 1 ms and nearly no code, and
 # `bare`, the loop of clock_nanosleep that it is compared with.
 rung=${RUNG:-$here/../../build/bin/rung}

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # What the host's schedule costs a cycle: processor time of a program with a task of 1 ms and nearly no code, less that of a
 # bare loop of clock_nanosleep (lateness.c), per cycle; five runs of each in turn, the median. Wanted: below 2 us.
 #   tests/bench/overhead.sh [SECONDS]      of each run; default 10

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The motion profiles of stdlib/motion beside Ruckig's: a number of seeded random requests of one axis, position and
 // velocity interface, with and without limited jerk, target acceleration 0. In: the number and the seed; out: figures,
 // exit code 1 when ours takes longer than 1 + 1e-9 times Ruckig's time, misses its target, breaks a limit that

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Motion profiles beside Ruckig's (github.com/pantor/ruckig), which is built and installed beside the project and never in it:
 # a million seeded random requests of one axis with target acceleration 0. Exit code 1 when one of ours takes longer than
 # 1 + 1e-9 times Ruckig's time, misses its target or breaks a limit that Ruckig's keeps, or when ours cost more than 1.1

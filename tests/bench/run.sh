@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # All benchmarks, as figures and ratios measured in one run.
 #   tests/bench/run.sh [--input FILE.st]... [--kernels DIR] [compiler|cxx|start|kernels|interp]...
 # compiler  lines per second of each phase for about 1 000, 10 000 and 100 000 generated lines, and for each --input

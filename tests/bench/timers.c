@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Times a cycle of timers in the shared library of `rung build`, as a host calls it. Arguments: the library, and the
  * limit in microseconds. Task T_n is measured, after task S_n has set its inputs; a cycle is 10 ms of program time.
  * Prints the CPU time of the fastest and of the median cycle of each; exits with 1 when a median is over the limit. */

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The CPU time of 10 000 timers in one cycle, compiled as `rung build` ships them.
 #   tests/bench/timers.sh [LIMIT]      microseconds that no median may exceed (100)
 # loop      an array of TON, of which a quarter idles, a quarter times, a quarter has expired and a quarter changes

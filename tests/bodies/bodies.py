@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Whether the tests notice a missing body of the libraries. Each function, block and method of stdlib/ loses its body in turn:
 one in ST becomes empty, one in C++ returns 0 at once. The tests that name it, then all, are run with the interpreter.
   tests/bodies/bodies.py [-j N] [--sample] [FOLDER|FILE|NAME...]   prints each body that nothing notices; exits 0 if none

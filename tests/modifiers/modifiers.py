@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Whether the tests notice a missing modifier. For each row of the standard that is named after one (FINAL method, RETAIN
 inputs, VAR_EXTERNAL CONSTANT), the programs that claim the row are run with one occurrence of the word left out.
   tests/modifiers/modifiers.py [FILE...]     prints each occurrence that nothing notices; exits 0 when there is none

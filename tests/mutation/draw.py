@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which places are changed: a seeded choice from all that sites.py finds, or those of drawn.tsv, which were drawn so and
 are kept, since any other change of the sources would draw others. Called by mutation.py."""
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which mutant is active: included by the rewritten copies of sources that mutation.py builds, never by Rung. The
 // number comes from RUNG_MUTANT (none: no mutant); with RUNG_MUTANTS_REACHED, a file of one byte for each mutant, the
 // sites that a run evaluates leave a 1 there, also from a process that is killed.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Whether the tests notice a mistake in Rung itself. COUNT places of the compiler and the runtime, at least 40 in each part,
 are drawn by a seeded choice from all that sites.py finds (draw.py). A copy of the tree gets all of them in one build, where an
 environment variable chooses the active one (mutant.h). The tests that evaluate the place are run, quickest first, until

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What sites.py must find and what it must leave alone; mutation.py --sample compares its sites with the list at the
 // end, and runs this program with each of them active: every one changes what main prints.
 #include <cstdio>

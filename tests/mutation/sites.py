@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The places of a C++ source at which a mistake could have been made, and the text of each mistake. In: the text of a file
 in the style of .clang-format, which is what tells an operator from a template bracket, a pointer or a sign. Out: Sites in
 the order of the text, and the file with some of them built in, each chosen at run time by its number. Called by mutation.py.

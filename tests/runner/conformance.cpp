@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conformance tests, tests/conformance/**.st: the promises of the language, feature by feature. Line 1 says what the
 // test shows; projects in **.xml use comments such as <!-- features: 54/2a -->
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six

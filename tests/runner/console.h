@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sessions at a console: `$ command` lines (continued by `> `), each followed by its output; `...` matches any number
 // of lines, `[3]` at the end is the exit code. Used by tests/golden/cli and by the documentation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timing diagrams of the library pages: docs/library/diagrams/LIBRARY/NAME.svg is what
 // samples/library/LIBRARY/NAME.st draws, with the options in its `// run: ` or `// test: ` line. tests/update draws it
 // again. Programs with `// output: ` lines show no behaviour in time; they are run with the page that has them.

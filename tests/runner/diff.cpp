@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Differences of lines: see diff.h.
 #include "tests/runner/diff.h"
 

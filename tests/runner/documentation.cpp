@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programs in the documentation: fenced blocks of docs/**.md, README.md, CONTRIBUTING.md and samples/**.md.
 //   ```st broken [options]    on docs/errors/E0231.md: `rung check` reports that code and no other error
 //   ```st fixed [options]     on such a page: no error, and not that code

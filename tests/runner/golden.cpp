@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Golden tests, tests/golden/**.st and **.nct: the expected output is at the end of the test file.
 //   // args: --std=iec3                                    options of every command
 //   // expect: name.st:4:1: error[E0231]: ...              the output of `rung check`, heading by heading

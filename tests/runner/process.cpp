@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Child processes of the tests: see process.h.
 #include "tests/runner/process.h"
 

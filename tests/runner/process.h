@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Child processes of the tests. In: a command, a folder, a time limit. Out: exit code and output.
 // Safe to call from several threads.
 #pragma once

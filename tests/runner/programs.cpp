@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs with an expected trace, tests/programs/**.st and **.xml, or a folder with test.txt and a project:
 //   // run: --cycles 5 --watch a,b     options of `rung run`; --trace - is added
 //   // trace: cycle,time_ms,a,b        the expected CSV, line by line, computed by hand or from a manual

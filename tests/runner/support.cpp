@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared parts of the test runner: see support.h.
 #include "tests/runner/support.h"
 

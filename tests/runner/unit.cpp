@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential tests and
 // of the library bodies that some test must miss, what finds the mutants of the compiler, and the checks of
 // tools/house/checks.

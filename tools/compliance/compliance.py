@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the statements of compliance: what each standard and manual lists, whether Rung supports it, and the tests.
   docs/compliance.md           edition 3 of IEC 61131-3 (tests/conformance/features.tsv), and an overview of all pages
   docs/compliance-edition2.md  edition 2 (edition2.tsv), whose features are proved by rows of edition 3

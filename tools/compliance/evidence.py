@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Compares the rows that a test names in its `features:` and `covers:` lines with the test: a row must occur in its program,
 and a value that depends on it must be asserted, printed by a session, or in a line that a diagnostic names.
   tools/compliance/evidence.py [FILE...]      prints each row without evidence; fails when there is one

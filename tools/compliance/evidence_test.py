@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Programs with and without evidence of a row, for evidence.py. Prints what differs; called by tools/house/checks/evidence.sh."""
 import pathlib
 import re

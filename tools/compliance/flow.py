@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Cuts a program into units (statements, declarations, elements of networks, heads of blocks), each with the names that it reads
 and writes, and says on which names its assertions depend. Called by evidence.py for each test.
 The flow is that of names, whatever their scope: an approximation that finds too much rather than too little. Comments are spaces

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The assertions of a test as variables: 0 not reached, 1 held whenever it was reached, 2 failed; and its moments as
 // cycles, where TEST_ADVANCE moves the time. In: a test. Out: edits of its body, and what the variables stand for.
 // Called by neutral.cpp.

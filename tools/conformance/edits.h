@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of a text, collected in any order and then made at once. In: byte ranges and what replaces them. Out: the
 // text.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns the programs of the project into cases of a suite: each is written, tried with Rung in its plain form, and kept
 // when it passes. In: a project and the profiles. Out: files below a folder, and a Suite that describes them.
 #pragma once

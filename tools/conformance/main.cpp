@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung_conformance export DIR: the conformance programs of the project for any compiler, docs/conformance.md.
 //   rung_conformance export DIR [--profile=NAME]... [--root=DIR] [PROGRAM...]
 // Exit codes: 0 written, 1 a row of edition 3 is neither exported nor has a reason, or has both, 2 usage or I/O.

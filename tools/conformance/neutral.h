@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of the suite as plain source in the standard's text: without pragmas and assertions. In: the program as its
 // author wrote it. Out: a draft for each of its tests, or why there is none.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaving out what is wrong in a source, so that an error stands alone. In: a text and the line of an error that has to
 // go. Out: the parts that can be blanked, and the text without them. Called by export.cpp for cases of kind reject.
 #pragma once

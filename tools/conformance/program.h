@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of tests/conformance or tests/programs as its author wrote it: its text and the lines of its head. In: a
 // file. Out: Program. Read by the exporter, which turns it into neutral cases.
 #pragma once

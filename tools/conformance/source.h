@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plain source of the suite, parsed: the tree and, beside it, the units of the text, which the exporter rewrites. In: a
 // text and its dialect. Out: Source. Read by everything here that looks at source.
 #pragma once

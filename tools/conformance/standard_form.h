@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The form of the standard for what Rung and vendors write in other ways, and every edition has: comments (* *), one
 // declaration for each name of VAR_EXTERNAL and of structures, sections of located variables, a qualifier for each
 // action, STRING[n], semicolons. In: a program and its source. Out: edits that change no meaning and no line, but of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exported suite: cases with their files, the rows of the standard's tables that they prove, and why others are not
 // exported. In: the programs of a project. Out: a folder with a manifest that nothing of Rung is needed to read.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The private cache of compiled C++; see cache.h.
 #include "tools/driver/cache.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The private cache of compiled C++: files named by a hash of all their inputs. Entries appear by rename, so two
 // concurrent rungs never read half a file; beyond the limit the least recently used entries are removed.
 // In: keys. Out: paths of entries. Called by native.cpp. Folder: $RUNG_CACHE_DIR, $XDG_CACHE_HOME/rung, ~/.cache/rung,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam`: its options and subcommands; see cam.h.
 #include "tools/driver/cam.h"
 

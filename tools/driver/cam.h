@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam`: motion laws and cams. In: the subcommand with its words, and its options. Out: an exit code; results go
 // to the sink and to the file of `-o`. Called by tools/rung. The subcommands are in cam_commands.h.
 #pragma once

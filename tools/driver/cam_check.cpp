@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam check`: whether cams keep their limits at a speed of the master, by the exact extremes of each piece.
 #include "cam/design/text_form.h"
 #include "cam/design/words.h"

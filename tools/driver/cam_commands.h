@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands of `rung cam`, one file each. In: their words and options. Out: an exit code; results go to the sink
 // and to `output`. Called by cam.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam convert`: a cam as a `.cam` file, as CSV, as declarations in ST, or as a PLCopen project with these. CSV
 // has the lines of a `.cam` file with commas between the words, so nothing is lost, and tables of spreadsheets become
 // cams. A program that declares a cam with its initial values is read like any program (sema/constant_cams.h).

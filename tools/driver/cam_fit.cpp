@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam fit`: a cam through points, with a report of its errors and peaks.
 #include <algorithm>
 

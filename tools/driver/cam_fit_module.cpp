@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads rung_cam_fit.so: see cam_fit_module.h.
 #include "tools/driver/cam_fit_module.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits a cam with the part of Rung that is loaded on demand. In: a request. Out: the result, or why there is no such
 // part. Called by cam_fit.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam law`: the motion laws and their coefficients, and one of them as points or as a `.cam` file.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung cam show`: a cam as a picture: position, velocity, acceleration and jerk over the master, with their peaks and
 // limits, and the switches of its tappets.
 #include <algorithm>

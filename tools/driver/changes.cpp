@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines with the same characters, blanks aside, correspond to each other: no search for the longest common part.
 #include "tools/driver/changes.h"
 

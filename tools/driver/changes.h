@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What formatting changed, as a unified diff. In: a source before and after; they differ in white space and the case of
 // letters only. Out: hunks with three lines around each change; empty: they are equal. Called by fmt.cpp.
 #pragma once

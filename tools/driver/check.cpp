@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung check`: parses and checks, writes nothing but diagnostics.
 #include <cstdio>
 

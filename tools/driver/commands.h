@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of Rung as functions, one file each. In: inputs and options. Out: the exit code (Exit in options.h), and
 // what a command has to say, through a sink. None has state of its own, so a process may call them any number of times
 // and in several threads; programs run one at a time, since a crash is handled by the whole process. Called by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver: read → parse → check → lower → optimize → emit, with timings, dumps and the verifier between phases.
 // In: Options. Out: the tree, the project, the IR module, generated files; diagnostics go to the sink at the end of the
 // run. Called by the commands, one Compilation for each project; several may exist at a time, also in several threads.
@@ -89,8 +90,8 @@ class Compilation {
 
  private:
   void noteLibraries();
-  sema::Options semaOptions();
   std::string whatIsRead() const;
+  sema::Options semaOptions();
   void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
   std::string passDiagnostics();
   bool addRefusals(const NativeResult& native, Diagnostics& to) const;

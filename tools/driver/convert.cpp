@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung convert`: the program as Structured Text. Bodies in ST and all declarations stay as written; bodies that a
 // scheduler turned into statements are printed, with their comments and the temporaries that they need. Files of other
 // tools become the ST that Rung reads from them, one file for each of their POUs. `--to xml`: the whole program as one

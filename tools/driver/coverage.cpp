@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line coverage of `rung test`: see coverage.h.
 #include "tools/driver/coverage.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line and branch coverage of `rung test`. In: interpreted programs that have run, and the display paths of their
 // files. Out: a table for people, or a file for lcov and genhtml (geninfo(1)). Called by test.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a file: see declaration_files.h.
 #include "tools/driver/declaration_files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file of several declarations as one file for each: the program of another tool becomes a folder as a programmer
 // would keep it. In: the tree as parsed. Out: the parts of a file in source order, which together are all of its text:
 // a part has the comments and pragmas in front of its declaration. Called by convert.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages about the command line: inputs, project files, C++ bodies. One constant for each row of diagnostics.def.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung emit`: writes the generated C++ to a folder, or the IR or the tree to stdout.
 #include <sys/stat.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool, without Markdown; of
 // a warning also by its name, or by the code of CODESYS, which may mean several.
 #include <algorithm>

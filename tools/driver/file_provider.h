@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where source files are read from: memory, which holds the unsaved texts of an editor, else disk. In: paths, absolute
 // or relative to the folder of the process. Called by inputs.cpp.
 #pragma once

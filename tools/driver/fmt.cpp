@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL are known by their POU
 // only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
 #include <sys/stat.h>

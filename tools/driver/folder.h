@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a folder holds that may belong to a program. In: a folder. Out: the files whose extensions Rung reads, the
 // folders inside, and what kind of project of another tool it is. Called by inputs.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung graph`: each body in LD, FBD, CFC or SFC, and each module of an NCT ladder, as an SVG file named after its POU:
 // Pump.svg, Pump.Start.svg. Pictures show the source: the program need not compile, only parse. Nothing is written when
 // there are errors.

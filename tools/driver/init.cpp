@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung init`: a rung.project for the sources of a folder. Its dialect is the one in which they have the fewest errors,
 // and its task runs what runs without it.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inputs of a run; see inputs.h.
 #include "tools/driver/inputs.h"
 

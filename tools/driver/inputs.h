@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inputs of a run: files and folders named on the command line, and the rung.project that a folder may contain.
 // In: arguments of the command line. Out: source files with their kind, sorted by path from the project's root, so the
 // output does not depend on the order of arguments or directory entries. Mistakes become diagnostics. Called by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The installed parts of Rung; see installation.h.
 #include "tools/driver/installation.h"
 

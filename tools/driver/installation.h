@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the parts of Rung that generated code needs: runtime headers and libraries. Searched under $RUNG_HOME,
 // beside the executable (bin/../lib, bin/../share/rung/include), and where Rung was built.
 // Out: paths, or an error that names the missing part. Called by native.cpp and by `rung version`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The libraries that a program may use; see libraries.h.
 #include "tools/driver/libraries.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The libraries that a program may use: those built into the tool (stdlib/*/*.st and, by family, stdlib/*/*/*.st) and
 // those of -I in ST. In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and
 // list.cpp.

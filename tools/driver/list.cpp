@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung list`: the libraries, the POUs or tasks of a project, the warnings, or the declaration of a library block.
 #include <algorithm>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The output of `rung list`: lines of text, or JSON with an object for each. Shared by list.cpp and list_tasks.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung list nct`: the names of the NCT ladder, a line each, with tabs between its parts. In: the tables of
 // frontend/import/nct. Out: symbols with kind, address, direction and index; instructions with their operands; scopes;
 // services of MR and MW; execution codes.

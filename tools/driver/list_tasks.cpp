@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung list tasks`: the tasks of each resource with what starts them and what they run, and a chart of the order when
 // all start together.
 #include <algorithm>

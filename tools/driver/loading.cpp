@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // This rung loads compiled code; see module_library.h.
 #include "tools/driver/module_library.h"
 

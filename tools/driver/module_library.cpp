@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A compiled project loaded into this process; see module_library.h.
 #include "tools/driver/module_library.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A compiled project loaded into this process. In: the path of a shared object. Out: its module descriptions.
 // Called by run and test.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Namespaces of the libraries: see namespaces.h.
 #include "tools/driver/namespaces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The namespace of a library by its folder below stdlib/, and the names that other tools have for the libraries. Called
 // by libraries.cpp, compile.cpp and the tool native_table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C++ files of a project's native blocks; see native_sources.h.
 #include "tools/driver/native_sources.h"
 

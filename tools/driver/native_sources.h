@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C++ files of a project's native blocks: `native/*.cpp` and `native/*.h` in each folder that is compiled or
 // searched for libraries. In: the folders. Out: their texts, which are compiled with the generated code. Called by
 // compile.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung new`: a small project of a template, whole or not at all. The templates are the folders of tools/templates; the
 // table below says what to try with each.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `rung new` and `rung init` share, and what the help says about templates.
 #pragma once
 

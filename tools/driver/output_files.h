@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes files whole or not at all. Called by all commands that write to disk.
 #pragma once
 

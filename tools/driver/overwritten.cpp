@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See overwritten.h. A source is a file that the command line names, and in a folder that it names any file that holds
 // a program or the messages of one; results of an earlier run are replaced, in a folder of sources too.
 #include "tools/driver/overwritten.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Refuses a command line whose output would replace a source. In: the options. Out: an error message, or an empty
 // string. Called by the tool before any command.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages of errors without Markdown: see page.h. What the pages use: headings, paragraphs, tables and lists (as they
 // are), fenced code, `code`, **strong** and [links](to).
 #include "tools/driver/page.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A page of docs/errors for people: no Markdown, code indented; styled for a terminal on request. Called by
 // explain.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Child processes; see process.h.
 #include "tools/driver/process.h"
 

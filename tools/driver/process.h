@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Child processes: the C++ compiler, the linker, ar. In: argument lists. Out: exit codes and their output.
 // At most `jobs` run at a time. Called by native.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes of rung.project; see project_axes.h.
 #include "tools/driver/project_axes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung.project; see project_file.h.
 #include "tools/driver/project_file.h"
 

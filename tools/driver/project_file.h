@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung.project: the INI file that a project folder may have (docs/cli.md lists its sections and keys). In: its content.
 // Out: settings, which the command line overrides, and one generated CONFIGURATION for the tasks. Unknown sections and
 // keys are errors at their location. Called by inputs.cpp.

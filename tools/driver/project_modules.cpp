@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Modules of rung.project; see project_modules.h.
 #include "tools/driver/project_modules.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sections [module NAME] of rung.project: the I/O modules of the machine. In: the sections. Out: the modules with
 // the place of their channels, and the channels as variables of a namespace of the module's name, in ST mapped to the
 // file. Called by project_file.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the commands of the driver write: the driver itself knows no terminal. In: messages, results and diagnostics of
 // one command. Implemented by the command line (tools/rung/console.h), by servers and by tests.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order in which tasks run; see task_chart.h.
 #include "tools/driver/task_chart.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order in which the tasks of one resource run when all start together: on one CPU, a higher priority interrupts a
 // lower one. In: intervals, priorities and simulated execution times. Out: a row of marks per task, over one
 // hyperperiod or its first columns. Called by `rung list tasks`. Cost: columns × tasks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests with the
 // same mocks are one module. With --separate each file is a separate project, so names of different files never
 // clash; a few C++ units include the code of many. The JUnit file is written in every case: one that says that the run

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung version`: the version, and the paths of the parts that generated code needs.
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"

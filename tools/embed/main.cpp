@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Embeds files in a C++ source: error pages for `rung explain`, the libraries of the language.
 //   rung_embed_tool NAME PREFIX LIST OUT.cpp OUT.h
 // In: LIST, one path per line. Out: a table of {name, text} sorted by name, names relative to PREFIX.

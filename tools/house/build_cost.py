@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 # What a build of Rung costs: CPU seconds of a clean build of the `rung` target, its dearest units, the headers that cost
 # most, and how many units rebuild after a change of each of the most included headers.
 #   tools/house/build_cost.py [--unity] [--target NAME]     takes a few minutes; builds in a folder of its own

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 # Compares what two versions of `rung` make of every program of the suite: C++, IR, tree, traces, pictures, ST and XML.
 #   tools/house/compare_output.py OLD_RUNG NEW_RUNG [--old-root DIR] [--substitutions FILE] [-j N]
 # OLD_RUNG compiles the sources below --old-root (a checkout of its version; default: this one), so that each version

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Lists pairs of places that share six or more consecutive lines of code, equal or of the same shape.
     tools/house/duplicates.py [--lines N] [FOLDER ...]
 Lines have the same shape when they differ only in names, numbers and strings. Four of the lines must have names, the

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The table of code and data sizes in docs/embedding.md: each sample compiled for a Cortex-M4 at -Os and linked with what
 # it uses of the runtime. Needs arm-none-eabi-g++ and its C library; RUNG names the tool (build/bin/rung).
 #   tools/house/firmware_sizes.sh            prints the table

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Does an expected output show a name of generated code?  internal_names.py
 
 Generated code joins names with `__` (CAA__PVOID, Ring__4, Main__Start) and begins hidden ones with it. In: expectations of

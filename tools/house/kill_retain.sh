@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Kills a program that writes retained data all the time, at random moments, and looks at what the next start finds: the
 # values of one complete cycle, never older than before. Called by tools/long.sh.
 #   tools/house/kill_retain.sh [COUNT] [SEED]

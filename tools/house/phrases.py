@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Looks for the phrases of phrases.tsv: in comments and strings of the code, in doc comments of the libraries, in the
 prose of the docs (not in code blocks and back-quoted words). Prints file:line, the phrase and what to write. Called by
 checks/phrases.sh."""

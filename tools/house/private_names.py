@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Looks for names that two files of one CMake target declare in unnamed namespaces: a unity build, which
 tools/quickstart.sh makes, compiles such files together. Functions may share a name when their parameters differ.
 Called by checks/private_names.sh."""

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # samples/service/plant.service under systemd itself, which runs as process 1 of a namespace of its own: starts, stops with
 # SIGTERM and goes on warm, is killed and restarted, and stays down after a fault. Needs root and systemd; called by
 # tools/long.sh.

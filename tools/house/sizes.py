@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 # Functions of more than 100 lines and classes with more than 60 member functions, tables left out: a function whose
 # lines are mostly rows `{…},` or `case …:` of one line each is a table.
 #   tools/house/sizes.py [--lines N] [--members N]      exit code 1 when there are any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The project's files and the tokens of C++ sources, for the scripts of this folder."""
 import os
 import re

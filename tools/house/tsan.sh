@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The bundled host under ThreadSanitizer: compiles it with -fsanitize=thread and runs the programs with several tasks in
 # tools/house/tsan in real time, with tasks that take turns and, where permitted, with SCHED_FIFO. The code of the
 # programs is not instrumented: plain globals are shared without order by design (docs/language.md). Called by

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Writes docs/library/NAME.md for each library in stdlib/: every function, block and type with its doc comment, its pins,
 # an example and a timing diagram. Declarations of one file with equal comments share an entry.
 #   tools/library_pages/library_pages.sh [--check]    --check: writes nothing, fails when a page is stale

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the table through which the interpreter calls the native bodies of the libraries: a thunk for each, in C++;
 // and the header that the native bodies include, with the structs of native blocks. In: the declarations of
 // stdlib/*/*.st, read by the compiler's own front end. Out: two files, rewritten only if they change. Generic functions

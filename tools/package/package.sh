@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Makes what users install, in build/packages or the folder of -o: the Debian packages rung and rung-cam-fit, and the archive
 # rung-VERSION-linux-x86_64.tar.gz, one folder that runs on any Linux.
 #   tools/package/package.sh [--no-build] [-o DIR] [deb|tar ...]     (default: both)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sink of the command line: messages go to stderr, results to stdout, progress to a terminal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crashes of rung itself; see crash.h.
 #include "tools/rung/crash.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crashes of rung itself: signals end in exit code 70 and a message with phase, POU and how to report it, never in a
 // silent core dump. main.cpp installs the handler once; native.cpp reports generated code that g++ rejects likewise.
 #pragma once

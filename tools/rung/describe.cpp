@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the man page of rung, or its completions for a shell, from the table of options.
 //   rung_describe man|bash|zsh|fish
 // Called by the build (CMakeLists.txt).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung: parses the command line and runs the command. All exit codes are those of tools/driver/options.h.
 #include <csignal>
 

@@ -197,9 +197,7 @@ constexpr OptionRow kOptions[] = {
      "edge coils without an edge: FALSE (default), kept"},
     {Key::Period, "--plc-period", "T", kCompile, "period of Main of an NCT program (default: T#10ms)"},
     {Key::Period, "--time-slice", "T", kCompile, "period of Int0 of an NCT program (default: T#2ms)"},
-    {Key::Checks, "--checks", "LIST", kCompile,
-     "run-time checks: div,index,null,cast (default),\n"
-     "subrange,convert,overflow, or all, none"},
+    {Key::Checks, "--checks", "LIST", kCompile, "div,index,null,cast (default), more, all or none"},
     {Key::Level, "-O", "0|1|2", kCompile, "optimization level (default: 1)"},
     {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME disables"},
     {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},

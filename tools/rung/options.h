@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line of rung: its commands and options, in one table for the parser, "did you mean" and --help.
 // In: argv. Out: Options, or a usage error (exit 2). Called by main.cpp.
 #pragma once

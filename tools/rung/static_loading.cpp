@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rung of the archive for any Linux is linked statically. Such a program cannot load code: what would try finds
 // these functions in place of those of the C library and gets an error.
 #include "tools/driver/module_library.h"

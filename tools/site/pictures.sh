@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Draws the pictures of README.md that are not networks: from the programs and commands on the page itself.
 #   tools/site/pictures.sh [DIR]     (default: docs/pictures); uses the rung of PATH, or build/bin
 set -eu

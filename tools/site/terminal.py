@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws what a command prints on a terminal with colors as an SVG for light and dark pages.
     COMMAND --color=always 2>&1 | tools/site/terminal.py '$ COMMAND' > picture.svg
 Each argument is a line above the output. Called for the pictures of README.md and docs/."""

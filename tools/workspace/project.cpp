@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The project around a folder: see project.h.
 #include "tools/workspace/project.h"
 

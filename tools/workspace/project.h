@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which project a command works on when its inputs do not say: the one around the current folder, looked for upwards as
 // cargo and git do. In: a folder. Out: the input that names the project, or why there is none. Called by the command
 // line.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "frontend/import/beremiz/beremiz.h"
 
 #include "frontend/import/source_mapped_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extensions of projects of Beremiz and OpenPLC, each in a folder `NAME@TYPE`: the variables that they share with the
 // PLC. In: a source file with the root <PyFile> or <CFile>, or with the root <BaseParams>, which says the channel of
 // any extension. Out: a VAR_GLOBAL that the programs of the project reach by VAR_EXTERNAL. The code of the extension is

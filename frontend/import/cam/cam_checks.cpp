@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checks of cams; see cam_checks.h.
 #include "frontend/import/cam/cam_checks.h"
 

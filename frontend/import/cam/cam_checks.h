@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a cam must hold, whatever file it comes from: rows in order, a master range that they cover, no jump, numbers
 // that fit. In: a cam and where its parts are. Out: all mistakes as diagnostics. Called by the readers of this folder.
 #pragma once

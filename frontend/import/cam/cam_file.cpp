@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of `.cam` files; see cam_file.h.
 #include "frontend/import/cam/cam_file.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of `.cam` files (docs/cam.md): one key or row on a line. In: the text of a file. Out: a cam, all mistakes
 // reported; for a project, its variables in ST. A row of the table of formats; `rung cam` reads files with it too.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points in CSV; see points_file.h.
 #include "frontend/import/cam/points_file.h"
 

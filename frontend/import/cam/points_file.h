@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points to fit a cam to, as CSV: `x,y` or `x,y,weight` on a line, after an optional header; docs/cam.md. In: the text
 // of a file. Out: points in ascending order of x; all mistakes reported. Called by `rung cam fit`.
 #pragma once

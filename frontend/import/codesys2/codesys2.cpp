@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CODESYS 2.3 exports (.EXP): a sequence of objects, each below comments like `(* @PATH := '\/Pumps' *)`. POUs, their
 // actions (which follow the END_…), types and lists of globals are plain ST, except drawn bodies: `_FBD_BODY` and the
 // like. The task configuration becomes a CONFIGURATION, the named channels of the PLC's configuration global variables.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exports of CODESYS 2.3 (.EXP): a row of the table of formats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types, variables and their values as ST; see parts.h.
 #include <utility>
 

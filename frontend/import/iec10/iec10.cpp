@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distinguishes files of IEC 61131-10 from other XML, and reads the project, its POUs and its configurations; see
 // iec10.h.
 #include "frontend/import/iec10/iec10.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects in the XML of IEC 61131-10:2019, which succeeds PLCopen TC6, as written by Sysmac Studio, GX Works3, nodalis
 // and others, and single POUs in it. In: a source file. Out: source-mapped text that the ST parser reads, with
 // locations in that file, in the order described in frontend/import/plcopen/plcopen.h. docs/files.md lists the

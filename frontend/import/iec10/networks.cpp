@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies: ST and IL are copied, LD and FBD are written in the notation of networks (frontend/parse/network.cpp). Wires
 // refer to the ids of output points, which are unique only within a network; elements get new numbers.
 #include <algorithm>

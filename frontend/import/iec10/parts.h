@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the parts of the reader. Private to frontend/import/iec10: iec10.cpp (the project and its POUs),
 // declarations.cpp, networks.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MULTIPROG and PC Worx: one POU, type sheet or global sheet per file. The tool's data is in comments that begin with
 // `(*@`; descriptions between them are plain text, and each worksheet names its language.
 #include "frontend/import/multiprog/multiprog.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of MULTIPROG and PC Worx: a row of the table of formats.
 #pragma once
 

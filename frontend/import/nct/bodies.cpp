@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a module; see bodies.h.
 #include "frontend/import/nct/bodies.h"
 

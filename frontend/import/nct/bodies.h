@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cyclic part of a module and its subroutines. In: the elements of the module. Out: where each part is, and the
 // jumps and calls whose targets are wrong, which are reported. NCT manual 6.14. Used by write.cpp.
 #pragma once

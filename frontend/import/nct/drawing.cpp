@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws a module rung by rung; see drawing.h. The power of a row is the list of elements that its next element is wired
 // to, as in the notation: several are joined by OR.
 #include "frontend/import/nct/drawing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the modules of an NCT program as networks for pictures (docs/networks.md): each instruction as it is written,
 // without regard to what its operands mean, so that a program that does not compile yet can be drawn. In: the lines of
 // the program. Out: source-mapped text for `rung graph` alone. Called by readProgram (nct.h).

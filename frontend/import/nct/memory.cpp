@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Symbols and addresses of NCT programs; see memory.h.
 #include "frontend/import/nct/memory.h"
 

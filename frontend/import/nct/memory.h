@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory of an NCT program and its names: 10 000 double words, the symbols of the numerical control, those of the
 // program. In: the symbol lines of a program. Out: operands, as the instructions take them: constants and addresses,
 // static where the file says it all. NCT manual chapters 2, 4 and 7; docs/nct.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Texts of messages: the rules for each, and message files (.mes). In: lines `number<TAB>text` in UTF-8. Out: the
 // messages that a ladder has in the end. The layout is Rung's: NCT manual 6.13 says that the editor exports and imports
 // such files, that they are UTF-8, and how a text prints a number. Called by the reader of ladders (read.cpp, nct.cpp).

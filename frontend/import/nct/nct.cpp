@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads an NCT program; see nct.h.
 #include "frontend/import/nct/nct.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ladder of NCT's machine-tool controls (.nct, docs/nct.md): a row of the table of formats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Operands of NCT instructions; see operands.h.
 #include "frontend/import/nct/operands.h"
 

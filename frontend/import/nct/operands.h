@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Takes the operands of instructions and checks them: their kinds (instructions.def), what may be written, and that
 // each output has one driver. In: elements, module after module. Out: operands, or errors. Used by write.cpp.
 #pragma once

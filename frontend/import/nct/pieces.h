@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text in pieces with the location of each, to be put together when its parts are known. Used by the writers of NCT
 // programs, whose declarations are known when their bodies are written.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Located variables and operands of NCT programs in ST; see places.h.
 #include "frontend/import/nct/places.h"
 

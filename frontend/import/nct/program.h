@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An NCT program as it is written: its symbols, messages and the elements of its modules, line by line. In: a `.nct`
 // file (docs/nct.md). Out: a Program whose words point into the file. Used by the reader (read.cpp), the resolver of
 // addresses (memory.h) and the writer of ST (write.cpp).

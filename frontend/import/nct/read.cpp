@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the lines of a `.nct` file; see program.h. One element a line, blanks between words, `//` begins a comment.
 #include <algorithm>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services of MR and MW; see services.h.
 #include "frontend/import/nct/services.h"
 

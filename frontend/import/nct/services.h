@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The services of MR and MW and their execution codes: nc_services.def, nc_codes.def. Used by operands.cpp, which
 // checks constant function codes, and by `rung list nct`. NCT manual 6.18 to 6.29.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes an NCT program as ST; see write.h.
 //
 // Power becomes a BOOL expression as long as nothing may change what it reads, and a temporary `_p1` before each

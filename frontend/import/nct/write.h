@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes an NCT program as ST: symbols as located variables, a PROGRAM for each module, its subroutines as methods, and
 // the tasks that run them. In: the lines of the program. Out: source-mapped text, and all that is wrong with the
 // program. Called by readProgram (nct.h).

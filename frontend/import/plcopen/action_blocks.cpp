@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Action blocks in LD and FBD: the wire into one drives its actions, by their qualifiers, as a step does in a chart.
 // Each action has a control block of the library, which all action blocks with its name share. An action block stores
 // its wire in a variable; after all elements of the body, the control blocks and the active actions are called. IEC

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The graph of a chart: elements, wires, and the steps before and after each transition; see chart.h. Memory and time
 // are linear in the size of the chart, except for transitions from many steps.
 #include "frontend/import/plcopen/chart.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A chart of the XML: its elements and wires, and how they become textual SFC. Private to chart.cpp (the graph),
 // sfc.cpp (steps and actions), macros.cpp (macro steps), conditions.cpp (transitions).
 //

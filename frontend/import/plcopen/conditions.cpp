@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transitions of a chart and their conditions; see chart.h. A condition that is an expression is written in the
 // transition itself; any other, and a named one, is a separate TRANSITION without FROM, to which transitions refer by
 // name.

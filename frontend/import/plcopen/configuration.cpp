@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configurations, resources and tasks as ST; see import.h.
 #include <algorithm>
 #include <charconv>

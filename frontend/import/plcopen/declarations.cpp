@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interfaces, sections of variables and lists of globals as ST; see import.h.
 #include <algorithm>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the parts of the import. Private to frontend/import/plcopen: plcopen.cpp (the project), types.cpp,
 // declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h.
 #pragma once

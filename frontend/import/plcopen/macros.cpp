@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Macro steps of a chart: a <macroStep> becomes a MACRO_STEP, which the parser inlines; see chart.h.
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/plcopen/chart.h"

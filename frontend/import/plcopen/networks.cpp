@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks; see networks.h. Elements keep their localId as number, so that the parser resolves wires and reports errors
 // in them, at their locations in the XML.
 #include "frontend/import/plcopen/networks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies drawn in LD, FBD and CFC, and conditions of charts drawn in the same way. In: the element that contains the
 // diagram. Out: {network} … {end_network}, in place of statements. Called by pous.cpp and sfc.cpp.
 #pragma once

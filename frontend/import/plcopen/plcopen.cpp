@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distinguishes TC6 files from other XML, and reads the project as a whole; see plcopen.h.
 #include "frontend/import/plcopen/plcopen.h"
 

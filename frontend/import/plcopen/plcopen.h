@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects in PLCopen TC6 XML, versions 1.01, 2.0 and 2.01, as exported by Beremiz, OpenPLC Editor, CODESYS, TwinCAT
 // and others. In: a source file. Out: source-mapped text (frontend/import/source_mapped_text.h) that the ST parser
 // reads, with locations in that file. POUs, types and lists of globals are read wherever they occur in the file; a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // POUs, interfaces and their members as ST; see import.h. The parts of a POU are written in this order:
 //
 //   declaration {ACTION | METHOD | PROPERTY} body END_…

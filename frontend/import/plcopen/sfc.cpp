@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts as textual SFC: their steps and actions; see chart.h and import.h.
 #include <algorithm>
 #include <iterator>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types, data types and initial values of the XML as ST; see import.h.
 #include <algorithm>
 

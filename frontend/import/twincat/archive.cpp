@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects, lists and values of TwinCAT's archives; see archive.h.
 #include "frontend/import/twincat/archive.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The archives in which TwinCAT 3 stores drawn bodies: <XmlArchive><Data> with <o n t> objects, <l2 n cet> lists, <v n>
 // values and <n> for null, each named by its attribute `n`. They are read in place, so every value keeps its location.
 // Used by nwl.cpp, cfc.cpp and sfc.cpp, whose output twincat.cpp inserts in place of statements.

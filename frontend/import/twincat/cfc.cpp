@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CFC bodies of TwinCAT; see archive.h. Elements have pins with ids, and connections link the ids of pins. Elements are
 // in execution order. The texts of a box are the names of its inputs and outputs, its type and, for a function block,
 // its instance.

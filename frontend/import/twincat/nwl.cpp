@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks of TwinCAT's FBD and LD editor; see archive.h. A network is a list of trees: assignments and boxes whose
 // inputs are trees again. They are written in post-order, inputs before the box that reads them. This is TwinCAT's
 // order of evaluation, so elements need no execution order numbers.

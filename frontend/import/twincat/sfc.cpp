@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts of TwinCAT; see archive.h. A chart is a sequence of steps, transitions, jumps and branches, whose lines are
 // sequences again. It becomes textual SFC, with the steps before and after each transition.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
 // <Declaration> in ST; POUs also have an <Implementation> and members. Drawn bodies are object archives (archive.h). A
 // body of an unsupported kind is an error, but the declarations of its POU are read all the same.

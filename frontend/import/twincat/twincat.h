@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // TwinCAT 3: the files of POUs and types (.TcPOU, …) and the project that lists them (.plcproj), rows of the table of
 // formats. The parts of a POU are always in this order, regardless of their order in the file:
 //

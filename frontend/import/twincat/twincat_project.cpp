@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // .plcproj: the project file of TwinCAT 3, in the form of MSBuild. See twincat.h.
 #include <algorithm>
 #include <string>

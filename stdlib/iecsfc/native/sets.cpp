@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of sfc.st.
 #include "rung/code.h"
 

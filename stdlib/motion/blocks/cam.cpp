@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of cam.st: a slave follows a master by a table (cam/table). The table is read in each cycle, so the
 // points may change at any time; everything else of it is what MC_CamTableSelect has taken.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of cam_bounds.st: the extremes of a cam, some segments in each call, so that a large cam costs no cycle.
 #include "cam/table/bounds.h"
 

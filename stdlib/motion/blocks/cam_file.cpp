@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of cam_file.st: reads the text of a `.cam` file (docs/cam.md) off the cycle, and a part of it in each
 // call. The compiler's reader is frontend/import/cam; this one has no heap, and reports a number.
 #include <math.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of cam_register.st: the tappets of a cam follow a master, and no slave does.
 #include <math.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cams of a program, checked; see cam_table.h.
 #include "blocks/cam_table.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slaves and masters: what gears and cams share. In: both axes; out: the master as the slave sees it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of direct.st: axes that follow positions from the program, and slaves with backlash.
 #include "blocks/coupling.h"
 

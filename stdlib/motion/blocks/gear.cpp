@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of gear.st: couplings of a slave to a master. The slave follows the set values that the master has when
 // the block is called: call it after the block that moves the master.
 #include "blocks/coupling.h"

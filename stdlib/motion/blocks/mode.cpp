@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of mode.st.
 #include "kernel/axis.h"
 

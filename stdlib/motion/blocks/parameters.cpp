@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of parameters.st: parameters of the axis by the numbers of PLCopen part 1 and CODESYS, and objects of
 // the drive through its service channel, which one block uses at a time.
 #include "kernel/axis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of probe.st: touch probes of the drive (60B8h to 60BDh) and of the controller.
 #include "kernel/axis.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of status.st.
 #include "kernel/axis.h"
 

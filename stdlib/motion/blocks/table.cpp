@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of AXIS_TABLE in profiles.st: positions, velocities or accelerations at given times. Between two points a
 // position is a cubic with the slope of its neighbours, a velocity a smooth step, an acceleration a straight line.
 #include "blocks/coupling.h"

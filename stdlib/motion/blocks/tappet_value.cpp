@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of SMC_GetTappetValue in cam.st: the state of a group from what MC_CamIn has seen its tappets do.
 #include "kernel/axis.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tappets of a cam; see tappets.h.
 #include "blocks/tappets.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tappets of a cam: each switches its group once when the master passes it in its direction. In: the positions of the
 // master in the table, from call to call. Out: bits for SMC_GetTappetValue, or the BOOLs of SMC_CamRegister.
 #pragma once

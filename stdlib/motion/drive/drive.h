@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated drive of an axis: what the axis kernel calls. In: the instance SIMULATED_DRIVE of SM3_Basic, whose
 // inputs are settings and faults, and the process data that the axis sends. Out: the process data of the answer. All
 // state is in the instance; no host and no clock is needed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Error codes of the simulated drive in 603Fh. IEC 61800-7-201, table of error codes.
 #pragma once
 

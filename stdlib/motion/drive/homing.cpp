@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Homing of the simulated drive: see homing.h.
 #include "drive/homing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Homing in the drive (mode hm): the methods of CiA 402 (6098h) and those of parameter P5.10 as one plan, and its
 // execution over the cycles. State is in the instance. Called by modes.cpp.
 // IEC 61800-7-201, homing methods; TM/TP manual 7.1.3.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated machine: see machine.h.
 #include "drive/machine.h"
 #include "drive/rounding.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated machine: switches, touch probe inputs and the Z pulse as functions of its position, its first-order lag
 // and its torque. In: the settings in the instance. Called by simulated_drive.cpp, homing.cpp and probes.cpp.
 #pragma once

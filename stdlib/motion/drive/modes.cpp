@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The modes of operation: see modes.h.
 #include "drive/modes.h"
 

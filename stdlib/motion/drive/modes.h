@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The modes of operation of the simulated drive: what set value a cycle has in csp, csv, cst, pp, pv and hm, and how
 // the drive stops by itself. In: the objects in the instance. Called by simulated_drive.cpp. IEC 61800-7-201, modes of
 // operation.

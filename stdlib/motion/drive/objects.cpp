@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The object dictionary: see objects.h. Each row is an object with the field that holds it.
 #include "drive/objects.h"
 

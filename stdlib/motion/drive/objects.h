@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The object dictionary of the simulated drive, and the mapping of its process data. The objects are fields of the
 // instance; the service channel reaches them by CANopen over EtherCAT. Called by simulated_drive.cpp.
 // IEC 61800-7-201 and -301; TM/TP manual 2.4.1.

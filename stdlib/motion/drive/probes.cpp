@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Touch probes: see probes.h. Probe 2 has the bits of probe 1, eight further.
 #include "drive/probes.h"
 

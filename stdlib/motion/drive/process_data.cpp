@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Process data in logical datagrams; see process_data.h.
 #include "drive/process_data.h"
 

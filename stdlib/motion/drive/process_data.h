@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The process data of the simulated drive as it goes over the fieldbus: the objects of the assigned PDOs, byte by byte,
 // in logical datagrams that the FMMUs of the slave map to its memory. In and out: the objects of rung_drive. The
 // working counter tells whether the slave has taken part. Called by simulated_drive.cpp. TM/TP manual 2.1.3 and 2.1.4;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed-form ramps: see ramps.h.
 #include "drive/ramps.h"
 

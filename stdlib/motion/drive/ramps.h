@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion under constant acceleration in closed form, for one cycle: what the drive's own generators (pp, pv, hm, stops)
 // follow. Called by modes.cpp and homing.cpp.
 #pragma once

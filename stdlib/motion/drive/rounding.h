@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rounding without the C library, which firmware may not have.
 #pragma once
 

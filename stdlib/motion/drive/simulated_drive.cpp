@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated drive: see drive.h. A cycle is: fieldbus, process data in, state machine, motion, process data out.
 #include <math.h>
 #include <string.h>

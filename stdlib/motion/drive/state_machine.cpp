@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state machine of CiA 402: see state_machine.h.
 #include "drive/state_machine.h"
 

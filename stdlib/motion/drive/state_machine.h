@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state machine of a CiA 402 drive: which transition a controlword and the events in the drive cause, and which
 // bits of the statusword a state has. Without memory and time: the caller keeps the state. Called by
 // simulated_drive.cpp. IEC 61800-7-201, state machine, transitions 0 to 16.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CANopen as a model, without frames on a wire: network management, the transmission of PDOs, heartbeat and node
 // guarding, the identifiers of the messages, and the load of the bus. In and out: plain values.
 // AX manual 3.4 and B.3; CiA 301.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CANopen over EtherCAT: see coe.h. A mailbox is its header (6 bytes), the CoE header (2), the command of the SDO (1),
 // index (2), subindex (1), 4 bytes of data or size, and in a normal transfer the data: its capacity minus 16.
 #include "fieldbus/coe.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CANopen over EtherCAT: the header of its mailboxes, the server and the client of the SDO service (expedited, normal,
 // segmented), and the objects that map and assign process data. In: an object dictionary. Called by drive/objects.cpp.
 // TM/TP manual 2.4.1; ETG.1000.6, CoE; CiA 301.

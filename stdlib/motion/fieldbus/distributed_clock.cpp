@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distributed clocks: see distributed_clock.h.
 #include "fieldbus/distributed_clock.h"
 #include "drive/rounding.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The distributed clocks of a segment: local clocks with offset and drift, and what a master does to make them one: it
 // measures the delays of the line, compensates the offsets, and then the drift, again and again. Times are nanoseconds.
 // TM/TP manual 2.1.4; AX manual 7.1.4; IEC 61158-4-12, distributed clocks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EtherCAT as a model, without frames on a wire: what a datagram does in a segment of slaves (addressing, working
 // counter, FMMU), the state machine of a slave, its distributed clock, and the header of a mailbox. In and out: plain
 // values. The simulated drive uses the state machine and the mailbox; products that test a master use the rest.

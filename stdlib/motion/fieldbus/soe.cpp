@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sercos over EtherCAT: see soe.h.
 #include "fieldbus/soe.h"
 

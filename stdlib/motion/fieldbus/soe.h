@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sercos over EtherCAT: identification numbers, telegrams of process data, and the service channel that reads and
 // writes elements of them. In: a table of parameters. TM/TP manual 2.4.2; AX manual 7.4.2; IEC 61800-7-204 and -304.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The axis kernel: what all motion blocks share. An AXIS_REF_SM3 has one owner, the command that moves it. The owner's
 // block computes the set values of the cycle when it is called; beforeTask and afterTask exchange them with the drive
 // and watch the axis. In: commands of blocks; out: set values, states and errors.

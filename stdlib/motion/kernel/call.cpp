@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of motion blocks: edges of Execute, and what becomes of a command. PLCopen part 1, 2.4.1.
 #include "kernel/axis.h"
 

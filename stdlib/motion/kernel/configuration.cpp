@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Before an axis gets power: the start-up SDOs of its drive, and whether the process data has what the axis needs. Also
 // the service channel of the drive, for blocks. TM/TP manual 1.7.1, 2.4.1.
 #include "drive/drive.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cycle of an axis: its drive, its power, its errors. In: process data, requests of MC_Power; out: actual values,
 // states, and set values to the drive. TM/TP manual 3.1; IEC 61800-7-201.
 #include <math.h>

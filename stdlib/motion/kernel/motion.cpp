@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Set values: plans of commands, their evaluation in each cycle, and the hand-over from one command to the next.
 #include "kernel/axis.h"
 

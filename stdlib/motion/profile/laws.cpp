@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sin^2 and the quintic. sin and cos are polynomials of fixed order: the last bit of libm's differs between C
 // libraries.
 #include "laws.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The laws of the smooth velocity ramps on 0 <= s <= 1: velocity from 0 to 1, its integral, and its two derivatives.
 // Called by profile.cpp for Ramp::Sin2 and Ramp::QuadraticSmooth.
 #pragma once

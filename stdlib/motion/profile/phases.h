@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the two planners share: the request in coordinates of the axis and the writer of phases. Called by plan.cpp,
 // trapezoid.cpp and s_curve.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks requests, hands them to the planner of their ramp, and evaluates profiles.
 #include "profile.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion profiles of one axis: from any start state to a position with an end velocity, or to a velocity, as fast as
 // the limits allow. In: a start state, limits and the form of the ramps; out: a Profile, plain data that at() evaluates
 // at any time in closed form. Called by the motion blocks (stdlib/motion); needs nothing of the runtime. No allocation,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fastest jerk-limited change of velocity upwards: from (v0, a0) to (v1, a1), both accelerations >= 0. A fall is a
 // rise seen backwards in time. Called by s_curve.cpp.
 //

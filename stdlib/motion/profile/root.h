@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The root of an increasing function between two bounds, by Newton's method inside a bracket. Bounded: each step that
 // is not Newton's halves the bracket. Called by s_curve.cpp.
 #pragma once

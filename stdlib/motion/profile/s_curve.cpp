@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time-optimal plans with limited jerk from any velocity and acceleration. In: a request that is checked; out: phases.
 //
 // The plan is found on a family of motions that starts with the fastest ramp from the start to the end velocity and

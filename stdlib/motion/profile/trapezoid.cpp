@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time-optimal plans with constant accelerations: up to a peak velocity, cruise, down to the end velocity, or the
 // mirror image. In: a request that is checked; out: phases. The smooth laws share it with their mean accelerations.
 #include <math.h>

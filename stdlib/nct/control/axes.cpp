@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes of the simulated control: see axes.h.
 #include "axes.h"
 

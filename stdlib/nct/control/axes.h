@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The axes of the simulated control: requests and their answers, jogging, the motion commands of the PLC and position
 // switches. A move has a constant speed, without ramps. Positions and distances in units of the machine (mm or
 // degrees), speeds in units a minute. NCT manual 6.15, 6.24, 6.25, 7.10, 7.13.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter block of an MR or MW service, as the simulated control works on it. In: a copy of the block in PLC
 // memory. Out: the words that the service wrote. Used by the services (tools.h, pallets.h, …) and by control.cpp, which
 // copies written words back. NCT manual 6.18.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels of the simulated control: see channels.h.
 #include "channels.h"
 

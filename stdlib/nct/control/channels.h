@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The channels of the simulated control: modes, start and stop, and the functions of blocks, which a strobe of one
 // cycle tells the program and which it acknowledges. A part program is a queue of blocks with functions only. NCT
 // manual 7.15.

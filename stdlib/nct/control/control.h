@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated numerical control: what `rung run` and `rung test` give an NCT program instead of a machine. In: the
 // calls of rung/nc.h, and set-ups by NCT_SIMULATE. Out: inputs of the program, results of its instructions. Used by the
 // bundled host. docs/nct.md.

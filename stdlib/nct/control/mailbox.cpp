@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EtherCAT mailboxes of simulated devices: see mailbox.h.
 #include "mailbox.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EtherCAT mailboxes of simulated devices. In: blocks of services, devices and objects that a test sets up. Out: codes
 // of execution, data. Used by control.cpp and services.cpp. NCT manual 6.28.
 #pragma once

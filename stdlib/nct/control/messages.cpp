@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of the PLC: see messages.h.
 #include "messages.h"
 

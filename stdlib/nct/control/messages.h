@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages of the PLC on the screen of the simulated control and in its log. NCT manual 6.13, 7.12.
 #pragma once
 

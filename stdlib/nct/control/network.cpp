@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network connection of the simulated control: see network.h.
 #include "network.h"
 

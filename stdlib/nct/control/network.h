@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network connection of the simulated control: one socket, which never makes a cycle wait. In: blocks of services.
 // Out: codes of execution, packets, errors by their Windows numbers. Used by control.cpp and services.cpp. NCT
 // manual 6.22.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pallet management of the simulated control: see pallets.h.
 #include "pallets.h"
 

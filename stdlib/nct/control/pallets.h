@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pallet management of the simulated control: the table of pallets and its services. In: blocks of services, parameters
 // N3300 to N3302. Out: codes of execution, the program that comes next. Used by control.cpp and services.cpp. NCT
 // manual 6.27.

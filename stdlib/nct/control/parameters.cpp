@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameters of the control: see parameters.h.
 #include "parameters.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameters of the simulated control and their services. In: number and index, or the block of a service. Out:
 // values, codes of execution. NCT manual 6.20.
 #pragma once

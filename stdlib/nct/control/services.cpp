@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The services of MR and MW that the simulated control does itself: see control.h. NCT manual 6.18 to 6.25.
 #include <algorithm>
 

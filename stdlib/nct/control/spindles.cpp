@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spindles of the simulated control: see spindles.h.
 #include "spindles.h"
 

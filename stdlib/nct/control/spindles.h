@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The spindles of the simulated control: speed with ramps, orientation, synchronous running, detaching. Speeds in
 // revolutions a minute. NCT manual 7.14.
 #pragma once

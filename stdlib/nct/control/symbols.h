@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The symbols of the numerical control by their names: the table of the compiler, nc_symbols.def. NCT manual chapter 7.
 #pragma once
 

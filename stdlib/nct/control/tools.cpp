@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool management of the simulated control: see tools.h.
 #include "tools.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool management of the simulated control: the tables of tools, cartridges and patterns, their services, the choice of
 // a tool for a T code, and tool life. In: blocks of services, what channels and spindles do. Out: codes of execution,
 // the signals of tool life. Used by control.cpp and services.cpp. NCT manual 6.26, 7.14.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The TimeSlice memory as the simulated control sees it during an exchange. In: what the program tells the control, and
 // inputs that a test or an operator has set. Out: what the control tells, as far as it has changed: so a value that
 // somebody else set stays until the control has another one to tell.

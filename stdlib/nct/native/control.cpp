@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of control.st and simulation.st: each forwards its call to the host's numerical control.
 #include "rung/nc.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A queue of bytes of fixed capacity: what a channel has received, and what it has yet to send. Datagrams are in it
 // with a header each. One lock of its owner guards it.
 #pragma once

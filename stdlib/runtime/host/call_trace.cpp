@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The calls of a cycle: see call_trace.h.
 #include "call_trace.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The POUs that ran in a cycle, as `rung run --trace-calls` prints them. In: the calls that an interpreted module
 // reports (rung_host::called). Out: `cycle 3: Main, Main.rest (TON) x2, Ramp`: instances by path and type, functions by
 // name, in the order of their first call.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sockets and serial lines of a program: see channels.h. The functions of the program are first, the engine follows.
 #include "channels.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels of a program (rung_channels) on sockets and serial lines of this machine. Functions of the program only copy
 // bytes and leave wishes; one engine, an epoll loop, opens, sends, receives and answers Modbus masters. It has a thread
 // of its own in real time; in virtual time the host polls it between the rows. In: devices of the serial ports

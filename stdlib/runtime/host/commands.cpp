@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commands to a running program: see commands.h.
 #include "commands.h"
 

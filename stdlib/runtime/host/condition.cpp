@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parser and evaluator of --stop-on conditions: see condition.h.
 #include "condition.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The condition of --stop-on: a BOOL expression over program variables, `Main.n >= 10 AND NOT Main.busy`. In: its
 // source and the symbols. Out: its current value, or an error message. Called by run.cpp.
 #pragma once

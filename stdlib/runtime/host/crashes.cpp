@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signals of the program as faults: see crashes.h.
 #include "crashes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crashes of the program: it accesses memory through a bad pointer, or calls of compiled code nest too deep. The signal
 // becomes a fault like any other (rung/module.h), so outputs get safe values and __TRY sees it.
 // In: the activation, the signal. Out: RUNG_FAULT_NULL with RUNG_BAD_ADDRESS, or RUNG_FAULT_STACK.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading and quoting CSV: see csv.h.
 #include "csv.h"
 

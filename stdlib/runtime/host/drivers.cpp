@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Devices of a product: see drivers.h.
 #include "drivers.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The devices of a product (rung_driver), and the simulated modules of rung.project that no driver serves: their inputs
 // enter the image before an activation of the task that they belong to, their outputs leave after it. In: drivers. Out:
 // true, or which one failed. Called by tasks.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies of shared memory for tasks: see exchange.h.
 #include "exchange.h"
 

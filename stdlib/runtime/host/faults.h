@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats faults for the user: `path:line: fault[div]: division by zero in Main`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the program as places below the root: see file_place.h.
 #include "file_place.h"
 

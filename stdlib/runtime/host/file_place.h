@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a name of the program is: the folder that holds it, opened part by part below the root without following links,
 // so that no name and no link leads outside. In: the root and a name. Out: a descriptor and the last part for the *at
 // functions. Called by files.cpp, file_work.cpp and file_tree.cpp.

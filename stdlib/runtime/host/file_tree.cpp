@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders with their content: see file_tree.h.
 #include "file_tree.h"
 

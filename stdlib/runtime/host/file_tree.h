@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders of the program as a whole: listed, copied and removed with their content. Links and devices are left out. In:
 // the root and names below it. Out: 0 or a count, or a rung_file_error. Called by file_work.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work on files: see file_work.h.
 #include "file_work.h"
 

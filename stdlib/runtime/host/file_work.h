@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work on files off the cycle (rung_file_work). In real time a thread does it, one after the other; in virtual time it
 // is done when its result is asked for, so that runs are reproducible. In real time memory is reserved in advance:
 // begin and result copy, and do not wait for the disk. In: work. Out: results. Called by files.cpp and run.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of the program, below one folder of this machine (--files-root). In: names as programs write them: `/` or `\`
 // between folders, a leading `/` or `C:` means the folder itself. Out: rung_files for the host table. A name that
 // leaves the folder by `..` is rejected, and links are not followed. Calls may come from several tasks.

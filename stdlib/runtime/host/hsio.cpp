@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated high-speed inputs and outputs: see hsio.h.
 #include "hsio.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated high-speed inputs and outputs (rung/hsio.h): the model that rung_host.hsio reaches, with signals that
 // programs and tests describe. In: registers, and the program's time. Out: registers, and interrupts at the times at
 // which they occur. Calls may come from several tasks. Called by run.cpp, test.cpp and schedule.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values set from outside: see inputs.h.
 #include "inputs.h"
 

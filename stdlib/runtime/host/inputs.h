@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values set from outside: the table of --inputs and the values of --set. In: paths and literals. Out: variables set
 // before their cycle. Everything is checked before the run begins.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Test results as JUnit XML: see junit.h.
 #include "junit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Test results as JUnit XML for Jenkins and GitLab: a <testsuite> for each file of tests. Called by test.cpp.
 #pragma once
 

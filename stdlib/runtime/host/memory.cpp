@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory of a module: see memory.h.
 #include "memory.h"
 

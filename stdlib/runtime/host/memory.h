@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory of a running module: blocks, areas and the context. In: a module. Out: memory set to its initial
 // values. One per run; a test run resets it before each test.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Modbus servers: see modbus_server.h.
 #include "modbus_server.h"
 

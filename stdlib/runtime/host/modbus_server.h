@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Modbus servers of a run: connections of TCP masters and serial lines, answered from the ServedImage as soon as a
 // request is whole. In: descriptors and their events, from the thread of the engine (channels.h). Out: replies. A peer
 // that breaks the protocol loses its connection; on a line, what is not a request is dropped when the line is silent.

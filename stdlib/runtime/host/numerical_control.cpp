@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numerical control of an NCT program: see numerical_control.h.
 #include "numerical_control.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numerical control of an NCT program: the one that a library of --driver brings, or a simulated one. In: a module.
 // Out: rung_host.nc. docs/nct.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
 #include <sys/stat.h>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file that appears whole or not at all: written beside its final path and renamed at the end. An unfinished file is
 // removed by the destructor, and when a signal ends the process, also in an endless loop of the program. Used by
 // traces, plots and test results.

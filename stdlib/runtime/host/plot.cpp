@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trace as an SVG: see plot.h.
 #include "plot.h"
 

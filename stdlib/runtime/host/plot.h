@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trace as a picture (--plot): an SVG with a lane per variable over the time. In: the rows of a run. Out: a file of
 // bounded size, however long the run: each column keeps the lowest and highest value of its rows. Used by run.cpp and
 // test.cpp.

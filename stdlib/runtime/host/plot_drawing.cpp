@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Timing diagrams as SVG: see plot_drawing.h.
 #include "plot_drawing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws timing diagrams as SVG: a lane for each variable over a common axis, of time or another quantity. BOOLs are
 // levels, enumerations boxes with the item's name, numbers curves on an axis of their own. The colours follow a light
 // or dark page. In: the columns of the lanes. Out: the text of the picture. Called by plot.cpp and `rung cam show`.

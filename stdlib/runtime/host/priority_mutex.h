@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mutex whose holder runs with the priority of the task that waits for it, for std::lock_guard.
 #pragma once
 

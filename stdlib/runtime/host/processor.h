@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processor of a resource: the right to run its tasks. Where the system lets a thread choose SCHED_FIFO and a CPU,
 // all tasks of a resource are on one CPU, and the system interrupts a task for one of higher priority; else they run
 // one at a time, and of those that wait the one of highest priority is next. In: threads of tasks. Called by

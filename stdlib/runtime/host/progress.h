@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The progress of a long run in virtual time on a terminal: from its third second on, one line on standard error that
 // is rewritten twice a second and cleared before anything else is printed there. Called by run.cpp after each cycle.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tasks as threads in real time: see realtime.h.
 #include "realtime.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Real time: a thread per task with absolute deadlines, on the processor of its resource. What an activation does is in
 // tasks.h; here is when it begins. In: the tasks and the hooks of a run. Out: why the run ended. Stops at SIGINT and
 // SIGTERM: the activations that run are completed.

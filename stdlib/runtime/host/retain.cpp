@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Retained variables: see retain.h. After the values a slot has a directory of their variables, a line each:
 // `path TAB kind TAB offset TAB size TAB type`.
 #include "retain.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Retained and persistent variables of a run (--retain). The values are those of complete cycles: they are copied where
 // no task is within an activation, and written to the file off the cycle. In: the ranges of the module. Out: memory
 // restored, and a sentence for each variable whose value is lost.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file of retained data: see retain_file.h.
 #include "retain_file.h"
 

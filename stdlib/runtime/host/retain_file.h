@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file of retained data: slots (rung/retain.h) at multiples of 4096 bytes after a sector that says what the file
 // is. A slot is written where the newest complete one is not, and synced; the file is never renamed or shortened. So
 // whatever instruction a power failure comes at, the newest or the one before it is complete. In: a path. Out: bytes of

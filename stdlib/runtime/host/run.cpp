@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung run` and executables of `rung build`: runs a module in virtual or real time. See rung/host.h.
 #include <unistd.h>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tasks in virtual time: see schedule.h.
 #include "schedule.h"
 

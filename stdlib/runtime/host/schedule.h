@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Virtual time: which tasks run in a row, in which order, and at which time. A row is one period of the fastest cyclic
 // task. Each resource has one processor. A task whose activations take time (`duration`) runs its code when it first
 // gets the processor, and its outputs leave when its time is up; tasks of higher priority interrupt it meanwhile

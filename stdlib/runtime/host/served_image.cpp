@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The copy of the image for Modbus masters: see served_image.h.
 #include "served_image.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What Modbus masters see of the process image: a copy that is exchanged with the image at the borders of activations,
 // so that a master never sees, or changes, the values of a cycle that runs. In: the areas at a border, requests of
 // masters from another thread. Out: replies; what masters wrote enters the image at the next border. Addresses that the

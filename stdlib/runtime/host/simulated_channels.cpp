@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels in virtual time: see simulated_channels.h.
 #include "simulated_channels.h"
 

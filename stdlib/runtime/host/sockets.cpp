@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sockets and serial lines: see sockets.h.
 #include "sockets.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sockets and serial lines of this machine, all without waiting. In: addresses and settings as programs give them. Out:
 // a descriptor, or -1 and a rung_channel_error. Called by channels.cpp and modbus_server.cpp.
 #pragma once

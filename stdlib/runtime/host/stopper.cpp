@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time limits and SIGINT: see stopper.h.
 #include "stopper.h"
 

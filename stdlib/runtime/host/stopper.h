@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ends activations that do not end by themselves: after a time limit, and on SIGINT. A signal sets rung_context::stop,
 // which code asks for at loops and calls (rung_poll). In: the context of the activations, one thread. Out:
 // RUNG_FAULT_STOP. Called by run.cpp and test.cpp; a process has one Stopper at a time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths of variables: see symbols.h.
 #include "symbols.h"
 
@@ -65,6 +66,7 @@ std::string didYouMean(std::string_view written, const std::vector<std::string_v
   std::string_view nearest;
   std::vector<size_t> row;
   for (const std::string_view candidate : candidates) {
+    if (candidate.substr(0, 2) == "__") continue;  // hidden
     const std::string to = lowerCase(candidate.substr(0, 64));
     if (to.size() > from.size() + best || from.size() > to.size() + best) continue;
     row.resize(to.size() + 1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths of variables, `Instance.var[1,2].field`. In: the module's symbol tables and its memory. Out:
 // variables that can be read, printed and set. Used by inputs, traces, --set, task triggers and retain files.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tasks and their activations: see tasks.h.
 #include "tasks.h"
 

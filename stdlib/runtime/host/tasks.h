@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tasks of a program, and one activation of a task: what virtual and real time have in common. The two hosts decide
 // when an activation begins and ends; all else is here: the exchange of the image, devices, statistics, the watchdog.
 // In: the tables of a module. Out: activations run, and why one did not end well.

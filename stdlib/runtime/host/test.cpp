@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports. A failing assertion, a
 // fault or a crash fails its test only. See rung/host.h.
 #include <fnmatch.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processes of tests: see test_process.h. Messages on the pipe: length, kind, then numbers and strings, each with
 // its length.
 #include "test_process.h"

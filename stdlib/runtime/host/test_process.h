@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests run in a child process, so that a crash, or code that cannot be stopped, ends one test and no more, and the
 // results are always reported. In: the numbers of the tests. Out: a result for each. A new child continues after one
 // that died. Called by test.cpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trace as CSV: see trace.h.
 #include "trace.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trace of a run: CSV rows after each cycle, or the last row as `path = value` lines. In: the watched variables.
 // Out: a file that appears whole or not at all, or standard output.
 #pragma once

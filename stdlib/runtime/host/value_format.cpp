@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formatting and parsing of variables: see value_format.h.
 #include "value_format.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats and parses values of variables, enumerations by name. In: a variable of the symbol map. Out: its value as in
 // the trace; or the variable set from a literal.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, formats the values of a failure like the trace,
 // and reports to the host's `assertion` callback. A failing assertion does not end the test.
 #include <string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Entering and leaving generated code: a fault is a longjmp to the innermost guard, or an exception up to the outermost
 // (rung/call_paths.h). In: the context of a task. Out: the
 // kind of fault, details in ctx->fault. Called by hosts for each activation, and by checks of generated code.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of current faults: see rung/diagnosis.h. A code is published last and taken back first, so a reader that
 // sees the same code before and after it copied an entry has a whole one.
 #include "rung/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model of the counter unit: see rung/hsio.h. Time passes from event to event: edges of inputs and signals, ticks
 // of timing counters, ends of output pulses and samples. What an event causes happens at its time.
 #include "rung/hsio.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Answers of a Modbus server: see rung/modbus.h. MODBUS Application Protocol 1.1b3, MODBUS over Serial Line 1.02,
 // MODBUS Messaging on TCP/IP 1.0b.
 #include "rung/modbus.h"

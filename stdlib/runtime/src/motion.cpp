@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung_find_axes of rung/motion.h: walks the symbol map for records of the type RUNG_DRIVE. Without memory of its own.
 #include "rung/motion.h"
 

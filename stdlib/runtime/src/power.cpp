@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power function of `**` and EXPT, out of line so that generated code needs no <math.h>. Domain errors give NaN.
 #include <math.h>
 

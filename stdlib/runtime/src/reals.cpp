@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // REAL and LREAL as characters (rung/reals.h). The shortest digits are found as in R. Giulietti, "The Schubfach way to
 // render doubles" (2020); reading multiplies by the same powers of ten, as in D. Lemire, "Number parsing at a gigabyte
 // per second" (2021). What 128 bits do not decide, and printing with a given precision, is computed exactly in Big.

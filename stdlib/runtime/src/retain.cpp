@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slots of retained data: see rung/retain.h.
 #include "rung/retain.h"
 

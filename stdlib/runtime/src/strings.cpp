@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // STRING, WSTRING and USTRING in place (rung/code.h): assignment, comparison, conversion between them and to scalars.
 // In: NUL-terminated strings. Out: strings of at most `capacity` characters. `to` may overlap `from`.
 #include <stdint.h>

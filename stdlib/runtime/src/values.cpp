@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats and parses values, see rung/values.h. Dates count from 1970-01-01 in the Gregorian calendar: DATE and DT in
 // 32-bit seconds, TOD in 32-bit milliseconds since midnight, the L-forms in 64-bit nanoseconds.
 #include "rung/values.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of conversion.st: values to and from strings, BCD, byte order.
 #include <string.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The integer and bit-string types of the language with their C types, for native bodies that exist once for each.
 // RUNG_EACH_INTEGER(ROW) is ROW(NAME, type) for all twelve. Used by conversion.cpp and numeric.cpp.
 #pragma once

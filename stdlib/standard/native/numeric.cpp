@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of numeric.st: one C function per function and type. Domain errors give NaN or an infinity, no fault.
 #include <math.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of string.st. Positions count from 1, in bytes of a STRING and 16-bit units of a WSTRING. A result has
 // at most 255 characters and at most `capacity`; `out` may be one of the inputs. Lengths and positions outside of a
 // string are clipped, so nothing outside of it is ever accessed. CODESYS documents what its functions do there (library

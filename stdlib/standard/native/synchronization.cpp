@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of synchronization.st. Tasks in real time are threads, so shared state is atomic; the host waits
 // (rung_host::wait). In virtual time no task runs while another waits, so waiting is an error at once.
 #include "rung/code.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The native body of synchronization.st that is atomic in 64 bits. Many processors of 32 bits cannot do that: alone in
 // its file, it wants a function of the product (__atomic_compare_exchange_8) only from programs that call it.
 #include "rung/code.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of time.st: the time of the activation; composes and splits dates. DATE and DT count
 // seconds since 1970-01-01, TOD milliseconds since midnight, the L-forms nanoseconds. Dates that do not exist in the
 // calendar (month 13, 29 February 2026) carry over into the next month or day.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of string.st for USTRING, whose positions and lengths count characters: converted to bytes, passed to
 // the function of STRING, and a character cut in its middle is dropped. Also LEN_CODE_UNIT, and strings as bytes.
 #include <string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of channels.st: each forwards its call to the host's channels. Without such a host, opening is denied.
 #include "rung/code.h"
 #include "rung/modbus.h"

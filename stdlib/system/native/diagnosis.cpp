@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of diagnosis.st, on the table of the host.
 #include "rung/diagnosis.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of files.st: each forwards its call to the host's files. Without such a host, opening is denied.
 #include "rung/code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of hsio.st: each forwards its call to the host's registers.
 #include "rung/code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native bodies of task.st: the current task, messages to the operator, and names.
 #include "rung/code.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native body of FB_FormatString in format.st. Nothing is read outside of the format and of the arguments; no heap.
 #include <string.h>
 

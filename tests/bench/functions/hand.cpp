@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernels of kernels.st as C++ that an engineer writes by hand: arrays by reference, text in buffers, numbers by
 // to_chars and from_chars.
 #include <charconv>

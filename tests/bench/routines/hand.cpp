@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The routines as a C++ programmer writes them; kernels.st does the same work in ST. Prints who, name, rounds, seconds
 // of the best of five runs, and the checksum, which must equal that of the generated code.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts of generated programs: a block whose body is a sequential function chart of steps in sequence, alternative and
 // parallel branches, with actions of all qualifiers. Conditions and actions are generated expressions and statements.
 #include "frontend/source/dialect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects of edition 3: a chain of classes with overridden and overloaded methods, an interface, REF_TO, assignment
 // attempts (?=), overloaded functions, characters of strings, structures whose members overlap.
 #include "frontend/source/dialect.h"

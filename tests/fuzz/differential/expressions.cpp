@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions of generated programs: each has a type, and a depth that it does not exceed.
 #include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
 // POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, classes.cpp, records.cpp,
 // charts.cpp, program.cpp.

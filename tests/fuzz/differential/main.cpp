@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Differential testing: generated programs must behave alike however they are run.
 //   differential [--first=SEED] [--count=N] [--ways=interp|native|all|turns|one|suite] [-j N] [--rung=PATH]
 //   [--folder=PATH] differential --print=SEED

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blocks with methods, properties, actions and bases in generated programs, the interfaces, pointers and references
 // to them, and memory from the pool. Only in the codesys dialect.
 // A method calls only methods with a smaller number, so every call ends, whatever the object is.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // POUs and declarations of generated programs, and the source of a program.
 #include "tests/fuzz/differential/program.h"
 

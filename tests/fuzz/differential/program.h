@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A generated program as a tree of text, so that the shrinker can take pieces out of it.
 // In: a seed. Out: equal text for equal seeds, on every machine. Called by main.cpp; shrink.cpp changes the nodes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data of generated programs: nested structures with strings, arrays of them, assigned, compared and returned whole,
 // strings of several lengths, enumerations, unions, and blocks with methods and properties of such types. The plain
 // part is made in every dialect; references, unions and objects in the codesys dialect, REF_TO in edition 3.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shrinks generated programs: see shrink.h.
 #include "tests/fuzz/differential/shrink.h"
 

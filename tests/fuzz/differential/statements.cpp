@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements of generated programs.
 #include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libFuzzer over every reader of frames. The input is what peers send: to the Modbus servers of the bundled host as a
 // TCP stream and on a serial line, and to a program with the blocks of Modbus masters and of the freeport
 // (plant.iecst). The first byte says where cuts and right checksums are. Built and run by `tools/long.sh frames`.

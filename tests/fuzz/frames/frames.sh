@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Frames that peers send, under libFuzzer with ASan and UBSan: the servers of the bundled host, and a program with the blocks
 # of masters and of the freeport (frames.cpp). Needs clang++. An input that fails is left in the current folder.
 #   tests/fuzz/frames/frames.sh [SECONDS [SEED]]      default 60, 1

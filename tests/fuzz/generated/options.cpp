@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Command line of the tools for generated programs: see options.h.
 #include "tests/fuzz/generated/options.h"
 

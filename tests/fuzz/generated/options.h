@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line shared by the tools for generated programs: differential, il_differential, sfc_differential,
 // network_differential. In: the arguments. Out: Options; by default rung is beside the tool, and a temporary folder is
 // made.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Function blocks as ST and IL from one tree of expressions and statements: see generator.h.
 #include "tests/fuzz/il/generator.h"
 

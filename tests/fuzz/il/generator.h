@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same logic twice: a generated function block as ST and as IL, each from one tree. In: a seed. Out: two sources
 // with equal declarations and equal names, whose traces must be equal. Called by main.cpp.
 #pragma once

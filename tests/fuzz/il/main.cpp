@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ST against IL: generated function blocks in both languages get the same random inputs for many cycles, and their
 // traces must be equal.
 //   il_differential [--first=SEED] [--count=N] [--cycles=N] [-j N] [--rung=PATH] [--folder=PATH]

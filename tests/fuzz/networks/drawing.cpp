@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws the logic of a block in LD, FBD or CFC: see drawing.h.
 #include "tests/fuzz/networks/drawing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elements and wires of a block's logic as an editor of LD, FBD or CFC would draw them, and their files: the
 // notation of networks, and PLCopen XML in the manner of several editors. Private to this folder.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generates the logic of a block: see logic.h.
 #include <algorithm>
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The common meaning of a generated block in all languages: networks of actions over expressions, with one execution
 // order. An action evaluates what it needs and is not evaluated yet; a node with several readers is evaluated once.
 // In: a seed. Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks: generated logic as ST, IL, LD, FBD and CFC (with an execution order, without, with the one that Rung
 // computes) and as PLCopen XML gets the same random inputs for many cycles, and all forms must give the trace of the
 // ST.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A block as ST, the reference, and as IL: both follow the actions one by one and share nothing with the scheduler.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drawings as PLCopen TC6 XML, each editor with its habits: see docs/files.md.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A generated chart, its source, and its behaviour according to a simple evaluator, independent of the compiler: it
 // visits all steps, transitions and actions in each cycle (syntax manual 5.9.8; IEC 61131-3 ed. 3 tables 59 and 60).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference evaluator of charts: slow and plain. See chart.h.
 #include <algorithm>
 #include <memory>

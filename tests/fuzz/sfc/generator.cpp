@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts by structure: nested sequences of steps, alternatives, loops and parallel branches, so each chart is safe;
 // conditions, qualifiers and times by chance.
 #include <random>

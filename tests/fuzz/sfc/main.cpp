@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated charts against the evaluator: `rung run` must show the same active steps, variables and order of actions in
 // each cycle.
 //   sfc_differential [--first=SEED] [--count=N] [--cycles=N] [--engine=interp|native] [--rung=PATH] [--folder=PATH]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A chart as PLCopen XML. Where TC6 has several ways to draw something, one is chosen at random: alternatives with and
 // without divergences, paths that meet in a step, in a convergence or by a jump, nested double lines, conditions in the
 // transition, wired to it or named.

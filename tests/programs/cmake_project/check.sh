@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The build step, with Ninja and with make: a first build, nothing to do, a touched source, a changed body, a new file, a
 # mistake. PREFIX is an installed Rung (cmake --install build --prefix PREFIX); paths with blanks are part of the test.
 #   tests/programs/cmake_project/check.sh PREFIX

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smallest host: it allocates the memory, opens and closes the press five times, and prints the strokes.
 #include <cstdio>
 #include <cstring>

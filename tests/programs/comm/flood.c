@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Load for a Modbus TCP server: flood PORT SECONDS CONNECTIONS HOSTILE
  * CONNECTIONS masters read 10 registers as fast as they get replies, each checked. HOSTILE other peers meanwhile send noise, halves of
  * frames, or requests whose replies they never read, vanish and come again. Prints `requests per second` and `wrong`. */

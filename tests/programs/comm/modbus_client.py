@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads and writes the program modbus_slave.iecst with pymodbus: modbus_client.py PORT|DEVICE. Prints what is wrong, then `done`."""
 import logging
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The other side of Modbus tests, with libmodbus.
  *   modbus_peer slave tcp PORT | rtu DEVICE      answers until the holding register 999 is written
  *   modbus_peer master tcp PORT | rtu DEVICE     reads and writes a program with the image of modbus_slave.test

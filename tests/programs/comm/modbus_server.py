@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A Modbus slave made with pymodbus for modbus_master.iecst: modbus_server.py PORT|DEVICE. Prints what was written, once it is complete."""
 import os
 import sys

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Names of every kind after a conversion.  names.py [STEP]
 
 Each keyword of the other dialects and languages, and each name of a library, is tried as the name of a variable, member,

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Do converted tests pass?  tests_pass.py [--forms st,split,xml] FILE...
 
 Each conformance program is converted to ST, to ST with a file for each POU, and to PLCopen XML; the same tests must pass

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Does a converted project behave like the project?  traces.py [--cycles N] FILE|FOLDER...
 
 Each project is run as it is and after `rung convert` to ST, to ST with a file for each POU, and to PLCopen XML; a CSV of the

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Writes each program as PLCopen XML, checks the file by the rules of the schema, and compares the IR of the program
 # with that of the file: locations and the order of declarations may differ.
 # --std=… is taken from a line `// args:` of a file. Tests become programs, because a product has no tests.

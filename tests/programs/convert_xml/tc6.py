@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks files by the rules of PLCopen TC6 XML 2.01: which elements stand where, in which order and how often, which
 attributes they have and of what form; beyond the schema, that a localId stands once in a body and that every wire
 leads to one. What stands in the `data` of an addData is of others.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Counts what is allocated while code of the program runs, in a process of the bundled host: linked with
  * --wrap=rung_guarded, through which the host enters the program. Prints the number at the end. Called by
  * no_allocation_with_host.test. */

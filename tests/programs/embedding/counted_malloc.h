@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Calls note(), of the file that includes this, for each call of malloc and its kin in the process. */
 #include <stdlib.h>
 

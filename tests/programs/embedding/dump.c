@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Runs one cycle of a module and writes its memory as it is: block0, block1, ..., areaI, areaQ, areaM. */
 #include <stdio.h>
 

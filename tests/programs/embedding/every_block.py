@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Prints a program that calls the blocks and functions of the libraries. In: the folder stdlib. Called by no_allocation.test.
 Left out is what needs a variable or an address of the caller, and what only some dialects, tests or hosts have."""
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A host that is told of each fault while the code that faulted is still on the stack (`host->faulted`), and that reads
  * its call path afterwards. Prints what it was told. */
 #include <stdint.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A host that counts what is allocated while a program runs. Arguments: shared libraries of `rung build`. Each runs a
  * thousand cycles of 10 ms of all its tasks. The functions of counted_malloc.h replace those of the C library in the
  * whole process. Called by no_allocation.test. */

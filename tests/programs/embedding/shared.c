@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A compiled project as a shared library: loaded at run time, with its single exported function found by name. */
 #include <dlfcn.h>
 #include <stdio.h>

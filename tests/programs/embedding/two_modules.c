@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Two compiled projects in one firmware: each has its own prefix, blocks and areas. */
 #include <stdio.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # No accepted program fails in g++ or clang++: keywords of C and C++, words of POSIX, common macros and names of
 # generated code as variables, fields, enumeration items, functions, blocks, types, programs, tasks and pins. Words that
 # `rung check` rejects as keywords of IEC 61131-3 are left out.

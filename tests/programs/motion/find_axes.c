@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A host that lists the axes of a program, and finds their process data by block and offset. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Drives of a product, for `rung run --driver` and as an example: servo drives that a product would reach by its own
  * fieldbus. Here they only follow: the state machine of CiA 402 without faults, and the target position. Every
  * axis of the program gets one, in the order of its first cycle; `user` of rung_drive keeps which. The argument: how

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A numerical control of a product, as `rung run --driver` loads it: it starts the machine when the program asks, has one
  * axis and a service MR10 that gives its own number. Addresses are those of `rung list nct`. */
 #include <stdio.h>

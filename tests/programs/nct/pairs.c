@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A control that writes a number to two inputs in each call, in a cycle of Main so slowly that Int0 is due in between, and
  * counts in a third one the calls in which it found different numbers in two outputs that the program writes together. */
 #define _POSIX_C_SOURCE 199309L

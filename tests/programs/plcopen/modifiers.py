@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Every modifier at every element and pin of networks, without and with EN: it works, or it is E1021.
 
 usage: modifiers.py works.st fails.st

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A driver for tests: its inputs are two bytes that count the reads, its outputs go to a file, a line for each write that
  * differs from the last one. The argument: FILE, or FILE,N to fail at the Nth read. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Devices in shared memory, for a simulator of the plant in another process: the argument names a file, which both map.
  * First a counter for each direction, odd while its writer is at work, then the inputs and the outputs. */
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The other side of shared_driver.c: gives 1000 inputs another pattern each round and waits until every output is the
  * complement of its input. FILE ROUNDS; exits with 1 when an answer does not come within ten seconds. */
 #include <fcntl.h>

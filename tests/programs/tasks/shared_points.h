@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* 1000 points in each direction, in a file that two processes map. */
 #ifndef SHARED_POINTS_H
 #define SHARED_POINTS_H

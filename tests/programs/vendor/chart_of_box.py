@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """A program in CFC as TwinCAT stores it, with one box whose pins have no names.  usage: chart_of_box.py NAME TYPE VARIABLE..."""
 import sys
 from xml.sax.saxutils import escape

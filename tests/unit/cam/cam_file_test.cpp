@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cams as files: what is read is what was written, and the curve of a cam is what the runtime computes from its table.
 #include "frontend/import/cam/cam_file.h"
 

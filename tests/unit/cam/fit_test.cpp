@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fit of cams: error and peaks against known laws, wishes, limits between the points, infeasible requests, time.
 #include "cam/fit/fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion laws: derivatives, boundary values, coefficients and symmetry.
 #include "cam/laws/laws.h"
 

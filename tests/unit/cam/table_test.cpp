@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cam tables: values against the boundary conditions of each segment and against polynomials in long double.
 #include "cam/table/table.h"
 

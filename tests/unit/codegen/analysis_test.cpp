@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The analyses of a body: IR text in, what each of them found as text out.
 #include "codegen/analysis.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every operator and conversion on every type, compiled and run, agrees with the arithmetic kernel.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FOR: the number of iterations and the final value of the control, at the limits of every integer type, as a plain
 // loop and as one whose body changes the control.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mangling and literals.
 #include "codegen/names.h"
 

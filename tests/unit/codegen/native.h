@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiles the generated C++ of a module together with a driver, and runs the program. In: a module, the source of a
 // main() that may call its functions. Out: the program's output, or the compiler's messages. Warnings are errors.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strings in generated code: assignments cut to the capacity, comparisons with literals, and self-assignment.
 #include <gtest/gtest.h>
 

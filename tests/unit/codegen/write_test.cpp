@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output folders: all or nothing, equal files untouched, stale files deleted.
 #include "codegen/write.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is of an edition and what is not: a text in, the first foreign thing out.
 #include "tools/conformance/edition.h"
 

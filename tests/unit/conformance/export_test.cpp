@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The export of small projects: files and their description, and Rung accepts what it exported.
 #include "tools/conformance/export.h"
 

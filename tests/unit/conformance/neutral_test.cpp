@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Neutral form: a program of the project in, plain source of the standard out.
 #include "tools/conformance/neutral.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaving out parts: lines stay where they are, and lists keep a statement.
 #include "tools/conformance/parts.h"
 

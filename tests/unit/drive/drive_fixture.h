@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated drive with the initial values of stdlib/motion/SM3_Basic/simulated_drive.st, for unit tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Homing: every method of CiA 402 and every set of digits of P5.10, from both sides of the switch and from it. The
 // machine has limit switches at -100 000 and 100 000, a home switch from 30 000 to 50 000, and Z pulses at the
 // multiples of 10 000 plus 3 000.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The modes of operation: set values, statusword bits and the stops of the drive.
 #include "drive/modes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The object dictionary: every object with its length and access, and the mapping of the process data.
 #include "drive/objects.h"
 

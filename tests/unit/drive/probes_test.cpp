@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Touch probes: edges, sources and single or continuous latching, for both probes.
 #include "drive/probes.h"
 

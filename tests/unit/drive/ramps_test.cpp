@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ramps of the drive's own generators against hand-computed motions.
 #include "drive/ramps.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drive as a whole: its way up on the fieldbus, injected faults and what they leave.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state machine of CiA 402 by the table of IEC 61800-7-201: every transition, every state times every command.
 #include "drive/state_machine.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model of CANopen against AX manual 3.4 and CiA 301.
 #include "fieldbus/canopen.h"
 

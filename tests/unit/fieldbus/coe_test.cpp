@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CANopen over EtherCAT: frames of the SDO service byte by byte, and transfers of every length.
 #include "fieldbus/coe.h"
 

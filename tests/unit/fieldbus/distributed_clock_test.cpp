@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distributed clocks: delays, offsets and drift of a line of three slaves with known clocks.
 #include "fieldbus/distributed_clock.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model of EtherCAT against the tables of the manuals: working counter, addressing, states, mailbox header.
 #include "fieldbus/ethercat.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sercos over EtherCAT against the tables of the manuals.
 #include "fieldbus/soe.h"
 

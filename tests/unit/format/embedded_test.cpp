@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sources inside of XML: they change, the file around them does not.
 #include <gtest/gtest.h>
 

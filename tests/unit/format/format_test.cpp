@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The formatter: a source in, the same source in one style out, and the same again from that.
 #include "frontend/format/format.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the writers of networks and charts write, and the locations that its parts lead to.
 #include "frontend/import/network_writer.h"
 

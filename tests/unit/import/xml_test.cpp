@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The XML reader: elements, attributes, decoded text and its locations, and broken input of every kind.
 #include "frontend/import/xml.h"
 

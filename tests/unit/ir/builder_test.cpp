@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constructors of IR nodes and the walks.
 #include "ir/builder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small tree-walking evaluator of scalar functions, for the `; run:` lines of pass tests. It supports locals of
 // scalar and array-of-scalar type, all control flow except jumps into other lists, faults and calls of functions; no
 // instances, globals, strings or pointers. Independent of the product's interpreter (ir/interpreter).

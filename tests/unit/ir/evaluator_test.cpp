@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The test evaluator itself: faults, loops and calls, with results computed by hand.
 #include "evaluator.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the golden tests of the passes. In: folders or files *.ir, of which line 1 is the purpose; then IR text; then
 //   ; run: @F(1, -2) == 3          the value, or `fault div`, before any pass and after each expected one; computed by
 //                                  the evaluator and by the interpreter

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interval arithmetic contains every result of the kernel: all operands of small intervals of SINT, USINT and BYTE.
 #include "ir/passes/interval.h"
 

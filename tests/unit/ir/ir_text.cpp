@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See ir_text.h.
 #include "ir_text.h"
 

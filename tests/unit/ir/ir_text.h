@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module read from IR text, together with everything that it refers to. For the tests of ir/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Passes over random functions: the verifier accepts each step, the evaluator gives the same value or fault before and
 // after, and a second run changes nothing. The tests of single passes are in tests/golden/ir.
 #include "ir/passes/passes.h"

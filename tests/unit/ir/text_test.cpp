@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The text form: every node prints as in docs/ir.md, and printed text reads back to the same print.
 #include "ir/text.h"
 

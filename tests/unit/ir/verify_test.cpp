@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verifier: for each number of its list a module that breaks this rule and no other.
 #include "ir/verify.h"
 

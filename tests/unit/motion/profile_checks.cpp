@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See profile_checks.h.
 #include "tests/unit/motion/profile_checks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every profile must hold: phases that last, limits, continuity, exact arrival. In: a profile and its request;
 // out: the first violation in words, empty when there is none. Called by the property tests of profiles.
 #pragma once

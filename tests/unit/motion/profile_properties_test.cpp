@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random profiles: limits, continuity and exact arrival, also after interruptions and with values of any magnitude; and
 // time-optimality against random motions that keep the same limits. The seed is fixed; RUNG_PROFILE_SEED and
 // RUNG_PROFILE_COUNT try others (tools/long.sh profiles).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Profiles whose figures follow from closed forms: the rows of the motion digest that are about profiles (T-A to T-V),
 // the laws of the smooth ramps, starts beyond limits, and requests that are refused.
 #include "stdlib/motion/profile/profile.h"

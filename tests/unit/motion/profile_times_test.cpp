@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The duration of profiles against a solver that knows no closed form: ramps are integrated in small steps of the
 // velocity below all limits of the acceleration, forwards and backwards, and the cruise velocity is found by bisection.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corrupted and hostile networks and charts, drawn and written as PLCopen XML: everything that parses gives well-formed
 // pictures and files, in bounded time. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants; a build with
 // sanitizers (preset asan) checks their memory accesses.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corrupted NCT programs, read, written as ST and checked: no crash, no hang, and whatever is wrong is said about the
 // ladder, never about the ST that it becomes. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants,
 // RUNG_MUTATION_SHOW=1 prints those that fail whole.

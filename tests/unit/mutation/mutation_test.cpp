@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One wrong token, one error, on its line: valid programs are corrupted token by token and checked, parser and sema
 // together. The seed is fixed; RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try others, RUNG_MUTATION_SHOW=1 prints each
 // mutant that has its first error elsewhere, or more than one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corrupted and hostile networks, in the notation and in PLCopen XML: checking any file ends, in time that grows with
 // its size, and a message reports what is cut off. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants; a
 // build with sanitizers (preset asan) checks their memory accesses.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every form of token, comment and pragma, and the diagnostics for invalid source.
 #include "frontend/parse/lexer.h"
 #include "frontend/source/dialect.h"

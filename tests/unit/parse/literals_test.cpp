@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of literals. The nanoseconds are computed by hand from the calendar and the units.
 #include "frontend/parse/literals.h"
 #include "frontend/source/dialect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses a source. Out: the tree in its text form, and the diagnostics as "line:column code".
 #pragma once
 

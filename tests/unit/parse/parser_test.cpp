@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions by dialect, context-dependent keywords, limits, doc comments and pragmas.
 #include <gtest/gtest.h>
 

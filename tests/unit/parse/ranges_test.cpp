@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tree::range over all programs of the suite: the range of a node lies within that of its parent, ends with the token
 // that ends such a node, and the text of an expression or type, parsed alone, gives the same node.
 #include <gtest/gtest.h>

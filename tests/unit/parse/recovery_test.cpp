@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One mistake, one error, on its line: typical slips, block words, and twenty mistakes in one file.
 #include <gtest/gtest.h>
 

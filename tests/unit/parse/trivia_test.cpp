@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comments beside the tree: their kinds and ranges, and which of them belong to a node.
 #include "frontend/syntax/trivia.h"
 

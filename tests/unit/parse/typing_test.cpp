@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines that are not finished, as an editor sees them all day. Each line of each sample is cut after each token while
 // the lines after it stay: the first error must be on the cut line, and at most one on the lines after it. Each token
 // is deleted in turn: one error, on its line. A change that leaves a right program is not counted, except `n :=` above

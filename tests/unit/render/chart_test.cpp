@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of charts: nothing overlaps, and every path of the chart is a line or a jump with the name of its step.
 #include "frontend/render/chart_plan.h"
 #include "frontend/render/picture.h"

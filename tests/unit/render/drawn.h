@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses a program and draws it; helpers of the picture tests for lines and boxes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of networks, for the drawings of many random programs: nothing overlaps, wires connect pin to pin and avoid
 // elements, and every name can be read.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading and writing CSV (RFC 4180).
 #include "stdlib/runtime/host/csv.h"
 

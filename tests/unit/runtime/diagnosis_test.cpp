@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of current faults as a host uses it (rung/diagnosis.h): order, limits, indicators, reports from two
 // threads.
 #include "rung/diagnosis.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies of files and folders by the host: a copy that fails leaves nothing.
 #include "stdlib/runtime/host/file_tree.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung run` on the sample module: order of tasks, inputs, traces, faults, usage errors.
 #include <gtest/gtest.h>
 

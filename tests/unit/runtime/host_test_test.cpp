@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung test` on the sample module: messages, faults, `done`, filter, JUnit.
 #include <gtest/gtest.h>
 

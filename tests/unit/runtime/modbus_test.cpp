@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames and answers of the Modbus servers. Hostile frames: random and corrupted ones never read or write outside of
 // their buffers (each is in memory of exactly its size, for the preset asan) and get the answers of a second, slow
 // implementation. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other ones.

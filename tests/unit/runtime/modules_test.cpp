@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated I/O modules: the channels that the AX manual lists (ax_modules.tsv: its chapter 4, a row per channel), and
 // scaling and filters at both ends of each range. Expected values are those of tables 4-4 to 4-11 and 6-1.
 #include "stdlib/runtime/host/modules/simulated.h"

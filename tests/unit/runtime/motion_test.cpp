@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung_find_axes: axes in programs, lists, arrays of several dimensions and base blocks, and none through references.
 #include "rung/motion.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulated numerical control is asked anything: each service answers, writes where a service may, and what it is
 // given never makes it read or write beyond the memory of the program (each memory is of exactly its size, for the
 // preset asan). RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT repeat or prolong it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of one REAL or LREAL against those of the C library for long double, over a range of arguments each:
 // they differ by at most one unit in the last place.
 #include "rung/real_functions.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // REAL and LREAL as characters: the C++ library's to_chars and the C library's printf and strtod are the judges.
 #include "rung/reals.h"
 

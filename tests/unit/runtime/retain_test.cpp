@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Retained data: start kinds, torn files, another layout.
 #include "stdlib/runtime/host/retain.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module written by hand: see sample_module.h.
 #include "sample_module.h"
 

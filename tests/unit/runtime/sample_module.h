@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module written by hand in the form of generated code: one program, a fast and a slow task, an event task, an
 // image, retained data, tests. The host is tested with it, without any compiler.
 #pragma once

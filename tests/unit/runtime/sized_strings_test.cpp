@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The string functions of the library Standard, in both native forms, against the descriptions of their declarations
 // (standard/string.st) written with std::string: all small arguments, all capacities, and the target as each input.
 #include <gtest/gtest.h>

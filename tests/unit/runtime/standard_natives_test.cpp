@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Native functions of the library Standard: values from the manuals' samples, limits of positions and lengths, results
 // that overlap inputs.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The string functions and assertions of rung/code.h, and faults through guards.
 #include <gtest/gtest.h>
 

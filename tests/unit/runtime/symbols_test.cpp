@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths: roots with and without prefixes, fields, indices, bits, in-outs, the image; and setting values.
 #include "stdlib/runtime/host/symbols.h"
 

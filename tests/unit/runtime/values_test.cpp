@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats and parses values: every format of the trace and every form of literal.
 #include "rung/values.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A checked project for tests of declarations. In: sources. Out: tables and diagnostics.
 #pragma once
 

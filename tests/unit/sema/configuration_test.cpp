@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tasks and program instances, with and without a CONFIGURATION.
 #include <gtest/gtest.h>
 

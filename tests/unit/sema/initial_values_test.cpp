@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Initial values: lists, repetitions, surplus, members, instances, constants.
 #include <gtest/gtest.h>
 

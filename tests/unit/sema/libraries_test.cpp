@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Libraries: the index, reading on first use, namespaces, generic functions.
 #include "sema/declarations/libraries.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names: duplicates, libraries of names in any order, the nearest name.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Large and deep declarations: linear time, no deep recursion.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types as declared: aliases, enumerations, subranges, arrays, strings, structures; cycles and bounds.
 #include <gtest/gtest.h>
 

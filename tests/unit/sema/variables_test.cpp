@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variables: storage, constants, externals, located variables, edges.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What was written can be read after checking: over all programs of the suite, the tree prints as it did before.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules of calls: pins, directions, counts, in-outs, generics.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks programs and prints the checked tree: see checked.h.
 #include "tests/unit/sema_bodies/checked.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a program for a test, with a small library. In: the source. Out: diagnostics as `line:column code`, and the
 // checked tree in a text form with implicit conversions, types of literals and resolved calls.
 #pragma once

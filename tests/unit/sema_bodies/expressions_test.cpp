@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules of expressions: one mistake gives one code at the narrowest token.
 #include <gtest/gtest.h>
 

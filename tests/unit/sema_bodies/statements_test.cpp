@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules of statements: conditions, CASE labels, loops, jumps, targets, unreachable and unused code.
 #include <gtest/gtest.h>
 

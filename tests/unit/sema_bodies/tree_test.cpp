@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tree after the check: types of literals, implicit conversions, resolved calls.
 #include <gtest/gtest.h>
 

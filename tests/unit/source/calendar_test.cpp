@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dates of day numbers: leap years, centuries, days before 1970. Expected dates are those of `date -u -d @…`.
 #include "frontend/source/calendar.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of diagnostics: duplicates, limits, switches, order.
 #include "frontend/source/diagnostics.h"
 

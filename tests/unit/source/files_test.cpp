@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Locations: lines, columns in characters, tokens, several files, sources with invalid bytes.
 #include "frontend/source/files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interning: one id per spelling, one key per identifier, strings that do not move.
 #include "frontend/source/names.h"
 

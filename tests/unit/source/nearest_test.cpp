@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // "Did you mean": similar names are found in any case; distant names give none, ties the first by name.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Characters of string literals: which are written as themselves, with `$`, or as a code.
 #include "frontend/source/quoting.h"
 

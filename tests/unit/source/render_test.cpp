@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagnostics for people and tools: source with underlines, JSON, SARIF; hostile bytes; cut lines; limits.
 #include "frontend/source/render.h"
 #include "sema/diagnostics.h"

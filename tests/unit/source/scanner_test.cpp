@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ST divided into units: what is not closed ends with the source, a string with its line.
 #include "frontend/source/scanner.h"
 

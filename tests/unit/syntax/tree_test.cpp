@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Storage of the tree: nodes and lists over chunk borders, strings, inserted nodes, and where an expression begins and
 // ends.
 #include "frontend/syntax/tree_builder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung_add_program() of an installed Rung, moved to another folder: the steps are in
 // tests/programs/cmake_project/check.sh.
 #include <gtest/gtest.h>

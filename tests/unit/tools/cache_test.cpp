@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cache of compiled C++: entries, limits, abandoned folders, concurrent writers.
 #include "tools/driver/cache.h"
 

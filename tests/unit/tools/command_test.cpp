@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tool from a user's view: exit codes, messages, outputs that are whole or absent, the cache, concurrent runs.
 #include <gtest/gtest.h>
 #include <sys/stat.h>

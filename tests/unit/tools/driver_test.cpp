@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver in one process: two projects, each compiled twice and at the same time, from disk and from the unsaved
 // texts of an editor, with the results of the command line.
 #include <gtest/gtest.h>

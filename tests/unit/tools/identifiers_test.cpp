@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that `rung check` accepts never fail in a C++ compiler: the words and where they are used are in
 // tests/programs/identifiers/check.sh.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inputs: folders and their order, missing and unreadable files, project files, pairs of files, kinds of files.
 #include "tools/driver/inputs.h"
 #include "frontend/source/dialect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Large inputs: linear in time and memory, never quadratic. Each is so large that a quadratic step would take minutes
 // where the tool takes well under a second, so the limit of CPU time cannot fail on a slow machine.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line: every form of a value, defaults, mistakes, help, response files.
 #include "tools/rung/options.h"
 #include "frontend/source/dialect.h"

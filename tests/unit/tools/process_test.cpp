@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Child processes: folder, output, the first failure.
 #include "tools/driver/process.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rung.project: all sections, mistakes with their location, tasks as a CONFIGURATION.
 #include "tools/driver/project_file.h"
 #include "frontend/source/dialect.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts of the order of tasks, as computed by hand.
 #include "tools/driver/task_chart.h"
 

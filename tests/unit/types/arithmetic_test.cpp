@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arithmetic kernel: docs/language.md, Arithmetic and faults; expected values computed by hand.
 #include "sema/types/arithmetic.h"
 

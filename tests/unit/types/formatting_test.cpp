@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types and values as messages and traces print them.
 #include <gtest/gtest.h>
 

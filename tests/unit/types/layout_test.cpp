@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes, alignments and offsets: docs/language.md, Types and memory.
 #include <gtest/gtest.h>
 

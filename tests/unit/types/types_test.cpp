@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interning, names of elementary types and the tree of generic types.
 #include "sema/types/types.h"
 

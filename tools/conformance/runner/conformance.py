@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Puts a compiler of IEC 61131-3 through an exported conformance suite; docs/conformance.md.
 
   conformance.py run [--adapter "COMMAND"] [--name NAME] [--profile P]... [--case GLOB]... [--feature ID]...

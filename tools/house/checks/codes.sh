@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Every code of the diagnostics.def files is unique and in the registry, has a page in docs/errors and a test program that
 # provokes it, and every page has a code.
 set -eu

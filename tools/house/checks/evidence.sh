@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks that a test has, and asserts, each feature and each name of a manual that its `features:` and `covers:` lines name.
 set -eu
 cd "$(dirname "$0")/../../compliance"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks that every feature named by a test, and by the list of edition 2, is a row of the standard's tables in
 # tests/conformance/features.tsv.
 set -eu

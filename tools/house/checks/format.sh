@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks that every C++ file is formatted by clang-format 14. Other versions format differently and are not used.
 set -eu
 cd "$(dirname "$0")/../../.."

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # No file includes a header of a later layer (each layer uses only those before it), the runtime includes no
 # compiler code, of the compiler only the interpreter includes the runtime, and nothing includes tests. The registry of
 # messages includes the lists of all layers.

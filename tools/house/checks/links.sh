@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks that every relative link in a Markdown file points to an existing file, and that every back-quoted path of a
 # project file in README, CONTRIBUTING and docs/ exists.
 set -eu

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated analog inputs: AX_EM_4AD (AX 4.4, 4.6.3).
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated analog outputs: AX_EM_4DA (AX 4.4, 4.6.4).
 #include <algorithm>
 

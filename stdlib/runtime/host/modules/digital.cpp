@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated digital inputs and outputs: AX_EM_1600D, AX_EM_0016DP and DN (AX 4.3, 4.6), AE1420_AE2420 (4.7).
 #include "simulated.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // HIGH_PULSE_IO (AX 4.2): the view of the simulated counter unit (hsio.h) in the image. Its terminals are the common
 // inputs and the outputs.
 #include "../hsio.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What simulated modules have in common: see simulated.h.
 #include "simulated.h"
 

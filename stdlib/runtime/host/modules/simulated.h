@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated I/O module: what its channels show of the signals at its terminals, and what its outputs drive. In: a row
 // of types.h and where its channels begin. Out: reads and writes of a driver (rung/module.h), and terminals that a run
 // sets and watches. What the AX manual (4.2 to 4.7) leaves open is decided in docs/io_modules.md. Called by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated temperature inputs: AX_EM_4PTC (AX 4.5, 4.6.5).
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Module types and their channels: see types.h.
 #include "types.h"
 

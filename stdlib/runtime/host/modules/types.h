@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The I/O modules that a project may have (`[module NAME]` of rung.project), their channels in the process image and
 // their terminals, where the wires are. In: the name of a type. Out: rows, and the place of each channel. Read by the
 // compiler, which declares the channels as variables, and by the simulated modules. AX manual chapter 4.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Who called the code that faults. A fault leaves compiled code by a jump to rung_guarded, so its callers never see it.
  * With -DRUNG_CALL_PATHS it leaves as a C++ exception instead, which each call notes on its way
  * (rung_context::callers): nothing is executed for that until there is a fault, but the module needs the C++ runtime.

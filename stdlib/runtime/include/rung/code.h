@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The runtime header of generated code, included besides its own headers: C++17, no <cmath>, no templates. In: nothing
  * but the compiler and <string.h>. Out: inline helpers for arithmetic with IEC semantics (docs/language.md, Arithmetic
  * and faults), image access, and the declarations of the functions that librung_runtime holds out of line

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* IEC types for a body in C++ (syntax manual 5.8). In: nothing but the standard library. Out: the elementary types by
  * their names, strings with c_str() and size(), arrays with `table`, and views of the program's memory as those.
  * Included by the file that rung makes for such a body (codegen/cpp_bodies.cpp), which adds the times, the structures,

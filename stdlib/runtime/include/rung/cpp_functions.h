@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Functions of the standard that work on many types, for bodies in C++: ADD, LIMIT, MUX, SHL, LEN and so on, in upper
  * case like all functions there. In: values of the types of rung/cpp.h. Out: templates with IEC semantics: integers
  * wrap, x / 0 is 0, SEL and MUX choose. Functions of one type are generated for each body instead. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Current faults of a controller, its modules and its links: a table in memory of the host, in which programs, devices
  * and links report and which the host reads at any time (docs/embedding.md). The host points rung_host.diagnosis to one
  * that is all 0. Every function may be called from any thread; none locks or waits.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bundled host: runs a module in virtual or real time, with CSV inputs, traces, retain files and tests
 // (docs/embedding.md). In: a module and the options of `rung run` or `rung test`. Out: exit codes 0, 2, 3, 4 and output
 // on stdout and stderr. Linked into the tool (which loads modules as shared objects) and into executables made by

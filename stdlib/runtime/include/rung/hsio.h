@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* High-speed inputs and outputs: the registers that programs use (rung_hsio in rung/module.h), and a model of the
  * counter unit that has them, for products without such hardware and for simulation (docs/architecture.md). The model
  * is plain data without heap or locks. It is driven by edges, each with its time, and computes counts, latches,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Modbus for hosts: answers requests of a Modbus master from the process image, as the AX manual 3.1.2 and 3.2.2 maps
  * it. In: the data unit of a request (function code and data, without address, unit and checksum). Out: that of the
  * reply. No heap, no state. The bundled host uses it, and a product with a network stack of its own may. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The module interface: how a compiled project looks to the product that runs it (docs/embedding.md).
  * A module is code without writable statics. The host owns all memory: it allocates the blocks and areas, calls init,
  * then runs tasks; it may read and force every variable through the symbols. Plain C, no heap, no locks.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Axes and their drives, for hosts: the process data of a drive by CiA 402, and how a product serves it from its own
  * fieldbus (docs/embedding.md). Each AXIS_REF_SM3 of a program has one rung_drive, which rung_find_axes finds. Without
  * such a host every axis has a simulated drive. Plain C. */

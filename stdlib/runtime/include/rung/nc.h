@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The numerical control that an NCT program talks to, for hosts: what a product serves from its own control
  * (rung_host.nc). In: the TimeSlice memory, messages, motion commands, macro variables and services of the program.
  * Out: what the control answers. The bundled host simulates one. NCT manual 3.3, 6.13 to 6.18 and chapter 7;

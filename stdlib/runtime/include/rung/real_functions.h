@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The functions of one REAL or LREAL of the standard, as a list. Included by their native bodies and by
  * rung/cpp_functions.h.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* REAL and LREAL as characters, and back, with the C library alone: no heap, no locale, no writable statics. In: a
  * value (a REAL as the double that equals it) or characters. Out: characters without NUL, or the nearest value. Called
  * by the runtime's string functions, by rung/values.h and by native bodies that format numbers. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Retained data in two slots, for any host: memory that keeps its content (FRAM, battery-backed RAM), or a file. A host
  * writes the slot that is not the newest, so whatever instruction a power failure comes at, one slot is complete. The
  * memory of a slot is aligned to 8 bytes. Plain C, no heap. docs/embedding.md has an example. */

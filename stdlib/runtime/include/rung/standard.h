@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* String functions of the library Standard for strings whose lengths the generated code keeps in C++ locals: the sized
  * forms of the functions marked {sized} in standard/string.st, and the slice forms of those marked {slice}. In: each
  * string followed by its length. Out: the result in `out`, and its length. Semantics are those of

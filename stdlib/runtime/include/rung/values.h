@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Formats and parses elementary values. In: a kind of rung_type_kind and the memory of a value. Out: characters, or the
  * value. Serves traces, inputs, assertions and the TO_STRING functions. No heap, no locale. */
 #ifndef RUNG_VALUES_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Runs three cycles and prints every elementary variable of the program instances after each: `path = value`. */
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of IEC 61131-10 cut at every byte, and with bytes changed at random: each is read and parsed, nothing crashes
 // or hangs, and every location is in the file. The seed is fixed.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects cut at every byte, with bytes, ids, attributes and elements changed at random: each is read and parsed, each
 // message has a location in the file, and nothing crashes or hangs. The seed is fixed; RUNG_SPOILT_SEED and
 // RUNG_SPOILT_COUNT try others.

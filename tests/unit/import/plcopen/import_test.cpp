@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLCopen projects are recognized by their content, and become one ST source whose locations are those of the XML.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vendors' files cut at every byte, and with bytes changed at random: each is read and parsed, and nothing crashes or
 // hangs. The seed is fixed; RUNG_SPOILT_SEED and RUNG_SPOILT_COUNT try others.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vendors' files are recognized by their content, and become one ST source in one order.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Locations in source-mapped text: the line and column of the file on disk.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpreter's instructions against the arithmetic kernel: every operator and conversion of every scalar type on
 // values at the limits, with operands in the instance, in the frame and constant.
 #include <gtest/gtest.h>

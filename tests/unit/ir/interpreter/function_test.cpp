@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpreter on functions of IR text: control flow, calls, memory, faults. Expected values are computed by hand.
 #include "ir/interpreter/function.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Adapter for matiec. --iec2c=PATH, --include=DIR (its lib folder), --flags="-l -p", --cc="gcc -O1 -fgnu89-inline"; see conformance.py for
 what an adapter does. iec2c writes C; the program that runs the cycles is written here, beside that C: it gives each
 located variable memory of its own, sets the time, and prints the variables that VARIABLES.csv describes."""

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Adapter for Rung. --rung=PATH, --std=iec2|iec3|codesys, --engine=interp|native; see conformance.py for what an adapter does."""
 import argparse
 import subprocess

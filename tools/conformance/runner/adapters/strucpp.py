@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Adapter for STruC++. --strucpp="node PATH/cli.js", --flags="...", --cxx-flags="-O0"; see conformance.py for what an adapter
 does. --build makes a program with a command line; it is asked to run one cycle at a time and to print each variable."""
 import argparse
