@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-# rung_add_program(<target> SOURCES <file|folder>... [NAME <id>] [ROOT <folder>] [OPTIONS <option>...] [FILES <n>])
+# rung_add_program(<target> SOURCES <file|folder>... [NAME <id>] [ROOT <folder>] [OPTIONS <option>...] [FILES <n>]
+#                  [RUNTIME <part>...])
 #
 # Compiles PLC programs with `rung emit` and adds the C++ to <target> (an existing executable or library). The module
 # is <id>_module() of rung/module.h. A changed source runs `rung emit` again; a C++ file is compiled again only when its
 # content has changed. SOURCES may be folders: new files in them are found, too.
 # NAME: prefix of the module's symbols (default: the target's name). ROOT: paths in messages are relative to it
 # (default: the folder of the call). OPTIONS: further options of `rung emit`. FILES: the number of C++ files (default:
-# 8); their names do not depend on the program, so CMake need not run again.
+# 8); their names do not depend on the program, so CMake need not run again. RUNTIME: the parts of the runtime to link, of
+# core, motion and nct (default: runtime, all); a program without axes needs core.
 #
-# Uses the targets Rung::runtime and Rung::rung, the tool, which runs on the machine that builds (RUNG_EXECUTABLE: another
+# Uses the targets Rung::<part> and Rung::rung, the tool, which runs on the machine that builds (RUNG_EXECUTABLE: another
 # one). The size of a pointer is that of the target.
 include_guard(GLOBAL)
 
 function(rung_add_program target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAME;ROOT;FILES" "SOURCES;OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAME;ROOT;FILES" "SOURCES;OPTIONS;RUNTIME")
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rung_add_program(${target}): unknown arguments: ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -29,6 +31,10 @@ function(rung_add_program target)
   if(NOT ARG_FILES)
     set(ARG_FILES 8)
   endif()
+  if(NOT ARG_RUNTIME)
+    set(ARG_RUNTIME runtime)
+  endif()
+  list(TRANSFORM ARG_RUNTIME PREPEND Rung::)
   if(RUNG_EXECUTABLE)
     set(tool ${RUNG_EXECUTABLE})
   else()
@@ -69,5 +75,5 @@ function(rung_add_program target)
   set_source_files_properties(${bundles} PROPERTIES GENERATED TRUE SKIP_AUTOGEN TRUE
                                                     COMPILE_OPTIONS "-ffp-contract=off;-fvisibility=hidden")
   target_compile_features(${target} PRIVATE cxx_std_17)
-  target_link_libraries(${target} PRIVATE Rung::runtime)
+  target_link_libraries(${target} PRIVATE ${ARG_RUNTIME})
 endfunction()
