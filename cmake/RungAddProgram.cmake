@@ -14,6 +14,20 @@
 # one). The size of a pointer is that of the target.
 include_guard(GLOBAL)
 
+# Appends arguments to the text of a response file of rung, one in a line.
+function(rung_append_arguments variable)
+  set(text "${${variable}}")
+  foreach(argument IN LISTS ARGN)
+    if(argument MATCHES "^\\$<")
+      string(APPEND text "$<$<BOOL:${argument}>:\"$<JOIN:${argument},\"\n\">\"\n>")
+    else()
+      string(REGEX REPLACE "([\"\\])" "\\\\\\1" argument "${argument}")
+      string(APPEND text "\"${argument}\"\n")
+    endif()
+  endforeach()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 function(rung_add_program target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAME;ROOT;FILES" "SOURCES;OPTIONS;RUNTIME")
   if(ARG_UNPARSED_ARGUMENTS)
@@ -49,7 +63,8 @@ function(rung_add_program target)
   if(CMAKE_SIZEOF_VOID_P)
     list(PREPEND ARG_OPTIONS --target-pointer=${CMAKE_SIZEOF_VOID_P})
   endif()
-  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rung/${ARG_NAME})
+  set(place ${target}.rung/${ARG_NAME})  # in the folder where commands run
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${place})
   set(stamp ${folder}.stamp)
   set(bundles)
   math(EXPR last "${ARG_FILES} - 1")
@@ -57,18 +72,35 @@ function(rung_add_program target)
     list(APPEND bundles ${folder}/${ARG_NAME}_bundle_${number}.cpp)
   endforeach()
 
+  # Ninja and make print the command of a step that fails in front of what it says. So that the mistake is seen, the
+  # arguments are in a file.
+  set(arguments)
+  rung_append_arguments(arguments --bundles=${ARG_FILES} --name=${ARG_NAME} --root=${ARG_ROOT} --depfile=${stamp}.d
+                        --depfile-target=${stamp} -o ${folder} ${ARG_OPTIONS} -- ${sources})
+  get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  set(response ${place}.arguments)
+  if(is_multi_config)
+    string(APPEND response .$<CONFIG>)
+  endif()
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${response} CONTENT "${arguments}")
+
   # The stamp is the first output and the depfile's target, the C++ files are by-products: so neither Ninja nor make
-  # runs rung again when there is nothing to do, and neither compiles a file that rung left untouched.
+  # runs rung again when there is nothing to do, and neither compiles a file that rung left untouched. Ninja prints all
+  # outputs of a step that fails; there the C++ files are those of a second step, which finds out which have changed.
+  set(byproducts BYPRODUCTS ${bundles})
+  if(CMAKE_GENERATOR MATCHES "Ninja")
+    set(byproducts)
+    add_custom_command(OUTPUT ${bundles} COMMAND ${CMAKE_COMMAND} -E true DEPENDS ${stamp}
+                       COMMENT "Looking for changed files of ${ARG_NAME}" VERBATIM)
+  endif()
   add_custom_command(
     OUTPUT ${stamp}
-    BYPRODUCTS ${bundles}
-    COMMAND ${tool} emit --bundles=${ARG_FILES} --name=${ARG_NAME} --root=${ARG_ROOT} --depfile=${stamp}.d
-            --depfile-target=${stamp} -o ${folder} ${ARG_OPTIONS} -- ${sources}
-    COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+    ${byproducts}
+    COMMAND ${tool} emit @${response}
+    COMMAND ${CMAKE_COMMAND} -E touch ${place}.stamp
     DEPFILE ${stamp}.d
-    DEPENDS ${tool}
+    DEPENDS ${tool} ${CMAKE_CURRENT_BINARY_DIR}/${response}
     COMMENT "Compiling ${ARG_NAME} with rung"
-    COMMAND_EXPAND_LISTS
     VERBATIM)
   target_sources(${target} PRIVATE ${stamp} ${bundles})
   set_source_files_properties(${stamp} PROPERTIES HEADER_FILE_ONLY TRUE)
