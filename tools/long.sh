@@ -22,6 +22,7 @@
 # conversions   every conformance program converted to ST and to PLCopen XML: its tests pass as before; every keyword and
 #               library word as a name
 # conformance   the conformance suite exported, every row of edition 3 or its reason, and run with Rung, interpreted and compiled
+# packages      the packages in a bare Debian 12 and a bare Debian 11 (root; needs debootstrap and lintian)
 # compilers     every conformance program's C++ compiled by clang++ too (needs clang++)
 set -eu
 cd "$(dirname "$0")/.."
@@ -130,6 +131,8 @@ conversions() {
   PATH=$bin:$PATH python3 tests/programs/convert_st/names.py
 }
 
+packages() { tools/package/try.sh; }
+
 conformance() {
   needs rung_conformance
   local folder engine
@@ -157,11 +160,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|compilers) ;;
-    *) sed -n '2,24s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
+    *) sed -n '3,26s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

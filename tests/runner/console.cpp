@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Console tests: .test files in tests/golden, tests/programs and tests/conformance. Line 1 is `# purpose`; a line
 // `# features: 40/4a` names rows of the standard as in conformance tests. A session runs in an empty folder, with the
 // tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# release only: reason`
@@ -105,16 +106,23 @@ std::string folderLikeRoot(const Setting& setting) {
   return folder;
 }
 
+// Why this run leaves the test out; empty: it runs.
+static std::string reasonToSkip(const Setting& setting, const std::string& file) {
+  const std::vector<std::string> lines = splitLines(readContent(setting.root + "/" + file));
+#if defined(RUNG_SANITIZED) || !defined(NDEBUG)
+  if (const std::string reason = valueOf(lines, "release only"); !reason.empty()) return reason;
+#endif
+  const std::string compilers = setting.quick ? valueOf(lines, "other compilers") : "";
+  return compilers.empty() ? "" : "--quick, and it needs " + compilers;
+}
+
 void addConsole(const Setting& setting, std::vector<Job>& jobs) {
   for (const char* folder : {"tests/golden", "tests/programs", "tests/conformance"}) {
     for (const std::string& file : filesBelow(setting, folder, ".test")) {
-#if defined(RUNG_SANITIZED) || !defined(NDEBUG)
-      const std::string reason = valueOf(splitLines(readContent(setting.root + "/" + file)), "release only");
-      if (!reason.empty()) {
+      if (const std::string reason = reasonToSkip(setting, file); !reason.empty()) {
         std::printf("skipped %s: %s\n", file.c_str(), reason.c_str());
         continue;
       }
-#endif
       jobs.push_back({file, 5, [&setting, file] { return runConsoleTest(setting, file); }});
     }
   }

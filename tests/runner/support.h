@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by all kinds of tests: paths, the list of jobs, expectations written in test files.
 // A job is one process or a batch of them; it counts as many tests as it reports.
 #pragma once
@@ -16,6 +17,7 @@ struct Setting {
   std::string rung;                 // bin/rung
   std::string scratch;              // made for this run, removed when all tests pass
   bool update = false;              // --update: rewrite golden text
+  bool quick = false;               // --quick: without the tests that need compilers for other processors
   std::vector<std::string> ways;    // options that programs and tests are run with, one run each
   std::vector<std::string> wanted;  // FILE arguments, relative to the root; empty: everything
 };

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rung build`: emit, compile and link to an executable with the bundled host, a shared or a static library.
 #include <sys/stat.h>
 
 #include <cstdio>
 
+#include "debugger_scripts.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/native.h"
@@ -20,6 +22,12 @@ int writeSymbols(const Options& options, const std::vector<codegen::OutputFile>&
   return kSuccess;
 }
 
+// gdb loads PROGRAM-gdb.py with PROGRAM.
+int writeDebuggerScript(const Options& options, Sink& sink) {
+  const std::string error = writeFile(options.output + "-gdb.py", std::string(embedded::debugger_scripts[0].text));
+  return error.empty() ? kSuccess : usageError(sink, error);
+}
+
 }  // namespace
 
 int runBuild(const Options& options, Sink& sink) {
@@ -28,7 +36,10 @@ int runBuild(const Options& options, Sink& sink) {
     return usageError(sink, "`" + options.output + "` is a folder; `-o` needs the name of a file");
 
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Options building = options;
+  if (options.debug && !options.level_given) building.level = 0;
+  building.level_given = building.level_given || options.debug;
+  Compilation compilation(building, times, sink);
   NativeRequest request;
   request.parts.resize(1);
   const bool ok = (options.build != BuildKind::Executable || compilation.checkNatives()) &&
@@ -38,7 +49,8 @@ int runBuild(const Options& options, Sink& sink) {
   if (ok && exit == kSuccess) {
     times.begin("c++");
     Cache cache;
-    request.level = 2;
+    request.level = options.debug && !options.level_given ? 0 : 2;
+    request.debug = options.debug;
     request.jobs = options.jobs;
     request.keep = options.keep;
     NativeResult result =
@@ -51,6 +63,7 @@ int runBuild(const Options& options, Sink& sink) {
       sink.internalError(result.message);
     else if (exit != kSuccess)
       usageError(sink, result.message);
+    if (exit == kSuccess && options.debug) exit = writeDebuggerScript(options, sink);
     if (exit == kSuccess && !options.symbols.empty()) exit = writeSymbols(options, request.parts[0].files, sink);
   }
   if (options.time_phases) sink.message(times.table());

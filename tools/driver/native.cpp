@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From generated C++ to a library or program; see native.h.
 #include "tools/driver/native.h"
 
@@ -112,6 +113,7 @@ class Builder {
     if (!installation().error.empty()) return fail(kUsage, installation().error);
     if (cache_.folder().empty()) return fail(kUsage, "cannot create a temporary folder for the C++ compiler");
     flags_ = {"-std=c++17", "-O" + std::to_string(request_.level), "-fPIC", "-fvisibility=hidden", "-ffp-contract=off"};
+    if (request_.debug) flags_.push_back("-g");
     if (request_.has_call_paths) flags_.push_back("-DRUNG_CALL_PATHS");
     if (RUNG_SANITIZED) flags_.push_back("-fsanitize=address,undefined");
     flags_.insert(flags_.end(), user_flags_.begin(), user_flags_.end());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From generated C++ to a library or program: runs g++ in parallel for everything that is not in the cache, then the
 // linker. In: generated files of one or more modules. Out: paths of a shared object, or the written output; an internal
 // error (70) with the first lines when g++ rejects generated code. Called by build, run and test.
@@ -25,6 +26,7 @@ struct NativeRequest {
   int level = 1;         // -O of the C++ compiler, unless $CXXFLAGS has another
   uint32_t jobs = 0;
   bool keep = false;            // keep the generated files and report their folder
+  bool debug = false;           // with debug information
   bool has_call_paths = false;  // a fault tells who called: rung/call_paths.h
 };
 

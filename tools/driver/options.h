@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options of all commands: data that the command line fills in, or a server or test without one. The parsers of
 // values that the command line shares with rung.project are here too.
 #pragma once
@@ -86,6 +87,7 @@ struct Options {
 
   // build
   BuildKind build = BuildKind::Executable;
+  bool debug = false;   // -g
   std::string symbols;  // where the symbol file goes; empty: nowhere
   bool keep = false;
 

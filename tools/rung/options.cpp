@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line of rung; see options.h.
 #include "tools/rung/options.h"
 
@@ -84,6 +85,7 @@ enum class Key : uint8_t {
   Bundles,
   Shared,
   Static,
+  Debug,
   Symbols,
   Keep,
   Engine,
@@ -128,6 +130,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files that include all the others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
+    {Key::Debug, "-g", nullptr, bit(Command::Build), "for debuggers: names and values of ST in gdb; -O0 unless given"},
     {Key::Symbols, "--symbols", "FILE", bit(Command::Build), "write where the variables are, as JSON"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and print its folder"},
@@ -331,6 +334,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.build = kind;
       return {};
     }
+    case Key::Debug: options.debug = true; return {};
     case Key::Keep: options.keep = true; return {};
     case Key::Engine:
       error = parseChoice(row.name, value, row.value, choice);
