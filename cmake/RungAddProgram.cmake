@@ -72,8 +72,8 @@ function(rung_add_program target)
     list(APPEND bundles ${folder}/${ARG_NAME}_bundle_${number}.cpp)
   endforeach()
 
-  # Ninja and make print the command of a step that fails in front of what it says. So that the mistake is seen, the
-  # arguments are in a file.
+  # Ninja and make print the command of a step that fails before its messages. The arguments are in a file, so that
+  # the messages are seen.
   set(arguments)
   rung_append_arguments(arguments --bundles=${ARG_FILES} --name=${ARG_NAME} --root=${ARG_ROOT} --depfile=${stamp}.d
                         --depfile-target=${stamp} -o ${folder} ${ARG_OPTIONS} -- ${sources})

@@ -15,6 +15,6 @@
 #define PLANT_AREA_BYTES 16 /* of each */
 
 bool plant_start(void);
-const rung_context *plant_context(void); /* the common memory, for monitoring */
+const rung_context* plant_context(void); /* the common memory, for monitoring */
 
 #endif

@@ -26,19 +26,19 @@ typedef struct rtos_task {
   uint64_t control_block[16]; /* the RTOS's own: StaticTask_t, struct k_thread */
 } rtos_task;
 
-void rtos_create(rtos_task *task, const char *name, void (*run)(void *argument), void *argument, unsigned priority,
-                 void *stack, size_t stack_bytes);
+void rtos_create(rtos_task* task, const char* name, void (*run)(void* argument), void* argument, unsigned priority,
+                 void* stack, size_t stack_bytes);
 void rtos_start(void); /* does not return on a board */
 uint32_t rtos_now(void);
 void rtos_sleep_until(uint32_t tick); /* of the calling task */
 void rtos_wait(void);                 /* until somebody has notified the calling task */
-void rtos_notify(rtos_task *task);    /* also from an interrupt */
+void rtos_notify(rtos_task* task);    /* also from an interrupt */
 void rtos_lock(void);                 /* no other task of the plant runs until rtos_unlock */
 void rtos_unlock(void);
 
 /* Of the board. */
-void board_read(uint8_t *inputs, size_t bytes);
-void board_write(const uint8_t *outputs, size_t bytes);
+void board_read(uint8_t* inputs, size_t bytes);
+void board_write(const uint8_t* outputs, size_t bytes);
 
 /* Of plant_tasks.c: called by the RTOS at each tick, from its interrupt. */
 void plant_tick(void);

@@ -8,16 +8,16 @@
 #include "rtos.h"
 #include "rung/values.h"
 
-static const char *const watched[] = {"Main.lamp", "Main.pump", "horn", "level", "Main.starts", "Recorder.highest",
-                                      "Alarm.alarms"};
+static const char* const watched[] = {"Main.lamp",   "Main.pump",        "horn",        "level",
+                                      "Main.starts", "Recorder.highest", "Alarm.alarms"};
 #define WATCHED (sizeof watched / sizeof *watched)
 
-void board_read(uint8_t *inputs, size_t bytes) {
+void board_read(uint8_t* inputs, size_t bytes) {
   memset(inputs, 0, bytes);
   inputs[0] = rtos_now() >= 10;
 }
 
-void board_write(const uint8_t *outputs, size_t bytes) {
+void board_write(const uint8_t* outputs, size_t bytes) {
   (void)outputs; /* pins of a processor */
   (void)bytes;
 }
@@ -25,16 +25,17 @@ void board_write(const uint8_t *outputs, size_t bytes) {
 bool board_runs(uint32_t tick) { return tick < 120; }
 
 /* Prints a global variable (`level`), a located variable (`Main.lamp`) or another one of a program (`Main.starts`). */
-static void print(const rung_context *context, const char *path) {
-  const rung_module *module = context->module;
-  const char *dot = strchr(path, '.');
+static void print(const rung_context* context, const char* path) {
+  const rung_module* module = context->module;
+  const char* dot = strchr(path, '.');
   char text[RUNG_FORMATTED_SCALAR];
   for (uint32_t i = 0; i < module->symbol_count; ++i) {
-    const rung_symbol *symbol = &module->symbols[i];
-    const rung_type *type = &module->types[symbol->type];
-    const char *name = module->strings + symbol->name;
-    const uint8_t *memory = symbol->storage == RUNG_IN_AREA ? context->areas[symbol->index] : context->blocks[symbol->index];
-    const uint8_t *value = memory + symbol->offset;
+    const rung_symbol* symbol = &module->symbols[i];
+    const rung_type* type = &module->types[symbol->type];
+    const char* name = module->strings + symbol->name;
+    const uint8_t* memory =
+        symbol->storage == RUNG_IN_AREA ? context->areas[symbol->index] : context->blocks[symbol->index];
+    const uint8_t* value = memory + symbol->offset;
     uint8_t bit;
     if (strcmp(name, path) != 0) {
       uint32_t f = 0;

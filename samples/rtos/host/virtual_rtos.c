@@ -9,9 +9,9 @@
 #include "rtos.h"
 
 typedef struct thread {
-  rtos_task *task;
-  void (*run)(void *);
-  void *argument;
+  rtos_task* task;
+  void (*run)(void*);
+  void* argument;
   unsigned priority;
   uint32_t wake; /* sleeps until this tick */
   bool waits;    /* for a notification */
@@ -22,21 +22,21 @@ typedef struct thread {
 static thread threads[8];
 static unsigned thread_count;
 static uint32_t now;
-static thread *running; /* null: the scheduler */
+static thread* running; /* null: the scheduler */
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t changed = PTHREAD_COND_INITIALIZER;
 
-static bool is_ready(const thread *t) { return t->waits ? t->notified : t->wake <= now; }
+static bool is_ready(const thread* t) { return t->waits ? t->notified : t->wake <= now; }
 
-static thread *most_urgent(void) {
-  thread *found = NULL;
-  for (thread *t = threads; t < threads + thread_count; ++t)
+static thread* most_urgent(void) {
+  thread* found = NULL;
+  for (thread* t = threads; t < threads + thread_count; ++t)
     if (is_ready(t) && (found == NULL || t->priority > found->priority)) found = t;
   return found;
 }
 
 /* Lets the most urgent thread run, until it is the turn of `self` again. */
-static void yield(thread *self) {
+static void yield(thread* self) {
   pthread_mutex_lock(&mutex);
   running = most_urgent();
   pthread_cond_broadcast(&changed);
@@ -44,8 +44,8 @@ static void yield(thread *self) {
   pthread_mutex_unlock(&mutex);
 }
 
-static void *begin(void *argument) {
-  thread *self = argument;
+static void* begin(void* argument) {
+  thread* self = argument;
   pthread_mutex_lock(&mutex);
   while (running != self) pthread_cond_wait(&changed, &mutex);
   pthread_mutex_unlock(&mutex);
@@ -53,9 +53,9 @@ static void *begin(void *argument) {
   return NULL;
 }
 
-void rtos_create(rtos_task *task, const char *name, void (*run)(void *), void *argument, unsigned priority, void *stack,
+void rtos_create(rtos_task* task, const char* name, void (*run)(void*), void* argument, unsigned priority, void* stack,
                  size_t stack_bytes) {
-  thread *t = &threads[thread_count++];
+  thread* t = &threads[thread_count++];
   (void)stack; /* a thread of the PC has a stack of its own */
   t->task = task;
   t->run = run;
@@ -65,7 +65,7 @@ void rtos_create(rtos_task *task, const char *name, void (*run)(void *), void *a
 }
 
 void rtos_start(void) {
-  for (thread *t = threads; t < threads + thread_count; ++t) pthread_create(&t->id, NULL, begin, t);
+  for (thread* t = threads; t < threads + thread_count; ++t) pthread_create(&t->id, NULL, begin, t);
   for (; board_runs(now); ++now) {
     plant_tick();
     yield(NULL);
@@ -81,14 +81,14 @@ void rtos_sleep_until(uint32_t tick) {
 }
 
 void rtos_wait(void) {
-  thread *self = running;
+  thread* self = running;
   self->waits = true;
   yield(self);
   self->waits = self->notified = false;
 }
 
-void rtos_notify(rtos_task *task) {
-  for (thread *t = threads; t < threads + thread_count; ++t)
+void rtos_notify(rtos_task* task) {
+  for (thread* t = threads; t < threads + thread_count; ++t)
     if (t->task == task) t->notified = true;
 }
 
