@@ -46,37 +46,37 @@ int main() {
 }
 
 // Sites:
-// 15 table: "bool" -> "word"
-// 15 constant: 1 -> 2
-// 15 table: 1 -> 16
-// 15 table: "word" -> "bool"
-// 15 constant: 16 -> 17
-// 15 table: 16 -> 1
-// 18 operator: value * 2 -> value / 2
-// 18 constant: 2 -> 3
-// 22 table: 'x' -> 'y'
-// 22 table: 'y' -> 'x'
-// 23 operator: values.size() < N -> values.size() <= N
-// 23 check: values.size() < N -> false
-// 23 constant: 1 -> 2
-// 24 constant: 0 -> 1
-// 24 operator: found > 55 -> found >= 55
-// 24 check: found > 55 -> false
-// 24 constant: 55 -> 56
-// 26 operator: found - *other -> found + *other
-// 29 operator: !(values[0] & 1) -> !!((values[0] & 1))
-// 29 operator: values[0] & 1 -> values[0] | 1
-// 29 constant: 0 -> 1
-// 29 constant: 1 -> 2
-// 30 operator: static_cast<int>(text.size()) - 5 -> static_cast<int>(text.size()) + 5
-// 30 constant: 5 -> 6
-// 31 operator: sum += is_even && value > 50 ? value : 0 -> sum -= is_even && value > 50 ? value : 0
-// 31 operator: is_even && value > 50 -> is_even || value > 50
-// 31 operator: value > 50 -> value >= 50
-// 31 constant: 50 -> 51
-// 31 constant: 0 -> 1
-// 33 operator: buffer[0] - buffer[1] -> buffer[0] + buffer[1]
-// 33 constant: 0 -> 1
-// 33 constant: 1 -> 2
-// 34 operator: sum / 2 -> sum * 2
-// 34 constant: 2 -> 3
+// 16 table: "bool" -> "word"
+// 16 constant: 1 -> 2
+// 16 table: 1 -> 16
+// 16 table: "word" -> "bool"
+// 16 constant: 16 -> 17
+// 16 table: 16 -> 1
+// 19 operator: value * 2 -> value / 2
+// 19 constant: 2 -> 3
+// 23 table: 'x' -> 'y'
+// 23 table: 'y' -> 'x'
+// 24 operator: values.size() < N -> values.size() <= N
+// 24 check: values.size() < N -> false
+// 24 constant: 1 -> 2
+// 25 constant: 0 -> 1
+// 25 operator: found > 55 -> found >= 55
+// 25 check: found > 55 -> false
+// 25 constant: 55 -> 56
+// 27 operator: found - *other -> found + *other
+// 30 operator: !(values[0] & 1) -> !!((values[0] & 1))
+// 30 operator: values[0] & 1 -> values[0] | 1
+// 30 constant: 0 -> 1
+// 30 constant: 1 -> 2
+// 31 operator: static_cast<int>(text.size()) - 5 -> static_cast<int>(text.size()) + 5
+// 31 constant: 5 -> 6
+// 32 operator: sum += is_even && value > 50 ? value : 0 -> sum -= is_even && value > 50 ? value : 0
+// 32 operator: is_even && value > 50 -> is_even || value > 50
+// 32 operator: value > 50 -> value >= 50
+// 32 constant: 50 -> 51
+// 32 constant: 0 -> 1
+// 34 operator: buffer[0] - buffer[1] -> buffer[0] + buffer[1]
+// 34 constant: 0 -> 1
+// 34 constant: 1 -> 2
+// 35 operator: sum / 2 -> sum * 2
+// 35 constant: 2 -> 3
