@@ -2,8 +2,13 @@
 // Console tests: .test files in tests/golden, tests/programs and tests/conformance. Line 1 is `# purpose`; a line
 // `# features: 40/4a` names rows of the standard as in conformance tests. A session runs in an empty folder, with the
 // tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream. A line `# release only: reason`
-// leaves the file out of debug builds and of those with sanitizers.
+// leaves the file out of debug builds and of those with sanitizers, `# other compilers: …` out of --quick, and
+// `# debugger: …` where no process may trace another.
 #include "tests/runner/console.h"
+
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -106,12 +111,21 @@ std::string folderLikeRoot(const Setting& setting) {
   return folder;
 }
 
+// Whether a debugger may start a program here; some containers forbid it.
+static bool tracesProcesses() {
+  const pid_t child = fork();
+  if (child == 0) _exit(ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1);
+  int status = 1;
+  return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
 // Why this run leaves the test out; empty: it runs.
 static std::string reasonToSkip(const Setting& setting, const std::string& file) {
   const std::vector<std::string> lines = splitLines(readContent(setting.root + "/" + file));
 #if defined(RUNG_SANITIZED) || !defined(NDEBUG)
   if (const std::string reason = valueOf(lines, "release only"); !reason.empty()) return reason;
 #endif
+  if (!valueOf(lines, "debugger").empty() && !tracesProcesses()) return "no process may trace another here";
   const std::string compilers = setting.quick ? valueOf(lines, "other compilers") : "";
   return compilers.empty() ? "" : "--quick, and it needs " + compilers;
 }
