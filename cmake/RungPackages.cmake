@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` and cpack put into packages: the Debian packages rung and rung-cam-fit. tools/package.sh makes them,
-# and the archive for any Linux.
+# Contents of the packages that `cmake --install` and cpack make: the Debian packages rung and rung-cam-fit.
+# tools/package/package.sh makes them, and the archive for any Linux.
 set(RUNG_MAINTAINER "The authors of Rung <rung@example.org>" CACHE STRING "Who answers for the Debian packages")
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME common)
 install(FILES NOTICE CHANGELOG.md README.md DESTINATION share/doc/rung COMPONENT common)
@@ -19,7 +19,7 @@ install(CODE [[
   endif()
 ]] COMPONENT common)
 
-# What Debian wants in each of its packages; the date is that of the newest heading in CHANGELOG.md.
+# Files that Debian requires in each package; the date is that of the newest heading in CHANGELOG.md.
 file(STRINGS CHANGELOG.md rung_heading REGEX "^## " LIMIT_COUNT 1)
 string(REGEX MATCH "[0-9]+-[0-9]+-[0-9]+" rung_date "${rung_heading}")
 if(NOT rung_heading MATCHES "^## ${PROJECT_VERSION} ")
