@@ -10,10 +10,9 @@
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
 //   ```console broken         a session that must mention the page's code
-//       rung …               an indented line that begins with rung succeeds in that folder; one with a word in
-//       capitals
-//                            or brackets is a synopsis, and two blanks end a command; not of samples, whose commands
-//                            belong to their folder
+//       rung …               an indented line that begins with rung succeeds in that folder, unless it is a synopsis,
+//                            with a word in capitals or brackets; two blanks end a command. Pages of samples are
+//                            left out: their commands belong to their folder
 //   <!-- no program: why -->  on a page of docs/errors whose mistake no test can provoke
 #include <algorithm>
 #include <cctype>

@@ -117,7 +117,7 @@ bool Compilation::read() {
   return ok;
 }
 
-// What `--verbose` says: the inputs, the project's settings, the files, and the libraries beside those of Rung.
+// The lines of `--verbose`: inputs, the project's settings, files, and the libraries beside those of Rung.
 std::string Compilation::whatIsRead() const {
   std::string out;
   for (const std::string& input : options.inputs) out += "rung: input: " + input + "\n";

@@ -40,15 +40,6 @@ std::unique_ptr<Compilation> inBestDialect(const Options& options, PhaseTimes& t
   return best;
 }
 
-const char* wordOf(Dialect dialect) {
-  switch (dialect) {
-    case Dialect::Iec2: return "iec2";
-    case Dialect::Iec3: return "iec3";
-    case Dialect::Codesys: return "codesys";
-  }
-  return "";
-}
-
 // Programs that run although no file has a task.
 std::vector<std::string> programsWithoutTask(const sema::Project& project) {
   std::vector<std::string> programs;
@@ -77,19 +68,6 @@ bool hasDrawings(const Compilation& compilation) {
 
 }  // namespace
 
-std::string shellWord(const std::string& word) {
-  const auto isPlain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./+,:=@%").find(c) != std::string_view::npos;
-  };
-  bool plain = !word.empty();
-  for (const char c : word) plain = plain && isPlain(c);
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 int runInit(const Options& options, Sink& sink) {
   const std::string folder = options.inputs.empty() ? "." : options.inputs[0];
   std::error_code error;
@@ -110,7 +88,7 @@ int runInit(const Options& options, Sink& sink) {
   std::string text = "# " + name +
                      "; `rung help` lists the commands, which find this file in this folder and below.\n" +
                      "[project]\nname = " + moduleNameOf(name) + "\n";
-  const std::string dialect = wordOf(compilation->options.dialect);
+  const std::string dialect = dialectName(compilation->options.dialect);
   if (compilation->options.dialect != Dialect::Codesys) text += "std = " + dialect + "\n";
   const std::vector<std::string> programs = programsWithoutTask(project);
   if (!programs.empty()) {

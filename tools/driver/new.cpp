@@ -96,6 +96,19 @@ std::string moduleNameOf(std::string_view folder) {
   return name.substr(0, 200);
 }
 
+std::string shellWord(const std::string& word) {
+  const auto isPlain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./+,:=@%").find(c) != std::string_view::npos;
+  };
+  bool plain = !word.empty();
+  for (const char c : word) plain = plain && isPlain(c);
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string templateHelp() {
   std::string out;
   for (const Template& row : kTemplates)

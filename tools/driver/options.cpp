@@ -70,6 +70,15 @@ std::string parseDialect(std::string_view name, Dialect& dialect) {
   return error;
 }
 
+const char* dialectName(Dialect dialect) {
+  switch (dialect) {
+    case Dialect::Iec2: return "iec2";
+    case Dialect::Iec3: return "iec3";
+    case Dialect::Codesys: return "codesys";
+  }
+  return "";
+}
+
 std::string parseNativeWidth(std::string_view bits, uint32_t& width) {
   uint32_t choice = 0;
   std::string error = parseChoice("--native-width", bits, "32|64", choice);

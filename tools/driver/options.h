@@ -135,6 +135,7 @@ struct Options {
 // NAME or NAME=VALUE.
 [[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);
 [[nodiscard]] std::string parseDialect(std::string_view name, Dialect& dialect);
+const char* dialectName(Dialect dialect);  // as --std takes it
 
 // `name` in backquotes.
 std::string backquoted(std::string_view text);
