@@ -523,7 +523,7 @@ NativeResult makeOutput(Cache& cache, const NativeRequest& request, BuildKind ki
   switch (kind) {
     case BuildKind::Executable:
       ok = ok && builder.addMain(module_name) &&
-           builder.link({}, {rung.host_library, rung.runtime_library, "-pthread"}, part);
+           builder.link({}, {rung.host_library, rung.runtime_library, "-ldl", "-pthread"}, part);
       break;
     case BuildKind::Shared: ok = ok && builder.linkModule(module_name, part); break;
     case BuildKind::Static: ok = ok && builder.archive(part); break;
