@@ -90,6 +90,9 @@ std::string copyRunner(const ExportOptions& options, const Suite& suite) {
     if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;
     const fs::path to = fs::path(options.folder) / entry.path().lexically_relative(from);
     fs::copy_file(entry.path(), to, fs::copy_options::overwrite_existing, error);
+    // The installed ones are data; those of a suite are to be run.
+    const bool is_script = to.extension() == ".py";
+    if (!error && is_script) fs::permissions(to, fs::perms(0111), fs::perm_options::add, error);
     if (error) return "cannot write `" + to.string() + "`: " + error.message();
   }
   if (error) return from.string() + ": " + error.message();
