@@ -5,7 +5,7 @@
 
 namespace std {
 
-[[noreturn, gnu::weak]] void __throw_bad_array_new_length();
+void __throw_bad_array_new_length() __attribute__((__noreturn__, __weak__));
 void __throw_bad_array_new_length() { throw bad_array_new_length(); }
 
 }  // namespace std
