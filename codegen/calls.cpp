@@ -191,15 +191,21 @@ void CallWriter::passArguments(const ir::CallStmt& stmt, const CallPlan& plan, C
 
 void CallWriter::passCopy(const CallPlan::Argument& argument, CallText& text) {
   const ir::Local& parameter = *argument.parameter;
+  const TypeId type = expr(argument.operand).type;
+  const bool is_input = parameter.kind == ir::LocalKind::Input;
+  if (ir::isAggregate(types_, type)) {  // its bytes, which have any alignment in the image
+    const std::string copy = newVariable(type, "v");
+    const std::string place = captured([&] { places().imageAddress(argument.operand); });
+    text.before += "memcpy(&" + copy + ", " + place + ", sizeof " + copy + "); ";
+    if (!is_input) text.after += " memcpy(" + place + ", &" + copy + ", sizeof " + copy + ");";
+    if (!isString(type)) out_ += '&';
+    out_ += copy;
+    return;
+  }
   const std::string copy = newVariable(parameter.type, "v");
   text.before += copy + " = " + captured([&] { values().value(argument.operand, Prec::Ternary); }) + "; ";
-  if (parameter.kind != ir::LocalKind::Input) {
-    text.after += " ";
-    text.after += captured([&] { places().store(argument.operand, copy); });
-    text.after += ';';
-  }
-  if (!isString(parameter.type)) out_ += '&';
-  out_ += copy;
+  if (!is_input) text.after += ' ' + captured([&] { places().store(argument.operand, copy); }) + ';';
+  out_ += '&' + copy;
 }
 
 // Through a variable: the length itself stays in a register. What is passed twice has no known length in either.

@@ -113,6 +113,7 @@ class BodyPart {
   // False for a bit, and for a variable that may be less aligned than its type: in-outs and outputs take a copy.
   bool isReferable(ExprId place) const;
   uint32_t alignmentOf(ExprId place) const;
+  uint32_t alignmentInImage(ExprId view) const;
   bool isTemp(ExprId place) const;   // a compiler temporary or a part of one
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
 

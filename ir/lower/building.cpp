@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Building blocks of lowering: see body_part.h.
 #include "ir/lower/lowering.h"
+#include "ir/walk.h"
 
 namespace rung::ir {
+namespace {
+
+uint32_t lowestBit(uint64_t bytes) { return static_cast<uint32_t>(bytes & (~bytes + 1)); }
+
+}  // namespace
 
 BodyState::BodyState(ModuleLowering& in, Body& body, sema::PouId pou, BodyLowering& parts)
     : in(in), body(body), pou(pou), parts(parts), build(in.module, body) {
@@ -130,19 +136,35 @@ ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rou
   return add(loc, to, ConvertExpr{.operand = operand, .rounding = rounding}, checks);
 }
 
+// What the address of a view of the image is a multiple of, at least: an area begins at a multiple of 8.
+uint32_t BodyPart::alignmentInImage(ExprId view) const {
+  const Expr& e = body_.expr(view);
+  uint64_t offset = 0;
+  uint32_t base_align = 8;
+  if (const auto* image = e.tryAs<ImageExpr>()) {
+    offset = image->byte;
+  } else if (const auto* part = e.tryAs<FieldExpr>()) {
+    offset = types_.info(typeOf(part->base)).fields[part->field].offset;
+    base_align = alignmentInImage(part->base);
+  } else if (const auto* element = e.tryAs<IndexExpr>()) {
+    offset = types_.info(strip(types_.info(typeOf(element->base)).base)).size;
+    base_align = alignmentInImage(element->base);
+  }
+  return offset == 0 ? base_align : std::min(base_align, lowestBit(offset));
+}
+
 // What the address of a place is a multiple of, at least; a record has no demands, since its C++ struct knows.
 uint32_t BodyPart::alignmentOf(ExprId place) const {
-  const auto lowest = [](uint64_t bytes) { return static_cast<uint32_t>(bytes & (~bytes + 1)); };
   const Expr& e = body_.expr(place);
   if (const auto* part = e.tryAs<FieldExpr>()) {
     const TypeInfo& record = types_.info(typeOf(part->base));
     const types::Field& field = record.fields[part->field];
     if (field.by_reference) return types_.info(e.type).align;
-    return field.offset == 0 ? record.placed_align : std::min(record.placed_align, lowest(field.offset));
+    return field.offset == 0 ? record.placed_align : std::min(record.placed_align, lowestBit(field.offset));
   }
   if (const auto* element = e.tryAs<IndexExpr>()) {
     const uint64_t stride = types_.info(strip(types_.info(typeOf(element->base)).base)).size;
-    return std::min(alignmentOf(element->base), lowest(stride));
+    return std::min(alignmentOf(element->base), lowestBit(stride));
   }
   // A pointer may lead to such a member.
   return e.kind == ExprKind::Deref ? 1 : types_.info(e.type).align;
@@ -151,7 +173,10 @@ uint32_t BodyPart::alignmentOf(ExprId place) const {
 bool BodyPart::isReferable(ExprId place) const {
   const Expr& e = body_.expr(place);
   if (e.kind == ExprKind::Bits || isImageBit(e)) return false;
-  if (!types_.has_misaligned || !isPlace(e.kind)) return true;
+  if (!isPlace(e.kind)) return true;
+  if (body_.expr(rootOf(body_, place)).kind == ExprKind::Image)
+    return alignmentInImage(place) >= types_.info(e.type).align;
+  if (!types_.has_misaligned) return true;
   TypeId type = e.type;
   while (types_.kind(type) == TypeKind::Array) type = strip(types_.info(type).base);
   return types_.kind(type) == TypeKind::Record || alignmentOf(place) >= types_.info(type).align;

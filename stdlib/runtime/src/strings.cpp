@@ -151,33 +151,38 @@ uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from) {
 
 uint32_t rung_wstring_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
   uint32_t length = 0;
-  while (length < capacity && from[length] != 0) ++length;
-  memmove(to, from, length * sizeof *from);
-  to[length] = 0;
+  while (length < capacity && rung_unit(from, length) != 0) ++length;
+  memmove(static_cast<void*>(to), from, length * sizeof *from);
+  rung_set_unit(to, length, 0);
   return length;
 }
 
 int rung_string_compare(const char* a, const char* b) { return strcmp(a, b); }
 
 int rung_wstring_compare(const char16_t* a, const char16_t* b) {
-  for (; *a == *b && *a != 0; ++a, ++b) {
+  for (uint32_t i = 0;; ++i) {
+    const char16_t one = rung_unit(a, i), other = rung_unit(b, i);
+    if (one != other) return one < other ? -1 : 1;
+    if (one == 0) return 0;
   }
-  return *a < *b ? -1 : *a > *b ? 1 : 0;
 }
 
 uint32_t rung_wstring_length(const char16_t* string) {
   uint32_t length = 0;
-  while (string[length] != 0) ++length;
+  while (rung_unit(string, length) != 0) ++length;
   return length;
 }
 
 uint32_t rung_string_of_wstring(char* to, uint32_t capacity, const char16_t* from) {
   uint32_t length = 0;
-  for (; *from != 0; ++from) {
-    uint32_t code = *from;
-    if (code >= 0xd800 && code < 0xdc00 && from[1] >= 0xdc00 && from[1] < 0xe000) {
-      code = 0x10000 + ((code - 0xd800) << 10) + (from[1] - 0xdc00u);
-      ++from;
+  for (uint32_t i = 0; rung_unit(from, i) != 0; ++i) {
+    uint32_t code = rung_unit(from, i);
+    if (code >= 0xd800 && code < 0xdc00) {
+      const char16_t second = rung_unit(from, i + 1);
+      if (second >= 0xdc00 && second < 0xe000) {
+        code = 0x10000 + ((code - 0xd800) << 10) + (second - 0xdc00u);
+        ++i;
+      }
     }
     if (!appendCode(to, capacity, length, code)) break;
   }
@@ -193,13 +198,13 @@ uint32_t rung_wstring_of_string(char16_t* to, uint32_t capacity, const char* fro
     const uint32_t units = code >= 0x10000 ? 2 : 1;
     if (length + units > capacity) break;
     if (units == 2) {
-      to[length++] = static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
-      to[length++] = static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
+      rung_set_unit(to, length++, static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10)));
+      rung_set_unit(to, length++, static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff)));
     } else {
-      to[length++] = static_cast<char16_t>(code);
+      rung_set_unit(to, length++, static_cast<char16_t>(code));
     }
   }
-  to[length] = 0;
+  rung_set_unit(to, length, 0);
   return length;
 }
 
@@ -364,8 +369,8 @@ uint64_t rung_scalar_of_string(uint8_t kind, const char* string) {
 }
 
 uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) {
-  if (kind == RUNG_WCHAR) return *string;
-  while (*string == ' ') ++string;
+  if (kind == RUNG_WCHAR) return rung_unit(string, 0);
+  while (rung_unit(string, 0) == ' ') ++string;
   char narrow[4 * kScalarRoom + 1];
   rung_string_of_wstring(narrow, sizeof narrow - 1, string);
   return rung_scalar_of_string(kind, narrow);

@@ -193,13 +193,13 @@ void putUtf8(Writer& to, uint32_t code) {
 
 void formatWString(Writer& to, const char16_t* text) {
   to.put('"');
-  for (; *text != 0; ++text) {
-    const uint32_t unit = *text;
+  for (uint32_t i = 0; rung_unit(text, i) != 0; ++i) {
+    const uint32_t unit = rung_unit(text, i), next = rung_unit(text, i + 1);
     if (unit < 0x80) {
       formatAscii(to, unit, '"', 4);
-    } else if (unit >= 0xd800 && unit < 0xdc00 && text[1] >= 0xdc00 && text[1] < 0xe000) {
-      putUtf8(to, 0x10000 + ((unit - 0xd800) << 10) + (text[1] - 0xdc00u));
-      ++text;
+    } else if (unit >= 0xd800 && unit < 0xdc00 && next >= 0xdc00 && next < 0xe000) {
+      putUtf8(to, 0x10000 + ((unit - 0xd800) << 10) + (next - 0xdc00u));
+      ++i;
     } else if (unit >= 0xd800 && unit < 0xe000) {
       to.put('$');
       to.hex(unit, 4);
@@ -524,16 +524,16 @@ bool readWString(Reader from, uint32_t length, char16_t* to) {
     if (to == nullptr) continue;
     if (code >= 0x10000) {
       if (n + 1 < length) {
-        to[n++] = static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
-        to[n++] = static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
+        rung_set_unit(to, n++, static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10)));
+        rung_set_unit(to, n++, static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff)));
       } else {
         length = n;  // never half of a pair
       }
     } else if (n < length) {
-      to[n++] = static_cast<char16_t>(code);
+      rung_set_unit(to, n++, static_cast<char16_t>(code));
     }
   }
-  if (to != nullptr) to[n] = 0;
+  if (to != nullptr) rung_set_unit(to, n, 0);
   return !bad && from.take('"') && from.done();
 }
 

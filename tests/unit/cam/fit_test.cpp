@@ -85,6 +85,12 @@ FitRequest manyPoints() {
   return request;
 }
 
+#if defined(RUNG_SANITIZED) || !defined(NDEBUG)
+constexpr double kMostSeconds = 60;  // such a build is not the one that is measured
+#else
+constexpr double kMostSeconds = 1;
+#endif
+
 TEST(Fit, TenThousandPointsToHundredSegmentsInASecond) {
   for (const Smoothness smoothness : {Smoothness::C2, Smoothness::C3}) {
     FitRequest request = manyPoints();
@@ -95,7 +101,7 @@ TEST(Fit, TenThousandPointsToHundredSegmentsInASecond) {
     EXPECT_GE(result.report.segments, 98u);
     EXPECT_LE(result.report.segments, 100u);
     EXPECT_LT(std::fabs(result.report.max_error.value), 1e-3);
-    EXPECT_LT(seconds, 1);
+    EXPECT_LT(seconds, kMostSeconds);
   }
 }
 

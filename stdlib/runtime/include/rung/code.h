@@ -278,6 +278,15 @@ uint32_t rung_ustring_code(const char* string) RUNG_PURE; /* the first character
 uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code);
 uint32_t rung_ustring_of_string(char* to, uint32_t capacity,
                                 const char* from); /* of a STRING, which may hold any bytes */
+/* A unit of a WSTRING, which may begin at an odd address of the image. */
+static inline char16_t rung_unit(const char16_t* string, uint32_t index) {
+  char16_t unit;
+  memcpy(&unit, (const char*)string + index * sizeof unit, sizeof unit);
+  return unit;
+}
+static inline void rung_set_unit(char16_t* string, uint32_t index, char16_t unit) {
+  memcpy((char*)string + index * sizeof unit, &unit, sizeof unit);
+}
 /* Negative, 0 or positive; compares unsigned units. */
 int rung_string_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wstring_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
