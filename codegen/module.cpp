@@ -3,6 +3,7 @@
 #include "codegen/module.h"
 
 #include <algorithm>
+#include <array>
 
 #include "codegen/names.h"
 #include "codegen/signature.h"
@@ -28,6 +29,77 @@ constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_AREA"};
 constexpr const char* kOwners[] = {"RUNG_AREA_INPUT", "RUNG_AREA_OUTPUT", "RUNG_AREA_MEMORY", "RUNG_AREA_SHARED"};
 constexpr const char* kTaskKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
 
+constexpr const char* kExtern = "extern const ";  // for sites.cpp, where the description is
+constexpr struct {
+  uint32_t flag;
+  const char* name;
+} kFieldFlags[] = {{RUNG_FIELD_BY_REFERENCE, "RUNG_FIELD_BY_REFERENCE"},
+                   {RUNG_FIELD_CONSTANT, "RUNG_FIELD_CONSTANT"},
+                   {RUNG_FIELD_RETAIN, "RUNG_FIELD_RETAIN"},
+                   {RUNG_FIELD_PERSISTENT, "RUNG_FIELD_PERSISTENT"},
+                   {RUNG_FIELD_INPUT, "RUNG_FIELD_INPUT"},
+                   {RUNG_FIELD_OUTPUT, "RUNG_FIELD_OUTPUT"},
+                   {RUNG_FIELD_BASE, "RUNG_FIELD_BASE"},
+                   {RUNG_FIELD_READ_ONLY, "RUNG_FIELD_READ_ONLY"},
+                   {RUNG_FIELD_NO_EXTERNAL_READ, "RUNG_FIELD_NO_EXTERNAL_READ"},
+                   {RUNG_FIELD_NO_EXTERNAL_WRITE, "RUNG_FIELD_NO_EXTERNAL_WRITE"}};
+
+std::string number(uint64_t value) { return std::to_string(value); }
+std::string unsignedOrNone(uint32_t value) { return value == RUNG_NONE ? "RUNG_NONE" : number(value); }
+std::string signedNumber(int64_t value) { return value == INT64_MIN ? "INT64_MIN" : std::to_string(value); }
+
+// `RUNG_FIELD_INPUT | 3 << RUNG_FIELD_BIT_SHIFT`
+std::string fieldFlags(uint32_t flags) {
+  std::string out;
+  const auto add = [&out](const std::string& word) { out += (out.empty() ? "" : " | ") + word; };
+  for (const auto& known : kFieldFlags)
+    if ((flags & known.flag) != 0) add(known.name);
+  if ((flags & RUNG_FIELD_BIT) != 0)
+    add(number((flags & RUNG_FIELD_BIT) >> RUNG_FIELD_BIT_SHIFT) + " << RUNG_FIELD_BIT_SHIFT");
+  return out.empty() ? "0" : out;
+}
+
+// A table of the description: a comment that names its columns, and a row per line that ends with what it is about.
+class Table {
+ public:
+  Table(const char* type, const char* name, const char* columns) : type_(type), name_(name), columns_(columns) {}
+
+  void row(std::initializer_list<std::string_view> cells, std::string_view about = {}) {
+    ++count_;
+    const bool is_number = cells.size() == 1;
+    rows_ += is_number ? "  " : "  {";
+    bool is_first = true;
+    for (const std::string_view cell : cells) {
+      if (!is_first) rows_ += ", ";
+      is_first = false;
+      rows_ += cell;
+    }
+    rows_ += is_number ? "," : "},";
+    if (!about.empty()) comment(about);
+    rows_ += '\n';
+  }
+  bool empty() const { return count_ == 0; }
+  uint64_t count() const { return count_; }
+
+  std::string declaration() const { return std::string(type_) + ' ' + name_ + "[]"; }
+  void define(std::string& out, const char* storage) const {
+    if (!empty()) out += std::string("\n// ") + columns_ + '\n' + storage + declaration() + " = {\n" + rows_ + "};\n";
+  }
+  // The two cells of the table in the description.
+  std::string cells() const { return (empty() ? "nullptr" : name_) + (", " + number(count_)); }
+
+ private:
+  // Names of files and foreign names may have any character: what could end or continue the line is left out.
+  void comment(std::string_view about) {
+    rows_ += "  // ";
+    for (const char c : about) rows_ += c < ' ' || c > '~' || c == '\\' || c == '?' ? '_' : c;
+  }
+
+  const char *type_, *name_, *columns_;
+  std::string rows_;
+  uint64_t count_ = 0;
+};
+
 class Describer {
  public:
   Describer(const ir::Module& module, const EmitOptions& options, const Facts& facts, std::string_view name_space)
@@ -50,23 +122,8 @@ class Describer {
   }
 
  private:
-  // ---- rows of the tables, in braces
-
-  static void row(std::string& table, std::initializer_list<std::string_view> cells) {
-    table += '{';
-    bool first = true;
-    for (std::string_view cell : cells) {
-      if (!first) table += ',';
-      first = false;
-      table += cell;
-    }
-    table += "},\n";
-  }
-  static std::string number(uint64_t value) { return std::to_string(value); }
-  static std::string unsignedOrNone(uint32_t value) { return value == RUNG_NONE ? "RUNG_NONE" : std::to_string(value); }
-  static std::string signedNumber(int64_t value) {
-    return value == INT64_MIN ? std::string("INT64_MIN") : std::to_string(value) + "LL";
-  }
+  std::string_view text(uint32_t offset) const { return is_.strings.bytes().c_str() + offset; }
+  std::string typeName(uint32_t number) const { return std::string(text(is_.types[number].name)); }
 
   // ---- code: tasks, tests, initial values
 
@@ -100,7 +157,7 @@ class Describer {
     for (uint32_t i = 0; i < is_.tasks.size(); ++i) {
       const rung_task& task = is_.tasks[i];
       const std::string function = "task" + number(i);
-      code_ += "static void " + function + "(rung_context* ctx) {\n  (void)ctx;\n";
+      code_ += "\nstatic void " + function + "(rung_context* ctx) {\n  (void)ctx;\n";
       if (module_.tasks[i].before) code_ += callOf(module_.tasks[i].before);
       for (uint32_t p = 0; p < module_.programs.size(); ++p) {
         const ir::ProgramInstance& program = module_.programs[p];
@@ -110,10 +167,11 @@ class Describer {
         if (block.task == i + 1) code_ += callOf(block.run);
       if (module_.tasks[i].after) code_ += callOf(module_.tasks[i].after);
       code_ += "}\n";
-      row(task_rows_, {number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
-                       signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),
-                       number(task.external_event), number(task.resource), number(task.first_write),
-                       number(task.write_count), signedNumber(task.duration_ns), function});
+      tasks_.row({number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
+                  signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),
+                  number(task.external_event), number(task.resource), number(task.first_write),
+                  number(task.write_count), signedNumber(task.duration_ns), function},
+                 text(task.name));
     }
   }
 
@@ -123,7 +181,7 @@ class Describer {
       const ir::Body& body = module_.body(test.body);
       const std::string name = "test" + number(count++);
       std::string init = "nullptr", exit = "nullptr", first, last;
-      std::string run = "static void " + name + "(rung_context* ctx) {\n";
+      std::string run = "\nstatic void " + name + "(rung_context* ctx) {\n";
       if (test.before) run += callOf(test.before);
       if (body.kind == ir::BodyKind::Function) {
         declare(test.body);
@@ -144,16 +202,17 @@ class Describer {
       last.insert(0, teardowns);
       if (!first.empty()) {
         init = name + "_init";
-        code_ += "static void " + init + "(rung_context* ctx) {\n" + first + "}\n";
+        code_ += "\nstatic void " + init + "(rung_context* ctx) {\n" + first + "}\n";
       }
       if (!last.empty()) {
         exit = name + "_exit";
-        code_ += "static void " + exit + "(rung_context* ctx) {\n" + last + "}\n";
+        code_ += "\nstatic void " + exit + "(rung_context* ctx) {\n" + last + "}\n";
       }
       if (test.after) run += callOf(test.after);
       code_ += run + "}\n";
-      row(test_rows_, {number(test.row.name), number(test.row.file), number(test.row.line),
-                       unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name, exit});
+      tests_.row({number(test.row.name), number(test.row.file), number(test.row.line),
+                  unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name, exit},
+                 text(test.row.name));
     }
   }
 
@@ -179,148 +238,156 @@ class Describer {
     return variables + call + ");\n";
   }
 
-  // Defines a table for the description, which is in the other file.
-  void table(std::string& out, const char* type, const char* name, const std::string& rows) {
-    if (rows.empty()) return;
-    const std::string declaration = std::string("extern const ") + type + ' ' + name + "[]";
-    declarations_ += declaration + ";\n";
-    out += declaration + " = {\n" + rows + "};\n";
-  }
-  // The two cells of a table in the description.
-  static std::string cells(const char* name, const std::string& rows, uint64_t count) {
-    return std::string(rows.empty() ? "nullptr" : name) + ", " + number(rows.empty() ? 0 : count);
-  }
-
-  std::string moduleSource() {
-    std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, area_rows, symbol_rows, retain_rows,
-        persistent_rows, resource_rows, write_rows, io_module_rows;
-    for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
-    for (const rung_type& is : is_.types) {
-      row(type_rows,
+  void addTables() {
+    for (const rung_block& is : is_.blocks) {
+      blocks_.row({number(is.name), number(is.size), number(is.align)}, text(is.name));
+    }
+    for (const rung_area& is : is_.areas) {
+      areas_.row({number(is.name), number(is.prefix), number(is.size), kOwners[is.owner]}, text(is.prefix));
+    }
+    for (uint32_t i = 0; i < is_.types.size(); ++i) {
+      const rung_type& is = is_.types[i];
+      types_rows_.row(
           {kTypeKinds[is.kind], is.is_signed != 0 ? "1" : "0", is.library != 0 ? "1" : "0", number(is.name),
-           number(is.size), unsignedOrNone(is.element), number(is.length), number(is.first), number(is.count)});
+           number(is.size), unsignedOrNone(is.element), number(is.length), number(is.first), number(is.count)},
+          number(i) + " " + typeName(i));
     }
     for (const rung_field& is : is_.fields) {
-      row(field_rows, {number(is.name), number(is.type), number(is.offset), number(is.flags)});
+      fields_.row({number(is.name), number(is.type), number(is.offset), fieldFlags(is.flags)},
+                  std::string(text(is.name)) + " : " + typeName(is.type));
     }
-    for (const rung_enum_item& is : is_.enum_items) row(item_rows, {number(is.name), signedNumber(is.value)});
-    for (const rung_dimension& is : is_.dimensions) row(dimension_rows, {signedNumber(is.low), signedNumber(is.high)});
-    for (const rung_area& is : is_.areas)
-      row(area_rows, {number(is.name), number(is.prefix), number(is.size), kOwners[is.owner]});
+    for (const rung_enum_item& is : is_.enum_items) {
+      enum_items_.row({number(is.name), signedNumber(is.value)}, text(is.name));
+    }
+    for (const rung_dimension& is : is_.dimensions) dimensions_.row({signedNumber(is.low), signedNumber(is.high)});
     for (const rung_symbol& is : is_.symbols) {
-      row(symbol_rows, {number(is.name), number(is.type), kStorages[is.storage], number(is.bit), number(is.is_program),
-                        number(is.index), number(is.offset), number(is.flags), number(is.path)});
+      symbols_.row({number(is.name), number(is.type), kStorages[is.storage], number(is.bit), number(is.is_program),
+                    number(is.index), number(is.offset), fieldFlags(is.flags), number(is.path)},
+                   std::string(text(is.name)) + " : " + typeName(is.type));
     }
-    for (const rung_range& is : is_.retain) row(retain_rows, {number(is.block), number(is.offset), number(is.size)});
-    for (const rung_range& is : is_.persistent) {
-      row(persistent_rows, {number(is.block), number(is.offset), number(is.size)});
+    addKept(retain_, is_.retain);
+    addKept(persistent_, is_.persistent);
+    for (const uint32_t is : is_.resources) resources_.row({number(is)}, text(is));
+    for (const rung_write& is : is_.writes) {
+      writes_.row({number(is.area), number(is.mask), number(is.offset), number(is.size)},
+                  text(is_.areas[is.area].prefix));
     }
-    for (const uint32_t is : is_.resources) resource_rows += number(is) + ",\n";
-    for (const rung_write& is : is_.writes)
-      row(write_rows, {number(is.area), number(is.mask), number(is.offset), number(is.size)});
-    for (const rung_io_module& is : is_.io_modules)
-      row(io_module_rows, {number(is.name), number(is.type), number(is.station), unsignedOrNone(is.task),
-                           number(is.input_offset), number(is.output_offset)});
-    std::string init = "void init(rung_context* ctx) {\n  (void)ctx;\n";
+    for (const rung_io_module& is : is_.io_modules) {
+      io_modules_.row({number(is.name), number(is.type), number(is.station), unsignedOrNone(is.task),
+                       number(is.input_offset), number(is.output_offset)},
+                      text(is.name));
+    }
+  }
+  void addKept(Table& table, const std::vector<rung_range>& ranges) {
+    for (const rung_range& is : ranges) {
+      const uint32_t index = is.block & ~(RUNG_RANGE_AREA | RUNG_RANGE_BIT);
+      std::string block = number(index);
+      if ((is.block & RUNG_RANGE_AREA) != 0) block += " | RUNG_RANGE_AREA";
+      if ((is.block & RUNG_RANGE_BIT) != 0) block += " | RUNG_RANGE_BIT";
+      table.row({block, number(is.offset), number(is.size)},
+                text((is.block & RUNG_RANGE_AREA) != 0 ? is_.areas[index].prefix : is_.blocks[index].name));
+    }
+  }
+
+  std::string initSource() {
+    std::string out = "\nvoid init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
-      init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
+      out += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
     }
     const std::vector<ir::InitStep> order = ir::initOrder(module_, facts_);
     for (const ir::InitStep& step : order) {
       const ir::BodyId body = step.is_list ? module_.lists[step.index].init : module_.programs[step.index].init;
       if (!hasCode(body)) continue;
-      init += step.is_list ? callOn(body, module_.lists[step.index].record, facts_.list_block[step.index])
-                           : callOn(body, module_.programs[step.index].record, facts_.program_block[step.index]);
+      out += step.is_list ? callOn(body, module_.lists[step.index].record, facts_.list_block[step.index])
+                          : callOn(body, module_.programs[step.index].record, facts_.program_block[step.index]);
     }
     for (const ir::InitStep& step : order)
-      if (!step.is_list && module_.programs[step.index].setup) init += callOf(module_.programs[step.index].setup);
-    if (module_.after_init) init += callOf(module_.after_init);
-    init += "}\n";
-    if (module_.exit) init += "void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
-    if (module_.safe) init += "void safe(rung_context* ctx) {\n" + callOf(module_.safe) + "}\n";
+      if (!step.is_list && module_.programs[step.index].setup) out += callOf(module_.programs[step.index].setup);
+    if (module_.after_init) out += callOf(module_.after_init);
+    out += "}\n";
+    if (module_.exit) out += "\nvoid exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
+    if (module_.safe) out += "\nvoid safe(rung_context* ctx) {\n" + callOf(module_.safe) + "}\n";
+    return out;
+  }
 
-    declarations_ = "extern const char text[];\nvoid init(rung_context* ctx);\n";
-    if (module_.exit) declarations_ += "void exit(rung_context* ctx);\n";
-    if (module_.safe) declarations_ += "void safe(rung_context* ctx);\n";
-    std::string out =
-        "// The tables of the module, its tasks and its initial values: see rung/module.h.\n#include <string.h>\n\n";
-    out += "#include \"rung/module.h\"\n\n" + openNamespace(name_space_) + '\n' + prototypes_ + "\n";
-    out += "extern const char text[] =\n";
+  // One line per name.
+  std::string textSource() const {
+    std::string out = "// The names to which the tables refer by their offset.\nextern const char text[] =\n";
     const std::string& bytes = is_.strings.bytes();
-    for (size_t at = 0; at < bytes.size();) {  // one line per name
-      size_t end = bytes.find('\0', at);
+    for (size_t at = 0; at < bytes.size();) {
+      const size_t end = bytes.find('\0', at);
       out += "  ";
       appendQuoted(out, std::string_view(bytes).substr(at, end - at));
-      out += " \"\\0\"\n";
+      out.insert(out.size() - 1, "\\0");
+      out += '\n';
       at = end + 1;
     }
-    out += "  ;\n";
-    table(out, "rung_block", "blocks", block_rows);
-    table(out, "rung_area", "areas", area_rows);
-    table(out, "rung_type", "types", type_rows);
-    table(out, "rung_field", "fields", field_rows);
-    table(out, "rung_enum_item", "enum_items", item_rows);
-    table(out, "rung_dimension", "dimensions", dimension_rows);
-    table(out, "rung_symbol", "symbols", symbol_rows);
-    table(out, "rung_range", "retain", retain_rows);
-    table(out, "rung_range", "persistent", persistent_rows);
-    out += '\n' + code_;
-    table(out, "uint32_t", "resources", resource_rows);
-    table(out, "rung_task", "tasks", task_rows_);
-    table(out, "rung_write", "writes", write_rows);
-    table(out, "rung_io_module", "io_modules", io_module_rows);
-    table(out, "rung_test", "tests", test_rows_);
-    out += init + "\n}  // namespace " + name_space_ + '\n';
+    return out + "  ;\n";
+  }
 
-    description_ = "static const rung_module description = {\n  RUNG_MODULE_ABI, RUNG_MODULE_LAYOUT, " +
-                   number(types_.pointerSize()) + ", " + (module_.aligned_globals ? "RUNG_ALIGNED_GLOBALS" : "0") +
-                   ", ";
-    appendQuoted(description_, options_.module_name);
-    description_ += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n  ";
-    description_ += cells("blocks", block_rows, is_.blocks.size()) + ", ";
-    description_ += cells("areas", area_rows, is_.areas.size()) + ",\n  ";
-    description_ += cells("resources", resource_rows, is_.resources.size()) + ", ";
-    description_ += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
-    description_ += cells("writes", write_rows, is_.writes.size()) + ", ";
-    description_ += cells("io_modules", io_module_rows, is_.io_modules.size()) + ",\n  ";
-    description_ += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
-    description_ += cells("types", type_rows, is_.types.size()) + ", ";
-    description_ += cells("fields", field_rows, is_.fields.size()) + ", ";
-    description_ += cells("enum_items", item_rows, is_.enum_items.size()) + ", ";
-    description_ += cells("dimensions", dimension_rows, is_.dimensions.size()) + ",\n  ";
-    description_ += cells("retain", retain_rows, is_.retain.size()) + ", ";
-    description_ += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
-    description_ += "sites, " + number(site_count_) + ", ";
-    description_ += cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") +
-                    ", " + (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
-    return out;
+  std::string moduleSource() {
+    addTables();
+    const std::string init = initSource();
+    std::string out =
+        "// The tables of the module, its tasks and its initial values. The columns are those of rung/module.h; a row\n"
+        "// ends with what it is about.\n#include <string.h>\n\n#include \"rung/module.h\"\n\n" +
+        openNamespace(name_space_) + '\n' + prototypes_ + '\n' + textSource();
+    for (const Table* table : {&blocks_, &areas_, &types_rows_, &fields_, &enum_items_, &dimensions_, &symbols_,
+                               &retain_, &persistent_, &resources_, &writes_, &io_modules_})
+      table->define(out, kExtern);
+    out += code_;
+    for (const Table* table : {&tasks_, &tests_}) table->define(out, kExtern);
+    return out + init + "\n}  // namespace " + name_space_ + '\n';
   }
 
   void addSites(const std::vector<Group>& groups) {
     for (const Group& group : groups) {
       if (group.sites.empty()) continue;
-      site_numbers_ += "extern const uint32_t sites_" + group.stem + " = " + number(site_count_) + ";\n";
+      site_numbers_ += "extern const uint32_t sites_" + group.stem + " = " + number(sites_.count()) + ";\n";
       for (const Site& site : group.sites) {
-        row(site_rows_, {number(is_.strings.add(module_.names.string(site.pou))),
-                         number(is_.strings.add(site.origin_path ? module_.names.string(site.origin_path)
-                                                                 : module_.sources.path(site.file))),
-                         number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
-        ++site_count_;
+        sites_.row({number(is_.strings.add(module_.names.string(site.pou))),
+                    number(is_.strings.add(site.origin_path ? module_.names.string(site.origin_path)
+                                                            : module_.sources.path(site.file))),
+                    number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
       }
     }
-    if (site_rows_.empty()) row(site_rows_, {"0", "0", "0", "0", "0", "0"});
   }
 
   // The description is here because it counts the sites: a count of another file would be an initial value that is
   // computed at run time, in a static constructor.
   std::string sitesSource() const {
-    return "// Where the checks and calls are, and the description of the module: see rung/module.h.\n#include "
-           "\"rung/call_paths.h\"\n#include \"rung/module.h\"\n\n" +
-           openNamespace(name_space_) + '\n' + site_numbers_ + "static const rung_site sites[] = {\n" + site_rows_ +
-           "};\n\n" + declarations_ + '\n' + description_ + "\n}  // namespace " + name_space_ +
+    std::string out =
+        "// Where the checks and calls are, and the description of the module: see rung/module.h.\n#include "
+        "\"rung/call_paths.h\"\n#include \"rung/module.h\"\n\n" +
+        openNamespace(name_space_) + '\n' + site_numbers_;
+    sites_.define(out, "static const ");
+    out += "\nextern const char text[];\n";
+    for (const Table* table : tables())
+      if (table != &sites_ && !table->empty()) out += kExtern + table->declaration() + ";\n";
+    out += "void init(rung_context* ctx);\n";
+    if (module_.exit) out += "void exit(rung_context* ctx);\n";
+    if (module_.safe) out += "void safe(rung_context* ctx);\n";
+    return out + '\n' + descriptionSource() + "\n}  // namespace " + name_space_ +
            "\n\nextern \"C\" RUNG_EXPORT const rung_module* " + options_.module_name +
            "_module(void);\nextern \"C\" const rung_module* " + options_.module_name + "_module(void) { return &" +
            name_space_ + "::description; }\n";
+  }
+
+  // The tables in the order of rung_module.
+  std::array<const Table*, 15> tables() const {
+    return {&blocks_, &areas_,      &resources_,  &tasks_,  &writes_,     &io_modules_, &symbols_, &types_rows_,
+            &fields_, &enum_items_, &dimensions_, &retain_, &persistent_, &sites_,      &tests_};
+  }
+
+  std::string descriptionSource() const {
+    std::string out = "static const rung_module description = {\n  RUNG_MODULE_ABI, RUNG_MODULE_LAYOUT, " +
+                      number(types_.pointerSize()) + ", " + (module_.aligned_globals ? "RUNG_ALIGNED_GLOBALS" : "0") +
+                      ", ";
+    appendQuoted(out, options_.module_name);
+    out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n";
+    for (const Table* table : tables()) out += "  " + table->cells() + ",\n";
+    return out + "  init, " + (module_.exit ? "exit" : "nullptr") + ", " + (module_.safe ? "safe" : "nullptr") +
+           ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
   }
 
   const ir::Module& module_;
@@ -329,10 +396,24 @@ class Describer {
   const Facts& facts_;
   const std::string name_space_;
   ir::Description is_;
-  std::string task_rows_, test_rows_, code_, prototypes_;
-  std::string site_rows_, site_numbers_;
-  uint32_t site_count_ = 0;
-  std::string declarations_, description_;  // for the file of the sites
+  std::string code_, prototypes_, site_numbers_;
+  Table blocks_{"rung_block", "blocks", "name, size, align"};
+  Table areas_{"rung_area", "areas", "name, prefix, size, owner"};
+  Table types_rows_{"rung_type", "types", "kind, is_signed, library, name, size, element, length, first, count"};
+  Table fields_{"rung_field", "fields", "name, type, offset, flags"};
+  Table enum_items_{"rung_enum_item", "enum_items", "name, value"};
+  Table dimensions_{"rung_dimension", "dimensions", "low, high"};
+  Table symbols_{"rung_symbol", "symbols", "name, type, storage, bit, is_program, index, offset, flags, path"};
+  Table retain_{"rung_range", "retain", "block, offset, size"};
+  Table persistent_{"rung_range", "persistent", "block, offset, size"};
+  Table resources_{"uint32_t", "resources", "name"};
+  Table writes_{"rung_write", "writes", "area, mask, offset, size"};
+  Table io_modules_{"rung_io_module", "io_modules", "name, type, station, task, input_offset, output_offset"};
+  Table tasks_{"rung_task", "tasks",
+               "name, kind, priority, interval_ns, watchdog_ns, sensitivity, trigger, external_event, resource, "
+               "first_write, write_count, duration_ns, run"};
+  Table tests_{"rung_test", "tests", "name, file, line, done_block, done_offset, init, run, exit"};
+  Table sites_{"rung_site", "sites", "pou, file, line, column, low, high"};
   std::vector<uint32_t> declared_;
 };
 
