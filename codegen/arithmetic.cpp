@@ -14,6 +14,9 @@ using types::TypeTable;
 namespace {
 
 bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::Op::Sub || op == types::Op::Mul; }
+cxx::Op operatorOf(types::Op op) {
+  return op == types::Op::Add ? cxx::Op::Add : op == types::Op::Sub ? cxx::Op::Subtract : cxx::Op::Multiply;
+}
 
 }  // namespace
 
@@ -56,259 +59,131 @@ uint32_t ExpressionWriter::plainBits(ExprId id) const {
   return widthOf(kind) + (types_.isSigned(kind) ? 0 : 1);
 }
 
-void ExpressionWriter::plain(ExprId id, Prec context) {
+cxx::Ex ExpressionWriter::plain(ExprId id) {
   const Expr& e = expr(id);
-  if (!isChain(e)) {
-    value(id, context);
-    return;
-  }
-  if (const auto* negation = e.tryAs<ir::UnaryExpr>()) {
-    parenthesis(Prec::Unary, context);
-    out_ += '-';
-    plain(negation->operand, Prec::Postfix);
-    closeParenthesis(Prec::Unary, context);
-    return;
-  }
+  if (!isChain(e)) return value(id);
+  if (const auto* negation = e.tryAs<ir::UnaryExpr>()) return tree_.prefix("-", plain(negation->operand));
   const auto [left, right, op] = e.as<ir::BinaryExpr>();
-  const Prec own = op == Op::Mul ? Prec::Product : Prec::Sum;
-  parenthesis(own, context);
-  plain(left, own);
-  out_ += op == Op::Add ? " + " : op == Op::Sub ? " - " : " * ";
-  plain(right, own == Prec::Sum ? Prec::Product : Prec::Unary);
-  closeParenthesis(own, context);
+  const Ex a = plain(left), b = plain(right);
+  return tree_.infix(operatorOf(op), a, b);
 }
 
 // An unsigned expression of 32 or 64 bits that is equal to the value modulo 2^32 or 2^64.
-void ExpressionWriter::modular(ExprId id, bool wide, Prec context) {
+cxx::Ex ExpressionWriter::modular(ExprId id, bool wide) {
   const Expr& e = expr(id);
   const TypeKind kind = types_.plainKind(e.type);
+  const char* const suffix = wide ? "ULL" : "u";
   if (isChain(e)) {
-    if (const auto* negation = e.tryAs<ir::UnaryExpr>()) {
-      parenthesis(Prec::Sum, context);
-      out_ += wide ? "0ULL - " : "0u - ";
-      modular(negation->operand, wide, Prec::Product);
-      closeParenthesis(Prec::Sum, context);
-      return;
-    }
+    if (const auto* negation = e.tryAs<ir::UnaryExpr>())
+      return tree_.infix(Operator::Subtract, tree_.number(0, suffix), modular(negation->operand, wide));
     const auto [left, right, op] = e.as<ir::BinaryExpr>();
-    const Prec own = op == Op::Mul ? Prec::Product : Prec::Sum;
-    parenthesis(own, context);
-    modular(left, wide, own);
+    const Ex a = modular(left, wide);
     const auto* constant = expr(right).tryAs<ir::ConstExpr>();
-    const bool flips = own == Prec::Sum && constant != nullptr && types_.isSigned(kind) &&
+    const bool flips = op != Op::Mul && constant != nullptr && types_.isSigned(kind) &&
                        static_cast<int64_t>(uint64_t{constant->bits}) < 0;
-    out_ += op == Op::Mul ? " * " : (op == Op::Add) != flips ? " + " : " - ";
     if (flips) {
-      appendUnsigned(out_, 0 - uint64_t{constant->bits});
-      out_ += wide ? "ULL" : "u";
-    } else {
-      modular(right, wide, own == Prec::Sum ? Prec::Product : Prec::Unary);
+      return tree_.infix(op == Op::Add ? Operator::Subtract : Operator::Add, a,
+                         tree_.number(0 - uint64_t{constant->bits}, suffix));
     }
-    closeParenthesis(own, context);
-    return;
+    return tree_.infix(operatorOf(op), a, modular(right, wide));
   }
-  if (ir::isConst(e)) {
-    appendUnsigned(out_, wide ? ir::bitsOf(e) : static_cast<uint32_t>(ir::bitsOf(e)));
-    out_ += wide ? "ULL" : "u";
-    return;
-  }
-  if (!types_.isSigned(kind) && widthOf(kind) == (wide ? 64u : 32u)) {
-    value(id, context);
-    return;
-  }
-  parenthesis(Prec::Unary, context);
-  out_ += wide ? "(uint64_t)" : "(uint32_t)";
-  value(id, Prec::Unary);
-  closeParenthesis(Prec::Unary, context);
+  if (ir::isConst(e)) return tree_.number(wide ? ir::bitsOf(e) : static_cast<uint32_t>(ir::bitsOf(e)), suffix);
+  if (!types_.isSigned(kind) && widthOf(kind) == (wide ? 64u : 32u)) return value(id);
+  return tree_.cast(wide ? "uint64_t" : "uint32_t", value(id));
 }
 
-void ExpressionWriter::arithmetic(ExprId id, Prec context) {
+cxx::Ex ExpressionWriter::arithmetic(ExprId id) {
   const Expr& e = expr(id);
   const auto* binary = e.tryAs<ir::BinaryExpr>();
   const TypeKind kind = kindOf(binary != nullptr ? binary->left : e.as<ir::UnaryExpr>().operand);
   const uint32_t width = widthOf(kind);
   if (binary != nullptr && (isPointer(kind) || width == 0)) {
-    parenthesis(Prec::Unary, context);
-    out_ += "(void*)((uintptr_t)";
-    value(binary->left, Prec::Unary);
-    out_ += binary->op == Op::Sub ? " - " : " + ";
-    out_ += "(uintptr_t)";
-    value(binary->right, Prec::Unary);
-    out_ += ')';
-    closeParenthesis(Prec::Unary, context);
-    return;
+    const Ex left = tree_.cast("uintptr_t", value(binary->left)), right = tree_.cast("uintptr_t", value(binary->right));
+    return tree_.cast("void*", tree_.infix(binary->op == Op::Sub ? Operator::Subtract : Operator::Add, left, right));
   }
-  if (!types_.isSigned(kind) && width >= 32) {
-    modular(id, width == 64, context);
-    return;
-  }
-  if (isUncut(id) && plainBits(id) <= 32) {
-    plain(id, context);
-    return;
-  }
-  parenthesis(Prec::Unary, context);
-  out_ += '(';
-  out_ += scalarType(types_, e.type);
-  out_ += ")(";
-  inPlainOrModular(id, width);
-  out_ += ')';
-  closeParenthesis(Prec::Unary, context);
+  if (!types_.isSigned(kind) && width >= 32) return modular(id, width == 64);
+  if (isUncut(id) && plainBits(id) <= 32) return plain(id);
+  return tree_.cast(scalarType(types_, e.type), tree_.group(plainOrModular(id, width)));
 }
 
 // An operator of that width, to be cut to a type.
-void ExpressionWriter::inPlainOrModular(ExprId id, uint32_t width) {
-  if (width <= 16 && plainBits(id) <= 32) {
-    plain(id, Prec::Comma);
-  } else {
-    modular(id, width == 64, Prec::Comma);
-  }
+cxx::Ex ExpressionWriter::plainOrModular(ExprId id, uint32_t width) {
+  return width <= 16 && plainBits(id) <= 32 ? plain(id) : modular(id, width == 64);
 }
 
-void ExpressionWriter::divide(const ir::BinaryExpr& node, Prec context) {
-  const auto [a, b, op] = node;
-  const TypeKind kind = kindOf(a);
+cxx::Ex ExpressionWriter::divide(const ir::BinaryExpr& node) {
+  const TypeKind kind = kindOf(node.left);
   const uint32_t width = widthOf(kind);
-  const bool is_signed = types_.isSigned(kind);
-  const uint64_t divisor = ir::isConst(expr(b)) ? ir::bitsOf(expr(b)) : 0;
-  if (divisor != 0 && !(is_signed && static_cast<int64_t>(divisor) == -1)) {
-    parenthesis(Prec::Product, context);
-    value(a, Prec::Product);
-    out_ += op == Op::Div ? " / " : " % ";
-    value(b, Prec::Unary);
-    closeParenthesis(Prec::Product, context);
-    return;
-  }
-  const bool cuts = is_signed && width < 32 && op == Op::Div;
-  if (cuts) {
-    parenthesis(Prec::Unary, context);
-    out_ += width == 8 ? "(int8_t)" : "(int16_t)";
-  }
-  out_ += op == Op::Div ? "rung_div_" : "rung_mod_";
-  out_ += width == 64 ? (is_signed ? "i64(" : "u64(") : (is_signed || width < 32 ? "i32(" : "u32(");
-  value(a, Prec::Ternary);
-  out_ += ", ";
-  value(b, Prec::Ternary);
-  out_ += ')';
-  if (cuts) closeParenthesis(Prec::Unary, context);
+  const bool is_signed = types_.isSigned(kind), divides = node.op == Op::Div;
+  const uint64_t divisor = ir::isConst(expr(node.right)) ? ir::bitsOf(expr(node.right)) : 0;
+  if (divisor != 0 && !(is_signed && static_cast<int64_t>(divisor) == -1))
+    return both(divides ? Operator::Divide : Operator::Remainder, node);
+  std::string name = divides ? "rung_div_" : "rung_mod_";
+  name += width == 64 ? (is_signed ? "i64" : "u64") : (is_signed || width < 32 ? "i32" : "u32");
+  const Ex result = function(name, node);
+  const bool cuts = is_signed && width < 32 && divides;
+  return cuts ? tree_.cast(width == 8 ? "int8_t" : "int16_t", result) : result;
 }
 
 // Filled with the sign; a count of the width or more leaves nothing but the sign.
-void ExpressionWriter::shiftSigned(const Expr& e, Prec context) {
+cxx::Ex ExpressionWriter::shiftSigned(const Expr& e) {
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const uint32_t width = widthOf(kindOf(a));
-  const bool is_constant = expr(b).kind == ExprKind::Const, cuts = width < (is_constant ? 32u : 64u);
-  const Prec own = cuts ? Prec::Unary : is_constant ? Prec::Shift : Prec::Postfix;
-  parenthesis(own, context);
-  if (cuts) {
-    out_ += '(';
-    out_ += scalarType(types_, e.type);
-    out_ += is_constant ? ")(" : ")";
-  }
+  const bool is_constant = expr(b).kind == ExprKind::Const;
+  Ex result = value(a);
   if (is_constant) {
-    value(a, Prec::Unary);
-    out_ += " >> ";
-    appendUnsigned(out_, std::min<uint64_t>(ir::bitsOf(expr(b)), width - 1));
-    if (cuts) out_ += ')';
+    const uint64_t count = std::min<uint64_t>(ir::bitsOf(expr(b)), width - 1);
+    result = tree_.infix(Operator::ShiftRight, result, tree_.number(count));
   } else {
-    out_ += "rung_sar(";
-    value(a, Prec::Ternary);
-    out_ += ", (uint64_t)";
-    value(b, Prec::Unary);
-    out_ += ')';
+    result = tree_.call("rung_sar", {result, tree_.cast("uint64_t", value(b))});
   }
-  closeParenthesis(own, context);
+  return width < (is_constant ? 32u : 64u) ? tree_.cast(scalarType(types_, e.type), result) : result;
 }
 
 // A count of the width or more gives 0; a rotation is modulo the width.
-void ExpressionWriter::shift(const Expr& e, Prec context) {
+cxx::Ex ExpressionWriter::shift(const Expr& e) {
   const Op op = e.op() == Op::Sar ? Op::Shr : e.op();
-  if (e.op() == Op::Sar && types_.isSigned(kindOf(e.as<ir::BinaryExpr>().left))) {
-    shiftSigned(e, context);
-    return;
-  }
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
-  auto writeBits = [&](Prec at) {  // zero-extended
-    if (!is_signed) {
-      value(a, at);
-      return;
-    }
-    parenthesis(Prec::Unary, at);
-    out_ += width == 8 ? "(uint8_t)" : width == 16 ? "(uint16_t)" : width == 32 ? "(uint32_t)" : "(uint64_t)";
-    value(a, Prec::Unary);
-    closeParenthesis(Prec::Unary, at);
-  };
+  if (e.op() == Op::Sar && is_signed) return shiftSigned(e);
   const bool rotates = op == Op::Rol || op == Op::Ror;
-  const bool cuts = is_signed || (width < 32 && op == Op::Shl);
-  if (!rotates && expr(b).kind == ExprKind::Const) {
-    const uint64_t count = ir::bitsOf(expr(b));
-    if (count >= width) {
-      appendConstant(out_, types_, e.type, 0);
-      return;
-    }
-    parenthesis(cuts ? Prec::Unary : Prec::Shift, context);
-    if (cuts) {
-      out_ += '(';
-      out_ += scalarType(types_, e.type);
-      out_ += ")(";
-    }
-    writeBits(Prec::Unary);
-    out_ += op == Op::Shl ? " << " : " >> ";
-    appendUnsigned(out_, count);
-    if (cuts) out_ += ')';
-    closeParenthesis(cuts ? Prec::Unary : Prec::Shift, context);
-    return;
-  }
-  if (cuts) {
-    parenthesis(Prec::Unary, context);
-    out_ += '(';
-    out_ += scalarType(types_, e.type);
-    out_ += ')';
-  }
-  if (rotates) {
-    out_ += "rung_rol";
-    appendUnsigned(out_, width);
+  const bool is_constant = !rotates && expr(b).kind == ExprKind::Const;
+  if (is_constant && ir::bitsOf(expr(b)) >= width) return constantOf(e.type, 0);
+  Ex result = value(a);  // zero-extended
+  if (is_signed) result = tree_.cast(unsignedType(width), result);
+  if (is_constant) {
+    result = tree_.infix(op == Op::Shl ? Operator::ShiftLeft : Operator::ShiftRight, result,
+                         tree_.number(ir::bitsOf(expr(b))));
   } else {
-    out_ += op == Op::Shl ? "rung_shl" : "rung_shr";
-    if (width == 64) out_ += "64";
+    Ex count = tree_.cast("uint64_t", value(b));
+    if (op == Op::Ror) count = tree_.infix(Operator::Subtract, tree_.number(0), count);
+    const std::string name = rotates         ? "rung_rol" + std::to_string(width)
+                             : op == Op::Shl ? width == 64 ? "rung_shl64" : "rung_shl"
+                             : width == 64   ? "rung_shr64"
+                                             : "rung_shr";
+    result = tree_.call(name, {result, count});
   }
-  out_ += '(';
-  writeBits(Prec::Ternary);
-  out_ += op == Op::Ror ? ", 0 - (uint64_t)" : ", (uint64_t)";
-  value(b, Prec::Unary);
-  out_ += ')';
-  if (cuts) closeParenthesis(Prec::Unary, context);
+  const bool cuts = is_signed || (width < 32 && op == Op::Shl);
+  return cuts ? tree_.cast(scalarType(types_, e.type), result) : result;
 }
 
-void ExpressionWriter::power(const Expr& e) {
+cxx::Ex ExpressionWriter::power(const Expr& e) {
   const ExprId a = e.as<ir::BinaryExpr>().left, b = e.as<ir::BinaryExpr>().right;
   const TypeKind kind = kindOf(a);
+  Ex base = value(a), exponent = value(b);
   if (TypeTable::isReal(kind)) {
-    if (kind == TypeKind::Real) out_ += "(float)";
-    out_ += "rung_power(";
-    value(a, Prec::Ternary);
-    out_ += ", ";
-    if (!TypeTable::isReal(kindOf(b))) out_ += "(double)";
-    value(b, TypeTable::isReal(kindOf(b)) ? Prec::Ternary : Prec::Unary);
-    out_ += ')';
-    return;
+    if (!TypeTable::isReal(kindOf(b))) exponent = tree_.cast("double", exponent);
+    const Ex result = tree_.call("rung_power", {base, exponent});
+    return kind == TypeKind::Real ? tree_.cast("float", result) : result;
   }
-  out_ += '(';
-  out_ += scalarType(types_, e.type);
-  out_ += ")rung_integer_power(";
-  out_ += types_.isSigned(kind) ? "(uint64_t)(int64_t)" : "(uint64_t)";
-  value(a, Prec::Unary);
-  out_ += ", (uint64_t)";
-  value(b, Prec::Unary);
-  out_ += ", ";
-  if (types_.isSigned(kindOf(b))) {
-    value(b, Prec::Sum);
-    out_ += " < 0)";
-  } else {
-    out_ += "false)";
-  }
+  if (types_.isSigned(kind)) base = tree_.cast("int64_t", base);
+  const Ex is_negative =
+      types_.isSigned(kindOf(b)) ? tree_.infix(Operator::Less, exponent, tree_.number(0)) : tree_.fixed("false");
+  return tree_.cast(
+      scalarType(types_, e.type),
+      tree_.call("rung_integer_power", {tree_.cast("uint64_t", base), tree_.cast("uint64_t", exponent), is_negative}));
 }
 
 }  // namespace rung::codegen

@@ -3,6 +3,7 @@
 #include "codegen/body.h"
 
 #include "codegen/body_parts.h"
+#include "codegen/cxx/print.h"
 #include "codegen/signature.h"
 
 #include "frontend/source/invariant.h"
@@ -61,44 +62,50 @@ void FunctionWriter::declareCached(uint32_t number) {
   declarations_ += ';';
 }
 
-void FunctionWriter::writeAllBack(std::string& out) {
+void FunctionWriter::writeAllBack() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = variables.localCount(); i < variables.count(); ++i) {
-    const types::Field& field = variables.field(i);
-    std::string name;
-    if (analysis_->slices.has(i)) {
-      appendMangled(name, string(field.name));
-      out += " if (" + name + "v != nullptr) rung_string_put(self." + name + ", ";
-      appendUnsigned(out, capacityOf(field.type));
-      out += ", " + name + "v, " + name + "n);";
-    } else if (isWrittenBack(i)) {
-      out += ' ';
-      writeBack(out, i);
+    if (!analysis_->slices.has(i)) {
+      if (isWrittenBack(i)) perform(writeBack(i));
+      continue;
     }
+    const types::Field& field = variables.field(i);
+    const std::string name = mangled(field.name);
+    const Ex slice = tree_.name(name + 'v');
+    cxx::Stmt* const made =
+        tree_.stmt(cxx::StmtKind::ShortIf, tree_.infix(Operator::Differs, slice, tree_.fixed("nullptr")));
+    add(made);
+    made->first =
+        nested([&] {
+          perform(tree_.call("rung_string_put", {tree_.member(tree_.fixed("self"), tree_.kept(name)),
+                                                 tree_.number(capacityOf(field.type)), slice, tree_.name(name + 'n')}));
+        }).first();
   }
 }
 
-void FunctionWriter::writeExits() {
+void FunctionWriter::writeExits(std::string& out) {
   std::string result;
   for (const ir::Local& local : body_->locals) {
     if (local.kind == LocalKind::Result && !local.by_reference) variable(result, local);
   }
-  if (state_.uses_leave) out_ += "\nleave:";
-  writeAllBack(out_);
-  strings().returnLengths();
+  if (state_.uses_leave) out += "\nleave:";
+  cxx::print(out, tree_, nested([&] {
+               writeAllBack();
+               strings().returnLengths();
+             }));
   if (!result.empty()) {
-    out_ += "\n  return ";
-    out_ += result;
-    out_ += ';';
+    out += "\n  return ";
+    out += result;
+    out += ';';
   } else if (state_.uses_fault || state_.uses_leave) {
-    out_ += "\n  return;";
+    out += "\n  return;";
   }
   if (state_.uses_fault) {
-    out_ += "\nfault:";
-    writeAllBack(out_);
-    out_ += " rung_raise(ctx, at & 15, sites_";
-    out_ += group_.stem;
-    out_ += " + (at >> 4), value);";
+    out += "\nfault:";
+    cxx::print(out, tree_, nested([&] { writeAllBack(); }));
+    out += " rung_raise(ctx, at & 15, sites_";
+    out += group_.stem;
+    out += " + (at >> 4), value);";
   }
 }
 
@@ -106,10 +113,12 @@ void FunctionWriter::write(ir::BodyId id) {
   if (body_->self) includeRecord(body_->self);
   declareVariables();
   strings().declareLengths();
-  statements().stepOfCall();
-  statements().block(body_->first);
-  statements().flushCloses(0);
-  writeExits();
+  std::string code;
+  cxx::print(code, tree_, nested([&] {
+               statements().stepOfCall();
+               statements().block(body_->first);
+             }));
+  writeExits(code);
   if (state_.uses_fault || analysis_->uses.has_try) declarations_ += " uint32_t at; int64_t value;";
 
   writeHead(id);
@@ -127,7 +136,7 @@ void FunctionWriter::write(ir::BodyId id) {
     to += "\n ";
     to += declarations_;
   }
-  to += out_;
+  to += code;
   to += "\n}\n";
 }
 
@@ -152,7 +161,8 @@ void FunctionWriter::writeHead(ir::BodyId id) {
 void BodyWriter::write(ir::BodyId id) {
   const ir::Body& body = context_.module.body(id);
   const BodyAnalysis analysis = analyzeBody(context_.module, body, context_.facts);
-  BodyState state(context_, body, analysis);
+  tree_.clear();
+  BodyState state(context_, body, analysis, tree_);
   BodyParts parts(state);
   FunctionWriter(state).write(id);
 }

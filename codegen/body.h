@@ -28,6 +28,7 @@ class BodyWriter {
 
  private:
   BodyContext context_;
+  cxx::Tree tree_;  // of one body after the other
 };
 
 }  // namespace rung::codegen

@@ -8,6 +8,27 @@ namespace rung::codegen {
 
 using ir::LocalKind;
 
+void BodyState::begin(cxx::Position place) {
+  if (begins) add(tree.stmt(cxx::StmtKind::Nothing));
+  begins = true;
+  at = place;
+}
+
+void BodyState::add(cxx::Stmt* stmt) {
+  cxx::Statements one;
+  one.add(stmt);
+  add(one);
+}
+
+void BodyState::add(const cxx::Statements& list) {
+  if (begins && !list.empty()) {
+    list.first()->begins = true;
+    list.first()->at = at;
+    begins = false;
+  }
+  to->append(list);
+}
+
 void BodyPart::includeRecord(TypeId type) {
   type = elementOf(types_, type);
   if (types_.kind(type) != TypeKind::Record || state_.in.marks.record[type.index] == state_.in.group_number) return;
@@ -44,17 +65,50 @@ void BodyPart::variable(std::string& out, const ir::Local& local) const {
   }
 }
 
+cxx::Ex BodyPart::variable(const ir::Local& local) {
+  return local.kind == LocalKind::Temp ? tree_.fixed(string(local.name)) : mangledName(local.name);
+}
+
+std::string BodyPart::mangled(NameId name) const {
+  std::string out;
+  appendMangled(out, string(name));
+  return out;
+}
+
+std::string_view BodyPart::keptMangled(NameId name) {
+  BodyState::Mangled& known = state_.mangled[name.index % state_.mangled.size()];
+  if (known.name != name.index) known = {name.index, tree_.kept(mangled(name))};
+  return known.text;
+}
+
+cxx::Ex BodyPart::constantOf(TypeId type, uint64_t bits) {
+  std::string text;
+  appendConstant(text, types_, type, bits);
+  return tree_.constant(text, text[0] == '-');
+}
+
+cxx::Ex BodyPart::quoted(std::string_view text, bool wide) {
+  std::string out;
+  wide ? appendQuotedWide(out, text) : appendQuoted(out, text);
+  return tree_.name(out);
+}
+
+std::string BodyPart::pointerTo(TypeId type, bool constant) const {
+  std::string out;
+  appendPointer(out, types_, type, "", constant);
+  return out;
+}
+
 bool BodyPart::isWrittenBack(uint32_t number) const {
   return analysis_->fields.is_cached[number] != 0 && analysis_->uses.of[number].written;
 }
 
-void BodyPart::writeBack(std::string& out, uint32_t number) const {
+cxx::Ex BodyPart::writeBack(uint32_t number) {
   const types::Field& field = analysis_->uses.variables.field(number);
-  std::string name;
-  appendMangled(name, string(field.name));
-  out += "self." + name + " = ";
-  if (analysis_->loops.wide[number] != 0) out += '(' + std::string(scalarType(types_, field.type)) + ')';
-  out += name + ';';
+  Ex value = mangledName(field.name);
+  const Ex to = tree_.member(tree_.fixed("self"), value->text);
+  if (analysis_->loops.wide[number] != 0) value = tree_.cast(scalarType(types_, field.type), value);
+  return tree_.infix(Operator::Assign, to, value);
 }
 
 bool BodyPart::hasExit() const {

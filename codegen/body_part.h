@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all writers of a body share: the state of the body being written, names, and questions to its analyses. In: a
-// body and its analyses. Out: code in BodyState. BodyPart is the base of the writers (body_parts.h), which call each
-// other through it.
+// body and its analyses. Out: its statements as C++ that is a value (cxx/nodes.h), in BodyState. BodyPart is the base
+// of the writers (body_parts.h), which call each other through it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "codegen/analysis.h"
+#include "codegen/cxx/nodes.h"
 #include "codegen/group.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
 
 namespace rung::codegen {
-
-// Precedence of C++ expressions, low to high: an operand of lower precedence than its context gets parentheses.
-enum class Prec : uint8_t { Comma, Ternary, Or, And, Bit, Equality, Relation, Shift, Sum, Product, Unary, Postfix };
 
 struct BodyParts;
 class ExpressionWriter;
@@ -38,16 +37,31 @@ struct BodyContext {
 
 // The body in work.
 struct BodyState {
-  BodyState(const BodyContext& context, const ir::Body& of, const BodyAnalysis& found)
-      : in(context), body(of), analysis(found) {}
+  BodyState(const BodyContext& context, const ir::Body& of, const BodyAnalysis& found, cxx::Tree& cpp)
+      : in(context), body(of), analysis(found), tree(cpp) {}
   const BodyContext& in;
   const ir::Body& body;
   const BodyAnalysis& analysis;
+  cxx::Tree& tree;
+  // A statement begins: what is added next begins the line of that place in the source.
+  void begin(cxx::Position at);
+  void add(cxx::Stmt* stmt);
+  void add(const cxx::Statements& list);
+
   BodyParts* parts = nullptr;
-  std::string out;                                             // the statements
-  std::string declarations;                                    // the variables at the top
-  std::vector<std::pair<uint32_t, std::string>> materialized;  // expression, variable that holds its string
-  bool uses_fault = false, uses_leave = false;                 // the exits that something jumps to
+  cxx::Statements* to = nullptr;                           // where statements go
+  std::string declarations;                                // the variables at the top
+  std::vector<std::pair<uint32_t, cxx::Ex>> materialized;  // expression, variable that holds its string
+  struct Mangled {
+    uint32_t name = ~0u;
+    std::string_view text;
+  };
+  std::array<Mangled, 64> mangled;  // names of late, each where its number says
+  FileId last_file;                 // and its number in the tree
+  uint32_t last_file_number = 0;
+  bool begins = false;  // at `at`, and nothing was added since
+  cxx::Position at;
+  bool uses_fault = false, uses_leave = false;  // the exits that something jumps to
   uint32_t names_created = 0;
 };
 
@@ -62,7 +76,7 @@ class BodyPart {
         group_(state.in.group),
         body_(&state.body),
         analysis_(&state.analysis),
-        out_(state.out),
+        tree_(state.tree),
         declarations_(state.declarations) {}
 
  protected:
@@ -75,6 +89,8 @@ class BodyPart {
   using StmtKind = ir::StmtKind;
   using Op = types::Op;
   using TypeKind = types::TypeKind;
+  using Ex = cxx::Ex;
+  using Operator = cxx::Op;
 
   ExpressionWriter& values() const;
   PlaceWriter& places() const;
@@ -89,13 +105,17 @@ class BodyPart {
   std::string newName(const char* prefix);
   std::string newVariable(TypeId type, const char* prefix);
   void variable(std::string& out, const ir::Local& local) const;
+  Ex variable(const ir::Local& local);
+  std::string mangled(NameId name) const;
+  std::string_view keptMangled(NameId name);  // in the tree
+  Ex mangledName(NameId name) { return tree_.fixed(keptMangled(name)); }
 
   // ---- what the analyses found
   uint8_t wideOf(ExprId place) const;  // the bits of the C++ local, where it is wider than the type
   bool isCached(ExprId place) const;   // a field that lives in a C++ local
   bool isWrittenBack(uint32_t number) const;
-  void writeBack(std::string& out, uint32_t number) const;  // of a cached field: a statement
-  bool hasExit() const;                                     // something to be done before it returns
+  Ex writeBack(uint32_t number);  // of a cached field: its assignment
+  bool hasExit() const;           // something to be done before it returns
   bool isSlice(ExprId place) const;
   bool isMeasured(ExprId place) const { return lengths().isMeasured(place); }
   bool isKnown(ExprId place) const { return analysis_->lengths.at(place); }
@@ -119,20 +139,33 @@ class BodyPart {
   }
   uint32_t capacityOf(TypeId type) const { return types_.info(types_.resolve(type)).length; }
   std::string_view string(NameId name) const { return module_.names.string(name); }
-  void parenthesis(Prec own, Prec context) {
-    if (own < context) out_ += '(';
-  }
-  void closeParenthesis(Prec own, Prec context) {
-    if (own < context) out_ += ')';
-  }
-  // Returns what f writes.
+
+  // ---- C++
+  void add(cxx::Stmt* stmt) { state_.add(stmt); }
+  void add(const cxx::Statements& list) { state_.add(list); }
+  void perform(Ex expression) { add(tree_.stmt(cxx::StmtKind::Expression, expression)); }
+  void assign(Ex to, Ex value) { perform(tree_.infix(Operator::Assign, to, value)); }
+  void clear(Ex variable) { perform(tree_.call("memset", {addressOf(variable), tree_.number(0), sizeOf(variable)})); }
+  Ex constantOf(TypeId type, uint64_t bits);
+  Ex quoted(std::string_view text, bool wide = false);
+  Ex sizeOf(Ex variable) { return tree_.prefix("sizeof ", variable); }
+  Ex addressOf(Ex place) { return tree_.prefix("&", place); }
+  Ex target(Ex pointer) { return tree_.group(tree_.prefix("*", pointer)); }
+  // `type` of C++.
+  std::string pointerTo(TypeId type, bool constant = false) const;
+  // The statements that f adds.
   template <class F>
-  std::string captured(F&& f) {
-    std::string outer;
-    outer.swap(out_);
+  cxx::Statements nested(F&& f) {
+    cxx::Statements list;
+    cxx::Statements* const outer = state_.to;
+    const bool outer_begins = state_.begins;
+    state_.to = &list;
+    state_.begins = false;
     f();
-    outer.swap(out_);
-    return outer;
+    if (state_.begins) add(tree_.stmt(cxx::StmtKind::Nothing));
+    state_.to = outer;
+    state_.begins = outer_begins;
+    return list;
   }
 
   BodyState& state_;
@@ -143,7 +176,7 @@ class BodyPart {
   Group& group_;
   const Body* body_;
   const BodyAnalysis* analysis_;
-  std::string& out_;
+  cxx::Tree& tree_;
   std::string& declarations_;
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls in C++: a call becomes a plan (what is passed how, what is copied, where the result goes) and then text. In: a
+// Calls in C++: a call becomes a plan (what is passed how, what is copied, where the result goes) and then C++. In: a
 // CallStmt or a CallExpr. Out: the call, with the copies before and after it. Called by statements.cpp, expressions.cpp
 // and strings.cpp.
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "codegen/cxx/print.h"
 #include "codegen/signature.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
@@ -61,7 +62,7 @@ bool CallWriter::writesInPlace(const ir::CallStmt& stmt) const {
   return true;
 }
 
-// ---- the text
+// ---- the statements
 
 void CallWriter::callStatement(StmtId id) {
   const ir::CallStmt& stmt = body_->stmt(id).as<ir::CallStmt>();
@@ -73,259 +74,210 @@ void CallWriter::callStatement(StmtId id) {
     if (operand) checks().prepare(operand);
   }
   if (stmt.result) checks().prepare(stmt.result);
-  if (appended_by) {
-    appendText(stmt, body_->stmt(appended_by).as<ir::CallStmt>().result);
-    return;
-  }
+  if (appended_by) return appendText(stmt, body_->stmt(appended_by).as<ir::CallStmt>().result);
   const CallPlan plan = planCall(stmt);
-  if (plan.form == CallPlan::Form::Slice) {
-    sliceCall(stmt);
-    return;
-  }
+  if (plan.form == CallPlan::Form::Slice) return sliceCall(stmt);
   if (plan.form == CallPlan::Form::Virtual) {
     dispatch(stmt, body_->stmt(id).loc);
   } else if ((callee.kind == ir::BodyKind::Function || callee.native || facts_.is_inlined[stmt.callee.index] != 0) &&
              plan.form != CallPlan::Form::Sized) {
     call(stmt.callee);  // the other blocks are declared with their records
   }
-  CallText text;
-  if (plan.is_measured) text.length = captured([&] { strings().lengthName(stmt.result); });
-  passArguments(stmt, plan, text);
-  out_ += text.before;
-  if (const WriteBacks::Call* before = analysis_->write_backs.find(id)) {
-    for (const uint32_t field : before->fields) {
-      writeBack(out_, field);
-      out_ += ' ';
-    }
-  }
-  passResult(stmt, plan, text);
-  const std::string function = captured([&] { callFunction(stmt, plan, text); });
-  if (!callee.native) out_ += "RUNG_CALL ";
-  if (plan.result == CallPlan::Result::Value) {
-    places().store(stmt.result, function);
-  } else {
-    if (callee.native && text.copy.empty() && plan.is_measured) out_ += text.length + " = ";
-    out_ += function;
-  }
-  out_ += ';';
+  Made made;
+  if (plan.is_measured) made.length = strings().lengthName(stmt.result);
+  passArguments(stmt, plan, made);
+  add(made.before);
+  if (const WriteBacks::Call* before = analysis_->write_backs.find(id))
+    for (const uint32_t field : before->fields) perform(writeBack(field));
+  passResult(stmt, plan, made);
+  cxx::Stmt* const performed = tree_.stmt(cxx::StmtKind::Expression, callOf(stmt, plan, made));
+  if (!callee.native) performed->text = "RUNG_CALL ";
+  add(performed);
   if (!callee.native) noteCall(stmt, body_->stmt(id).loc);
-  out_ += text.lengths;
-  if (!text.copy.empty() && stmt.result) copyResult(stmt.result, callee.result, text);
-  if (plan.is_measured && !callee.native && text.copy.empty()) {
-    out_ += ' ' + text.length + " = rung_string_length(";
-    places().place(stmt.result);
-    out_ += ");";
-  }
-  out_ += text.after;
+  add(made.lengths);
+  if (made.copy != nullptr && stmt.result) copyResult(stmt.result, callee.result, made);
+  if (plan.is_measured && !callee.native && made.copy == nullptr)
+    assign(made.length, tree_.call("rung_string_length", {places().place(stmt.result)}));
+  add(made.after);
+}
+
+// The call with what becomes of its result.
+cxx::Ex CallWriter::callOf(const ir::CallStmt& stmt, const CallPlan& plan, const Made& made) {
+  const Ex result = functionCall(stmt, plan, made);
+  if (plan.result == CallPlan::Result::Value) return places().store(stmt.result, result);
+  const bool gives_length = module_.body(stmt.callee).native && made.copy == nullptr && plan.is_measured;
+  return gives_length ? tree_.infix(Operator::Assign, made.length, result) : result;
 }
 
 // After a call: what a fault inside of it notes. Where a pointer leads may have changed by then.
 void CallWriter::noteCall(const ir::CallStmt& stmt, Loc loc) {
-  out_ += " RUNG_CALLED(sites_" + group_.stem + " + ";
-  appendUnsigned(out_, checks().addSite(loc));
-  out_ += "u, ";
+  const Ex site =
+      tree_.infix(Operator::Add, tree_.name("sites_" + group_.stem), tree_.number(checks().addSite(loc), "u"));
   uint32_t pointers = 0;  // to be read for the address; that of `p^` is p
   if (stmt.self)
     ir::forEachExpr(*body_, stmt.self, [&](ExprId at) { pointers += expr(at).kind == ExprKind::Deref ? 1 : 0; });
-  if (stmt.self && pointers == (expr(stmt.self).kind == ExprKind::Deref ? 1u : 0u)) {
-    out_ += '&';
-    places().place(stmt.self);
-  } else {
-    out_ += "nullptr";
-  }
-  out_ += ')';
+  const bool is_known = stmt.self && pointers == (expr(stmt.self).kind == ExprKind::Deref ? 1u : 0u);
+  const Ex instance = is_known ? addressOf(places().place(stmt.self)) : tree_.fixed("nullptr");
+  add(tree_.stmt(cxx::StmtKind::Macro, tree_.call("RUNG_CALLED", {site, instance})));
 }
 
 // line_n += rung_standard_TO_STRING__DINT_sized(n, line + line_n, 80 - line_n); an in-out may be longer than its type.
 void CallWriter::appendText(const ir::CallStmt& make, ExprId to) {
-  const std::string length = captured([&] { strings().lengthName(to); });
+  const Ex length = strings().lengthName(to);
   const Body& callee = module_.body(make.callee);
-  if (!lengths().isOwn(to)) {
-    out_ += length + " = rung_min_u32(" + length + ", ";
-    appendUnsigned(out_, capacityOf(expr(to).type));
-    out_ += "); ";
-  }
-  out_ += length + " += ";
+  const uint32_t capacity = capacityOf(expr(to).type);
+  if (!lengths().isOwn(to)) assign(length, tree_.call("rung_min_u32", {length, tree_.number(capacity)}));
+  Parts made;
   if (isSized(module_, callee)) {
-    strings().sizedCall(callee, make.operands);
+    made = strings().sizedCall(callee, make.operands, "sized");
   } else {
     call(make.callee);
-    out_ += ir::nativeName(module_, callee) + "(ctx";
-    for (const ExprId operand : body_->list(make.operands)) {
-      out_ += ", ";
-      values().value(operand, Prec::Ternary);
-    }
+    made = {ir::nativeName(module_, callee), {tree_.fixed("ctx")}};
+    for (const ExprId operand : body_->list(make.operands)) made.arguments.push_back(values().value(operand));
   }
-  out_ += ", ";
-  places().place(to);
-  out_ += " + " + length + ", ";
-  appendUnsigned(out_, capacityOf(expr(to).type));
-  out_ += "u - " + length + ");";
+  made.arguments.push_back(tree_.infix(Operator::Add, places().place(to), length));
+  made.arguments.push_back(tree_.infix(Operator::Subtract, tree_.number(capacity, "u"), length));
+  perform(tree_.infix(Operator::AssignAdd, length, tree_.call(made.function, made.arguments)));
 }
 
 void CallWriter::sliceCall(const ir::CallStmt& stmt) {
-  strings().sliceName(stmt.result);
-  out_ += " = ";
-  strings().sizedCall(module_.body(stmt.callee), stmt.operands, "slice");
-  out_ += ", ";
-  appendUnsigned(out_, capacityOf(expr(stmt.result).type));
-  out_ += ", &";
-  strings().lengthName(stmt.result);
-  out_ += ");";
+  Parts made = strings().sizedCall(module_.body(stmt.callee), stmt.operands, "slice");
+  made.arguments.push_back(tree_.number(capacityOf(expr(stmt.result).type)));
+  made.arguments.push_back(addressOf(strings().lengthName(stmt.result)));
+  assign(strings().sliceName(stmt.result), tree_.call(made.function, made.arguments));
 }
 
-void CallWriter::passArguments(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {
-  text.arguments = captured([&] {
-    for (const CallPlan::Argument& argument : plan.arguments) {
-      out_ += ", ";
-      switch (argument.way) {
-        case CallPlan::Way::Value: values().value(argument.operand, Prec::Ternary); break;
-        case CallPlan::Way::Reference: places().reference(*argument.parameter, argument.operand); break;
-        case CallPlan::Way::Copy: passCopy(argument, text); break;
-      }
-      if (passesLength(module_, module_.body(stmt.callee), *argument.parameter))
-        passLength(stmt, argument.operand, text);
+void CallWriter::passArguments(const ir::CallStmt& stmt, const CallPlan& plan, Made& made) {
+  for (const CallPlan::Argument& argument : plan.arguments) {
+    switch (argument.way) {
+      case CallPlan::Way::Value: made.arguments.push_back(values().value(argument.operand)); break;
+      case CallPlan::Way::Reference:
+        made.arguments.push_back(places().reference(*argument.parameter, argument.operand));
+        break;
+      case CallPlan::Way::Copy: passCopy(argument, made); break;
     }
-  });
+    if (passesLength(module_, module_.body(stmt.callee), *argument.parameter)) passLength(stmt, argument.operand, made);
+  }
 }
 
-void CallWriter::passCopy(const CallPlan::Argument& argument, CallText& text) {
+void CallWriter::passCopy(const CallPlan::Argument& argument, Made& made) {
   const ir::Local& parameter = *argument.parameter;
   const TypeId type = expr(argument.operand).type;
   const bool is_input = parameter.kind == ir::LocalKind::Input;
   if (ir::isAggregate(types_, type)) {  // its bytes, which have any alignment in the image
-    const std::string copy = newVariable(type, "v");
-    const std::string place = captured([&] { places().imageAddress(argument.operand); });
-    text.before += "memcpy(&" + copy + ", " + place + ", sizeof " + copy + "); ";
-    if (!is_input) text.after += " memcpy(" + place + ", &" + copy + ", sizeof " + copy + ");";
-    if (!isString(type)) out_ += '&';
-    out_ += copy;
+    const Ex copy = tree_.name(newVariable(type, "v")), place = places().imageAddress(argument.operand);
+    const auto move = [&](Ex to, Ex from) { perform(tree_.call("memcpy", {to, from, sizeOf(copy)})); };
+    made.before.append(nested([&] { move(addressOf(copy), place); }));
+    if (!is_input) made.after.append(nested([&] { move(place, addressOf(copy)); }));
+    made.arguments.push_back(isString(type) ? copy : addressOf(copy));
     return;
   }
-  const std::string copy = newVariable(parameter.type, "v");
-  text.before += copy + " = " + captured([&] { values().value(argument.operand, Prec::Ternary); }) + "; ";
-  if (!is_input) text.after += ' ' + captured([&] { places().store(argument.operand, copy); }) + ';';
-  out_ += '&' + copy;
+  const Ex copy = tree_.name(newVariable(parameter.type, "v"));
+  made.before.append(nested([&] { assign(copy, values().value(argument.operand)); }));
+  if (!is_input) made.after.append(nested([&] { perform(places().store(argument.operand, copy)); }));
+  made.arguments.push_back(addressOf(copy));
 }
 
 // Through a variable: the length itself stays in a register. What is passed twice has no known length in either.
-void CallWriter::passLength(const ir::CallStmt& stmt, ExprId operand, CallText& text) {
-  const std::string name = newName("n");
-  declarations_ += " uint32_t " + name + ';';
-  out_ += ", &" + name;
-  text.before += name + " = ";
+void CallWriter::passLength(const ir::CallStmt& stmt, ExprId operand, Made& made) {
+  const Ex name = tree_.name(newName("n"));
+  declarations_ += " uint32_t ";
+  declarations_ += name->text;
+  declarations_ += ';';
+  made.arguments.push_back(addressOf(name));
   const uint32_t number = operand ? analysis_->uses.variables.stringAt(operand) : kNoVariable;
-  if (number == kNoVariable || !isPassedOnce(&stmt, number)) {
-    text.before += "RUNG_UNCOUNTED; ";
-    return;
-  }
-  const std::string length = captured([&] { strings().lengthName(operand); });
-  text.before += length + "; ";
-  text.lengths += ' ' + length + " = " + name + ';';
+  const bool is_known = number != kNoVariable && isPassedOnce(&stmt, number);
+  const Ex length = is_known ? strings().lengthName(operand) : tree_.fixed("RUNG_UNCOUNTED");
+  made.before.append(nested([&] { assign(name, length); }));
+  if (is_known) made.lengths.append(nested([&] { assign(length, name); }));
 }
 
-void CallWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, CallText& text) {
+void CallWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, Made& made) {
   const Body& callee = module_.body(stmt.callee);
   TypeId type = callee.result;
+  Ex to = nullptr;
   if (plan.result == CallPlan::Result::InPlace) {
-    text.result = captured([&] { places().place(stmt.result); });
+    to = places().place(stmt.result);
     type = expr(stmt.result).type;
   } else if (plan.result == CallPlan::Result::Copied) {
-    text.result = text.copy = newVariable(callee.result, "v");
+    to = made.copy = tree_.name(newVariable(callee.result, "v"));
   } else {
     return;
   }
-  if (!isString(callee.result)) text.result.insert(0, "&");
-  if (callee.native && isString(callee.result)) {
-    text.result += ", ";
-    appendUnsigned(text.result, capacityOf(type));
-  }
-  text.result.insert(0, ", ");
+  made.results.push_back(isString(callee.result) ? to : addressOf(to));
+  if (callee.native && isString(callee.result)) made.results.push_back(tree_.number(capacityOf(type)));
 }
 
-void CallWriter::callFunction(const ir::CallStmt& stmt, const CallPlan& plan, const CallText& text) {
+cxx::Ex CallWriter::functionCall(const ir::CallStmt& stmt, const CallPlan& plan, const Made& made) {
   const Body& callee = module_.body(stmt.callee);
+  Parts call;
   if (plan.form == CallPlan::Form::Sized) {
-    strings().sizedCall(callee, stmt.operands);
-    out_ += text.result;
-    out_ += ')';
-    return;
+    call = strings().sizedCall(callee, stmt.operands, "sized");
+    call.arguments.insert(call.arguments.end(), made.results.begin(), made.results.end());
+    return tree_.call(call.function, call.arguments);
   }
   if (callee.native) {
-    out_ += ir::nativeName(module_, callee);
-    out_ += "(ctx";
-    if (stmt.self) {
-      out_ += ", &";
-      places().place(stmt.self);
-    }
+    call.function = ir::nativeName(module_, callee);
+    call.arguments.push_back(tree_.fixed("ctx"));
+    if (stmt.self) call.arguments.push_back(addressOf(places().place(stmt.self)));
   } else {
     if (plan.form == CallPlan::Form::Virtual) {
-      out_ += methodName(module_, stmt.callee, "table") + '[' + indexOfMethod(stmt) + ']';
+      const Ex table = tree_.name(methodName(module_, stmt.callee, "table"));
+      call.function = cxx::toString(tree_.element(table, indexOfMethod(stmt)));
     } else {
-      appendFunctionName(out_, module_, callee);
+      appendFunctionName(call.function, module_, callee);
     }
-    out_ += '(';
     if (stmt.self) {
-      if (isMethod(callee)) out_ += '&';
-      places().place(stmt.self);
-      out_ += ", ";
+      const Ex self = places().place(stmt.self);
+      call.arguments.push_back(isMethod(callee) ? addressOf(self) : self);
     }
-    out_ += "ctx";
+    call.arguments.push_back(tree_.fixed("ctx"));
   }
-  out_ += text.arguments;
-  out_ += text.result;
-  out_ += ')';
+  for (const std::vector<Ex>* list : {&made.arguments, &made.results})
+    call.arguments.insert(call.arguments.end(), list->begin(), list->end());
+  return tree_.call(call.function, call.arguments);
 }
 
-void CallWriter::copyResult(ExprId to, TypeId from, const CallText& text) {
-  out_ += ' ';
+void CallWriter::copyResult(ExprId to, TypeId from, const Made& made) {
   const TypeId type = expr(to).type;
+  const Ex place = places().place(to);
   if (!isString(type)) {
-    out_ += "memcpy(&";
-    places().place(to);
-    out_ += ", &" + text.copy + ", sizeof " + text.copy + ");";
+    perform(tree_.call("memcpy", {addressOf(place), addressOf(made.copy), sizeOf(made.copy)}));
     return;
   }
   const bool wide = isWide(type);
-  if (!text.length.empty()) out_ += text.length + " = ";
-  if (wide == isWide(from)) {
-    out_ += wide ? "rung_wstring_assign(" : isUtf8(type) ? "rung_ustring_assign(" : "rung_string_assign(";
-  } else {
-    out_ += wide ? "rung_wstring_of_string(" : "rung_string_of_wstring(";
-  }
-  places().place(to);
-  out_ += ", ";
-  appendUnsigned(out_, capacityOf(type));
-  out_ += ", " + text.copy + ");";
+  const char* const function = wide == isWide(from) ? strings().assignFunction(type)
+                               : wide               ? "rung_wstring_of_string"
+                                                    : "rung_string_of_wstring";
+  const Ex copy = tree_.call(function, {place, tree_.number(capacityOf(type)), made.copy});
+  made.length != nullptr ? assign(made.length, copy) : perform(copy);
 }
 
-void CallWriter::callExpr(const Expr& e) {
+cxx::Ex CallWriter::callExpr(const Expr& e) {
+  const Parts call = parts(e);
+  return tree_.call(call.function, call.arguments);
+}
+
+CallWriter::Parts CallWriter::parts(const Expr& e) {
   const auto [id, operands] = e.as<ir::CallExpr>();
   const Body& callee = module_.body(id);
-  if (!isString(e.type) && lengths().isSizedCall(callee, operands, {})) {
-    strings().sizedCall(callee, operands);
-    out_ += ')';
-    return;
-  }
+  if (!isString(e.type) && lengths().isSizedCall(callee, operands, {}))
+    return strings().sizedCall(callee, operands, "sized");
   call(id);
+  Parts made;
   if (callee.native) {
-    out_ += ir::nativeName(module_, callee);
+    made.function = ir::nativeName(module_, callee);
   } else {
-    appendFunctionName(out_, module_, callee);
+    appendFunctionName(made.function, module_, callee);
   }
-  out_ += "(ctx";
+  made.arguments.push_back(tree_.fixed("ctx"));
   uint32_t i = 0;
   for (const ir::Local& parameter : ir::parameters(callee)) {
     if (i >= operands.count) break;
     const ExprId operand = body_->list(operands)[i++];
-    out_ += ", ";
-    if (parameter.by_reference) {
-      places().reference(parameter, operand);
-    } else {
-      values().value(operand, Prec::Ternary);
-    }
+    made.arguments.push_back(parameter.by_reference ? places().reference(parameter, operand) : values().value(operand));
   }
-  out_ += ')';
+  return made;
 }
 
 // ---- methods
@@ -337,19 +289,20 @@ void CallWriter::dispatch(const ir::CallStmt& stmt, Loc loc) {
 }
 
 // The row of a dispatch table for the object's class.
-std::string CallWriter::indexOfMethod(const ir::CallStmt& stmt) {
-  return "rung_class_of(&" + captured([&] { places().place(stmt.self); }) + ") - " +
-         methodName(module_, stmt.callee, "first");
+cxx::Ex CallWriter::indexOfMethod(const ir::CallStmt& stmt) {
+  const Ex number = tree_.call("rung_class_of", {addressOf(places().place(stmt.self))});
+  return tree_.infix(Operator::Subtract, number, tree_.name(methodName(module_, stmt.callee, "first")));
 }
 
 // In front of a virtual call: a pointer bound by mistake has the number of no class, or of an unrelated one.
 void CallWriter::classCheck(const ir::CallStmt& stmt, Loc loc) {
   const ir::BodyId method = stmt.callee;
-  const std::string index = indexOfMethod(stmt);
-  checks().beginCheck();
-  out_ += index + " >= " + methodName(module_, method, "count") + " || " + methodName(module_, method, "table") + '[' +
-          index + "] == nullptr";
-  checks().endCheck(loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
+  const Ex index = indexOfMethod(stmt);
+  const Ex is_beyond = tree_.infix(Operator::GreaterEqual, index, tree_.name(methodName(module_, method, "count")));
+  const Ex row = tree_.element(tree_.name(methodName(module_, method, "table")), index);
+  const Ex is_empty = tree_.infix(Operator::Equal, row, tree_.fixed("nullptr"));
+  checks().check(tree_.infix(Operator::Or, is_beyond, is_empty), loc, types::Fault::Cast,
+                 tree_.fixed("RUNG_NO_SUCH_METHOD"));
 }
 
 }  // namespace rung::codegen

@@ -34,12 +34,9 @@ uint32_t CheckWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
   return addSite(loc, low, high) << 4 | static_cast<uint32_t>(fault);
 }
 
-void CheckWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {
-  out_ += ", ";
-  appendUnsigned(out_, site(loc, fault, low, high));
-  out_ += "u, ";
-  out_ += value;
-  out_ += ") ";
+void CheckWriter::check(Ex is_wrong, Loc loc, Fault fault, Ex value, int64_t low, int64_t high) {
+  const Ex number = tree_.number(site(loc, fault, low, high), "u");
+  add(tree_.stmt(cxx::StmtKind::Macro, tree_.call("RUNG_CHECK", {is_wrong, number, value})));
 }
 
 bool CheckWriter::needsPreparation(ExprId id) const {
@@ -66,8 +63,8 @@ void CheckWriter::prepare(ExprId id) {
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
     strings().materializeString(id);
   } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
-    const std::string name = newVariable(e.type, "z");
-    out_ += "memset(&" + name + ", 0, sizeof " + name + "); ";
+    const Ex name = tree_.name(newVariable(e.type, "z"));
+    clear(name);
     state_.materialized.push_back({id.index, name});
   }
 }
@@ -113,16 +110,15 @@ void CheckWriter::checkNode(ExprId id, const Expr& e) {
 }
 
 void CheckWriter::nullCheck(const Expr& e) {
-  beginCheck();
+  Ex pointer;
   if (const auto* deref = e.tryAs<ir::DerefExpr>()) {
-    values().value(deref->pointer, Prec::Sum);
+    pointer = values().value(deref->pointer);
   } else {
     const ir::FieldExpr& field = e.as<ir::FieldExpr>();
-    places().member(field.base);
-    appendMangled(out_, string(fieldOf(field).name));
+    pointer = places().member(field.base, fieldOf(field).name);
   }
-  out_ += " == nullptr";
-  endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+  check(tree_.infix(Operator::Equal, pointer, tree_.fixed("nullptr")), e.loc,
+        (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, tree_.number(0));
 }
 
 // Of a power: 0 to a negative exponent.
@@ -130,78 +126,63 @@ void CheckWriter::divisionCheck(const Expr& e) {
   const auto [left, right, op] = e.as<ir::BinaryExpr>();
   const bool is_power = op == Op::Power;
   if (is_power && !types_.isSigned(kindOf(right))) return;
-  beginCheck();
-  values().value(is_power ? left : right, Prec::Sum);
-  out_ += " == 0";
+  const Ex zero = tree_.number(0);
+  Ex is_wrong = tree_.infix(Operator::Equal, values().value(is_power ? left : right), zero);
   if (is_power) {
-    out_ += " && ";
-    values().value(right, Prec::Sum);
-    out_ += " < 0";
+    const Ex is_negative = tree_.infix(Operator::Less, values().value(right), zero);
+    is_wrong = tree_.infix(Operator::And, is_wrong, is_negative);
   }
-  endCheck(e.loc, Fault::Div, "0");
+  check(is_wrong, e.loc, Fault::Div, zero);
 }
 
 void CheckWriter::convertCheck(const Expr& e) {
-  const ExprId from = e.as<ir::ConvertExpr>().operand;
-  const TypeKind source = kindOf(from), target = types_.plainKind(e.type);
+  const ir::ConvertExpr& node = e.as<ir::ConvertExpr>();
+  const TypeKind source = kindOf(node.operand), target = types_.plainKind(e.type);
   const uint32_t width = widthOf(target);
-  const bool from_real = TypeTable::isReal(source), is_signed = types_.isSigned(target);
-  const bool is_away = e.as<ir::ConvertExpr>().rounding == types::Rounding::AwayFromZero;
-  beginCheck();
-  if (from_real) {
-    out_ += is_away ? "rung_whole_wraps(" : "rung_round_saturates(";
-    values().value(from, Prec::Ternary);
+  const bool is_signed = types_.isSigned(target);
+  const bool is_away = node.rounding == types::Rounding::AwayFromZero;
+  const Ex number = values().value(node.operand);
+  if (TypeTable::isReal(source)) {
     std::string low = is_signed ? "-" : "0", high;
     if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
     appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
-    out_ += ", " + low + ".0, " + high + ".0)";
-  } else {
-    // Cut and extended again it must be the same number, with the same sign.
-    const std::string number = captured([&] { values().value(from, Prec::Unary); });
-    const char* type = scalarType(types_, e.type);
-    const bool from_signed = types_.isSigned(source);
-    out_ += from_signed ? "(int64_t)" : "(uint64_t)";
-    out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
-    if (from_signed && !is_signed) {
-      out_ += " || (int64_t)" + number + " < 0";
-    } else if (!from_signed && is_signed) {
-      out_ += " || (int64_t)(";
-      out_ += type;
-      out_ += ')' + number + " < 0";
-    }
+    const Ex is_wrong = tree_.call(is_away ? "rung_whole_wraps" : "rung_round_saturates",
+                                   {number, tree_.name(low + ".0"), tree_.name(high + ".0")});
+    // The nearest whole number: casting NaN or a value that does not fit is undefined.
+    const Ex whole = tree_.call(is_away ? "rung_whole_i64" : "rung_round_i64", {number});
+    return check(is_wrong, e.loc, Fault::Convert, whole);
   }
-  // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
-  const std::string number = captured([&] { values().value(from, Prec::Ternary); });
-  endCheck(e.loc, Fault::Convert, (is_away ? "rung_whole_i64(" : from_real ? "rung_round_i64(" : "(") + number + ")");
+  // Cut and extended again it must be the same number, with the same sign.
+  const bool from_signed = types_.isSigned(source);
+  const char* const widest = from_signed ? "int64_t" : "uint64_t";
+  const Ex cut = tree_.cast(scalarType(types_, e.type), number);
+  Ex is_wrong = tree_.infix(Operator::Differs, tree_.cast(widest, number), tree_.cast(widest, cut));
+  if (from_signed != is_signed) {
+    const Ex sign = tree_.cast("int64_t", from_signed ? number : cut);
+    is_wrong = tree_.infix(Operator::Or, is_wrong, tree_.infix(Operator::Less, sign, tree_.number(0)));
+  }
+  check(is_wrong, e.loc, Fault::Convert, tree_.group(number));
 }
 
 void CheckWriter::subrangeCheck(const Expr& e) {
-  const ExprId from = e.as<ir::ConvertExpr>().operand;
+  const ir::ConvertExpr& node = e.as<ir::ConvertExpr>();
   const TypeInfo& info = types_.info(types_.resolve(e.type));
-  const TypeKind source = kindOf(from);
-  const bool from_real = TypeTable::isReal(source);
-  beginCheck();
-  const std::string number = captured([&] {
-    if (from_real) {
-      const bool is_away = e.as<ir::ConvertExpr>().rounding == types::Rounding::AwayFromZero;
-      out_ += is_away ? "rung_whole_i64(" : "rung_round_i64(";
-      values().value(from, Prec::Ternary);
-      out_ += ')';
-    } else {
-      values().value(from, Prec::Sum);
-    }
-  });
-  const TypeId limits = from_real ? types::kLInt : expr(from).type;
-  const bool from_signed = from_real || types_.isSigned(source);
-  // A limit outside of the source's type needs no test.
-  if (from_signed || info.low > 0) {
-    out_ += number + " < ";
-    appendConstant(out_, types_, from_signed ? types::kLInt : limits, static_cast<uint64_t>(info.low));
-    out_ += " || ";
+  const TypeKind source = kindOf(node.operand);
+  const bool from_real = TypeTable::isReal(source), from_signed = from_real || types_.isSigned(source);
+  Ex number = values().value(node.operand);
+  if (from_real) {
+    const bool is_away = node.rounding == types::Rounding::AwayFromZero;
+    number = tree_.call(is_away ? "rung_whole_i64" : "rung_round_i64", {number});
   }
-  out_ += number + " > ";
-  appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, static_cast<uint64_t>(info.high));
-  endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
+  // A limit outside of the source's type needs no test.
+  const Ex high = constantOf(from_signed ? types::kLInt : types::kULInt, static_cast<uint64_t>(info.high));
+  Ex is_wrong = tree_.infix(Operator::Greater, number, high);
+  if (from_signed || info.low > 0) {
+    const TypeId limits = from_signed ? types::kLInt : expr(node.operand).type;
+    const Ex low = constantOf(limits, static_cast<uint64_t>(info.low));
+    is_wrong = tree_.infix(Operator::Or, tree_.infix(Operator::Less, number, low), is_wrong);
+  }
+  check(is_wrong, e.loc, Fault::Subrange, tree_.group(number), info.low, info.high);
 }
 
 // Each index is checked before the next one is evaluated, as in the interpreter.
@@ -223,72 +204,55 @@ void CheckWriter::indexCheck(Loc loc, ExprId id, const types::Dimension& dimensi
     if (index >= dimension.low && index <= dimension.high) return;
   }
   const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
-  beginCheck();
-  out_ += narrow ? "(uint32_t)(" : "(uint64_t)(";
-  places().indexValue(id, dimension);
-  out_ += ") >= ";
-  appendUnsigned(out_, dimension.count());
-  out_ += narrow ? "u" : "ULL";
-  endCheck(loc, Fault::Index, "(" + captured([&] { values().value(id, Prec::Comma); }) + ")", dimension.low,
-           dimension.high);
+  const Ex offset = tree_.cast(narrow ? "uint32_t" : "uint64_t", tree_.group(places().indexValue(id, dimension)));
+  const Ex is_wrong =
+      tree_.infix(Operator::GreaterEqual, offset, tree_.number(dimension.count(), narrow ? "u" : "ULL"));
+  const Ex value = tree_.group(values().value(id));
+  check(is_wrong, loc, Fault::Index, value, dimension.low, dimension.high);
 }
 
 void CheckWriter::overflowCheck(ExprId id) {
   const Expr& e = expr(id);
   const bool is_unary = e.kind == ExprKind::Unary;
-  const Op op = e.op();
   const ExprId a = is_unary ? e.as<ir::UnaryExpr>().operand : e.as<ir::BinaryExpr>().left;
   const ExprId b = is_unary ? ExprId{} : e.as<ir::BinaryExpr>().right;
+  const Op op = e.op();
   const TypeKind kind = kindOf(a);
+  if (TypeTable::isReal(kind)) return realOverflowCheck(id, a, b);
   const uint32_t width = widthOf(kind);
-  const bool is_signed = types_.isSigned(kind);
-  if (TypeTable::isReal(kind)) {
-    if (types::isComparison(op)) return;
-    beginCheck();
-    out_ += "__builtin_isinf(";
-    values().value(id, Prec::Ternary);
-    out_ += ") && __builtin_isfinite(";
-    values().value(a, Prec::Ternary);
-    out_ += ')';
-    if (b && TypeTable::isReal(kindOf(b))) {
-      out_ += " && __builtin_isfinite(";
-      values().value(b, Prec::Ternary);
-      out_ += ')';
-    }
-    endCheck(e.loc, Fault::Overflow, "0");
-    return;
-  }
   if (width <= 1) return;
-  const std::string type = scalarType(types_, e.type);
   if (op == Op::Add || op == Op::Sub || op == Op::Mul || op == Op::Neg) {
-    const std::string result = newName("o");
-    declarations_ += " " + type + " " + result + ";";
-    beginCheck();
-    out_ += op == Op::Add   ? "__builtin_add_overflow("
-            : op == Op::Mul ? "__builtin_mul_overflow("
-                            : "__builtin_sub_overflow(";
-    out_ += '(' + type + ')';
-    if (op == Op::Neg) {
-      out_ += '0';
-    } else {
-      values().value(a, Prec::Unary);
-    }
-    out_ += ", (" + type + ')';
-    values().value(op == Op::Neg ? a : b, Prec::Unary);
-    out_ += ", &" + result + ')';
-    endCheck(e.loc, Fault::Overflow, result);
-  } else if ((op == Op::Div || op == Op::Abs) && is_signed) {
-    beginCheck();
-    values().value(a, Prec::Sum);
-    out_ += " == ";
-    appendConstant(out_, types_, e.type, ~uint64_t{0} << (width - 1));
-    if (op == Op::Div) {
-      out_ += " && ";
-      values().value(b, Prec::Sum);
-      out_ += " == -1";
-    }
-    endCheck(e.loc, Fault::Overflow, "(" + captured([&] { values().value(a, Prec::Comma); }) + ")");
+    const std::string type = scalarType(types_, e.type);
+    const Ex result = tree_.name(newName("o"));
+    declarations_ += " " + type + " ";
+    declarations_ += result->text;
+    declarations_ += ";";
+    const Ex left = tree_.cast(type, op == Op::Neg ? tree_.number(0) : values().value(a));
+    const Ex right = tree_.cast(type, values().value(op == Op::Neg ? a : b));
+    const char* const function = op == Op::Add   ? "__builtin_add_overflow"
+                                 : op == Op::Mul ? "__builtin_mul_overflow"
+                                                 : "__builtin_sub_overflow";
+    return check(tree_.call(function, {left, right, addressOf(result)}), e.loc, Fault::Overflow, result);
   }
+  if ((op != Op::Div && op != Op::Abs) || !types_.isSigned(kind)) return;
+  const Ex number = values().value(a);
+  Ex is_wrong = tree_.infix(Operator::Equal, number, constantOf(e.type, ~uint64_t{0} << (width - 1)));
+  if (op == Op::Div) {
+    const Ex is_minus_one = tree_.infix(Operator::Equal, values().value(b), tree_.signedNumber(-1));
+    is_wrong = tree_.infix(Operator::And, is_wrong, is_minus_one);
+  }
+  check(is_wrong, e.loc, Fault::Overflow, tree_.group(number));
+}
+
+// Infinity that no operand has.
+void CheckWriter::realOverflowCheck(ExprId id, ExprId a, ExprId b) {
+  const Expr& e = expr(id);
+  if (types::isComparison(e.op())) return;
+  const Ex result = tree_.call("__builtin_isinf", {values().value(id)});
+  const auto isFinite = [&](ExprId operand) { return tree_.call("__builtin_isfinite", {values().value(operand)}); };
+  Ex is_wrong = tree_.infix(Operator::And, result, isFinite(a));
+  if (b && TypeTable::isReal(kindOf(b))) is_wrong = tree_.infix(Operator::And, is_wrong, isFinite(b));
+  check(is_wrong, e.loc, Fault::Overflow, tree_.number(0));
 }
 
 }  // namespace rung::codegen

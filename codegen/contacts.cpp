@@ -49,38 +49,30 @@ bool ExpressionWriter::readsWithoutJumps(ExprId id, uint32_t& steps, bool& any_b
 }
 
 // Contacts as an integer whose bit at `position` is their value; the others are anything unless isSingleBit. A bit of
-// the image is shifted once, and not cut from its byte. `within`: AND or OR, when this is an operand of it.
-void ExpressionWriter::bits(ExprId id, uint32_t position, Op within) {
+// the image is shifted once, and not cut from its byte.
+cxx::Ex ExpressionWriter::bits(ExprId id, uint32_t position) {
   const Expr& e = expr(id);
   if (ir::isImageBit(e)) {
     const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    if (image.bit == position) return places().imageByte(image);
-    out_ += '(';
-    places().imageByte(image);
-    out_ += image.bit > position ? " >> " : " << ";
-    appendUnsigned(out_, image.bit > position ? image.bit - position : position - image.bit);
-    out_ += ')';
-    return;
+    const Ex byte = places().imageByte(image);
+    return image.bit == position ? byte : tree_.group(shifted(byte, image.bit, position));
   }
   const auto* node = e.tryAs<ir::BinaryExpr>();
   if (node != nullptr && (node->op == Op::And || node->op == Op::Or)) {
-    if (node->op != within) out_ += '(';
-    bits(node->left, position, node->op);
-    out_ += node->op == Op::And ? " & " : " | ";
-    bits(node->right, position, node->op);
-    if (node->op != within) out_ += ')';
-    return;
+    const Ex left = bits(node->left, position), right = bits(node->right, position);
+    return tree_.infix(node->op == Op::And ? Operator::BitAnd : Operator::BitOr, left, right);
   }
-  if (ir::isNot(e) && !isSingleBit(id)) {
-    out_ += '~';
-    return bits(e.as<ir::UnaryExpr>().operand, position, Op::Not);
-  }
-  if (position != 0) out_ += '(';
-  value(id, ir::isNot(e) ? Prec::Postfix : Prec::Unary);  // g++ warns of `!a | b`
-  if (position == 0) return;
-  out_ += " << ";
-  appendUnsigned(out_, position);
-  out_ += ')';
+  if (ir::isNot(e) && !isSingleBit(id)) return tree_.prefix("~", bits(e.as<ir::UnaryExpr>().operand, position));
+  const Ex truth = value(id);
+  if (position == 0) return truth;
+  return tree_.group(
+      tree_.infix(Operator::ShiftLeft, ir::isNot(e) ? tree_.group(truth) : truth, tree_.number(position)));
+}
+
+// The bit at `from` moved to `to`.
+cxx::Ex ExpressionWriter::shifted(Ex bits, uint32_t from, uint32_t to) {
+  return from > to ? tree_.infix(Operator::ShiftRight, bits, tree_.number(from - to))
+                   : tree_.infix(Operator::ShiftLeft, bits, tree_.number(to - from));
 }
 
 // Whether `bits` has no bit but that at its position.
@@ -116,22 +108,11 @@ bool ExpressionWriter::isOnlyBits(ExprId id, uint32_t& highest) const {
 }
 
 // Contacts as an integer that has their value at `position` and is 0 elsewhere.
-void ExpressionWriter::bitAt(ExprId contacts, uint32_t position, Prec context) {
+cxx::Ex ExpressionWriter::bitAt(ExprId contacts, uint32_t position) {
   const uint32_t own = positionOf(contacts);
-  const bool is_cut = !isSingleBit(contacts), is_shifted = own != position;
-  const auto* joined = expr(contacts).tryAs<ir::BinaryExpr>();
-  const bool is_joined = joined != nullptr && !types::isComparison(joined->op);
-  const Prec last = is_shifted ? Prec::Shift : is_cut || is_joined ? Prec::Bit : Prec::Postfix;
-  parenthesis(last, context);
-  if (is_cut && is_shifted) out_ += '(';
-  bits(contacts, own, is_cut ? Op::And : is_shifted || !is_joined ? Op::Not : joined->op);
-  if (is_cut) out_ += " & " + std::to_string(1u << own);
-  if (is_cut && is_shifted) out_ += ')';
-  if (is_shifted) {
-    out_ += own > position ? " >> " : " << ";
-    appendUnsigned(out_, own > position ? own - position : position - own);
-  }
-  closeParenthesis(last, context);
+  Ex result = bits(contacts, own);
+  if (!isSingleBit(contacts)) result = tree_.infix(Operator::BitAnd, result, tree_.number(1u << own));
+  return own == position ? result : shifted(result, own, position);
 }
 
 }  // namespace rung::codegen

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views of the process image in C++: little-endian bytes at any address, therefore read and written by the helpers of
-// rung/code.h. In: a place whose root is an area. Out: its address, its value, or a store. Called by places.cpp and
-// expressions.cpp.
+// rung/code.h. In: a place whose root is an area. Out: its address, its value, or a store, as C++ (cxx/nodes.h). Called
+// by places.cpp and expressions.cpp.
 #include <algorithm>
 
 #include "codegen/body_parts.h"
@@ -12,7 +12,7 @@ namespace rung::codegen {
 using types::TypeInfo;
 
 // An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
-void PlaceWriter::area(uint32_t index) {
+cxx::Ex PlaceWriter::area(uint32_t index) {
   std::string name = "area";
   name += module_.areas[index].letter;
   if ((areas_declared_ >> index & 1) == 0) {
@@ -21,92 +21,55 @@ void PlaceWriter::area(uint32_t index) {
     appendUnsigned(declarations_, index);
     declarations_ += "];";
   }
-  out_ += name;
+  return tree_.name(name);
 }
 
-void PlaceWriter::imageAddress(ExprId id) {
+cxx::Ex PlaceWriter::imageAddress(ExprId id) {
   const Expr& e = expr(id);
   if (const auto* image = e.tryAs<ir::ImageExpr>()) {
-    area(image->area);
-    if (image->byte != 0) {
-      out_ += " + ";
-      appendUnsigned(out_, image->byte);
-    }
-    return;
+    const Ex begin = area(image->area);
+    return image->byte != 0 ? tree_.infix(Operator::Add, begin, tree_.number(image->byte)) : begin;
   }
-  imageAddress(ir::baseOf(e));
-  if (const auto* field = e.tryAs<ir::FieldExpr>()) {
-    out_ += " + ";
-    appendUnsigned(out_, fieldOf(*field).offset);
-    return;
-  }
+  Ex address = imageAddress(ir::baseOf(e));
+  if (const auto* field = e.tryAs<ir::FieldExpr>())
+    return tree_.infix(Operator::Add, address, tree_.number(fieldOf(*field).offset));
   const ir::IndexExpr& node = e.as<ir::IndexExpr>();
   const TypeInfo& info = types_.info(types_.resolve(expr(node.base).type));
   uint64_t size = types_.info(types_.resolve(e.type)).size;
   for (uint32_t i = node.indices.count; i-- > 0;) {  // row-major: the last index is the fastest
-    out_ += " + (";
-    indexValue(body_->list(node.indices)[i], info.dimensions[i]);
-    out_ += ") * ";
-    appendUnsigned(out_, size);
+    const Ex index = tree_.group(indexValue(body_->list(node.indices)[i], info.dimensions[i]));
+    address = tree_.infix(Operator::Add, address, tree_.infix(Operator::Multiply, index, tree_.number(size)));
     size *= info.dimensions[i].count();
   }
+  return address;
 }
 
-void PlaceWriter::imageLoad(ExprId id, const Expr& e) {
+cxx::Ex PlaceWriter::imageLoad(ExprId id, const Expr& e) {
   const TypeKind kind = types_.plainKind(e.type);
-  if (isAggregate(e.type)) {
-    place(id);
-    return;
-  }
+  if (isAggregate(e.type)) return place(id);
   if (ir::isImageBit(e)) {
     const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    out_ += '(';
-    imageByte(image);
-    out_ += " >> ";
-    appendUnsigned(out_, image.bit);
-    out_ += " & 1)";
-    return;
+    const Ex shifted = tree_.infix(Operator::ShiftRight, imageByte(image), tree_.number(image.bit));
+    return tree_.group(tree_.infix(Operator::Mask, shifted, tree_.number(1)));
   }
   const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
-  if (kind == TypeKind::Real || kind == TypeKind::LReal) {
-    out_ += kind == TypeKind::Real ? "rung_f32_of(rung_get32(" : "rung_f64_of(rung_get64(";
-    imageAddress(id);
-    out_ += "))";
-    return;
-  }
-  if (types_.isSigned(kind)) {
-    out_ += '(';
-    out_ += scalarType(types_, e.type);
-    out_ += ')';
-  }
-  if (width == 8) {
-    out_ += kind == TypeKind::Bool ? "(*(" : "*(";
-    imageAddress(id);
-    out_ += kind == TypeKind::Bool ? ") != 0)" : ")";
-    return;
-  }
-  out_ += "rung_get";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(id);
-  out_ += ')';
+  const Ex address = imageAddress(id);
+  if (kind == TypeKind::Real) return tree_.call("rung_f32_of", {tree_.call("rung_get32", {address})});
+  if (kind == TypeKind::LReal) return tree_.call("rung_f64_of", {tree_.call("rung_get64", {address})});
+  const Ex bits =
+      width == 8 ? tree_.prefix("*", tree_.group(address)) : tree_.call("rung_get" + std::to_string(width), {address});
+  if (kind == TypeKind::Bool) return tree_.group(tree_.infix(Operator::Differs, bits, tree_.number(0)));
+  return types_.isSigned(kind) ? tree_.cast(scalarType(types_, e.type), bits) : bits;
 }
 
 // The byte of a bit, where it is now.
-void PlaceWriter::imageByte(const ir::ImageExpr& image) {
+cxx::Ex PlaceWriter::imageByte(const ir::ImageExpr& image) {
   const Held* held = heldFor(image);
-  if (held != nullptr) {
-    out_ += held->name;
-  } else {
-    memoryByte(image.area, image.byte);
-  }
+  return held != nullptr ? held->name : memoryByte(image.area, image.byte);
 }
 
-void PlaceWriter::memoryByte(uint32_t area_index, uint32_t byte) {
-  area(area_index);
-  out_ += '[';
-  appendUnsigned(out_, byte);
-  out_ += ']';
+cxx::Ex PlaceWriter::memoryByte(uint32_t area_index, uint32_t byte) {
+  return tree_.element(area(area_index), tree_.number(byte));
 }
 
 PlaceWriter::Held* PlaceWriter::heldFor(const ir::ImageExpr& image) {
@@ -126,15 +89,11 @@ void PlaceWriter::holdBytes(StmtId id) {
     const HeldByte& byte = all[held_begun_];
     const std::string name = newName("held");
     declarations_ += " uint32_t " + name + ";";
-    out_ += name + " = ";
-    if (byte.cleared == 0xFF) {
-      out_ += '0';
-    } else {
-      memoryByte(byte.area, byte.byte);
-      if (byte.cleared != 0) out_ += " & " + std::to_string(0xFF & ~byte.cleared);
-    }
-    out_ += "; ";
-    held_.push_back({&byte, name, byte.cleared});
+    Ex bits = byte.cleared == 0xFF ? tree_.number(0) : memoryByte(byte.area, byte.byte);
+    if (byte.cleared != 0xFF && byte.cleared != 0)
+      bits = tree_.infix(Operator::BitAnd, bits, tree_.number(0xFF & ~byte.cleared));
+    held_.push_back({&byte, tree_.name(name), byte.cleared});
+    assign(held_.back().name, bits);
   }
 }
 
@@ -145,63 +104,47 @@ bool PlaceWriter::releasesBytes(StmtId id) const {
 void PlaceWriter::releaseBytes(StmtId id) {
   std::erase_if(held_, [&](const Held& held) {
     if (held.byte->last != id) return false;
-    out_ += ' ';
-    memoryByte(held.byte->area, held.byte->byte);
-    out_ += " = (uint8_t)" + held.name + ";";
+    assign(memoryByte(held.byte->area, held.byte->byte), tree_.cast("uint8_t", held.name));
     return true;
   });
 }
 
-void PlaceWriter::storeBit(ExprId to, ExprId from) {
+cxx::Ex PlaceWriter::storeBit(ExprId to, ExprId from) {
   const ir::ImageExpr& image = expr(to).as<ir::ImageExpr>();
-  putBit(image, captured([&] { values().bitAt(from, image.bit, Prec::Bit); }));
+  return putBit(image, values().bitAt(from, image.bit));
 }
 
 // `value_bits`: the bit at its place, and no other.
-void PlaceWriter::putBit(const ir::ImageExpr& image, std::string_view value_bits) {
+cxx::Ex PlaceWriter::putBit(const ir::ImageExpr& image, Ex value_bits) {
   Held* const held = heldFor(image);
   const uint32_t bit = 1u << image.bit;
   if (held != nullptr && (held->cleared & bit) != 0) {
     held->cleared &= static_cast<uint8_t>(~bit);
-    out_ += held->name + " |= ";
-    out_ += value_bits;
-    return;
+    return tree_.infix(Operator::AssignOr, held->name, value_bits);
   }
-  const std::string byte = captured([&] { imageByte(image); });
-  out_ +=
-      byte + " = " + (held == nullptr ? "(uint8_t)(" : "") + "(" + byte + " & " + std::to_string(0xFF & ~bit) + ") | (";
-  out_ += value_bits;
-  out_ += held == nullptr ? "))" : ")";
+  const Ex byte = imageByte(image), others = tree_.infix(Operator::BitAnd, byte, tree_.number(0xFF & ~bit));
+  const Ex joined = tree_.infix(Operator::BitOr, others, tree_.group(value_bits));
+  return tree_.infix(Operator::Assign, byte, held == nullptr ? tree_.cast("uint8_t", joined) : joined);
 }
 
-void PlaceWriter::imageStore(ExprId to, std::string_view value_code) {
+cxx::Ex PlaceWriter::imageStore(ExprId to, Ex value) {
   const Expr& e = expr(to);
   const TypeKind kind = types_.plainKind(e.type);
   if (ir::isImageBit(e)) {
     const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    putBit(image, "rung_bit(" + std::string(value_code) + ", " + std::to_string(image.bit) + ")");
-    return;
+    return putBit(image, tree_.call("rung_bit", {value, tree_.number(image.bit)}));
   }
   const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
+  const Ex address = imageAddress(to);
   if (width == 8) {
-    out_ += "*(";
-    imageAddress(to);
-    out_ += ") = (uint8_t)(";
-    out_ += value_code;
-    out_ += ')';
-    return;
+    return tree_.infix(Operator::Assign, tree_.prefix("*", tree_.group(address)),
+                       tree_.cast("uint8_t", tree_.group(value)));
   }
-  out_ += "rung_put";
-  appendUnsigned(out_, width);
-  out_ += '(';
-  imageAddress(to);
-  out_ += kind == TypeKind::Real    ? ", rung_bits_of_f32("
-          : kind == TypeKind::LReal ? ", rung_bits_of_f64("
-          : width == 16             ? ", (uint16_t)("
-          : width == 32             ? ", (uint32_t)("
-                                    : ", (uint64_t)(";
-  out_ += value_code;
-  out_ += "))";
+  const std::string bits = std::to_string(width);
+  const Ex stored = kind == TypeKind::Real    ? tree_.call("rung_bits_of_f32", {value})
+                    : kind == TypeKind::LReal ? tree_.call("rung_bits_of_f64", {value})
+                                              : tree_.cast("uint" + bits + "_t", tree_.group(value));
+  return tree_.call("rung_put" + bits, {address, stored});
 }
 
 }  // namespace rung::codegen

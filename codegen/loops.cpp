@@ -9,19 +9,11 @@ namespace rung::codegen {
 // ---- steps: what rung_context::steps counts
 
 void StatementWriter::step(Loc loc) {
-  if (!countsSteps()) return;
-  out_ += " RUNG_CHECK(rung_step(ctx)";
-  checks().endCheck(loc, types::Fault::Stop, "0");
+  if (countsSteps()) checks().check(tree_.fixed("rung_step(ctx)"), loc, types::Fault::Stop, tree_.number(0));
 }
 
 void StatementWriter::stepOfCall() {
   if (!body_->library) step(body_->loc);
-}
-
-// All iterations of a loop in front of it, so that g++ still sees a plain loop.
-void StatementWriter::stepsOf(Loc loc, const std::string& count) {
-  out_ += "RUNG_CHECK(rung_steps(ctx, " + count + ")";
-  checks().endCheck(loc, types::Fault::Stop, "0");
 }
 
 // The condition of a loop's exit test, with nothing to be done before it; none of other statements.
@@ -36,130 +28,62 @@ void StatementWriter::loopStatement(const ir::LoopStmt& stmt, Loc loc) {
   Loop loop;
   loop.number = ++state_.names_created;
   loop.has_next = static_cast<bool>(next);
-  auto writeNegated = [&](ExprId id) {
-    if (ir::isNot(expr(id))) {
-      values().condition(expr(id).as<ir::UnaryExpr>().operand, Prec::Comma);
-    } else {
-      out_ += '!';
-      values().condition(id, Prec::Unary);
-    }
+  const auto stays = [&](ExprId leaves) {
+    if (ir::isNot(expr(leaves))) return values().condition(expr(leaves).as<ir::UnaryExpr>().operand);
+    return tree_.prefix("!", values().condition(leaves));
   };
   if (!next && exitTest(first)) {  // WHILE
-    out_ += "while (";
-    writeNegated(exitTest(first));
-    out_ += ')';
-    open();
-    step(loc);
-    loops_.push_back(loop);
-    block(body_->stmt(first).next);
-    close();
+    addLoop(tree_.stmt(cxx::StmtKind::While, stays(exitTest(first))), loop, [&] {
+      step(loc);
+      block(body_->stmt(first).next);
+    });
   } else if (exitTest(next) && !body_->stmt(next).next) {  // REPEAT
     loop.has_next = false;                                 // `continue` goes to the test
-    out_ += "do";
-    open();
-    step(loc);
-    loops_.push_back(loop);
-    block(first);
-    close();
-    flushCloses(0);
-    out_ += " while (";
-    writeNegated(exitTest(next));
-    out_ += ");";
-  } else {
-    out_ += "for (;;)";
-    open();
-    step(loc);
-    loops_.push_back(loop);
-    if (next) {
-      out_ += " {";
-      ++depth_;
+    cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::DoWhile);
+    const auto body = [&] {
+      step(loc);
       block(first);
-      close();
-      flushCloses(0);
-      if (loops_.back().continues_by_goto) {
-        out_ += " continue";
-        appendUnsigned(out_, loop.number);
-        out_ += ":;";
-      }
+    };
+    addLoop(made, loop, body, [&] { made->a = stays(exitTest(next)); });
+  } else {
+    addLoop(tree_.stmt(cxx::StmtKind::For), loop, [&] {
+      step(loc);
+      if (!next) return block(first);
+      addWithBlock(tree_.stmt(cxx::StmtKind::Block), first);
+      if (loops_.back().continues_by_goto) addLabel("continue" + std::to_string(loop.number));
       loops_.back().has_next = false;
       block(next);
-    } else {
-      block(first);
-    }
-    close();
-  }
-  const Loop done = loops_.back();
-  loops_.pop_back();
-  if (done.breaks_by_goto) {
-    flushCloses(0);
-    out_ += " break";
-    appendUnsigned(out_, done.number);
-    out_ += ":;";
+    });
   }
 }
 
 void StatementWriter::breakLoop() {
-  if (loops_.empty()) {
-    out_ += ';';
-    return;
-  }
+  if (loops_.empty()) return add(tree_.stmt(cxx::StmtKind::Empty));
   Loop& loop = loops_.back();
   if (loop.try_depth > 0 && !frames_.empty()) {
     frames_.back().breaks = true;
-    out_ += frames_.back().exit + " = 2; return;";
-    return;
+    return leaveFrame(2);
   }
-  if (!loop.in_switch) {
-    out_ += "break;";
-    return;
-  }
+  if (!loop.in_switch) return add(tree_.stmt(cxx::StmtKind::Break));
   loop.breaks_by_goto = true;
-  out_ += "goto break";
-  appendUnsigned(out_, loop.number);
-  out_ += ';';
+  addGoto("break" + std::to_string(loop.number));
 }
 
 void StatementWriter::continueLoop() {
-  if (loops_.empty()) {
-    out_ += ';';
-    return;
-  }
+  if (loops_.empty()) return add(tree_.stmt(cxx::StmtKind::Empty));
   Loop& loop = loops_.back();
   if (loop.try_depth > 0 && !frames_.empty()) {
     frames_.back().continues = true;
-    out_ += frames_.back().exit + " = 3; return;";
-    return;
+    return leaveFrame(3);
   }
-  if (!loop.has_next) {
-    out_ += "continue;";
-    return;
-  }
+  if (!loop.has_next) return add(tree_.stmt(cxx::StmtKind::Continue));
   loop.continues_by_goto = true;
-  out_ += "goto continue";
-  appendUnsigned(out_, loop.number);
-  out_ += ';';
+  addGoto("continue" + std::to_string(loop.number));
 }
 
 namespace {
 
-void appendStep(std::string& out, std::string_view name, int64_t step) {
-  if (step == 1 || step == -1) {
-    out += step == 1 ? "++" : "--";
-    out += name;
-    return;
-  }
-  out += name;
-  out += step < 0 ? " -= " : " += ";
-  if (step < 0) {
-    appendUnsigned(out, 0 - static_cast<uint64_t>(step));
-  } else {
-    appendSigned(out, step);
-  }
-}
-
-}  // namespace
-
-namespace {
+uint64_t magnitude(int64_t step) { return step < 0 ? 0 - static_cast<uint64_t>(step) : static_cast<uint64_t>(step); }
 
 // Whether the body may leave the loop before its last iteration.
 bool mayLeave(const ir::Body& body, ir::StmtId first) {
@@ -173,154 +97,125 @@ bool mayLeave(const ir::Body& body, ir::StmtId first) {
 
 }  // namespace
 
-void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits, Loc loc) {
-  const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
-  const TypeKind kind = kindOf(control);
-  const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
-  const uint8_t wide = wideOf(control);
-  std::string name;
+// The variable of a counted loop.
+cxx::Ex StatementWriter::controlName(ExprId control) {
   const Expr& place = expr(control);
-  if (const uint32_t* local = ir::localOf(place)) {
-    variable(name, body_->locals[*local]);
-  } else {
-    appendMangled(name, string(fieldOf(place.as<ir::FieldExpr>()).name));
-  }
-  // The limit is read once, before the control changes.
-  std::string limit;
-  if (expr(to).kind == ExprKind::Const) {
-    limit = captured([&] { values().value(to, Prec::Shift); });
-  } else {
-    limit = newName("e");
-    declarations_ += wide == 64 ? " int64_t " : wide == 32 ? " int32_t " : " ";
-    if (wide == 0) {
-      declarations_ += scalarType(types_, place.type);
-      declarations_ += ' ';
-    }
-    declarations_ += limit + ";";
-    out_ += limit + " = ";
-    values().value(to, Prec::Comma);
-    out_ += "; ";
-  }
-  const char* const order = step > 0 ? " <= " : " >= ";
-  const bool pays_first = countsSteps() && !mayLeave(*body_, stmt.body_block);
-  if (pays_first) {
-    out_ += name + " = ";
-    values().value(from, Prec::Comma);
-    out_ += "; if (" + name + order + limit + ") { ";
-    const std::string low = step > 0 ? name : limit, high = step > 0 ? limit : name;
-    std::string count = "((uint64_t)(" + high + ") - (uint64_t)(" + low + "))";
-    if (step != 1 && step != -1) {
-      count += " / ";
-      appendUnsigned(count, step < 0 ? 0 - static_cast<uint64_t>(step) : static_cast<uint64_t>(step));
-    }
-    stepsOf(loc, count);
-    out_ += "} for (; ";
-  } else {
-    out_ += "for (" + name + " = ";
-    values().value(from, Prec::Comma);
-    out_ += "; ";
-  }
-  out_ += name + order + limit + "; ";
-  appendStep(out_, name, step);
-  out_ += ')';
-  open();
-  if (!pays_first) this->step(loc);
-  Loop loop;
-  loop.number = ++state_.names_created;
-  loops_.push_back(loop);
-  block(stmt.body_block);
-  close();
-  const Loop done = loops_.back();
-  loops_.pop_back();
-  std::string tail;
-  if (wide != 0 && !fits) {  // where the next value does not fit the control stays at the type's limit
-    const uint32_t width = widthOf(kind);
-    const bool is_signed = types_.isSigned(kind);
-    std::string bound;
-    if (step > 0) {
-      appendUnsigned(bound, (uint64_t{1} << (is_signed ? width - 1 : width)) - 1);
-      tail = " if (" + name + " > " + bound + ") " + name + " = " + bound + ";";
-    } else {
-      if (is_signed) {
-        appendSigned(bound, -(int64_t{1} << (width - 1)));
-      } else {
-        bound = "0";
-      }
-      tail = " if (" + name + " < " + bound + ") " + name + " = " + bound + ";";
-    }
-  }
-  if (!tail.empty() || done.breaks_by_goto) {
-    flushCloses(0);
-    out_ += tail;
-  }
-  if (done.breaks_by_goto) {
-    out_ += " break";
-    appendUnsigned(out_, done.number);
-    out_ += ":;";
-  }
+  if (const uint32_t* local = ir::localOf(place)) return variable(body_->locals[*local]);
+  return mangledName(fieldOf(place.as<ir::FieldExpr>()).name);
 }
 
-void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
-  const ExprId control = stmt.control, from = stmt.from, to = stmt.to;
-  checks().prepare(control);
-  checks().prepare(from);
-  checks().prepare(to);
-  if (const CountedLoop* counted = analysis_->loops.find(id)) {
-    countedFor(stmt, counted->fits, body_->stmt(id).loc);
-    return;
+// The limit is read once, before the control changes.
+cxx::Ex StatementWriter::limitOf(const ir::ForStmt& stmt, uint8_t wide) {
+  if (expr(stmt.to).kind == ExprKind::Const) return values().value(stmt.to);
+  const Ex limit = tree_.name(newName("e"));
+  declarations_ += ' ';
+  declarations_ += wide == 64 ? "int64_t" : wide == 32 ? "int32_t" : scalarType(types_, expr(stmt.control).type);
+  declarations_ += ' ';
+  declarations_ += limit->text;
+  declarations_ += ';';
+  assign(limit, values().value(stmt.to));
+  return limit;
+}
+
+void StatementWriter::countedFor(const ir::ForStmt& stmt, bool fits, Loc loc) {
+  const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
+  const uint8_t wide = wideOf(stmt.control);
+  const Ex name = controlName(stmt.control), limit = limitOf(stmt, wide);
+  const Ex begin = tree_.infix(Operator::Assign, name, values().value(stmt.from));
+  const Ex goes_on = tree_.infix(step > 0 ? Operator::LessEqual : Operator::GreaterEqual, name, limit);
+  cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::For);
+  made->b = goes_on;
+  made->c = step == 1 || step == -1 ? tree_.prefix(step == 1 ? "++" : "--", name)
+                                    : tree_.infix(step < 0 ? Operator::AssignSub : Operator::AssignAdd, name,
+                                                  tree_.number(magnitude(step)));
+  // All steps in front of the loop, so that g++ still sees a plain one.
+  const bool pays_first = countsSteps() && !mayLeave(*body_, stmt.body_block);
+  if (pays_first) {
+    perform(begin);
+    cxx::Stmt* const payment = tree_.stmt(cxx::StmtKind::BracedIf, goes_on);
+    add(payment);
+    payment->first = nested([&] { paySteps(loc, step > 0 ? name : limit, step > 0 ? limit : name, step); }).first();
+  } else {
+    made->a = begin;
   }
+  Loop loop;
+  loop.number = ++state_.names_created;
+  const auto body = [&] {
+    if (!pays_first) this->step(loc);
+    block(stmt.body_block);
+  };
+  addLoop(made, loop, body, [&] {
+    if (wide != 0 && !fits) keepInType(stmt.control, name, step > 0);
+  });
+}
+
+// One step for each iteration from `low` to `high`.
+void StatementWriter::paySteps(Loc loc, Ex low, Ex high, int64_t step) {
+  const Ex first = tree_.cast("uint64_t", tree_.group(low)), last = tree_.cast("uint64_t", tree_.group(high));
+  Ex count = tree_.group(tree_.infix(Operator::Subtract, last, first));
+  if (step != 1 && step != -1) count = tree_.infix(Operator::Divide, count, tree_.number(magnitude(step)));
+  checks().check(tree_.call("rung_steps", {tree_.fixed("ctx"), count}), loc, types::Fault::Stop, tree_.number(0));
+}
+
+// After a loop whose control is wider than its type: where the next value does not fit it stays at the type's limit.
+void StatementWriter::keepInType(ExprId control, Ex name, bool rises) {
   const TypeKind kind = kindOf(control);
   const uint32_t width = widthOf(kind);
   const bool is_signed = types_.isSigned(kind);
+  const Ex bound = rises ? tree_.number((uint64_t{1} << (is_signed ? width - 1 : width)) - 1)
+                         : tree_.signedNumber(is_signed ? -(int64_t{1} << (width - 1)) : 0);
+  cxx::Stmt* const test =
+      tree_.stmt(cxx::StmtKind::ShortIf, tree_.infix(rises ? Operator::Greater : Operator::Less, name, bound));
+  add(test);
+  test->first = nested([&] { assign(name, bound); }).first();
+}
+
+void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
+  checks().prepare(stmt.control);
+  checks().prepare(stmt.from);
+  checks().prepare(stmt.to);
+  if (const CountedLoop* counted = analysis_->loops.find(id))
+    return countedFor(stmt, counted->fits, body_->stmt(id).loc);
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
-  const std::string type = scalarType(types_, expr(control).type);
-  const std::string next = newName("n"), limit = newName("e"), more = newName("m");
-  declarations_ += " " + type + " " + next + " = 0, " + limit + " = 0; bool " + more + " = false;";
-  out_ += next + " = ";
-  values().value(from, Prec::Comma);
-  out_ += "; " + limit + " = ";
-  values().value(to, Prec::Comma);
-  out_ += "; ";
-  places().store(control, next);
-  const std::string test = next + (step > 0 ? " <= " : " >= ") + limit;
-  out_ += "; for (" + more + " = " + test + "; " + more + "; " + more + " = __builtin_add_overflow(";
-  values().value(control, Prec::Ternary);
-  out_ += ", ";
-  appendSigned(out_, step);
-  out_ += "LL, &" + next + ") ? (";
-  std::string last = "(" + type + ")";
-  if (step > 0) {
-    const uint64_t high = is_signed     ? (uint64_t{1} << (width - 1)) - 1
-                          : width >= 64 ? ~uint64_t{0}
-                                        : (uint64_t{1} << width) - 1;
-    appendUnsigned(last, high);
-    last += high > INT64_MAX ? "ULL" : "LL";
-  } else if (is_signed) {
-    last += "(-";
-    appendUnsigned(last, (uint64_t{1} << (width - 1)) - 1);
-    last += "LL - 1)";
-  } else {
-    last += "0";
-  }
-  places().store(control, last);
-  out_ += ", false) : (";
-  places().store(control, next);
-  out_ += ", " + test + "))";
-  open();
-  this->step(body_->stmt(id).loc);
+  const std::string type = scalarType(types_, expr(stmt.control).type);
+  const std::string next_name = newName("n"), limit_name = newName("e"), more_name = newName("m");
+  declarations_ += " " + type + " " + next_name + " = 0, " + limit_name + " = 0; bool " + more_name + " = false;";
+  const Ex next = tree_.name(next_name), limit = tree_.name(limit_name), more = tree_.name(more_name);
+  assign(next, values().value(stmt.from));
+  assign(limit, values().value(stmt.to));
+  perform(places().store(stmt.control, next));
+  const Ex goes_on = tree_.infix(step > 0 ? Operator::LessEqual : Operator::GreaterEqual, next, limit);
+  const Ex overflows = tree_.call("__builtin_add_overflow",
+                                  {values().value(stmt.control), tree_.signedNumber(step, "LL"), addressOf(next)});
+  const Ex at_limit = places().store(stmt.control, typeLimit(stmt.control, step > 0));
+  const Ex at_next = places().store(stmt.control, next);
+  cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::For);
+  made->a = tree_.infix(Operator::Assign, more, goes_on);
+  made->b = more;
+  made->c = tree_.infix(Operator::Assign, more,
+                        tree_.choice(overflows, tree_.infix(Operator::Comma, at_limit, tree_.fixed("false")),
+                                     tree_.infix(Operator::Comma, at_next, goes_on)));
   Loop loop;
   loop.number = ++state_.names_created;
-  loops_.push_back(loop);
-  block(stmt.body_block);
-  close();
-  const Loop done = loops_.back();
-  loops_.pop_back();
-  if (done.breaks_by_goto) {
-    flushCloses(0);
-    out_ += " break";
-    appendUnsigned(out_, done.number);
-    out_ += ":;";
+  addLoop(made, loop, [&] {
+    this->step(body_->stmt(id).loc);
+    block(stmt.body_block);
+  });
+}
+
+// The last value that the type of a control has.
+cxx::Ex StatementWriter::typeLimit(ExprId control, bool rises) {
+  const TypeKind kind = kindOf(control);
+  const uint32_t width = widthOf(kind);
+  const uint64_t half = (uint64_t{1} << (width - 1)) - 1;
+  Ex limit = tree_.number(0);
+  if (rises) {
+    const uint64_t high = types_.isSigned(kind) ? half : width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
+    limit = tree_.number(high, high > INT64_MAX ? "ULL" : "LL");
+  } else if (types_.isSigned(kind)) {
+    limit = tree_.infix(Operator::Subtract, tree_.name("-" + std::to_string(half) + "LL"), tree_.number(1));
   }
+  return tree_.cast(scalarType(types_, expr(control).type), limit);
 }
 
 }  // namespace rung::codegen

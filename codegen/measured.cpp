@@ -13,8 +13,7 @@ void StringWriter::declareLengths() {
   const Variables& variables = analysis_->uses.variables;
   for (uint32_t i = 0; i < variables.count(); ++i) {
     if (!analysis_->measured.has(i) || analysis_->appends.has(i)) continue;
-    std::string name = captured([&] { lengthName(i); });
-    name.pop_back();
+    const std::string name = nameOf(i);
     declarations_ += " uint32_t " + name + "n = ";
     declarations_ += returnsLength(i) ? '*' + name + "np" : analysis_->measured.isShared(i) ? "RUNG_UNCOUNTED" : "0";
     declarations_ += ';';
@@ -33,8 +32,7 @@ void StringWriter::declareLengths() {
 void StringWriter::returnLengths() {
   for (uint32_t i = 0; i < body_->locals.size(); ++i) {
     if (!returnsLength(i)) continue;
-    const std::string name = captured([&] { variable(out_, body_->locals[i]); });
-    out_ += " *" + name + "np = " + name + "n;";
+    assign(tree_.prefix("*", tree_.name(nameOf(i) + "np")), lengthName(i));
   }
 }
 
@@ -43,15 +41,13 @@ void StringWriter::forgetLengths(StmtId id) {
   if (!analysis_->lengths.forgetsAfter(id)) return;
   const Variables& variables = analysis_->uses.variables;
   const Stmt& stmt = body_->stmt(id);
-  const auto* assign = stmt.tryAs<ir::AssignStmt>();
+  const auto* assignment = stmt.tryAs<ir::AssignStmt>();
   const auto* call = stmt.tryAs<ir::CallStmt>();
-  const ExprId place = assign != nullptr ? assign->place : call != nullptr ? call->result : ExprId{};
+  const ExprId place = assignment != nullptr ? assignment->place : call != nullptr ? call->result : ExprId{};
   const uint32_t written = place ? variables.stringAt(place) : kNoVariable;
   for (uint32_t i = 0; i < variables.count(); ++i) {
     if (!analysis_->measured.isShared(i) || i == written || isPassedOnce(call, i)) continue;
-    out_ += ' ';
-    lengthName(i);
-    out_ += " = RUNG_UNCOUNTED;";
+    assign(lengthName(i), tree_.fixed("RUNG_UNCOUNTED"));
   }
 }
 
@@ -62,71 +58,54 @@ void StringWriter::countLengths(StmtId id) {
   if (appended_by) id = appended_by;
   if (!analysis_->lengths.countsBefore(id)) return;
   for (const ExprId place_id : analysis_->lengths.counted[id.index]) {
-    if (!lengths().isOwn(place_id)) {
-      out_ += "if (";
-      lengthName(place_id);
-      out_ += " == RUNG_UNCOUNTED) ";
+    const Ex length = lengthName(place_id);
+    const auto count = [&] { assign(length, tree_.call("rung_string_length", {places().place(place_id)})); };
+    if (lengths().isOwn(place_id)) {
+      count();
+      continue;
     }
-    lengthName(place_id);
-    out_ += " = rung_string_length(";
-    places().place(place_id);
-    out_ += "); ";
+    cxx::Stmt* const once =
+        tree_.stmt(cxx::StmtKind::ShortIf, tree_.infix(Operator::Equal, length, tree_.fixed("RUNG_UNCOUNTED")));
+    add(once);
+    once->first = nested(count).first();
   }
 }
 
-void StringWriter::lengthName(ExprId id) { lengthName(analysis_->uses.variables.stringAt(id)); }
+cxx::Ex StringWriter::lengthName(ExprId id) { return lengthName(analysis_->uses.variables.stringAt(id)); }
+cxx::Ex StringWriter::lengthName(uint32_t number) { return tree_.name(nameOf(number) + 'n'); }
 
-void StringWriter::lengthName(uint32_t number) {
+std::string StringWriter::nameOf(uint32_t number) const {
   const Variables& variables = analysis_->uses.variables;
-  if (variables.isField(number)) {
-    appendMangled(out_, string(variables.field(number).name));
-  } else {
-    variable(out_, variables.local(number));
-  }
-  out_ += 'n';
+  if (variables.isField(number)) return mangled(variables.field(number).name);
+  std::string out;
+  variable(out, variables.local(number));
+  return out;
 }
 
-void StringWriter::stringLength(ExprId id) {
+cxx::Ex StringWriter::stringLength(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::String) {
-    appendUnsigned(out_, literalLength(e));
-  } else if (e.kind == ExprKind::Zero) {
-    out_ += '0';
-  } else if (isMeasured(id)) {
-    lengthName(id);
-  } else {
-    out_ += "rung_string_length(";
-    stringValue(id);
-    out_ += ')';
-  }
+  if (e.kind == ExprKind::String) return tree_.number(literalLength(e));
+  if (e.kind == ExprKind::Zero) return tree_.number(0);
+  return isMeasured(id) ? lengthName(id) : tree_.call("rung_string_length", {stringValue(id)});
 }
 
-// Name and inputs of a sized form, without the closing parenthesis.
-void StringWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const char* form) {
+// Name and inputs of a sized form.
+CallWriter::Parts StringWriter::sizedCall(const Body& callee, Slice<ExprId> operands, const char* form) {
   if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
     group_.libraries.push_back(callee.library_name);
-  out_ += ir::nativeName(module_, callee);
-  out_ += '_';
-  out_ += form;
-  out_ += '(';
-  const char* separator = "";
+  CallWriter::Parts call{ir::nativeName(module_, callee) + '_' + form, {}};
   for (const ExprId operand : body_->list(operands)) {
-    out_ += separator;
-    separator = ", ";
     if (isString(expr(operand).type)) {
-      stringValue(operand);
-      out_ += ", ";
-      stringLength(operand);
+      call.arguments.push_back(stringValue(operand));
+      call.arguments.push_back(stringLength(operand));
     } else {
-      values().value(operand, Prec::Ternary);
+      call.arguments.push_back(values().value(operand));
     }
   }
+  return call;
 }
 
-void StringWriter::sliceName(ExprId id) {
-  lengthName(id);
-  out_.back() = 'v';
-}
+cxx::Ex StringWriter::sliceName(ExprId id) { return tree_.name(nameOf(analysis_->uses.variables.stringAt(id)) + 'v'); }
 
 void StringWriter::assignSlice(ExprId to, ExprId from) {
   uint32_t capacity = capacityOf(expr(to).type);
@@ -134,25 +113,17 @@ void StringWriter::assignSlice(ExprId to, ExprId from) {
   for (ExprId cut = from; cut != whole; cut = expr(cut).as<ir::ConvertExpr>().operand)
     capacity = std::min(capacity, capacityOf(expr(cut).type));
   from = whole;
-  sliceName(to);
-  out_ += " = ";
-  stringValue(from);
-  out_ += "; ";
-  lengthName(to);
-  out_ += " = ";
+  assign(sliceName(to), stringValue(from));
   const Expr& source = expr(from);
+  Ex length;
   if (source.kind == ExprKind::String) {
-    appendUnsigned(out_, std::min(literalLength(source), capacity));
+    length = tree_.number(std::min(literalLength(source), capacity));
   } else if (source.kind == ExprKind::Zero || capacityOf(source.type) <= capacity) {
-    stringLength(from);
+    length = stringLength(from);
   } else {
-    out_ += "rung_min_u32(";
-    stringLength(from);
-    out_ += ", ";
-    appendUnsigned(out_, capacity);
-    out_ += ')';
+    length = tree_.call("rung_min_u32", {stringLength(from), tree_.number(capacity)});
   }
-  out_ += ';';
+  assign(lengthName(to), length);
 }
 
 }  // namespace rung::codegen

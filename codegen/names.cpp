@@ -69,13 +69,15 @@ void appendMangled(std::string& out, std::string_view name) {
     return;
   }
   out += 'u';
-  for (char c : name) {
-    if (isLetter(c) || isDigit(c)) {
-      out += c;
-    } else if (c == '_') {
+  for (size_t i = 0; i < name.size();) {
+    const size_t begin = i;
+    while (i < name.size() && (isLetter(name[i]) || isDigit(name[i]))) ++i;
+    out.append(name, begin, i - begin);
+    if (i == name.size()) break;
+    const auto byte = static_cast<unsigned char>(name[i++]);
+    if (byte == '_') {
       out += "__";
     } else {
-      const auto byte = static_cast<unsigned char>(c);
       out += "_x";
       out += kHex[byte >> 4];
       out += kHex[byte & 15];

@@ -24,72 +24,49 @@ bool PlaceWriter::isVariableTruth(ExprId id) const {
   return isCached(id);
 }
 
-void PlaceWriter::place(ExprId id) {
+cxx::Ex PlaceWriter::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
-    case ExprKind::Local: localPlace(body_->locals[e.as<ir::LocalExpr>().local]); return;
-    case ExprKind::Self: out_ += "self"; return;
-    case ExprKind::Global: blockPlace(e.type, facts_.list_block[e.as<ir::GlobalExpr>().list], "list_block"); return;
-    case ExprKind::Program: blockPlace(e.type, facts_.program_block[e.as<ir::ProgramExpr>().program], "block"); return;
-    case ExprKind::Field: fieldPlace(id); return;
-    case ExprKind::Index: elementPlace(e.as<ir::IndexExpr>()); return;
-    case ExprKind::Deref: targetPlace(e.as<ir::DerefExpr>().pointer, e.type); return;
-    case ExprKind::Data:
-      out_ += "(*(";
-      appendPointer(out_, types_, e.type, "", true);
-      out_ += ')';
-      dataReference(e.as<ir::DataExpr>().index);
-      out_ += ')';
-      return;
+    case ExprKind::Local: return localPlace(body_->locals[e.as<ir::LocalExpr>().local]);
+    case ExprKind::Self: return tree_.fixed("self");
+    case ExprKind::Global: return blockPlace(e.type, facts_.list_block[e.as<ir::GlobalExpr>().list], "list_block");
+    case ExprKind::Program: return blockPlace(e.type, facts_.program_block[e.as<ir::ProgramExpr>().program], "block");
+    case ExprKind::Field: return fieldPlace(id);
+    case ExprKind::Index: return elementPlace(e.as<ir::IndexExpr>());
+    case ExprKind::Deref: return targetPlace(e.as<ir::DerefExpr>().pointer, e.type);
+    case ExprKind::Data: return target(tree_.cast(pointerTo(e.type, true), dataReference(e.as<ir::DataExpr>().index)));
     case ExprKind::Zero:
     case ExprKind::Call:
-    case ExprKind::Convert:
-      for (const auto& [created, name] : state_.materialized) {
-        if (created == id.index) out_ += name;
-      }
-      return;
+    case ExprKind::Convert: return materialized(id);
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
-      out_ += "(*(";
-      values().condition(decides, Prec::Or);
-      out_ += " ? &";
-      place(yes);
-      out_ += " : &";
-      place(no);
-      out_ += "))";
-      return;
+      const Ex test = values().condition(decides), first = addressOf(place(yes)), second = addressOf(place(no));
+      return target(tree_.choice(test, first, second));
     }
     case ExprKind::Image:  // as an aggregate: in place; a string is its characters
       if (isString(e.type)) return strings().stringValue(id);
-      out_ += "(*(";
-      appendPointer(out_, types_, e.type, "");
-      out_ += ")(";
-      imageAddress(id);
-      out_ += "))";
-      return;
+      return target(tree_.cast(pointerTo(e.type), tree_.group(imageAddress(id))));
     case ExprKind::Bits:
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::String:
     case ExprKind::Unary:
     case ExprKind::Binary:
-    case ExprKind::Address: values().value(id, Prec::Postfix); return;
+    case ExprKind::Address: return values().value(id);
   }
+  return nullptr;
 }
 
-void PlaceWriter::localPlace(const ir::Local& local) {
-  const bool after = local.by_reference && !isString(local.type);
-  if (after) out_ += "(*";
-  variable(out_, local);
-  if (after) out_ += ')';
+cxx::Ex PlaceWriter::localPlace(const ir::Local& local) {
+  const Ex name = variable(local);
+  return local.by_reference && !isString(local.type) ? target(name) : name;
 }
 
 // A block of memory: a list of globals or a program's instance.
-void PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
+cxx::Ex PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view suffix) {
   const std::string type = recordName(types_, record);
   includeRecord(record);
-  std::string name;
-  appendMangled(name, string(facts_.blocks[number].name));
+  std::string name = mangled(facts_.blocks[number].name);
   name += suffix;
   if (std::find(blocks_declared_.begin(), blocks_declared_.end(), number) == blocks_declared_.end()) {
     blocks_declared_.push_back(number);
@@ -97,83 +74,72 @@ void PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view su
     appendUnsigned(declarations_, number);
     declarations_ += "]);";
   }
-  out_ += name;
+  return tree_.name(name);
 }
 
-void PlaceWriter::fieldPlace(ExprId id) {
+cxx::Ex PlaceWriter::fieldPlace(ExprId id) {
   const ir::FieldExpr& node = expr(id).as<ir::FieldExpr>();
   const Field& field = fieldOf(node);
-  if (isCached(id)) {
-    appendMangled(out_, string(field.name));
-    return;
-  }
+  if (isCached(id)) return mangledName(field.name);
   const bool after = field.by_reference && !isString(field.type);
   if (after) includeRecord(field.type);
-  if (after) out_ += "(*";
-  member(node.base);
-  appendMangled(out_, string(field.name));
-  if (after) out_ += ')';
+  const Ex place = member(node.base, field.name);
+  return after ? target(place) : place;
 }
 
-void PlaceWriter::elementPlace(const ir::IndexExpr& node) {
+cxx::Ex PlaceWriter::elementPlace(const ir::IndexExpr& node) {
   const TypeInfo& array = types_.info(types_.resolve(expr(node.base).type));
-  place(node.base);
+  Ex result = place(node.base);
   for (uint32_t i = 0; i < node.indices.count; ++i) {
     const types::Dimension dimension = i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{};
-    out_ += '[';
-    indexValue(body_->list(node.indices)[i], dimension);
-    out_ += ']';
+    result = tree_.element(result, indexValue(body_->list(node.indices)[i], dimension));
   }
+  return result;
 }
 
-void PlaceWriter::targetPlace(ExprId pointer, TypeId type) {
-  if (isString(type)) {
-    out_ += isWide(type) ? "((char16_t*)" : "((char*)";
-    values().value(pointer, Prec::Unary);
-    out_ += ')';
-    return;
-  }
-  out_ += "(*(";
+cxx::Ex PlaceWriter::targetPlace(ExprId pointer, TypeId type) {
+  if (isString(type)) return tree_.group(tree_.cast(isWide(type) ? "char16_t*" : "char*", values().value(pointer)));
+  std::string pointer_type;
   if (isAggregate(type)) {
     includeRecord(type);
     const TypeId element = elementOf(types_, type);
-    std::string pointer_type;
-    appendPointer(pointer_type, types_, type, "");
+    pointer_type = pointerTo(type);
     // Elements may be read with another type than the one they were written with.
     if (types_.kind(element) != TypeKind::Record && !isString(element)) {
       const std::string scalar = scalarType(types_, element);
       pointer_type.replace(0, scalar.size(), scalarAliasType(types_, element));
     }
-    out_ += pointer_type;
   } else {
-    out_ += scalarAliasType(types_, type);
-    out_ += '*';
+    pointer_type = scalarAliasType(types_, type);
+    pointer_type += '*';
   }
-  out_ += ')';
-  values().value(pointer, Prec::Unary);
-  out_ += ')';
+  return target(tree_.cast(pointer_type, values().value(pointer)));
 }
 
-// Writes the prefix of a field's name.
-void PlaceWriter::member(ExprId base) {
+// A field of a record.
+cxx::Ex PlaceWriter::member(ExprId base, NameId name) {
   const Expr& e = expr(base);
-  if (const uint32_t* local = ir::localOf(e); local != nullptr && body_->locals[*local].by_reference) {
-    variable(out_, body_->locals[*local]);
-    out_ += "->";
-    return;
-  }
+  if (const uint32_t* local = ir::localOf(e); local != nullptr && body_->locals[*local].by_reference)
+    return tree_.arrow(variable(body_->locals[*local]), keptMangled(name));
   if (const auto* part = e.tryAs<ir::FieldExpr>()) {
     const Field& field = fieldOf(*part);
     if (field.by_reference) {
       includeRecord(field.type);
-      member(part->base);
-      appendMangled(out_, string(field.name));
-      out_ += "->";
-      return;
+      return tree_.arrow(member(part->base, field.name), keptMangled(name));
     }
   }
-  place(base);
-  out_ += '.';
+  return tree_.member(place(base), keptMangled(name));
+}
+
+cxx::Ex PlaceWriter::find(ExprId id) const {
+  for (const auto& [created, name] : state_.materialized)
+    if (created == id.index) return name;
+  return nullptr;
+}
+
+cxx::Ex PlaceWriter::materialized(ExprId id) const {
+  const Ex name = find(id);
+  return name != nullptr ? name : tree_.fixed("");
 }
 
 // ---- indices
@@ -205,47 +171,30 @@ ir::ExprId PlaceWriter::peelIndex(ExprId id, const types::Dimension& dimension, 
 }
 
 // The index, counted from 0.
-void PlaceWriter::indexValue(ExprId id, const types::Dimension& dimension) {
+cxx::Ex PlaceWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const Expr& whole = expr(id);
-  if (whole.kind == ExprKind::Const) {
-    appendSigned(out_, static_cast<int64_t>(ir::bitsOf(whole)) - dimension.low);
-    return;
-  }
+  if (whole.kind == ExprKind::Const) return tree_.signedNumber(static_cast<int64_t>(ir::bitsOf(whole)) - dimension.low);
   int64_t addend;
   const ExprId inner = peelIndex(id, dimension, addend);
-  const TypeKind kind = kindOf(inner);
-  const uint32_t width = widthOf(kind);
+  const uint32_t width = widthOf(kindOf(inner));
   const int64_t offset = addend - dimension.low;
   const bool is_wide = expr(inner).kind != ExprKind::Bits && wideOf(inner) == 64;
-  auto writeInner = [&](Prec context) {
-    if (is_wide) {
-      place(inner);
-    } else {
-      values().value(inner, context);
-    }
-  };
-  if (offset == 0) {
-    writeInner(Prec::Comma);
-    return;
-  }
+  Ex index = is_wide ? place(inner) : values().value(inner);
+  if (offset == 0) return index;
+  const Operator op = offset < 0 ? Operator::Subtract : Operator::Add;
+  const uint64_t distance = offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset);
   if (width == 64) {
-    out_ += "(int64_t)((uint64_t)";
-    values().value(inner, Prec::Unary);
-    out_ += offset < 0 ? " - " : " + ";
-    appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
-    out_ += "ULL)";
-    return;
+    index = tree_.infix(op, tree_.cast("uint64_t", values().value(inner)), tree_.number(distance, "ULL"));
+    return tree_.cast("int64_t", index);
   }
   const bool fits_int = width <= 16 && offset > -(1 << 30) && offset < (1 << 30);
-  if (!fits_int && !is_wide) out_ += "(int64_t)";
-  writeInner(fits_int ? Prec::Sum : Prec::Unary);
-  out_ += offset < 0 ? " - " : " + ";
-  appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
+  if (!fits_int && !is_wide) index = tree_.cast("int64_t", index);
+  return tree_.infix(op, index, tree_.number(distance));
 }
 
 // ---- constant bytes
 
-void PlaceWriter::dataReference(uint32_t index) {
+cxx::Ex PlaceWriter::dataReference(uint32_t index) {
   if (state_.in.marks.data[index] != state_.in.group_number) {
     state_.in.marks.data[index] = state_.in.group_number;
     state_.in.marks.data_number[index] = ++group_.data_count;
@@ -261,89 +210,54 @@ void PlaceWriter::dataReference(uint32_t index) {
     appendQuoted(group_.data, bytes.substr(0, used));
     group_.data += ";\n";
   }
-  out_ += "data_" + group_.stem + '_';
-  appendUnsigned(out_, state_.in.marks.data_number[index]);
+  return tree_.name("data_" + group_.stem + '_' + std::to_string(state_.in.marks.data_number[index]));
 }
 
 // ---- writing
 
-void PlaceWriter::store(ExprId to, std::string_view value_code) {
+cxx::Ex PlaceWriter::store(ExprId to, Ex value) {
   const Expr& e = expr(to);
-  if (isLvalue(to)) {
-    place(to);
-    out_ += " = ";
-    out_ += value_code;
-    return;
-  }
-  if (const auto* bits = e.tryAs<ir::BitsExpr>()) {
-    storeBits(*bits, types_.plainKind(e.type), value_code);
-    return;
-  }
-  imageStore(to, value_code);
+  if (isLvalue(to)) return tree_.infix(Operator::Assign, place(to), value);
+  if (const auto* bits = e.tryAs<ir::BitsExpr>()) return storeBits(*bits, types_.plainKind(e.type), value);
+  return imageStore(to, value);
 }
 
 // Some bits of a variable: the others keep their values.
-void PlaceWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, std::string_view value_code) {
+cxx::Ex PlaceWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, Ex value) {
   const ExprId base = node.base;
   const uint32_t from = widthOf(kindOf(base)), width = widthOf(kind), shift = node.position * width;
-  const std::string type = from == 64 ? "uint64_t" : "uint32_t";
+  const char* const type = from == 64 ? "uint64_t" : "uint32_t";
   const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
   const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
-  std::string changed = "(";
-  changed += scalarType(types_, expr(base).type);
-  changed += ")(((" + type + ")" + captured([&] { values().value(base, Prec::Unary); }) + " & ";
-  appendUnsigned(changed, keep);
-  changed += from == 64 ? "ULL) | (" : "u) | (";
-  changed += type + ")(";
-  changed += value_code;
-  changed += ")";
-  if (shift != 0) {
-    changed += " << ";
-    appendUnsigned(changed, shift);
-  }
-  changed += ")";
-  store(base, changed);
+  const Ex others = tree_.infix(Operator::BitAnd, tree_.cast(type, values().value(base)),
+                                tree_.number(keep, from == 64 ? "ULL" : "u"));
+  Ex bits = tree_.cast(type, tree_.group(value));
+  if (shift != 0) bits = tree_.infix(Operator::ShiftLeft, bits, tree_.number(shift));
+  return store(base, tree_.cast(scalarType(types_, expr(base).type), tree_.infix(Operator::Merge, others, bits)));
 }
 
 // ---- by-reference parameters
 
-void PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
+cxx::Ex PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
   if (!operand) {  // a discarded output
-    const std::string name = newVariable(parameter.type, "d");
-    if (!isString(parameter.type)) out_ += '&';
-    out_ += name;
-    return;
+    const Ex name = tree_.name(newVariable(parameter.type, "d"));
+    return isString(parameter.type) ? name : addressOf(name);
   }
   // Only VAR_IN_OUT CONSTANT takes an input, which is const here. A bound in-out and its body do not say that they are.
   const uint32_t* root = ir::isPlace(expr(operand).kind) ? ir::localOf(expr(ir::rootOf(*body_, operand))) : nullptr;
   const bool is_input =
       root != nullptr && body_->locals[*root].by_reference && body_->locals[*root].kind == ir::LocalKind::Input;
-  if (is_input && parameter.kind == ir::LocalKind::InOut) {
-    out_ += "const_cast<";
-    appendPointer(out_, types_, expr(operand).type, "");
-    out_ += ">(";
-    plainReference(parameter, operand);
-    out_ += ')';
-    return;
-  }
-  plainReference(parameter, operand);
+  const Ex plain = plainReference(parameter, operand);
+  const bool drops_const = is_input && parameter.kind == ir::LocalKind::InOut;
+  return drops_const ? tree_.call("const_cast<" + pointerTo(expr(operand).type) + ">", {plain}) : plain;
 }
 
-void PlaceWriter::plainReference(const ir::Local& parameter, ExprId operand) {
-  if (isString(parameter.type)) {
-    if (parameter.kind == ir::LocalKind::Input) {
-      strings().stringValue(operand);
-    } else {
-      place(operand);
-    }
-    return;
-  }
-  if (const uint32_t* local = ir::localOf(expr(operand)); local != nullptr && body_->locals[*local].by_reference) {
-    variable(out_, body_->locals[*local]);
-    return;
-  }
-  out_ += '&';
-  place(operand);
+cxx::Ex PlaceWriter::plainReference(const ir::Local& parameter, ExprId operand) {
+  if (isString(parameter.type))
+    return parameter.kind == ir::LocalKind::Input ? strings().stringValue(operand) : place(operand);
+  if (const uint32_t* local = ir::localOf(expr(operand)); local != nullptr && body_->locals[*local].by_reference)
+    return variable(body_->locals[*local]);
+  return addressOf(place(operand));
 }
 
 }  // namespace rung::codegen

@@ -96,35 +96,24 @@ void StringWriter::prepareString(ExprId from) {
 
 void StringWriter::materializeString(ExprId id) {
   const Expr& e = expr(id);
-  const std::string name = newVariable(e.type, "s");
+  const Ex name = tree_.name(newVariable(e.type, "s"));
   if (e.kind == ExprKind::Convert) {
-    copyString({name, capacityOf(e.type), isWide(e.type), {}}, id);
+    copyString({name, capacityOf(e.type), isWide(e.type), nullptr}, id);
   } else {  // a pure function: its string result is the last parameter
-    std::string function = captured([&] { calls().callExpr(e); });
-    function.pop_back();
-    out_ += function + ", " + name;
-    if (module_.body(e.as<ir::CallExpr>().callee).native) {
-      out_ += ", ";
-      appendUnsigned(out_, capacityOf(e.type));
-    }
-    out_ += ");";
+    CallWriter::Parts call = calls().parts(e);
+    call.arguments.push_back(name);
+    if (module_.body(e.as<ir::CallExpr>().callee).native) call.arguments.push_back(tree_.number(capacityOf(e.type)));
+    perform(tree_.call(call.function, call.arguments));
   }
-  out_ += ' ';
   state_.materialized.push_back({id.index, name});
 }
 
-// `length = function(to, limit, `, or without a length.
-void StringWriter::beginCopy(const StringTarget& target, std::string_view function, uint32_t limit) {
-  if (!target.length.empty()) {
-    out_ += target.length;
-    out_ += " = ";
-  }
-  out_ += function;
-  out_ += '(';
-  out_ += target.name;
-  out_ += ", ";
-  appendUnsigned(out_, limit);
-  out_ += ", ";
+// `function(to, limit, from…)`, whose result is the new length.
+void StringWriter::copyBy(const char* function, const StringTarget& target, uint32_t limit, std::vector<Ex> from) {
+  std::vector<Ex> arguments{target.name, tree_.number(limit)};
+  arguments.insert(arguments.end(), from.begin(), from.end());
+  const Ex copy = tree_.call(function, arguments);
+  target.length != nullptr ? assign(target.length, copy) : perform(copy);
 }
 
 void StringWriter::copyString(const StringTarget& target, ExprId from) {
@@ -133,25 +122,15 @@ void StringWriter::copyString(const StringTarget& target, ExprId from) {
   if (e.kind == ExprKind::Zero) {
     copyLiteral(target, {}, false);
     // An initial value: the last unit too, since a program may write all characters in front of it one by one.
-    out_ += ' ';
-    out_ += target.name;
-    out_ += '[';
-    appendUnsigned(out_, target.capacity);
-    out_ += "] = 0;";
+    assign(tree_.element(target.name, tree_.number(target.capacity)), tree_.number(0));
   } else if (e.kind == ExprKind::String && same_units) {
     copyLiteral(target, upToNul(string(e.as<ir::StringExpr>().characters)), isUtf8(e.type));
   } else if (const auto* convert = e.tryAs<ir::ConvertExpr>(); convert != nullptr && same_units) {
     StringTarget cut = target;
     cut.capacity = std::min(target.capacity, capacityOf(e.type));
-    if (isString(expr(convert->operand).type)) {
-      copyString(cut, convert->operand);
-      return;
-    }
-    beginCopy(target, target.wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", cut.capacity);
-    out_ += typeKindName(types_, expr(convert->operand).type);
-    out_ += ", ";
-    values().scalarBits(convert->operand);
-    out_ += ");";
+    if (isString(expr(convert->operand).type)) return copyString(cut, convert->operand);
+    copyBy(target.wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", target, cut.capacity,
+           {tree_.fixed(typeKindName(types_, expr(convert->operand).type)), values().scalarBits(convert->operand)});
   } else {
     copyVariable(target, from);
   }
@@ -164,111 +143,65 @@ void StringWriter::copyLiteral(const StringTarget& target, std::string_view lite
   else
     literal = utf8 ? firstWhole(literal, target.capacity) : literal.substr(0, target.capacity);
   if (literal.empty()) {
-    out_ += target.name;
-    out_ += "[0] = 0;";
+    assign(tree_.element(target.name, tree_.number(0)), tree_.number(0));
   } else {
-    out_ += "memcpy(";
-    out_ += target.name;
-    out_ += ", ";
-    target.wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
-    out_ += ", ";
-    appendUnsigned(out_, target.wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
-    out_ += ");";
+    const uint64_t bytes = target.wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1;
+    perform(tree_.call("memcpy", {target.name, quoted(literal, target.wide), tree_.number(bytes)}));
   }
-  if (target.length.empty()) return;
-  out_ += ' ';
-  out_ += target.length;
-  out_ += " = ";
-  appendUnsigned(out_, static_cast<uint32_t>(literal.size()));
-  out_ += ';';
+  if (target.length != nullptr) assign(target.length, tree_.number(literal.size()));
 }
 
 void StringWriter::copyVariable(const StringTarget& target, ExprId from) {
   const TypeId type = expr(from).type;
   const bool wide = target.wide;
-  const std::string source = captured([&] { stringValue(from); });
-  if (source == target.name && target.capacity >= capacityOf(type)) return;
-  const bool is_measured = isKnown(from);
+  const Ex source = stringValue(from);
+  if (target.capacity >= capacityOf(type) && cxx::same(source, target.name)) return;
   if (isWide(type) != wide) {
-    beginCopy(target, wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target.capacity);
-  } else if (is_measured && !wide) {
-    beginCopy(target, "rung_string_put", target.capacity);
-    out_ += source + ", ";
-    lengthName(from);
-    out_ += ");";
-    return;
+    copyBy(wide ? "rung_wstring_of_string" : "rung_string_of_wstring", target, target.capacity, {source});
+  } else if (isKnown(from) && !wide) {
+    copyBy("rung_string_put", target, target.capacity, {source, lengthName(from)});
   } else {
-    beginCopy(target,
-              wide           ? "rung_wstring_assign"
-              : isUtf8(type) ? "rung_ustring_assign"
-                             : "rung_string_assign",
-              target.capacity);
+    copyBy(assignFunction(type), target, target.capacity, {source});
   }
-  out_ += source + ");";
 }
 
-void StringWriter::stringValue(ExprId id) {
+const char* StringWriter::assignFunction(TypeId type) const {
+  return isWide(type) ? "rung_wstring_assign" : isUtf8(type) ? "rung_ustring_assign" : "rung_string_assign";
+}
+
+cxx::Ex StringWriter::stringValue(ExprId id) {
   const Expr& e = expr(id);
   const bool wide = isWide(e.type);
+  const char* const pointer = wide ? "const char16_t*" : "const char*";
   switch (e.kind) {
-    case ExprKind::String:
-      if (wide) {
-        appendQuotedWide(out_, string(e.as<ir::StringExpr>().characters));
-      } else {
-        appendQuoted(out_, upToNul(string(e.as<ir::StringExpr>().characters)));
-      }
-      return;
-    case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
-    case ExprKind::Data:
-      out_ += wide ? "((const char16_t*)" : "((const char*)";
-      places().dataReference(e.as<ir::DataExpr>().index);
-      out_ += ')';
-      return;
+    case ExprKind::String: {
+      const std::string_view characters = string(e.as<ir::StringExpr>().characters);
+      return quoted(wide ? characters : upToNul(characters), wide);
+    }
+    case ExprKind::Zero: return quoted("", wide);
+    case ExprKind::Data: return tree_.group(tree_.cast(pointer, places().dataReference(e.as<ir::DataExpr>().index)));
     case ExprKind::Convert:
-    case ExprKind::Call:
-      for (const auto& [created, name] : state_.materialized) {
-        if (created == id.index) {
-          out_ += name;
-          return;
-        }
-      }
-      if (const auto* cut = e.tryAs<ir::ConvertExpr>()) stringValue(cut->operand);
-      return;
+    case ExprKind::Call: {
+      const auto* cut = e.tryAs<ir::ConvertExpr>();
+      return cut != nullptr && !places().isMaterialized(id) ? stringValue(cut->operand) : places().materialized(id);
+    }
     case ExprKind::Select: {
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
-      out_ += '(';
-      values().condition(decides, Prec::Or);
-      out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
-      stringValue(yes);
-      out_ += " : ";
-      stringValue(no);
-      out_ += ')';
-      return;
+      const Ex test = values().condition(decides), first = stringValue(yes), second = stringValue(no);
+      return tree_.group(tree_.choice(test, tree_.cast(pointer, first), second));
     }
     case ExprKind::Binary: {  // MIN, MAX
       const ir::BinaryExpr& node = e.as<ir::BinaryExpr>();
-      const std::string a = captured([&] { stringValue(node.left); }), b = captured([&] { stringValue(node.right); });
-      out_ += wide ? "(rung_wstring_compare(" : "(strcmp(";
-      out_ += a + ", " + b + (node.op == Op::Min ? ") < 0 ? " : ") >= 0 ? ");
-      out_ += wide ? "(const char16_t*)" : "(const char*)";
-      out_ += a + " : " + b + ")";
-      return;
+      const Ex a = stringValue(node.left), b = stringValue(node.right);
+      const Operator op = node.op == Op::Min ? Operator::Less : Operator::GreaterEqual;
+      const Ex test = tree_.infix(op, compared(wide, a, b), tree_.number(0));
+      return tree_.group(tree_.choice(test, tree_.cast(pointer, a), b));
     }
     case ExprKind::Local:
     case ExprKind::Field:
     case ExprKind::Index:
-    case ExprKind::Deref:
-      if (isSlice(id)) {
-        sliceName(id);
-      } else {
-        places().place(id);
-      }
-      return;
-    case ExprKind::Image:
-      out_ += wide ? "(char16_t*)(" : "(char*)(";
-      places().imageAddress(id);
-      out_ += ')';
-      return;
+    case ExprKind::Deref: return isSlice(id) ? sliceName(id) : places().place(id);
+    case ExprKind::Image: return tree_.cast(wide ? "char16_t*" : "char*", tree_.group(places().imageAddress(id)));
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::Self:
@@ -276,107 +209,79 @@ void StringWriter::stringValue(ExprId id) {
     case ExprKind::Program:
     case ExprKind::Bits:
     case ExprKind::Unary:
-    case ExprKind::Address: out_ += wide ? "u\"\"" : "\"\""; return;
+    case ExprKind::Address: return quoted("", wide);
   }
+  return nullptr;
 }
 
-void StringWriter::compareStrings(const ir::BinaryExpr& node, Prec context) {
-  const bool is_equality = node.op == Op::Eq || node.op == Op::Ne;
-  const char* op = node.op == Op::Eq   ? " == 0"
-                   : node.op == Op::Ne ? " != 0"
-                   : node.op == Op::Lt ? " < 0"
-                   : node.op == Op::Le ? " <= 0"
-                   : node.op == Op::Gt ? " > 0"
-                                       : " >= 0";
+// ---- comparisons
+
+cxx::Ex StringWriter::compared(bool wide, Ex a, Ex b) {
+  return tree_.call(wide ? "rung_wstring_compare" : "strcmp", {a, b});
+}
+
+// `memcmp(a, b, count) == 0`
+cxx::Ex StringWriter::sameBytes(Ex a, Ex b, Ex count) {
+  return tree_.infix(Operator::Equal, tree_.call("memcmp", {a, b, count}), tree_.number(0));
+}
+
+// `name[i] == (char)65`
+cxx::Ex StringWriter::hasUnit(Ex name, uint32_t i, char unit) {
+  const Ex code = tree_.number(static_cast<unsigned char>(unit));
+  return tree_.infix(Operator::Equal, tree_.element(name, tree_.number(i)), tree_.cast("char", code));
+}
+
+// `(test)` or `!(test)`
+cxx::Ex StringWriter::asEquality(Operator op, Ex test) {
+  return op == Operator::Equal ? tree_.group(test) : tree_.prefix("!", tree_.group(test));
+}
+
+cxx::Ex StringWriter::compareStrings(Operator op, const ir::BinaryExpr& node) {
+  const bool is_equality = op == Operator::Equal || op == Operator::Differs;
   ExprId a = node.left, b = node.right;
   const bool wide = isWide(expr(a).type);
   if (is_equality && expr(a).kind == ExprKind::String) std::swap(a, b);
-  if (is_equality && expr(b).kind == ExprKind::String) {
-    const uint32_t length = literalLength(expr(b));
-    const std::string literal_name = captured([&] { stringValue(b); });
-    const std::string name = captured([&] { stringValue(a); });
-    uint32_t capacity = 0;
-    const bool is_buffer = isBuffer(a, capacity);
-    const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
-    if (isKnown(a)) {
-      const std::string count = captured([&] { lengthName(a); });
-      if (length == 0) {
-        parenthesis(Prec::Equality, context);
-        out_ += count + op;
-        closeParenthesis(Prec::Equality, context);
-        return;
-      }
-      out_ += node.op == Op::Eq ? "(" : "!(";
-      out_ += count + " == ";
-      appendUnsigned(out_, length);
-      const std::string_view literal = string(expr(b).as<ir::StringExpr>().characters);
-      if (length > capacityOf(expr(a).type)) {
-        // Never equal; nothing is read outside of the string.
-      } else if (length <= kComparedByUnit) {
-        for (uint32_t i = 0; i < length; ++i) {
-          out_ += " && " + name + "[";
-          appendUnsigned(out_, i);
-          out_ += "] == (char)";
-          appendUnsigned(out_, static_cast<unsigned char>(literal[i]));
-        }
-      } else {
-        out_ += " && memcmp(" + name + ", " + literal_name + ", ";
-        appendUnsigned(out_, length);
-        out_ += ") == 0";
-      }
-      out_ += ')';
-      return;
-    }
-    if (length == 0) {
-      parenthesis(Prec::Equality, context);
-      out_ += name + "[0]" + op;
-      closeParenthesis(Prec::Equality, context);
-      return;
-    }
-    if (is_buffer && capacity >= length && bytes <= kComparedWhole) {
-      parenthesis(Prec::Equality, context);
-      out_ += "memcmp(" + name + ", " + literal_name + ", ";
-      appendUnsigned(out_, bytes);
-      out_ += ')';
-      out_ += op;
-      closeParenthesis(Prec::Equality, context);
-      return;
-    }
-    if (!wide && length <= kComparedByUnit) {
-      const std::string_view literal = string(expr(b).as<ir::StringExpr>().characters);
-      out_ += node.op == Op::Eq ? "(" : "!(";
-      for (uint32_t i = 0; i <= length; ++i) {
-        if (i > 0) out_ += " && ";
-        out_ += name + "[";
-        appendUnsigned(out_, i);
-        out_ += "] == (char)";
-        appendUnsigned(out_, i < length ? static_cast<unsigned char>(literal[i]) : 0);
-      }
-      out_ += ')';
-      return;
-    }
-  }
+  if (is_equality && expr(b).kind == ExprKind::String)
+    if (const Ex test = compareLiteral(op, a, b)) return test;
   if (lengths().isSizedComparison(node, [&](ExprId side) { return isKnown(side); })) {
-    const std::string count = captured([&] { lengthName(a); });
-    out_ += node.op == Op::Eq ? "(" : "!(";
-    out_ += count + " == ";
-    lengthName(b);
-    out_ += " && memcmp(";
-    stringValue(a);
-    out_ += ", ";
-    stringValue(b);
-    out_ += ", " + count + ") == 0)";
-    return;
+    const Ex count = lengthName(a);
+    const Ex is_as_long = tree_.infix(Operator::Equal, count, lengthName(b));
+    const Ex left = stringValue(a), right = stringValue(b);
+    return asEquality(op, tree_.infix(Operator::And, is_as_long, sameBytes(left, right, count)));
   }
-  const Prec own = is_equality ? Prec::Equality : Prec::Relation;
-  parenthesis(own, context);
-  out_ += wide ? "rung_wstring_compare(" : "strcmp(";
-  stringValue(a);
-  out_ += ", ";
-  stringValue(b);
-  out_ += ')';
-  out_ += op;
-  closeParenthesis(own, context);
+  const Ex left = stringValue(a), right = stringValue(b);
+  return tree_.infix(op, compared(wide, left, right), tree_.number(0));
+}
+
+// Equality with a literal, where it takes no call; else nothing.
+cxx::Ex StringWriter::compareLiteral(Operator op, ExprId a, ExprId b) {
+  const bool wide = isWide(expr(a).type);
+  const uint32_t length = literalLength(expr(b));
+  const std::string_view literal = string(expr(b).as<ir::StringExpr>().characters);
+  const Ex name = stringValue(a), zero = tree_.number(0);
+  if (isKnown(a)) {
+    const Ex count = lengthName(a);
+    if (length == 0) return tree_.infix(op, count, zero);
+    Ex test = tree_.infix(Operator::Equal, count, tree_.number(length));
+    if (length > capacityOf(expr(a).type)) {
+      // Never equal; nothing is read outside of the string.
+    } else if (length <= kComparedByUnit) {
+      for (uint32_t i = 0; i < length; ++i) test = tree_.infix(Operator::And, test, hasUnit(name, i, literal[i]));
+    } else {
+      test = tree_.infix(Operator::And, test, sameBytes(name, stringValue(b), tree_.number(length)));
+    }
+    return asEquality(op, test);
+  }
+  if (length == 0) return tree_.infix(op, tree_.element(name, zero), zero);
+  uint32_t capacity = 0;
+  const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
+  if (isBuffer(a, capacity) && capacity >= length && bytes <= kComparedWhole)
+    return tree_.infix(op, tree_.call("memcmp", {name, stringValue(b), tree_.number(bytes)}), zero);
+  if (wide || length > kComparedByUnit) return nullptr;
+  Ex test = hasUnit(name, 0, literal[0]);
+  for (uint32_t i = 1; i <= length; ++i)
+    test = tree_.infix(Operator::And, test, hasUnit(name, i, i < length ? literal[i] : '\0'));
+  return asEquality(op, test);
 }
 
 }  // namespace rung::codegen

@@ -28,12 +28,12 @@ class Walk {
   }
 
  private:
-  using Dirty = std::vector<bool>;  // by variable: its place in memory may be old
+  using Dirty = std::vector<uint8_t>;  // by variable: 1 when its place in memory may be old
 
   void markOwn(const Stmt& stmt) {
     ir::forEachRoot(module_, body_, stmt, [&](ir::ExprId root, ir::Use use) {
       const uint32_t number = use == ir::Use::Read ? kNoVariable : uses_.variables.at(root);
-      if (number != kNoVariable && fields_.is_cached[number] != 0) dirty_[number] = true;
+      if (number != kNoVariable && fields_.is_cached[number] != 0) dirty_[number] = 1;
     });
   }
 
@@ -58,7 +58,7 @@ class Walk {
       if (before.empty()) before = after = dirty_;
       dirty_ = before;
       block(inner);
-      for (size_t i = 0; i < after.size(); ++i) after[i] = after[i] || dirty_[i];
+      for (size_t i = 0; i < after.size(); ++i) after[i] |= dirty_[i];
     });
     if (!before.empty()) dirty_ = std::move(after);
   }
@@ -68,11 +68,11 @@ class Walk {
   void writeBack(StmtId id) {
     WriteBacks::Call call{id, {}};
     for (uint32_t i = uses_.variables.localCount(); i < dirty_.size(); ++i) {
-      if (dirty_[i]) call.fields.push_back(i);
+      if (dirty_[i] != 0) call.fields.push_back(i);
     }
     if (call.fields.empty()) return;
     found_.calls.push_back(std::move(call));
-    if (!body_.has_labels) dirty_.assign(dirty_.size(), false);
+    if (!body_.has_labels) dirty_.assign(dirty_.size(), 0);
   }
 
   const ir::Module& module_;

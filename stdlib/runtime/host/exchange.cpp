@@ -101,7 +101,7 @@ void Exchange::take(uint32_t task, rung_context& context) {
   if (copies_.empty()) return;
   Copy& copy = copies_[task];
   const Lock lock(*this);
-  for (uint32_t i = 0; i < module_.area_count; ++i) memcpy(copy.areas[i], memory_.area(i), module_.areas[i].size);
+  for (uint32_t i = 0; i < module_.area_count; ++i) std::copy_n(memory_.area(i), module_.areas[i].size, copy.areas[i]);
   for (uint32_t i = 0; i < module_.area_count; ++i)
     if (!copy.taken[i].empty()) memcpy(copy.taken[i].data(), memory_.area(i), module_.areas[i].size);
   for (size_t i = 0; i < globals_.size(); ++i) {

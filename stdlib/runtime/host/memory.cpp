@@ -2,6 +2,7 @@
 // The memory of a module: see memory.h.
 #include "memory.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "crashes.h"
@@ -68,13 +69,14 @@ void Memory::makeOutputsSafe() {
   safeOutputs(areas);
   for (uint32_t i = 0; i < module_.area_count; ++i) {
     kept_outputs_.emplace_back(areas_[i], areas_[i] + module_.areas[i].size);
-    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memcpy(areas_[i], areas[i].data(), module_.areas[i].size);
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) std::copy_n(areas[i].begin(), module_.areas[i].size, areas_[i]);
   }
 }
 
 void Memory::restoreOutputs() {
   for (uint32_t i = 0; i < kept_outputs_.size(); ++i)
-    if (module_.areas[i].owner == RUNG_AREA_OUTPUT) memcpy(areas_[i], kept_outputs_[i].data(), kept_outputs_[i].size());
+    if (module_.areas[i].owner == RUNG_AREA_OUTPUT)
+      std::copy(kept_outputs_[i].begin(), kept_outputs_[i].end(), areas_[i]);
   kept_outputs_.clear();
 }
 

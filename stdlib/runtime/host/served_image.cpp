@@ -37,7 +37,7 @@ void ServedImage::applyWritten(Part& part, uint8_t* common, uint32_t size) const
     const uint8_t mask = part.written[i];
     if (mask != 0) common[i] = static_cast<uint8_t>((common[i] & ~mask) | (part.bytes[i] & mask));
   }
-  memset(part.written.data(), 0, part.written.size());
+  std::fill(part.written.begin(), part.written.end(), uint8_t{0});
 }
 
 void ServedImage::exchange(uint8_t* const* areas) {
@@ -46,7 +46,7 @@ void ServedImage::exchange(uint8_t* const* areas) {
   for (Part* const part : {&inputs_, &outputs_, &memory_}) {
     const uint32_t size = std::min(static_cast<uint32_t>(part->bytes.size()), module_.areas[part->area].size);
     if (has_written_ && !part->written.empty()) applyWritten(*part, areas[part->area], size);
-    memcpy(part->bytes.data(), areas[part->area], size);
+    std::copy_n(areas[part->area], size, part->bytes.begin());
   }
   has_written_ = false;
   is_ready_.store(true);
