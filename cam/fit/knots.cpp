@@ -6,16 +6,19 @@
 #include <cmath>
 
 #include "cam/design/text_form.h"
+#include "cam/table/quintic.h"
 
 namespace rung::cam {
 
-std::array<std::array<double, 6>, 6> basisOf(double h) {
-  return {{{1, 0, 0, -10, 15, -6},
-           {0, h, 0, -6 * h, 8 * h, -3 * h},
-           {0, 0, h * h / 2, -1.5 * h * h, 1.5 * h * h, -h * h / 2},
-           {0, 0, 0, 10, -15, 6},
-           {0, 0, 0, -4 * h, 7 * h, -3 * h},
-           {0, 0, 0, h * h / 2, -h * h, h * h / 2}}};
+std::array<std::array<double, 6>, 6> basisOf(double length) {
+  constexpr QuinticEnd kNone{0, 0, 0}, kUnits[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::array<std::array<double, 6>, 6> basis{};
+  for (size_t i = 0; i < 3; ++i) {
+    const Quintic first = quinticOf(kUnits[i], kNone, length), last = quinticOf(kNone, kUnits[i], length);
+    basis[i] = {kUnits[i].position, first.c1, first.c2, first.c3, first.c4, first.c5};
+    basis[i + 3] = {0, last.c1, last.c2, last.c3, last.c4, last.c5};
+  }
+  return basis;
 }
 
 size_t KnotSystem::rootOf(size_t variable, double& offset) const {

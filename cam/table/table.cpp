@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cam/table/table.h"
 
+#include "cam/table/quintic.h"
+
 namespace rung::cam {
 
 int32_t segmentCount(const Table& table) { return table.kind == Kind::Polynomials ? table.count : table.count - 1; }
@@ -67,26 +69,14 @@ int32_t find(const Table& table, double x, int32_t segment) {
   return search(table, x);
 }
 
-// The factors of s to s^5 of a quintic segment of the length `h`.
-struct Quintic {
-  double v0, a0, c3, c4, c5;
-};
-
-// Inline: a call takes as long as the polynomial.
-__attribute__((always_inline)) inline Quintic quinticOf(const Point& from, const Point& to, double h) {
-  const double half = h * h / 2, way = to.y - from.y;
-  const double v0 = from.slope * h, v1 = to.slope * h, a0 = from.curvature * half, a1 = to.curvature * half;
-  return {v0, a0, 10 * way - 6 * v0 - 4 * v1 - 3 * a0 + a1, -15 * way + 8 * v0 + 7 * v1 + 3 * a0 - 2 * a1,
-          6 * way - 3 * (v0 + v1) - a0 + a1};
-}
+QuinticEnd endAt(const Point& point) { return {point.y, point.slope, point.curvature}; }
 
 // `d` from `from`, on a segment of the length `h` to `to`.
 Value quintic(const Point& from, const Point& to, double h, double d) {
   const double per_length = 1 / h, s = d * per_length;
-  const auto [v0, a0, c3, c4, c5] = quinticOf(from, to, h);
-  return {from.y + s * (v0 + s * (a0 + s * (c3 + s * (c4 + s * c5)))),
-          from.slope + s * (2 * a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5))) * per_length,
-          from.curvature + s * (6 * c3 + s * (12 * c4 + s * 20 * c5)) * per_length * per_length};
+  const Quintic curve = quinticOf(endAt(from), endAt(to), h);
+  return {from.y + curve.way(s), from.slope + curve.slopeChange(s) * per_length,
+          from.curvature + curve.curvatureChange(s) * per_length * per_length};
 }
 
 Value onQuintic(const Point& from, const Point& to, double x) {
@@ -200,8 +190,8 @@ void setSegment(const Table& table, int32_t index, Segment& segment) {
     case Kind::QuinticPoints: {
       const Point* const points = static_cast<const Point*>(table.points);
       const Point &from = points[index], &to = points[index + 1];
-      const Quintic q = quinticOf(from, to, h);
-      segment = {from.x, to.x, {from.y, q.v0, q.a0, q.c3, q.c4, q.c5}};
+      const Quintic q = quinticOf(endAt(from), endAt(to), h);
+      segment = {from.x, to.x, {from.y, q.c1, q.c2, q.c3, q.c4, q.c5}};
       if (isLine(table, index)) segment = {from.x, to.x, {from.y, to.y - from.y}};
       return;
     }

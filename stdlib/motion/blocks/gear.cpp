@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "cam/table/quintic.h"
+
 using namespace rung_sm3_basic;
 using namespace rung::motion;
 
@@ -70,26 +72,16 @@ double positionRatio(const MC_GearInPos_type& block) {
 
 // y(x) of the approach: from 0 with `slope` to `travel` with `ratio`, curvature 0 at both ends.
 struct Curve {
-  double length, travel, slope, ratio;
-  double c3() const { return 10 * travel - (6 * slope + 4 * ratio) * length; }
-  double c4() const { return -15 * travel + (8 * slope + 7 * ratio) * length; }
-  double c5() const { return 6 * travel - 3 * (slope + ratio) * length; }
-  double position(double x) const {
-    const double s = x / length;
-    return s * (slope * length + s * s * (c3() + s * (c4() + s * c5())));
-  }
-  double derivative(double x) const {
-    const double s = x / length;
-    return slope + s * s * (3 * c3() + s * (4 * c4() + s * 5 * c5())) / length;
-  }
-  double curvature(double x) const {
-    const double s = x / length;
-    return s * (6 * c3() + s * (12 * c4() + s * 20 * c5())) / (length * length);
-  }
+  double length, travel, slope;
+  rung::cam::Quintic quintic;
+  double position(double x) const { return quintic.way(x / length); }
+  double derivative(double x) const { return slope + quintic.slopeChange(x / length) / length; }
+  double curvature(double x) const { return quintic.curvatureChange(x / length) / (length * length); }
   // Whether it goes back anywhere: the derivative is a quartic, looked at where it may be lowest.
   bool reverses() const {
     const double sign = travel >= 0 ? 1 : -1;
-    const double a = 20 * c5(), b = 12 * c4(), c = 6 * c3();  // s * (a s² + b s + c) is its derivative
+    const double a = 20 * quintic.c5, b = 12 * quintic.c4,
+                 c = 6 * quintic.c3;  // s * (a s² + b s + c) is its derivative
     double places[4] = {0, 1, 0, 0};
     const double root = b * b - 4 * a * c;
     if (a != 0 && root >= 0) {
@@ -105,8 +97,9 @@ struct Curve {
 };
 
 Curve curveOf(const MC_GearInPos_type& block) {
-  const double length = (block.master_sync_ - block.master_start_);  // signed
-  return {length, block.slave_sync_ - block.slave_start_, block.slope_, block.ratio_};
+  const double length = block.master_sync_ - block.master_start_;  // signed
+  const double travel = block.slave_sync_ - block.slave_start_;
+  return {length, travel, block.slope_, rung::cam::quinticOf({0, block.slope_, 0}, {travel, block.ratio_, 0}, length)};
 }
 
 void waitForSync(MC_GearInPos_type& block, Call& call) {

@@ -343,16 +343,12 @@ bool Axes::read(uint32_t item, uint32_t number, double& value) const {
   const Axis& axis = axes_[number - 1];
   value = 0;
   switch (item) {
-    case 0:  // ComPosAx
-    case 4:  // ActPosAx
-      value = axis.position;
-      break;
-    case 1:  // ComVelAx
-    case 3:  // CommandAx
-    case 6:  // TachAx
-      value = axis.speed / 60;
-      break;
-    case 13: {  // RotaryAx
+    case scope::ComPosAx:
+    case scope::ActPosAx: value = axis.position; break;
+    case scope::ComVelAx:
+    case scope::CommandAx:
+    case scope::TachAx: value = axis.speed / 60; break;
+    case scope::RotaryAx: {
       value = std::fmod(axis.position, 360);
       if (value < 0) value += 360;
       break;

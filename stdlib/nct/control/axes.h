@@ -29,7 +29,7 @@ class Axes {
 
   int32_t command(int32_t axis, int32_t code, double speed, double distance);  // MOVCMND: a rung_nc_result
   Code writePosition(const Block& block);                                      // MW90
-  // SCP: `item` counts from ComPosAx. False: there is no such axis.
+  // SCP: `item` is a scope from ComPosAx to EGBvTarAx. False: there is no such axis.
   bool read(uint32_t item, uint32_t axis, double& value) const;
 
   void setPosition(uint32_t axis, double position) { axes_[axis].position = position; }

@@ -10,8 +10,6 @@ namespace rung::nct {
 namespace {
 
 constexpr int32_t kFirstMacro = 100, kLastMacro = 999;
-// Places of names in nc_scopes.def.
-constexpr uint32_t kFirstAxisScope = 6, kFirstSpindleScope = 21, kMeasured = 35, kBufferCount = 44, kDriveMessage = 45;
 
 }  // namespace
 
@@ -101,7 +99,7 @@ const rung_nc Control::kFunctions = {
     // simulate
     [](void* data, int32_t what, const double* values, uint32_t, double* result) -> int32_t {
       CONTROL;
-      return control.simulate(what, values, *result) ? RUNG_NC_DONE : RUNG_NC_REFUSED;
+      return control.simulate(what, Settings(values), *result) ? RUNG_NC_DONE : RUNG_NC_REFUSED;
     },
     // text
     [](void* data, int32_t place, int32_t row, char* text) -> uint32_t {
@@ -225,140 +223,26 @@ double* Control::macro(int32_t channel, int32_t number) {
 }
 
 // NCT manual 6.17.
-bool Control::readScope(uint32_t scope, int32_t first, int32_t second, double& value) const {
+bool Control::readScope(uint32_t item, int32_t first, int32_t second, double& value) const {
   value = 0;
   if (first < 0 || second < 0) return false;
   const auto unit = static_cast<uint32_t>(first);
-  if (scope >= kFirstAxisScope && scope < kFirstSpindleScope) return axes_.read(scope - kFirstAxisScope, unit, value);
-  if (scope >= kFirstSpindleScope && scope < kMeasured) return spindles_.read(scope - kFirstSpindleScope, unit, value);
-  if (scope == kBufferCount) {
+  if (item >= scope::ComPosAx && item <= scope::EGBvTarAx) return axes_.read(item, unit, value);
+  if (item >= scope::ComPosSp && item <= scope::TachRealSp) return spindles_.read(item, unit, value);
+  if (item == scope::CNCBufferCount) {
     if (unit < 1 || unit > kChannels) return false;
     value = channels_.blockCount(unit - 1);
     return true;
   }
-  if (scope == kDriveMessage) {
+  if (item == scope::NCTDriveMess) {
     if (unit < 1 || unit > kDrives || second > 5) return false;
     value = drive_values_[unit - 1][second];
     return true;
   }
-  return scope >= kMeasured && scope < kBufferCount;  // times of a control that needs none
+  return item >= scope::Measured && item <= scope::TSliceErr;  // times of a control that needs none
 }
 
-// ---- what a test sets up
-
-bool Control::simulate(int32_t what, const double* values, double& result) {
-  result = 0;
-  const auto whole = [&](int k) { return static_cast<int32_t>(values[k]); };
-  const auto word = [&](int k) { return static_cast<uint32_t>(whole(k)); };
-  const auto unit = [&](int k, uint32_t from, uint32_t count, uint32_t& index) {
-    index = static_cast<uint32_t>(whole(k)) - from;
-    return index < count;
-  };
-  uint32_t index = 0;
-  switch (what) {
-    case 1: return parameters_.write(static_cast<uint32_t>(whole(0)), static_cast<uint32_t>(whole(1)), values[2]);
-    case 2: return parameters_.read(static_cast<uint32_t>(whole(0)), static_cast<uint32_t>(whole(1)), result);
-    case 3:
-      parameters_.setChecksumWrong(values[0] != 0);
-      if (values[1] != 0 && nonvolatile_ != nullptr) ++nonvolatile_[RUNG_NC_NONVOLATILE_WORDS];
-      return true;
-    case 4:
-      if (values[1] != 0)
-        programs_.insert(static_cast<uint32_t>(whole(0)));
-      else
-        programs_.erase(static_cast<uint32_t>(whole(0)));
-      return true;
-    case 5:
-      if (!unit(0, 1, kChannels, index)) return false;
-      result = assigned_[index];
-      return true;
-    case 7: return display_ready_ = values[0] != 0, true;
-    case 8: return result = window_, true;
-    case 9: return latency_ = static_cast<uint32_t>(std::max(whole(0), 1)), true;
-    case 10: {
-      if (!unit(0, 1, kChannels, index)) return false;
-      PartBlock block;
-      block.m[0] = whole(1);
-      block.s = whole(2);
-      block.t = whole(3);
-      block.m[1] = whole(4);
-      block.m[2] = whole(5);
-      channels_.append(index, block);
-      return true;
-    }
-    case 11: return messages_.cancel(), true;
-    case 12: return messages_.clear(), true;
-    case 13: return messages_.setRows(static_cast<uint32_t>(std::max(whole(0), 1))), true;
-    case 14:
-      if (!unit(0, 0, kAxes, index)) return false;
-      axes_.setPosition(index, values[1]);
-      return true;
-    case 15:
-      if (!unit(0, 0, kAxes, index)) return false;
-      axes_.setAlarm(index, values[1] != 0);
-      return true;
-    case 16:
-      if (!unit(0, 0, kSpindles, index)) return false;
-      spindles_.setAlarm(index, values[1] != 0);
-      return true;
-    case 17:
-      if (!unit(0, 0, kDrives, index)) return false;
-      drive_errors_[index] = static_cast<uint32_t>(static_cast<int64_t>(values[1]));
-      return true;
-    case 18: return machine_forbidden_ = values[0] != 0, true;
-    case 19:
-      if (!unit(0, 1, 4, index)) return false;
-      handwheels_[index] += whole(1);
-      return true;
-    case 20: {
-      double* const at = macro(whole(0), whole(1));
-      if (at == nullptr) return false;
-      *at = values[2];
-      return true;
-    }
-    case 21: {
-      const double* const at = macro(whole(0), whole(1));
-      if (at == nullptr) return false;
-      result = *at;
-      return true;
-    }
-    case 22:
-      tools_.setUse({values[0] != 0, values[1] != 0, values[2] != 0});
-      pallets_.setEdited(values[3] != 0);
-      return true;
-    case 23: return tools_.setCartridge(word(0), word(1), word(2), word(3));
-    case 24: return tools_.setPattern(word(0), {word(1), word(2), word(3), word(4)}, values[5] != 0);
-    case 25: return tools_.setPot(word(0), word(1), word(2));
-    case 26: {
-      uint32_t data_number = 0;
-      if (!tools_.pot(word(0), word(1), data_number)) return false;
-      result = data_number;
-      return true;
-    }
-    case 27: {
-      const double bits = (values[0] != 0 ? 1 : 0) + (values[1] != 0 ? 2 : 0) + (values[2] != 0 ? 8 : 0);
-      return parameters_.write(3300, 0, bits) && parameters_.write(3301, 0, values[3]) &&
-             parameters_.write(3302, 0, values[4]);
-    }
-    case 28: return mailbox_.setDevice(word(0), word(1), values[2] != 0);
-    case 29: return mailbox_.setError(word(0), static_cast<uint32_t>(static_cast<int64_t>(values[1])), values[2] != 0);
-    case 30:
-      return mailbox_.setObject(word(0), word(1), word(2), static_cast<uint64_t>(static_cast<int64_t>(values[3])),
-                                word(4), word(5));
-    case 31: return tools_.item(word(0), word(1), result);
-    case 33: return tools_.resetLife(word(0));
-    case 34: return tools_.setItem(word(0), word(1), values[2]);
-    case 35:
-      if (!unit(0, 1, 64, index)) return false;
-      inputs_[index] = static_cast<uint8_t>(whole(1));
-      return true;
-    case 32:
-      if (!unit(0, 1, kChannels, index)) return false;
-      channels_.setPartTarget(index, static_cast<uint32_t>(whole(1)));
-      return true;
-    default: return false;
-  }
-}
+// ---- what a test asks for
 
 uint32_t Control::text(int32_t place, int32_t row, char* to) const {
   to[0] = '\0';

@@ -19,6 +19,7 @@
 #include "pallets.h"
 #include "parameters.h"
 #include "rung/nc.h"
+#include "simulation.h"
 #include "spindles.h"
 #include "tools.h"
 #include "words.h"
@@ -68,9 +69,17 @@ class Control {
   Code openWindow(const Block& block);
   Code dumpDrive(const Block& block);
 
-  bool readScope(uint32_t scope, int32_t first, int32_t second, double& value) const;
+  bool readScope(uint32_t item, int32_t first, int32_t second, double& value) const;
   double* macro(int32_t channel, int32_t number);
-  bool simulate(int32_t what, const double* values, double& result);
+
+  // ---- what a test sets up: simulation.cpp
+  // False: refused.
+  bool simulate(int32_t what, const Settings& settings, double& result);
+  Simulation simulateControl(int32_t what, const Settings& settings, double& result);
+  Simulation simulateMachine(int32_t what, const Settings& settings, double& result);
+  Simulation simulateChannel(int32_t what, const Settings& settings, double& result);
+  Simulation simulateTools(int32_t what, const Settings& settings, double& result);
+  Simulation simulateDevices(int32_t what, const Settings& settings, double& result);
   uint32_t text(int32_t place, int32_t row, char* to) const;
 
   mutable std::mutex mutex_;  // tasks may be threads

@@ -126,18 +126,14 @@ bool Spindles::read(uint32_t item, uint32_t number, double& value) const {
   const Spindle& spindle = spindles_[number - 1];
   value = 0;
   switch (item) {
-    case 0:  // ComPosSp
-    case 4:  // ActPosSp
-      value = spindle.position;
-      break;
-    case 1:  // ComVelSp
-    case 3:  // CommandSp
-    case 6:  // TachSp
-      value = spindle.speed / 60;
-      break;
-    case 7: value = spindle.speed; break;    // NActSp
-    case 8: value = spindle.command; break;  // NSetSp
-    case 9: value = spindle.speed; break;    // NCommandSp
+    case scope::ComPosSp:
+    case scope::ActPosSp: value = spindle.position; break;
+    case scope::ComVelSp:
+    case scope::CommandSp:
+    case scope::TachSp: value = spindle.speed / 60; break;
+    case scope::NActSp: value = spindle.speed; break;
+    case scope::NSetSp: value = spindle.command; break;
+    case scope::NCommandSp: value = spindle.speed; break;
     default: break;
   }
   return true;

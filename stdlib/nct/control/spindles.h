@@ -19,7 +19,7 @@ class Spindles {
   double speed(uint32_t spindle) const { return spindles_[spindle].speed; }
   // That of a plain S, from 0.
   uint32_t ofChannel(uint32_t channel) const;
-  // SCP: `item` counts from ComPosSp. False: there is no such spindle.
+  // SCP: `item` is a scope from ComPosSp to TachRealSp. False: there is no such spindle.
   bool read(uint32_t item, uint32_t spindle, double& value) const;
   void setAlarm(uint32_t spindle, bool alarm) { spindles_[spindle].has_alarm = alarm; }
 

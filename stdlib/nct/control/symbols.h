@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The symbols of the numerical control by their names: the table of the compiler, nc_symbols.def. NCT manual chapter 7.
+// The symbols and scopes of the numerical control by their names: the tables of the compiler, nc_symbols.def and
+// nc_scopes.def. NCT manual chapter 7.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,15 @@ namespace nc {
 #undef NC_SPELLING
 #undef NC_SYMBOL
 }  // namespace nc
+
+// What SCP reads, in the order of nc_scopes.def; NCT manual 6.17.
+namespace scope {
+enum : uint32_t {
+#define NC_SCOPE(name, last) name,
+#include "frontend/import/nct/nc_scopes.def"
+#undef NC_SCOPE
+};
+}  // namespace scope
 
 constexpr uint32_t kAxes = 32, kSpindles = 16, kChannels = 8, kDrives = 48;
 

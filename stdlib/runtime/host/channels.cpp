@@ -12,9 +12,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 #include <mutex>
 
+#include "clock.h"
 #include "sockets.h"
 
 namespace rung::host {
@@ -44,12 +44,6 @@ const rung_channels kChannelTable = {
 bool isSerial(uint8_t kind) { return kind == RUNG_CHANNEL_SERIAL || kind == RUNG_CHANNEL_MODBUS_RTU; }
 
 }  // namespace
-
-int64_t monotonicNow() {
-  timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
-}
 
 Channels::Channels(const SerialDevices& devices, ServedImage& image) : devices_(devices), image_(image) {
   channels_ = std::make_unique<Channel[]>(kMost);
@@ -471,7 +465,7 @@ void Channels::onEvent(Channel& channel, uint32_t events) {
   if (state != State::Open) return;
   switch (channel.settings.kind) {
     case RUNG_CHANNEL_TCP_SERVER: acceptClients(channel); return;
-    case RUNG_CHANNEL_MODBUS_TCP: masters_->accept(channel.fd, servers_[channel.served - 1], monotonicNow()); return;
+    case RUNG_CHANNEL_MODBUS_TCP: masters_->accept(channel.fd, servers_[channel.served - 1], monotonicNs()); return;
     case RUNG_CHANNEL_MODBUS_RTU: receiveRequests(channel); return;
     default: break;
   }
@@ -522,7 +516,7 @@ void Channels::receive(Channel& channel) {
 void Channels::receiveRequests(Channel& channel) {
   const ssize_t count = ::read(channel.fd, buffer_.get(), kChunk);
   if (count > 0)
-    channel.line.receive(buffer_.get(), static_cast<size_t>(count), monotonicNow());
+    channel.line.receive(buffer_.get(), static_cast<size_t>(count), monotonicNs());
   else if (count == 0 || (errno != EAGAIN && errno != EINTR))
     end(channel, RUNG_CHANNEL_FAILED);
 }
@@ -582,7 +576,7 @@ int64_t Channels::runTimers() {
   for (uint32_t i = 0; i < kMost; ++i) {
     Channel& channel = channels_[i];
     if (channel.fd < 0 || !isSerial(channel.settings.kind)) continue;
-    const int64_t now = monotonicNow();
+    const int64_t now = monotonicNs();
     if (channel.settings.kind == RUNG_CHANNEL_MODBUS_RTU) {
       uint8_t reply[RUNG_MODBUS_MAX_RTU];
       const uint32_t size = channel.line.answer(image_, servers_[channel.served - 1], now, reply);
@@ -600,9 +594,9 @@ int64_t Channels::runTimers() {
 void Channels::work(int64_t until_ns) {
   takeWishes();
   int64_t next = std::min(until_ns, runTimers());
-  if (waits_for_image_) next = std::min(next, monotonicNow() + kTickNs);
+  if (waits_for_image_) next = std::min(next, monotonicNs() + kTickNs);
   waits_for_image_ = false;
-  const int64_t now = monotonicNow();
+  const int64_t now = monotonicNs();
   const int64_t wait_ms = next <= now ? 0 : std::min((next - now) / kMillisecond + 1, kLongestWaitMs);
   epoll_event events[kEventsAtOnce];
   const int count = epoll_wait(epoll_, events, kEventsAtOnce, next == INT64_MAX ? -1 : static_cast<int>(wait_ms));
@@ -612,7 +606,7 @@ void Channels::work(int64_t until_ns) {
       uint64_t times = 0;
       (void)!::read(wake_, &times, sizeof times);
     } else if ((what & TcpMasters::kEvents) != 0) {
-      masters_->onEvent(static_cast<uint32_t>(what), monotonicNow());
+      masters_->onEvent(static_cast<uint32_t>(what), monotonicNs());
     } else {
       onEvent(channels_[static_cast<uint32_t>(what)], events[i].events);
     }
@@ -621,7 +615,7 @@ void Channels::work(int64_t until_ns) {
 
 void Channels::runUntil(int64_t monotonic_ns) {
   do work(monotonic_ns);
-  while (monotonicNow() < monotonic_ns);
+  while (monotonicNs() < monotonic_ns);
 }
 
 void Channels::start() {

@@ -121,6 +121,4 @@ class Channels {
   std::thread thread_;
 };
 
-int64_t monotonicNow();
-
 }  // namespace rung::host

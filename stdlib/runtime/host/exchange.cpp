@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 namespace rung::host {
 namespace {
@@ -24,11 +25,6 @@ void copyBits(uint8_t* to, const uint8_t* from, const rung_write& part) {
 }  // namespace
 
 Exchange::Exchange(const Symbols& symbols, Memory& memory) : module_(symbols.module()), memory_(memory) {
-  pthread_mutexattr_t attributes;
-  pthread_mutexattr_init(&attributes);
-  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-  pthread_mutex_init(&mutex_, &attributes);
-  pthread_mutexattr_destroy(&attributes);
   const auto takes_time = [](const rung_task& task) { return task.duration_ns > 0; };
   if (module_.task_count < 2 && !std::any_of(module_.tasks, module_.tasks + module_.task_count, takes_time)) return;
   if ((module_.flags & RUNG_ALIGNED_GLOBALS) != 0 || module_.resource_count > 1) findGlobals(symbols);
@@ -48,8 +44,6 @@ Exchange::Exchange(const Symbols& symbols, Memory& memory) : module_(symbols.mod
     }
   }
 }
-
-Exchange::~Exchange() { pthread_mutex_destroy(&mutex_); }
 
 // The elementary variables of the lists of globals, in runs of equal size, and the bytes between them, which hold what
 // blocks know of themselves.
@@ -100,7 +94,7 @@ void Exchange::closeGlobals() {
 void Exchange::take(uint32_t task, rung_context& context) {
   if (copies_.empty()) return;
   Copy& copy = copies_[task];
-  const Lock lock(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   for (uint32_t i = 0; i < module_.area_count; ++i) std::copy_n(memory_.area(i), module_.areas[i].size, copy.areas[i]);
   for (uint32_t i = 0; i < module_.area_count; ++i)
     if (!copy.taken[i].empty()) memcpy(copy.taken[i].data(), memory_.area(i), module_.areas[i].size);
@@ -117,7 +111,7 @@ void Exchange::give(uint32_t task, rung_context& context) {
   if (copies_.empty()) return;
   const Copy& copy = copies_[task];
   const rung_task& row = module_.tasks[task];
-  const Lock lock(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   for (uint32_t i = 0; i < row.write_count; ++i) {
     const rung_write& part = module_.writes[row.first_write + i];
     if (copy.taken[part.area].empty()) copyBits(memory_.area(part.area), copy.areas[part.area], part);
@@ -155,7 +149,7 @@ void Exchange::makeSafe(uint32_t task) {
   const rung_task& row = module_.tasks[task];
   std::vector<std::vector<uint8_t>> values;
   memory_.safeOutputs(values);
-  const Lock lock(*this);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   for (uint32_t i = 0; i < row.write_count; ++i) {
     const rung_write& part = module_.writes[row.first_write + i];
     if (module_.areas[part.area].owner == RUNG_AREA_OUTPUT)

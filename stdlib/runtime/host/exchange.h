@@ -5,9 +5,9 @@
 // AX 6.5); else it shares them directly. In: the module's tables and memory. Called by tasks.cpp, from any thread.
 #pragma once
 
-#include <pthread.h>
 #include <vector>
 
+#include "priority_mutex.h"
 #include "symbols.h"
 
 namespace rung::host {
@@ -15,9 +15,6 @@ namespace rung::host {
 class Exchange {
  public:
   Exchange(const Symbols& symbols, Memory& memory);
-  ~Exchange();
-  Exchange(const Exchange&) = delete;
-  Exchange& operator=(const Exchange&) = delete;
 
   // The context works on the task's own memory from now on. A program with one task that takes no
   // simulated time has no copies.
@@ -29,17 +26,9 @@ class Exchange {
   // Sets what the task may write of outputs to the safe values.
   void makeSafe(uint32_t task);
 
-  // The common image and globals do not change while one holds this.
-  class Lock {
-   public:
-    explicit Lock(Exchange& exchange) : mutex_(exchange.mutex_) { pthread_mutex_lock(&mutex_); }
-    ~Lock() { pthread_mutex_unlock(&mutex_); }
-    Lock(const Lock&) = delete;
-    Lock& operator=(const Lock&) = delete;
-
-   private:
-    pthread_mutex_t& mutex_;
-  };
+  // For std::lock_guard: the common image and globals do not change while one holds it.
+  void lock() { mutex_.lock(); }
+  void unlock() { mutex_.unlock(); }
 
  private:
   // Scalars of one size, one after the other in a block.
@@ -67,7 +56,7 @@ class Exchange {
   Memory& memory_;
   std::vector<Globals> globals_;
   std::vector<Copy> copies_;  // by task; empty: all work on the common memory
-  pthread_mutex_t mutex_;     // passes priority on: a low task that publishes is not interrupted for long
+  PriorityMutex mutex_;       // a low task that publishes is not interrupted for long
 };
 
 }  // namespace rung::host

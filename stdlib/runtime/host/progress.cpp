@@ -5,7 +5,7 @@
 #include <unistd.h>
 #include <algorithm>
 
-#include "channels.h"
+#include "clock.h"
 
 namespace rung::host {
 namespace {
@@ -13,10 +13,10 @@ constexpr int64_t kFirstNs = 2'000'000'000, kNextNs = 500'000'000;
 }
 
 Progress::Progress(std::FILE* out, int64_t cycles)
-    : out_(out), cycles_(cycles), next_ns_(isatty(fileno(out)) != 0 ? monotonicNow() + kFirstNs : INT64_MAX) {}
+    : out_(out), cycles_(cycles), next_ns_(isatty(fileno(out)) != 0 ? monotonicNs() + kFirstNs : INT64_MAX) {}
 
 void Progress::showOnTerminal(int64_t cycle) {
-  const int64_t now = monotonicNow();
+  const int64_t now = monotonicNs();
   if (now < next_ns_) return;
   next_ns_ = now + kNextNs;
   is_shown_ = true;

@@ -10,17 +10,13 @@
 #include <cstring>
 #include <ctime>
 
+#include "clock.h"
+
 namespace rung::host {
 namespace {
 
 constexpr int64_t kSecond = 1'000'000'000, kMillisecondNs = 1'000'000;
 constexpr size_t kPrefaulted = 64 * 1024;  // of each stack
-
-int64_t monotonicNs() {
-  timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
 
 timespec timeOf(int64_t ns) { return {static_cast<time_t>(ns / kSecond), static_cast<long>(ns % kSecond)}; }
 
@@ -34,17 +30,6 @@ void touchStack() {
   char pages[kPrefaulted];
   for (size_t i = 0; i < kPrefaulted; i += 4096) static_cast<volatile char*>(pages)[i] = 0;
 }
-
-class Held {
- public:
-  explicit Held(pthread_mutex_t& mutex) : mutex_(mutex) { pthread_mutex_lock(&mutex_); }
-  ~Held() { pthread_mutex_unlock(&mutex_); }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-
- private:
-  pthread_mutex_t& mutex_;
-};
 
 // The signals that end a run; threads of tasks do not receive them.
 sigset_t endingSignals() {
@@ -61,11 +46,6 @@ thread_local Realtime::Place Realtime::place_{};
 
 Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks)
     : tasks_(tasks), options_(options), hooks_(hooks), common_(context) {
-  pthread_mutexattr_t attributes;
-  pthread_mutexattr_init(&attributes);
-  pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-  pthread_mutex_init(&activity_, &attributes);
-  pthread_mutexattr_destroy(&attributes);
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
   tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
@@ -76,7 +56,6 @@ Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& o
 Realtime::~Realtime() {
   if (!result_.hung)
     for (const std::unique_ptr<Worker>& worker : workers_) sem_destroy(&worker->event);
-  pthread_mutex_destroy(&activity_);
 }
 
 // Called by a task that waits for a MUTEX or SEMA, so that a task of lower priority may run.
@@ -92,7 +71,7 @@ int Realtime::waitForOthers(void*) {
 int64_t Realtime::programNs() const { return options_.base_ns + monotonicNs() - start_ns_; }
 
 void Realtime::stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker) {
-  const Held held(activity_);
+  const std::lock_guard<PriorityMutex> held(activity_);
   // The first reason counts; but a task that did not end by itself after a signal is a fault.
   const bool was_ended = worker != nullptr && worker->context.fault.kind == RUNG_FAULT_STOP;
   if (result_.kind == RealtimeResult::Complete || (result_.kind == RealtimeResult::Signal && was_ended)) {
@@ -115,7 +94,7 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
   processor.acquire(worker.task->row->priority);
   bool is_active = false;
   {
-    const Held held(activity_);
+    const std::lock_guard<PriorityMutex> held(activity_);
     is_active = !stop_.load() && !paused_.load() && !worker.task->stopped;
     if (is_active) ++active_;
   }
@@ -127,7 +106,7 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
   const int64_t began_ns = monotonicNs();
   worker.running_since.store(began_ns);
   if (row >= 0) {
-    const Exchange::Lock lock(tasks_.exchange());
+    const std::lock_guard<Exchange> lock(tasks_.exchange());
     hooks_.before(row);
   }
   const uint8_t fault = tasks_.begin(*worker.task, worker.context, program_ns, std::max<int64_t>(0, began_ns - due_ns));
@@ -139,7 +118,7 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
 void Realtime::makeRow(int64_t row) {
   const std::lock_guard<std::mutex> rest(rest_);
   {
-    const Exchange::Lock lock(tasks_.exchange());
+    const std::lock_guard<Exchange> lock(tasks_.exchange());
     hooks_.before(row);
   }
   hooks_.after(row);
@@ -162,7 +141,7 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
   if (!lost.empty()) stopBecause(RealtimeResult::Driver, lost);
   worker.running_since.store(0);
   if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
-  const Held held(activity_);
+  const std::lock_guard<PriorityMutex> held(activity_);
   const bool ends_well = result_.kind == RealtimeResult::Complete || result_.kind == RealtimeResult::Signal;
   if (--active_ == 0 && ends_well && hooks_.complete) {
     hooks_.complete(program_ns);
@@ -329,7 +308,7 @@ bool Realtime::endActivations(uint8_t reason) {
 }
 
 bool Realtime::isTooLong() {
-  const Held held(activity_);
+  const std::lock_guard<PriorityMutex> held(activity_);
   const bool out_of_time = result_.kind == RealtimeResult::Faulted && result_.fault.kind == RUNG_FAULT_STOP;
   return out_of_time || result_.kind == RealtimeResult::Watchdog;
 }
@@ -339,7 +318,7 @@ bool Realtime::isTooLong() {
 // Tasks that do not end by themselves.
 void Realtime::watch(int64_t now_ns) {
   if (options_.timeout_ns > 0 && now_ns - start_ns_ >= options_.timeout_ns) {
-    const Held held(activity_);
+    const std::lock_guard<PriorityMutex> held(activity_);
     if (result_.kind == RealtimeResult::Complete) {
       result_.kind = RealtimeResult::Faulted;
       result_.fault = {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME};
@@ -358,11 +337,11 @@ void Realtime::watch(int64_t now_ns) {
 void Realtime::makeComplete(int64_t now_ns) {
   if (!hooks_.complete || paused_.load()) return;
   {
-    const Held held(activity_);
+    const std::lock_guard<PriorityMutex> held(activity_);
     if (now_ns - std::max(complete_ns_, start_ns_) < kSecond) return;
   }
   if (pause()) {
-    const Held held(activity_);
+    const std::lock_guard<PriorityMutex> held(activity_);
     hooks_.complete(programNs());
     complete_ns_ = now_ns;
   }
@@ -386,7 +365,7 @@ void Realtime::supervise() {
   int64_t row = 0;
   for (int64_t next = start_ns_ + poll; !stop_.load(); next = std::max(next + poll, monotonicNs())) {
     if (makes_rows) {
-      const Exchange::Lock lock(tasks_.exchange());
+      const std::lock_guard<Exchange> lock(tasks_.exchange());
       hooks_.before(row);
     }
     const timespec wait = timeOf(std::max<int64_t>(0, next - monotonicNs()));
@@ -410,7 +389,7 @@ bool Realtime::pause() {
   const int64_t begin = monotonicNs();
   for (;;) {
     {
-      const Held held(activity_);
+      const std::lock_guard<PriorityMutex> held(activity_);
       if (active_ == 0) return true;
     }
     if (monotonicNs() - begin > kSecond) return false;
@@ -428,7 +407,7 @@ bool Realtime::cycle() {
                    [](const Worker* a, const Worker* b) { return a->task->row->priority < b->task->row->priority; });
   for (Worker* const worker : order) {
     {
-      const Held held(activity_);
+      const std::lock_guard<PriorityMutex> held(activity_);
       ++active_;
     }
     const int64_t began = monotonicNs(), now = programNs();

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "priority_mutex.h"
 #include "processor.h"
 #include "tasks.h"
 
@@ -129,9 +130,9 @@ class Realtime {
   std::condition_variable start_condition_;
   bool started_ = false;
   std::mutex rest_;
-  pthread_mutex_t activity_;  // guards the next two; passes priority on
-  uint32_t active_ = 0;       // activations between begin and end
-  int64_t complete_ns_ = 0;   // when the hook was called last; also guarded
+  PriorityMutex activity_;   // guards the next two
+  uint32_t active_ = 0;      // activations between begin and end
+  int64_t complete_ns_ = 0;  // when the hook was called last; also guarded
   RealtimeResult result_;
 };
 

@@ -16,6 +16,7 @@
 
 #include "call_trace.h"
 #include "channels.h"
+#include "clock.h"
 #include "commands.h"
 #include "condition.h"
 #include "controller.h"
@@ -61,12 +62,6 @@ std::string durationText(int64_t ns) {
   if (ns >= 1'000'000'000) text = std::to_string(ns / 1'000'000'000) + " s";
   if (ms != "0" || text.empty()) text += (text.empty() ? "" : " ") + ms + " ms";
   return text;
-}
-
-int64_t processorNs() {
-  timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
 }
 
 struct Run;
@@ -524,15 +519,15 @@ void Run::keepPace(int64_t row) {
     return;
   }
   const int64_t row_ns = tasks.rowNs();
-  if (pace_ns == 0) pace_ns = monotonicNow() - (row - 1) * row_ns;
+  if (pace_ns == 0) pace_ns = monotonicNs() - (row - 1) * row_ns;
   channels.runUntil(pace_ns + row * row_ns);
 }
 
 int Run::runVirtual() {
   rung_context& context = memory.context();
   const int64_t row_ns = tasks.rowNs();
-  int64_t next_save = processorNs() + options.retain_interval_ns;
-  int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
+  int64_t next_save = monotonicNs() + options.retain_interval_ns;
+  int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : monotonicNs() + kLongRunNs;
   Progress progress(options.err, cycles);
   const auto ended = [&](const rung_fault& fault, int64_t cycle) {
     progress.clear();
@@ -575,15 +570,15 @@ int Run::runVirtual() {
       progress.clear();
       return finish(false, "", "stopped after cycle " + std::to_string(cycle) + ": " + options.stop_on + "\n");
     }
-    if (next_hint != INT64_MAX && processorNs() >= next_hint) {
+    if (next_hint != INT64_MAX && monotonicNs() >= next_hint) {
       progress.clear();
       fprintf(options.err, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }
-    if (retain && cycle % 64 == 0 && processorNs() >= next_save) {
+    if (retain && cycle % 64 == 0 && monotonicNs() >= next_save) {
       const std::string refused = saveRetained();
       if (!refused.empty()) return refuse(options, refused);
-      next_save = processorNs() + options.retain_interval_ns;
+      next_save = monotonicNs() + options.retain_interval_ns;
     }
   }
   progress.clear();

@@ -103,7 +103,7 @@ void Tasks::noteEnd(Task& task, int64_t took_ns) {
 
 uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns) {
   {
-    const Exchange::Lock lock(exchange_);
+    const std::lock_guard<Exchange> lock(exchange_);
     noteStart(task, now_ns + late_ns, late_ns);
     const std::string lost = drivers_.read(task.index, now_ns);
     if (!lost.empty()) lost_driver_ = lost;
@@ -129,7 +129,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
     exchange_.give(task.index, context);
   else
     exchange_.drop(context);
-  const Exchange::Lock lock(exchange_);
+  const std::lock_guard<Exchange> lock(exchange_);
   noteEnd(task, took_ns);
   if (!goes_on) return false;
   exchangeServed();
@@ -144,7 +144,7 @@ void Tasks::stopOne(Task& task, const rung_context& context) {
   task.caller_count = context.caller_count;
   task.callers.assign(context.callers, context.callers + std::min<uint32_t>(context.caller_count, RUNG_CALLERS));
   exchange_.makeSafe(task.index);
-  const Exchange::Lock lock(exchange_);
+  const std::lock_guard<Exchange> lock(exchange_);
   drivers_.write(task.index, states_[task.index].last_start_ns);
 }
 
@@ -156,21 +156,21 @@ void Tasks::restart() {
 }
 
 void Tasks::makeOutputsSafe(int64_t now_ns) {
-  const Exchange::Lock lock(exchange_);
+  const std::lock_guard<Exchange> lock(exchange_);
   memory_.makeOutputsSafe();
   drivers_.writeAll(now_ns);
 }
 
 void Tasks::restoreOutputs() {
   for (Task& task : tasks_) task.is_first = true;
-  const Exchange::Lock lock(exchange_);
+  const std::lock_guard<Exchange> lock(exchange_);
   memory_.restoreOutputs();
 }
 
 int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }
 
 std::string Tasks::statistics(int64_t elapsed_ns) {
-  const Exchange::Lock lock(exchange_);
+  const std::lock_guard<Exchange> lock(exchange_);
   std::string text;
   for (const Task& task : tasks_) {
     const rung_task_state& state = states_[task.index];

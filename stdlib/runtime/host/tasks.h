@@ -4,6 +4,7 @@
 // In: the tables of a module. Out: activations run, and why one did not end well.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ class Tasks {
   void serveImage(ServedImage& image) { served_ = &image; }
   // Before the first activation: the inputs of all devices.
   void readInputs(int64_t now_ns) {
-    const Exchange::Lock lock(exchange_);
+    const std::lock_guard<Exchange> lock(exchange_);
     lost_driver_ = drivers_.readAll(now_ns);
   }
   // The code of an activation, from reading the inputs on: RUNG_FAULT_NONE, or a fault, after which nothing that it
@@ -70,7 +71,7 @@ class Tasks {
   // The program goes on: they are again what it left.
   void restoreOutputs();
   void countOverruns(Task& task, uint32_t missed) {
-    const Exchange::Lock lock(exchange_);
+    const std::lock_guard<Exchange> lock(exchange_);
     states_[task.index].overruns += missed;
   }
   // The watchdog's limit of one activation, or 0.
@@ -85,7 +86,7 @@ class Tasks {
   std::string statistics(int64_t elapsed_ns);
   // The last driver that failed, or empty.
   std::string lostDriver() {
-    const Exchange::Lock lock(exchange_);
+    const std::lock_guard<Exchange> lock(exchange_);
     return lost_driver_;
   }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* High-speed inputs and outputs: the registers that programs use (rung_hsio in rung/module.h), and a model of the
- * counter unit that has them, for products without such hardware and for simulation (docs/architecture.md). The model
+ * counter unit that has them, for products without such hardware and for simulation (docs/hsio.md). The model
  * is plain data without heap or locks. It is driven by edges, each with its time, and computes counts, latches,
  * comparisons and interrupts at the time of the edge, not of the task. AX 4.2, A.3; TM/TP manual 9. */
 #ifndef RUNG_HSIO_H
