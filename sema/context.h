@@ -14,9 +14,11 @@
 
 namespace rung::sema {
 
-struct Project;    // project.h
-struct Scopes;     // scopes.h: hash tables of the project, of each POU, of libraries
-struct BodyState;  // bodies/bodies.h: state shared by the statements of one body
+struct Project;     // project.h
+class Rules;        // hooks.h
+class Expressions;  // declarations/expressions.h
+struct Scopes;      // scopes.h: hash tables of the project, of each POU, of libraries
+struct BodyState;   // bodies/bodies.h: state shared by the statements of one body
 
 // A piece of source with its own view of names (declarations/namespaces.cpp); 0: file level without USING.
 struct RegionId {
@@ -31,14 +33,16 @@ struct Context {
   PouId pou;    // whose declarations or body are being checked; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
   uint32_t loop_depth = 0, try_depth = 0;
-  uint32_t depth = 0;         // of the current expression, limits nesting in the input
-  BodyState* body = nullptr;  // none outside of a body
-  TypeId items_of = {};       // an enumeration that is being declared: its items need no qualifier
-  bool library = false;       // inside a library: read as codesys, names of the project are not visible
-  RegionId region = {};       // the namespaces around the current location
-  TypeId record = {};         // a structure whose members get their initial values: THIS
-  NameId resource = {};       // the key of the only resource that runs this code, or none: whose globals it sees
-  ListId list = {};           // a list of globals that is being declared: its variables need no qualifier
+  uint32_t depth = 0;            // of the current expression, limits nesting in the input
+  BodyState* body = nullptr;     // none outside of a body
+  TypeId items_of = {};          // an enumeration that is being declared: its items need no qualifier
+  bool library = false;          // inside a library: read as codesys, names of the project are not visible
+  RegionId region = {};          // the namespaces around the current location
+  TypeId record = {};            // a structure whose members get their initial values: THIS
+  NameId resource = {};          // the key of the only resource that runs this code, or none: whose globals it sees
+  ListId list = {};              // a list of globals that is being declared: its variables need no qualifier
+  const Rules* rules = nullptr;  // hooks.h: what looks at each use, statement, body … that is checked
+  const Expressions* expressions = nullptr;  // declarations/expressions.h: how declarations check their expressions
 
   Tree& tree() const { return symbols.tree; }
   types::TypeTable& types() const { return symbols.types; }
@@ -160,7 +164,5 @@ void checkConnections(Context& context, ExprId call, PouId program);
 // The list of the strings in a POU whose address is taken; of all POUs without one yet. (bodies/literal_storage.cpp)
 void declareLiteralStorage(Context& context, PouId pou);
 void declareLiteralStorage(Context& context);
-// The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
-void checkAfterBodies(Context& context);
 
 }  // namespace rung::sema

@@ -4,8 +4,8 @@
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/dangling_address.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/writable.h"
+#include "sema/hooks.h"
 
 namespace rung::sema {
 
@@ -64,7 +64,7 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
     call.pou = {};
     if (given != wanted) wrapConvert(context, source, type);
   }
-  checkDanglingAddress(context, target, source);
+  context.rules->assignment(context, target, source);
   call.bindings.resize(2);
   call.bindings[0].value = source;
   call.bindings[1].value = target;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "sema/context.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/declarations.h"
 
 namespace rung::sema {
 
@@ -115,8 +117,6 @@ TypeId checkTypedName(Context& context, ExprId& expr);
 TypeId checkMember(Context& context, ExprId& expr, TypeId expected, Access access);
 // True when a member expression names an entity as a whole (`GVL.x`, `Lib.f`, `Color.Red`), not a field of its base.
 bool isWhole(const Context& context, const MemberExpr& node);
-// The FB or program whose instance a record type is; none for structures.
-PouId pouOf(Context& context, TypeId record);
 // The entity of a name in operand position; reports an unknown one and returns Error.
 Entity resolveName(Context& context, const NameExpr& written, TypeId expected);
 // The entity that an expression names, or none.
@@ -190,7 +190,6 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
 
 // ---- calls.cpp
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement);
-std::span<const VarId> pinsOf(Context& context, PouId pou);
 // Which pin each argument belongs to, EN and ENO apart. Arguments without a pin are reported and checked alone.
 // `slots` has the argument's index + 1 by position among the pins; those of an {extensible} pin follow the last pin.
 struct Arguments {
@@ -210,7 +209,6 @@ TypeId resultOf(Context& context, CallExpr& node, const Pou& callee, bool as_sta
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call);
 // Checks the arguments of a call that cannot be resolved, to report their errors too.
 void checkLooseArguments(Context& context, const CallExpr& node);
-void noteCall(Context& context, PouId callee, Loc loc);
 CallId addCall(Context& context, Call&& call);
 // The bindings of a call whose pins are not generic.
 void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call);
@@ -239,7 +237,6 @@ bool checkPropertyAssign(Context& context, AssignStmt& node);
 TypeId throughObject(Context& context, ExprId& expr, TypeId type);
 // Whether the object in an lvalue has exactly the declared type.
 bool isExact(const Context& context, ExprId instance);
-bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
 
 // ---- attempts.cpp
 // target ?= source
@@ -292,11 +289,6 @@ inline NameId nameOf(const Context& context, ExprId expr) {
   if (context.tree().kind(expr) == ExprKind::Name) return context.tree().as<NameExpr>(expr).name;
   if (context.tree().kind(expr) == ExprKind::Member) return context.tree().as<MemberExpr>(expr).member;
   return {};
-}
-inline std::string_view string(const Context& context, NameId name) { return context.names().string(name); }
-inline bool isNamed(const Context& context, NameId name, std::string_view word) {
-  const std::string_view spelling = string(context, name);
-  return spelling.size() == word.size() && sameIdentifier(spelling, word);
 }
 // The value of a constant integer expression; plain literals are not evaluated. None when it is not constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);

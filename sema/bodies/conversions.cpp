@@ -4,9 +4,9 @@
 #include "frontend/source/dialect.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/uncopied.h"
-#include "sema/checks/widened_result.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/uncopied.h"
+#include "sema/hooks.h"
 #include "sema/intermediate.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
@@ -502,7 +502,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
-  if (fitness == Fit::Lossless) checkWidenedResult(context, expr, to);
+  if (fitness == Fit::Lossless) context.rules->conversion(context, expr, to);
   if (!checkSubrange(context, expr, to)) {
     context.tree().expr(expr).type = types::kError;
     return false;

@@ -4,8 +4,7 @@
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/object_members.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/writable.h"
 #include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"

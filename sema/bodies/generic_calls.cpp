@@ -2,8 +2,8 @@
 #include "sema/bodies/generic_calls.h"
 
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/required_pins.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/required_pins.h"
+#include "sema/bodies/writable.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {

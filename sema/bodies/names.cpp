@@ -4,8 +4,8 @@
 #include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/outside_access.h"
 #include "sema/bodies/temporaries.h"
-#include "sema/checks/outside_access.h"
 #include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"
@@ -288,11 +288,6 @@ VarId enoMemoryOf(const Context& context, ExprId instance) {
 
 bool isWhole(const Context& context, const MemberExpr& node) {
   return !context.tree().expr(node.base).type && entityOf(context, node.base);
-}
-
-PouId pouOf(Context& context, TypeId record) {
-  const NamedType* named = context.scopes.named(context.types().resolve(record));
-  return named == nullptr ? PouId{} : named->pou;
 }
 
 // `state := Start` with a method Start, and in this method, where Start is a result of another type: as a value of an

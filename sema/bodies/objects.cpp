@@ -7,7 +7,7 @@
 #include "frontend/syntax/inline_actions.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/required_pins.h"
+#include "sema/bodies/required_pins.h"
 #include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
 #include "sema/scopes.h"
@@ -15,17 +15,6 @@
 namespace rung::sema {
 
 namespace {
-
-const char* kindName(AccessLevel access) {
-  switch (access) {
-    case AccessLevel::Private: return "PRIVATE";
-    case AccessLevel::Protected: return "PROTECTED";
-    case AccessLevel::Internal: return "INTERNAL";
-    case AccessLevel::None:
-    case AccessLevel::Public: break;
-  }
-  return "PUBLIC";
-}
 
 // The object that an instance expression names, as the owner of the called method: an interface pointer becomes one of
 // the interface that declares the method.
@@ -79,21 +68,6 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
 }
 
 }  // namespace
-
-bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
-  const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
-  if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
-  if (access == AccessLevel::None || access == AccessLevel::Public) return true;
-  const bool same_project = context.library || !context.symbols.pou(owner).library;
-  if (access == AccessLevel::Internal && same_project && isInside(context, context.scopes.pous[owner.index].region))
-    return true;
-  const PouId object = objectOf(context);
-  if (object == owner) return true;
-  if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
-  context.report(diag::NotAccessible, loc,
-                 {string(context, name), kindName(access), string(context, context.symbols.pou(owner).name)});
-  return false;
-}
 
 namespace {
 

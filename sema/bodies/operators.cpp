@@ -5,11 +5,9 @@
 // the value may be wider until it is stored: sema/intermediate.h.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/division_by_zero.h"
 #include "sema/bodies/temporaries.h"
-#include "sema/checks/comparison_range.h"
-#include "sema/checks/division_by_zero.h"
-#include "sema/checks/real_equality.h"
-#include "sema/checks/time_equality.h"
+#include "sema/hooks.h"
 #include "sema/intermediate.h"
 #include "sema/types/arithmetic.h"
 
@@ -397,12 +395,9 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   if (common == types::kError) return node.h.type = types::kError;
   const TypeKind kind = context.types().plainKind(common);
   if (comparison) {
-    if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) {
-      checkRealEquality(context, node);
-      checkTimeEquality(context, node);
-    }
-    checkComparisonRange(context, operatorOf(op), node.left, node.right, node.h.loc);
-    return node.h.type = types::kBool;
+    node.h.type = types::kBool;
+    context.rules->expression(context, self);
+    return types::kBool;
   }
   if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {
     return node.h.type = reportOperand(context, spelling(op), common, node.h.loc);
@@ -415,7 +410,9 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
     callDivisorCheck(context, node.right);
   }
   markIntermediate(context.symbols, node.h, common, context.isWide() && operandsOf(op) != Operands::Bits);
-  return node.h.type = common;
+  node.h.type = common;
+  context.rules->expression(context, self);
+  return common;
 }
 
 TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {

@@ -2,10 +2,10 @@
 // Pointers and references: taking addresses, binding references, and arithmetic on addresses as in CODESYS.
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
 // TM/TP manual 5.2, 5.3 (ADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
+#include "sema/bodies/addressable.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
+#include "sema/bodies/addressable.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 #include "sema/project.h"
 

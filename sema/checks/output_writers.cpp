@@ -5,9 +5,9 @@
 //   passes  one program computes `pump`, the only one that writes it
 //   fails   two programs have `pump := ...;`
 // Called once, when all bodies are checked. Linear in the writes.
-#include "sema/checks/output_writers.h"
+#include "sema/bodies/bodies.h"
+#include "sema/checks/rules.h"
 
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
 
 namespace rung::sema {

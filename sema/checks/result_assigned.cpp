@@ -3,9 +3,9 @@
 //   passes  FUNCTION Twice : INT … Twice := 2 * x;
 //   fails   FUNCTION Twice : INT … y := 2 * x;
 // Called at the end of each body.
-#include "sema/checks/result_assigned.h"
+#include "sema/bodies/bodies.h"
+#include "sema/checks/rules.h"
 
-#include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "sema/checks/diagnostics.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/project.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "frontend/syntax/diagnostics.h"
-#include "sema/charts.h"
 #include "sema/declarations/attributes.h"
+#include "sema/declarations/charts.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"

@@ -22,7 +22,9 @@ inline Context at(Context& context, PouId pou, FileId file, bool library, Region
                  .pou = pou,
                  .file = file,
                  .library = library,
-                 .region = region};
+                 .region = region,
+                 .rules = context.rules,
+                 .expressions = context.expressions};
 }
 inline Context atPou(Context& context, PouId pou) {
   Context there = at(context, pou, context.symbols.pou(pou).file, context.symbols.pou(pou).library,
@@ -36,6 +38,11 @@ inline Entity entity(PouId id) { return Entity::of(EntityKind::Pou, id.index); }
 inline Entity entity(TypeId id) { return Entity::of(EntityKind::Type, id.index); }
 inline NameId keyOf(const Context& context, NameId name) { return context.names().key(name); }
 inline std::string toString(const Context& context, NameId name) { return std::string(context.names().string(name)); }
+inline std::string_view string(const Context& context, NameId name) { return context.names().string(name); }
+inline bool isNamed(const Context& context, NameId name, std::string_view word) {
+  const std::string_view spelling = string(context, name);
+  return spelling.size() == word.size() && sameIdentifier(spelling, word);
+}
 
 // ---- collect.cpp
 void internKnownNames(Context& context);
@@ -146,6 +153,15 @@ void resolveHeaders(Context& context);
 void addObjectFields(Context& context, PouId object);
 // The names of members in the scope of their object, and VAR_INST of its methods.
 void declareMembers(Context& context, PouId object);
+
+// The FB or program whose instance a record type is; none for structures.
+PouId pouOf(Context& context, TypeId record);
+// The inputs, in-outs and outputs of a POU, those of its base first.
+std::span<const VarId> pinsOf(Context& context, PouId pou);
+// Whether `context` may use a member with this access; reports one that it may not.
+bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
+// Forbids an abstract type for a variable or its parts. False after a report.
+bool checkNotAbstract(Context& context, TypeId type, Loc loc);
 
 // ---- shared_temporaries.cpp
 // Hidden fields for VAR_TEMP that actions use, variables for those of a base that the body uses.

@@ -8,6 +8,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
 #include "sema/diagnostics.h"
 
 namespace rung::sema {
@@ -133,10 +134,10 @@ struct Initializer {
     }
     if (plainLiteral(init, type)) return;
     if (context.types().kind(type) == TypeKind::Reference) {
-      if (!bindReference(context, init, type)) init = {};
+      if (!context.expressions->bindReference(context, init, type)) init = {};
       return;
     }
-    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
+    if (!context.expressions->checkAs(context, init, type, std::string("used as ") + std::string(what))) return;
     const TypeKind to = context.types().kind(type);
     if (to == TypeKind::Pointer) {
       reads |= may == InitialReads::Variables && !isStatic(init, 0);
@@ -246,7 +247,7 @@ struct Initializer {
     const ExprKind written = tree().kind(init);
     if (context.iec() || (written != ExprKind::Name && written != ExprKind::Member && written != ExprKind::Index))
       return false;
-    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) {
+    if (!context.expressions->checkAs(context, init, type, std::string("used as ") + std::string(what))) {
       init = {};
       return true;
     }
@@ -304,7 +305,7 @@ struct Initializer {
       if (likeAnother(init, type)) return;
       if (tree().kind(init) == ExprKind::Call && !context.iec()) {  // __VARINFO(x)
         ExprId value = init;
-        if (checkExprAs(context, value, type, std::string("used as ") + std::string(what)) &&
+        if (context.expressions->checkAs(context, value, type, std::string("used as ") + std::string(what)) &&
             tree().kind(value) == ExprKind::AnyValue) {
           init = value;
           return;

@@ -3,11 +3,10 @@
 // pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
 // blocks within blocks need no deep recursion.
 #include "frontend/syntax/diagnostics.h"
-#include "sema/checks/obsolete.h"
-#include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
+#include "sema/hooks.h"
 #include "sema/project.h"
 
 #include <limits>
@@ -149,7 +148,6 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }
   if (found.entityKind() == EntityKind::Error) return types::kError;
-  if (found.entityKind() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
     context.report(diag::BitAsBool, last.loc);
     return types::kBool;
@@ -166,7 +164,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   const TypeId type = typeOf(context, found);
   if (const NamedType* named = type ? context.scopes.named(type) : nullptr) {
     const DeclId decl = named->pou ? context.symbols.pou(named->pou).decl : named->decl;
-    if (decl) checkObsolete(context, context.tree().decl(decl), last.name, last.loc);
+    if (decl) context.rules->use(context, {named->pou, context.tree().decl(decl), last.name, last.loc, false});
   }
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);

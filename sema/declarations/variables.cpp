@@ -6,12 +6,12 @@
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/standard_names.h"
 #include "sema/bodies/signatures.h"
-#include "sema/checks/object_members.h"
-#include "sema/checks/uncopied.h"
 #include "sema/declarations/attributes.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
+#include "sema/declarations/uncopied.h"
 #include "sema/diagnostics.h"
 
 namespace rung::sema {
@@ -459,7 +459,8 @@ void ensureInitialValue(Context& context, VarId id) {
   }
   const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
   uint32_t elements = 0;
-  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type, elements) : CallId{};
+  const CallId constructor =
+      decl.type && makes_object ? there.expressions->checkConstructor(there, decl.type, elements) : CallId{};
   decl.h.progress = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;

@@ -19,9 +19,9 @@
 #include "frontend/source/render.h"
 #include "ir/builder.h"
 #include "ir/lower.h"
+#include "sema/check.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/libraries.h"
-#include "sema/project.h"
 #include "tools/driver/namespaces.h"
 
 namespace {
@@ -103,7 +103,7 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   options.libraries = libraries.files;
   rung::sema::Project project(sources, names, diagnostics, tree, options);
   rung::sema::Scopes scopes;
-  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
+  Context context = rung::sema::contextOf(project, scopes);
   rung::sema::internKnownNames(context);
   rung::sema::indexLibraries(context);
   for (const rung::sema::LibraryFile& file : libraries.files) {
