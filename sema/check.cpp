@@ -3,15 +3,25 @@
 
 #include "frontend/schedule/network_pins.h"
 #include "frontend/source/invariant.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/body.h"
 #include "sema/bodies/for_declarations.h"
-#include "sema/bodies/signatures.h"
+#include "sema/bodies/literal_storage.h"
 #include "sema/checks/rules.h"
+#include "sema/declarations/access_paths.h"
+#include "sema/declarations/call_graph.h"
 #include "sema/declarations/chosen_tests.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/configuration.h"
+#include "sema/declarations/initial_order.h"
 #include "sema/declarations/instance_paths.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/objects.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/signatures.h"
 #include "sema/declarations/test_cases.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that sema adds to the tree, complete with their types: known values become literals, implicit operations
 // expressions. In: operands that were checked. Out: a node that need not be checked again.
-#include "sema/bodies/bodies.h"
+
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -7,6 +7,7 @@
 #include "sema/bodies/addressable.h"
 
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/names.h"
 
 namespace rung::sema {
 

@@ -2,7 +2,7 @@
 // Forbids the address of an expression without memory; see addressable.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

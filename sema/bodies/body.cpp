@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The body of a POU in any language. In: a POU whose declarations are resolved. Out: its statements, scheduled where it
 // is IL, SFC or a diagram, and checked. Called for each POU of the project, and for each library POU in use.
+#include "sema/bodies/body.h"
+
 #include "frontend/schedule/il_schedule.h"
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/schedule/sfc_schedule.h"
 #include "frontend/source/invariant.h"
-#include "sema/bodies/bodies.h"
-#include "sema/bodies/signatures.h"
+#include "sema/bodies/cpp_bodies.h"
+#include "sema/bodies/literal_storage.h"
+#include "sema/bodies/statements.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/declarations/charts.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/signatures.h"
+#include "sema/declarations/variables.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

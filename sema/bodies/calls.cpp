@@ -3,20 +3,39 @@
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
+#include "sema/bodies/calls.h"
+
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/any_inputs.h"
+#include "sema/bodies/conversion_calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operator_calls.h"
+#include "sema/bodies/overloads.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/pseudo_functions.h"
 #include "sema/bodies/required_pins.h"
 #include "sema/bodies/writable.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/item_names.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

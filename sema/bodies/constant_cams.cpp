@@ -7,7 +7,9 @@
 
 #include "cam/design/st_form.h"
 #include "frontend/syntax/children.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/constants.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 

@@ -8,7 +8,10 @@
 #include "sema/bodies/division_by_zero.h"
 
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

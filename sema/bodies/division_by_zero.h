@@ -2,7 +2,7 @@
 // Forbids a division by a constant zero; see division_by_zero.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

@@ -2,13 +2,29 @@
 // Expressions: dispatch over the kinds, and those that are not names, literals, operators or calls.
 // In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
 // conversions written into the tree. Called by statements.cpp and by the declarations.
+#include "sema/bodies/expressions.h"
+
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/dynamic_memory.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
+#include "sema/bodies/statements.h"
 #include "sema/bodies/writable.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/constants.h"
 #include "sema/hooks.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/bodies/for_declarations.h"
-
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/pointers.h"
 
 namespace rung::sema {
 namespace {

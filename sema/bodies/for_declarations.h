@@ -3,6 +3,7 @@
 // the same calls of the functions of this folder. Given to the Context by check().
 #pragma once
 
+#include "sema/context.h"
 #include "sema/declarations/expressions.h"
 
 namespace rung::sema {

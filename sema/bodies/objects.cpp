@@ -2,15 +2,29 @@
 // Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean one of
 // these. Out: a sema::Call of kind Method; reading a property calls its GET, writing it calls its SET. Called by
 // names.cpp, calls.cpp and statements.cpp.
+#include "sema/bodies/objects.h"
+
 #include <algorithm>
 
 #include "frontend/syntax/inline_actions.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/required_pins.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/statements.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

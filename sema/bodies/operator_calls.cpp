@@ -3,12 +3,22 @@
 // names an operator of the arithmetic kernel). In: a call of such a function. Out: CallKind::Operator with the operands
 // in order, open ones without a value (they count as 0), or a BinaryExpr for times and dates, or a ConvertExpr for
 // {operator 'convert'}.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/operator_calls.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/division_by_zero.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/operators.h"
 #include "sema/bodies/required_pins.h"
 #include "sema/hooks.h"
 #include "sema/intermediate.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

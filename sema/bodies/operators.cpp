@@ -3,12 +3,22 @@
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
 // The type of an integer operation is that of its operands; the target of an assignment does not widen it. In codesys
 // the value may be wider until it is stored: sema/intermediate.h.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/operators.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/division_by_zero.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
+#include "sema/bodies/time_arithmetic.h"
 #include "sema/hooks.h"
 #include "sema/intermediate.h"
+#include "sema/shorthands.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {

@@ -11,8 +11,12 @@
 // Called by names.cpp for each `instance.pin`, and for each name.
 #include "sema/bodies/outside_access.h"
 
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -2,7 +2,8 @@
 // Forbids uses of a block's variables from outside that its sections do not allow; see outside_access.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

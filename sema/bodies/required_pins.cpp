@@ -9,8 +9,12 @@
 #include "sema/bodies/required_pins.h"
 
 #include "frontend/syntax/standard_names.h"
+#include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -2,7 +2,8 @@
 // Forbids calls that leave required pins open; see required_pins.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/calls.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

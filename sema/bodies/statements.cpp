@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements. In: the statement list of a body. Out: the same tree with every expression checked and converted.
 // Called by checkBody() for each body.
+#include "sema/bodies/statements.h"
+
 #include "frontend/syntax/diagnostics.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/attempts.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/bodies/writable.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -8,8 +8,13 @@
 // Called for every target of an assignment, output binding and in-out argument.
 #include "sema/bodies/writable.h"
 
+#include "sema/bodies/body.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/collect.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

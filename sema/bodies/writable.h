@@ -2,7 +2,8 @@
 // Forbids writing to anything but a variable that is writable here; see writable.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/conversions.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

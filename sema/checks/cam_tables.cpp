@@ -13,9 +13,11 @@
 
 #include "cam/design/text_form.h"
 #include "frontend/syntax/children.h"
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/constant_cams.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/constants.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,7 +4,7 @@
 //   passes  1, 2: …   3..9: …
 //   fails   1, 2: …   2: …       9..3: …
 // Called at the end of each CASE. Sorts: n labels cost n log n.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
 #include "sema/checks/rules.h"
 
 #include <algorithm>

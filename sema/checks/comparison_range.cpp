@@ -6,9 +6,10 @@
 //   warns   WHILE count >= 0 DO          count : UINT          W0584
 // An arithmetic expression has more values than its type in codesys, so variables and results of calls alone are looked
 // at. Called for each comparison, infix or in call form.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
 #include "sema/checks/operation.h"
 #include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 #include <utility>
 

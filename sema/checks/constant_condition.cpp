@@ -3,7 +3,6 @@
 //   passes  IF ready THEN
 //   fails   IF TRUE THEN
 // Called for each statement.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 namespace rung::sema {

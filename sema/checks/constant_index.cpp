@@ -3,7 +3,7 @@
 //   passes  readings[5] := 1;   (ARRAY[1..5])
 //   fails   readings[9] := 1;
 // Called for each indexed array or string.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
 #include "sema/checks/rules.h"
 
 namespace rung::sema {

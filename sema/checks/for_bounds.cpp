@@ -4,8 +4,9 @@
 //   passes  FOR i := 1 TO 9 BY 2 DO
 //   fails   FOR i := 1 TO 9 BY 0 DO                                   E0711
 //   warns   FOR i := 9 TO 1 DO                                        W0755
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
 #include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

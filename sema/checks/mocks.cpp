@@ -14,8 +14,13 @@
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

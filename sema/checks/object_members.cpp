@@ -7,13 +7,17 @@
 //   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
 //   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
 // Called once for each object of the project, when everything is declared.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/conversions.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

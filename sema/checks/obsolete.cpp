@@ -3,7 +3,7 @@
 //   warns   {attribute 'obsolete' := 'use Pump2'} FUNCTION_BLOCK Pump … p : Pump;      W0647
 #include "sema/checks/rules.h"
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {

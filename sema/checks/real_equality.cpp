@@ -4,7 +4,6 @@
 //   passes  IF ABS(a - b) < 0.001 THEN   IF b <> 0.0 THEN
 //   fails   IF a = b THEN
 // Called for each operation whose sides are typed.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 namespace rung::sema {

@@ -3,12 +3,12 @@
 //   passes  Outer calls Inner
 //   fails   Fact := n * Fact(n - 1);
 // Called once, when all bodies are checked. One depth-first walk over the calls, with an explicit stack.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 #include <algorithm>
 
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -7,9 +7,10 @@
 // Called once, when all bodies are checked. Linear in POUs and calls for each task.
 #include "sema/checks/rules.h"
 
-#include "sema/bodies/bodies.h"
+#include "sema/declarations/objects.h"
 #include "sema/declarations/uncopied.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

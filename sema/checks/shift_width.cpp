@@ -4,9 +4,11 @@
 //   passes  low := SHR(mask, 8);         mask : WORD
 //   warns   low := SHR(mask, 16);        mask : WORD           W0585
 // Called for each call of these operators.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
 #include "sema/checks/operation.h"
 #include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -7,14 +7,14 @@
 //   passes  TASK t(INTERVAL := T#2ms) with a program that calls ENC_Counter
 //   warns   TASK t(INTERVAL := T#10ms) with that program                       W1220
 // Called once, when all bodies are checked. Linear in POUs and calls for each task.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "sema/bodies/bodies.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -10,8 +10,11 @@
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {

@@ -5,7 +5,6 @@
 //   passes  IF delay.ET >= T#2s THEN    IF delay.ET = T#0s THEN    IF setting <> old_setting THEN
 //   fails   IF delay.ET = T#2s THEN
 // Called for each operation whose sides are typed.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
 
 namespace rung::sema {

@@ -5,8 +5,8 @@
 //   passes  d := INT_TO_DINT(i) * j;   i := i * j;
 //   fails   d := i * j;                                  W0581
 // Called for each implicit conversion that loses nothing.
-#include "sema/bodies/bodies.h"
 #include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/declarations/charts.h"
-
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/scopes.h"
 
 namespace rung::sema {
 

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -7,11 +7,18 @@
 #include <unordered_map>
 
 #include "frontend/source/scanner.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
 #include "sema/declarations/task_triggers.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constant expressions, evaluated by the arithmetic kernel. In: checked expressions. Out: their values. A constant also
 // keeps memory in the instance or list that declares it, so that it can be watched; code uses its value.
+#include "sema/declarations/constants.h"
+
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
 #include "sema/intermediate.h"

@@ -2,14 +2,23 @@
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
 // constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
 // place; surplus array elements are removed and repetition counts are literals.
+#include "sema/declarations/initial_values.h"
+
 #include <algorithm>
 #include <array>
 
-#include "sema/bodies/bodies.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

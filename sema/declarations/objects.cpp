@@ -7,14 +7,22 @@
 // project extends. So the first derived block changes the layout of its base, and resolveHeaders() reads all headers
 // before the first layout. A derived object holds its base as its first field, a nested record: the base's initialiser
 // is that of a field, and no pointer is cast. If only the derived one has a type id, it comes first.
+#include "sema/declarations/objects.h"
+
 #include <algorithm>
 
 #include "sema/declarations/attributes.h"
 #include "sema/declarations/charts.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/namespaces.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

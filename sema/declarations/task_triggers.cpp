@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

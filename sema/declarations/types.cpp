@@ -2,12 +2,26 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
 // blocks within blocks need no deep recursion.
+#include "sema/declarations/types.h"
+
 #include "frontend/syntax/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/generics.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/relative_addresses.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 #include <limits>
 

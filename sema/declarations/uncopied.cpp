@@ -10,8 +10,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/objects.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -20,8 +20,13 @@
 #include "ir/builder.h"
 #include "ir/lower.h"
 #include "sema/check.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/generics.h"
 #include "sema/declarations/libraries.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 #include "tools/driver/namespaces.h"
 
 namespace {

@@ -17,6 +17,7 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     layer["frontend/import/"] = 6
     layer["frontend/export/"] = 7; layer["frontend/render/"] = 7
     layer["sema/"] = 8
+    layer["sema/declarations/"] = 8.1; layer["sema/bodies/"] = 8.2; layer["sema/checks/"] = 8.3; layer["sema/check."] = 8.4
     layer["ir/"] = 9
     layer["codegen/"] = 10
     layer["tools/workspace/"] = 10.5

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sema/bodies/signatures.h"
+#include "sema/declarations/signatures.h"
 
-#include "sema/bodies/bodies.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
