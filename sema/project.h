@@ -116,14 +116,4 @@ struct Project : Symbols {
   std::vector<uint32_t> area_bytes;  // by AreaId: the declared size, or the end of the last used byte
 };
 
-// Checks the whole project: collects the declarations of tree.files, resolves types and layout, checks every body,
-// resolves libraries on demand. Errors go to project.diagnostics. Bodies of library POUs are checked when used.
-// Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
-// literals have their context's type, and project.pous lists user POUs and the library POUs in use.
-void check(Project& project);
-
-// For pictures: the pins of boxes that are in-outs of what they call, by their index in the tree. Collects and resolves
-// declarations as check() does; bodies stay as parsed.
-std::vector<bool> inOutsOfBoxes(Project& project);
-
 }  // namespace rung::sema

@@ -17,6 +17,7 @@
 #define RUNG_WARNING(code, name, text) {diagOf(#code), #code, #name, text, Severity::Warning},
 #define RUNG_INFO(code, name, text) {diagOf(#code), #code, #name, text, Severity::Info},
 #define RUNG_NOTE(name, text)
+#define RUNG_RULE(hook, file, function)
 
 namespace rung {
 namespace {
@@ -29,7 +30,7 @@ constexpr DiagInfo kRows[] = {
 #include "frontend/syntax/diagnostics.def"
 #include "ir/diagnostics.def"
 #include "sema/bodies/diagnostics.def"
-#include "sema/checks/diagnostics.def"
+#include "sema/checks/rules.def"
 #include "sema/declarations/diagnostics.def"
 #include "sema/diagnostics.def"
 #include "tools/driver/diagnostics.def"

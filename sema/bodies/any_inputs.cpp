@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inputs of type ANY, ANY_NUM … of a POU in codesys: the caller passes the address, the length and the type class of
 // its variable (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds one.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/any_inputs.h"
+
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/literals.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -2,10 +2,19 @@
 // Assignment attempts: an object as a type that it may have, tested when the program runs. `target ?= source` of
 // edition 3, __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
+#include "sema/bodies/attempts.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/dangling_address.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/writable.h"
+#include "sema/declarations/objects.h"
+#include "sema/hooks.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -64,7 +73,7 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
     call.pou = {};
     if (given != wanted) wrapConvert(context, source, type);
   }
-  checkDanglingAddress(context, target, source);
+  context.rules->assignment(context, target, source);
   call.bindings.resize(2);
   call.bindings[0].value = source;
   call.bindings[1].value = target;

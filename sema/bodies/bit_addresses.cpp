@@ -7,10 +7,17 @@
 // engines have the memory as it is laid out here.
 #include <optional>
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/names.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -3,30 +3,43 @@
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
+#include "sema/bodies/calls.h"
+
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/any_inputs.h"
+#include "sema/bodies/conversion_calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operator_calls.h"
+#include "sema/bodies/overloads.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/obsolete.h"
-#include "sema/checks/required_pins.h"
-#include "sema/checks/served_object.h"
-#include "sema/checks/test_only.h"
-#include "sema/checks/writable.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/required_pins.h"
+#include "sema/bodies/writable.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/item_names.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
 namespace {
-
-bool isPin(SectionKind section) {
-  return section == SectionKind::Input || section == SectionKind::InOut || section == SectionKind::Output;
-}
 
 const char* kindName(SectionKind section) {
   if (section == SectionKind::Input) return "an input";
@@ -302,7 +315,6 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   pou = calledOf(context, node, pou, checked);
   if (!pou) return node.h.type = types::kError;
   const Pou& callee = context.symbols.pou(pou);
-  checkTestOnly(context, pou, node.h.loc);
   if (callee.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible)
     return nameOfItem(context, expr, callee, checkGenericCall(context, expr, pou, expected, {}));
@@ -342,7 +354,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
-  checkServedObject(context, node, call);
+  context.rules->call(context, node, call);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
     context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});
@@ -458,33 +470,6 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
     context.tree().list(node.arguments)[index].value = binding.value;
     call.bindings.push_back(binding);
   }
-}
-
-std::span<const VarId> pinsOf(Context& context, PouId id) {
-  Pou& pou = context.symbols.pou(id);
-  if (!pou.progress.pins_ready) {
-    resolvePou(context, id);
-    pou.pins.clear();
-    if (pou.base) {  // those of the base come first
-      const std::span<const VarId> inherited = pinsOf(context, pou.base);
-      pou.pins.assign(inherited.begin(), inherited.end());
-    }
-    for (const VarId var : pou.vars) {
-      if (isPin(context.symbols.var(var).section)) pou.pins.push_back(var);
-    }
-    pou.progress.pins_ready = true;
-  }
-  return pou.pins;
-}
-
-void noteCall(Context& context, PouId callee, Loc loc) {
-  Pou& pou = context.symbols.pou(callee);
-  pou.progress.used = true;
-  if (pou.decl) checkObsolete(context, context.tree().decl(pou.decl), pou.name, loc);
-  // Of library blocks only those that may ask for a task (checks/task_needs.cpp).
-  const bool matters = !pou.library || (pou.kind == PouKind::FunctionBlock && pou.decl &&
-                                        !context.tree().decl(pou.decl).pragmas.empty());
-  if (matters && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
 
 void checkConnections(Context& context, ExprId call, PouId program) {

@@ -3,15 +3,26 @@
 // `<A>_TRUNC_<B>`, `TRUNC_<B>`, and typed names `<FUNC>_<TYPE>` (MUX_INT, ADD_TIME). In: a call of a name that is not
 // declared. Out: a ConvertExpr, or a call of the library function that the rule names.
 // Strings are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
+#include "sema/bodies/conversion_calls.h"
+
 #include <string>
 
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/operator_calls.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

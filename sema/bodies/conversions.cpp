@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. docs/language.md "Dialects".
+#include "sema/bodies/conversions.h"
+
 #include "frontend/source/dialect.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/uncopied.h"
-#include "sema/checks/widened_result.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/constants.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/uncopied.h"
+#include "sema/hooks.h"
 #include "sema/intermediate.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -502,7 +512,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
-  if (fitness == Fit::Lossless) checkWidenedResult(context, expr, to);
+  if (fitness == Fit::Lossless) context.rules->conversion(context, expr, to);
   if (!checkSubrange(context, expr, to)) {
     context.tree().expr(expr).type = types::kError;
     return false;

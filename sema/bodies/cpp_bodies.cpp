@@ -6,10 +6,16 @@
 //   passes  VAR n : INT; END_VAR {C++} n = 1; {END_C++}
 //   fails   VAR_INPUT e : Either; END_VAR {C++} {END_C++}, Either a UNION          E0751
 // Called by checkBody().
+#include "sema/bodies/cpp_bodies.h"
+
 #include <algorithm>
 
-#include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

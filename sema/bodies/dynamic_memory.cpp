@@ -2,14 +2,27 @@
 // __NEW and __DELETE: memory from the bounded pool of the program (stdlib/__system/dynamic_memory.st). codesys.
 // In: a NewExpr, a call of __DELETE. Out: the same with the types, the functions of the pool and the arguments of
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
+#include "sema/bodies/dynamic_memory.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/objects.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/object_members.h"
-#include "sema/checks/writable.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/writable.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

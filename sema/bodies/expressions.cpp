@@ -2,13 +2,29 @@
 // Expressions: dispatch over the kinds, and those that are not names, literals, operators or calls.
 // In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
 // conversions written into the tree. Called by statements.cpp and by the declarations.
+#include "sema/bodies/expressions.h"
+
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/constant_index.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/dynamic_memory.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
+#include "sema/bodies/statements.h"
+#include "sema/bodies/writable.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/constants.h"
+#include "sema/hooks.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -39,15 +55,12 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Acc
     return types::kError;
   }
   const bool reads = access == Access::Read || access == Access::Qualifier;
-  const bool from_one = context.iec();
-  const types::Dimension characters{from_one ? 1 : 0, int64_t{info.length} - (reads || from_one ? 0 : 1)};
   ExprId& index = context.tree().list(node.indices)[0];
   const TypeId type = checkIndexValue(context, index);
   if (type == types::kError) return type;
-  checkConstantIndex(context, index, &characters, string_type);
   if (!reads) node.h.bits |= kWritesCharacter;
   node.h.writable = context.tree().expr(node.base).writable;
-  if (from_one) return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
+  if (context.iec()) return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
   return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
 }
 
@@ -59,7 +72,9 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
   const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
   if (TypeTable::isString(info->kind) && count == 1 && !edition2) {
-    return node.h.type = checkCharacter(context, node, base, access);
+    node.h.type = checkCharacter(context, node, base, access);
+    if (node.h.type != types::kError) context.rules->expression(context, expr);
+    return node.h.type;
   }
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
@@ -76,14 +91,15 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
     ExprId& index = context.tree().list(node.indices)[i];
     if (checkIndexValue(context, index) == types::kError) {
       ok = false;
-    } else if (ok) {
-      checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
-      if (!info->dimensions.empty()) callBoundsCheck(context, index, info->dimensions[i]);
     }
   }
   if (!ok) return node.h.type = types::kError;
   node.h.writable = context.tree().expr(node.base).writable;
-  return node.h.type = info->base;
+  node.h.type = info->base;
+  context.rules->expression(context, expr);
+  for (uint32_t i = 0; i < info->dimensions.size(); ++i)
+    callBoundsCheck(context, context.tree().list(node.indices)[i], info->dimensions[i]);
+  return node.h.type;
 }
 
 TypeId checkDeref(Context& context, ExprId& expr, Access access) {

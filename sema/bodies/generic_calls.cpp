@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/bodies/generic_calls.h"
 
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/required_pins.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/required_pins.h"
+#include "sema/bodies/writable.h"
+#include "sema/declarations/generics.h"
+#include "sema/declarations/objects.h"
+#include "sema/shorthands.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {

@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/calls.h"
+#include "sema/context.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

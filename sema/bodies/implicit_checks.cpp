@@ -5,12 +5,21 @@
 // with the documented declaration. Libraries, the functions themselves and POUs with {attribute 'no_check'} are not
 // checked, nor are constants (CODESYS help, "POUs for Implicit Checks" and the page of each function). Rung's own check
 // remains: it finds what the function lets pass.
+#include "sema/bodies/implicit_checks.h"
+
 #include <algorithm>
 
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -3,11 +3,16 @@
 // POU share it; CODESYS leaves open what happens when it is written through the pointer. In: literals of one POU. Out:
 // constants in a separate global list, which no name in a program can reach. The list is declared when the body is
 // checked, so that a POU's list depends on its own source alone.
+#include "sema/bodies/literal_storage.h"
+
 #include <algorithm>
 
-#include "sema/bodies/bodies.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/configuration.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/resolve.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -3,14 +3,20 @@
 // until their context gives them one (adapt) or they take their default (finalizeUntyped).
 // An untyped expression is a tree of untyped literals and arithmetic on them: it is computed exactly, and only its
 // result must fit. Each such tree is typed once, so the cost is linear.
+#include "sema/bodies/literals.h"
+
 #include <bit>
 #include <cmath>
 
 #include "frontend/source/dialect.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/constants.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/types.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {

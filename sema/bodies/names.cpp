@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
+#include "sema/bodies/names.h"
+
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/outside_access.h"
 #include "sema/bodies/temporaries.h"
-#include "sema/checks/outside_access.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
@@ -288,11 +298,6 @@ VarId enoMemoryOf(const Context& context, ExprId instance) {
 
 bool isWhole(const Context& context, const MemberExpr& node) {
   return !context.tree().expr(node.base).type && entityOf(context, node.base);
-}
-
-PouId pouOf(Context& context, TypeId record) {
-  const NamedType* named = context.scopes.named(context.types().resolve(record));
-  return named == nullptr ? PouId{} : named->pou;
 }
 
 // `state := Start` with a method Start, and in this method, where Start is a result of another type: as a value of an

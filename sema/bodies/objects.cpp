@@ -2,30 +2,33 @@
 // Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean one of
 // these. Out: a sema::Call of kind Method; reading a property calls its GET, writing it calls its SET. Called by
 // names.cpp, calls.cpp and statements.cpp.
+#include "sema/bodies/objects.h"
+
 #include <algorithm>
 
 #include "frontend/syntax/inline_actions.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/checks/required_pins.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
+#include "sema/bodies/required_pins.h"
+#include "sema/bodies/statements.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
 namespace {
-
-const char* kindName(AccessLevel access) {
-  switch (access) {
-    case AccessLevel::Private: return "PRIVATE";
-    case AccessLevel::Protected: return "PROTECTED";
-    case AccessLevel::Internal: return "INTERNAL";
-    case AccessLevel::None:
-    case AccessLevel::Public: break;
-  }
-  return "PUBLIC";
-}
 
 // The object that an instance expression names, as the owner of the called method: an interface pointer becomes one of
 // the interface that declares the method.
@@ -79,21 +82,6 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
 }
 
 }  // namespace
-
-bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
-  const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
-  if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
-  if (access == AccessLevel::None || access == AccessLevel::Public) return true;
-  const bool same_project = context.library || !context.symbols.pou(owner).library;
-  if (access == AccessLevel::Internal && same_project && isInside(context, context.scopes.pous[owner.index].region))
-    return true;
-  const PouId object = objectOf(context);
-  if (object == owner) return true;
-  if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
-  context.report(diag::NotAccessible, loc,
-                 {string(context, name), kindName(access), string(context, context.symbols.pou(owner).name)});
-  return false;
-}
 
 namespace {
 

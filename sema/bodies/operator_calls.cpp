@@ -3,14 +3,22 @@
 // names an operator of the arithmetic kernel). In: a call of such a function. Out: CallKind::Operator with the operands
 // in order, open ones without a value (they count as 0), or a BinaryExpr for times and dates, or a ConvertExpr for
 // {operator 'convert'}.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/operator_calls.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
+#include "sema/bodies/division_by_zero.h"
+#include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"
-#include "sema/checks/comparison_range.h"
-#include "sema/checks/division_by_zero.h"
-#include "sema/checks/real_equality.h"
-#include "sema/checks/required_pins.h"
-#include "sema/checks/shift_width.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/required_pins.h"
+#include "sema/hooks.h"
 #include "sema/intermediate.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -132,13 +140,6 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
       callDivisorCheck(context, operands.values[1]);
     }
   }
-  if (pou.pragmas.operator_kind == OperatorKind::Op && operands.values.size() == 2) {
-    const types::Op op = pou.pragmas.op;
-    if (op >= types::Op::Eq && op <= types::Op::Ge)
-      checkComparisonRange(context, op, operands.values[0], operands.values[1], node.h.loc);
-    if (op == types::Op::Shl || op == types::Op::Shr || op == types::Op::Sar)
-      checkShiftWidth(context, operands.values[0], operands.values[1]);
-  }
   if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
     if (!value) return node.h.type = types::kError;
@@ -164,6 +165,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   node.h.type = result;
   if (pou.pragmas.operator_kind == OperatorKind::Convert && operands.values[0])
     markRounding(context.symbols, node.h, context.tree().expr(operands.values[0]).type, context.isWide());
+  context.rules->expression(context, expr);
   return result;
 }
 

@@ -3,14 +3,22 @@
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
 // The type of an integer operation is that of its operands; the target of an assignment does not widen it. In codesys
 // the value may be wider until it is stored: sema/intermediate.h.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/operators.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/division_by_zero.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
-#include "sema/checks/comparison_range.h"
-#include "sema/checks/division_by_zero.h"
-#include "sema/checks/real_equality.h"
-#include "sema/checks/time_equality.h"
+#include "sema/bodies/time_arithmetic.h"
+#include "sema/hooks.h"
 #include "sema/intermediate.h"
+#include "sema/shorthands.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -397,12 +405,9 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   if (common == types::kError) return node.h.type = types::kError;
   const TypeKind kind = context.types().plainKind(common);
   if (comparison) {
-    if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) {
-      checkRealEquality(context, node);
-      checkTimeEquality(context, node);
-    }
-    checkComparisonRange(context, operatorOf(op), node.left, node.right, node.h.loc);
-    return node.h.type = types::kBool;
+    node.h.type = types::kBool;
+    context.rules->expression(context, self);
+    return types::kBool;
   }
   if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {
     return node.h.type = reportOperand(context, spelling(op), common, node.h.loc);
@@ -415,7 +420,9 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
     callDivisorCheck(context, node.right);
   }
   markIntermediate(context.symbols, node.h, common, context.isWide() && operandsOf(op) != Operands::Bits);
-  return node.h.type = common;
+  node.h.type = common;
+  context.rules->expression(context, self);
+  return common;
 }
 
 TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {

@@ -5,12 +5,21 @@
 //
 // The best match takes each argument at least as well as every other candidate, and one argument better: the same type
 // before an implicit conversion. If that does not decide, fewer open inputs win.
+#include "sema/bodies/overloads.h"
+
 #include <algorithm>
 
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
+#include "sema/declarations/objects.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

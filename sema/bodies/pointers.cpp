@@ -2,11 +2,25 @@
 // Pointers and references: taking addresses, binding references, and arithmetic on addresses as in CODESYS.
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
 // TM/TP manual 5.2, 5.3 (ADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/pointers.h"
+
+#include "sema/bodies/access.h"
+#include "sema/bodies/addressable.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/implicit_checks.h"
+#include "sema/bodies/literal_storage.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operators.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/addressable.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "sema/bodies/bodies.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

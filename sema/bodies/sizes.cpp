@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIZEOF and LEN_MAX: sizes that are known at compile time. Out: untyped literals.
+#include "sema/bodies/access.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

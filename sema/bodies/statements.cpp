@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
-// Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
-#include "frontend/schedule/il_schedule.h"
-#include "frontend/schedule/network_schedule.h"
-#include "frontend/schedule/sfc_schedule.h"
+// Statements. In: the statement list of a body. Out: the same tree with every expression checked and converted.
+// Called by checkBody() for each body.
+#include "sema/bodies/statements.h"
+
 #include "frontend/syntax/diagnostics.h"
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/access.h"
+#include "sema/bodies/attempts.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/bodies/signatures.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/limits.h"
+#include "sema/bodies/literals.h"
+#include "sema/bodies/names.h"
+#include "sema/bodies/objects.h"
+#include "sema/bodies/operators.h"
+#include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
-#include "sema/charts.h"
-#include "sema/checks/call_memory.h"
-#include "sema/checks/cam_tables.h"
-#include "sema/checks/case_labels.h"
-#include "sema/checks/constant_condition.h"
-#include "sema/checks/dangling_address.h"
-#include "sema/checks/endless_jump.h"
-#include "sema/checks/for_header.h"
-#include "sema/checks/hidden_globals.h"
-#include "sema/checks/jump_labels.h"
-#include "sema/checks/output_writers.h"
-#include "sema/checks/overlapping_addresses.h"
-#include "sema/checks/recursion.h"
-#include "sema/checks/repeated_timer_call.h"
-#include "sema/checks/result_assigned.h"
-#include "sema/checks/safe_values.h"
-#include "sema/checks/shared_globals.h"
-#include "sema/checks/task_needs.h"
-#include "sema/checks/uncalled_instances.h"
-#include "sema/checks/unset_temporaries.h"
-#include "sema/checks/unused_variables.h"
-#include "sema/checks/writable.h"
+#include "sema/bodies/writable.h"
+#include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -82,7 +73,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     return;
   }
   if (!checkWritable(context, node.target, Purpose{Use::Assigned, {}, {}})) return;
-  if (bindReference(context, node.value, own)) checkDanglingAddress(context, node.target, node.value);
+  if (bindReference(context, node.value, own)) context.rules->assignment(context, node.target, node.value);
 }
 
 }  // namespace
@@ -140,7 +131,7 @@ void checkAssign(Context& context, AssignStmt& node) {
       const TypeId type = checkAssigned(context, node, Access::Write);
       if (type == types::kError) return;
       checkAs(context, node.value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
-      checkDanglingAddress(context, node.target, node.value);
+      context.rules->assignment(context, node.target, node.value);
       return;
     }
     case AssignOp::Set:
@@ -176,7 +167,7 @@ TypeId checkAssignExpr(Context& context, ExprId expr) {
   ExprId value = context.tree().as<AssignExpr>(expr).value;
   checkAs(context, value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
   context.tree().as<AssignExpr>(expr).value = value;
-  checkDanglingAddress(context, context.tree().as<AssignExpr>(expr).target, value);
+  context.rules->assignment(context, context.tree().as<AssignExpr>(expr).target, value);
   return context.tree().expr(expr).type = type;
 }
 
@@ -209,7 +200,6 @@ bool checkIf(Context& context, const IfStmt& node) {
                    node.h.op == kConditionalOp ? Use::Condition
                    : i == 0                    ? Use::IfCondition
                                                : Use::ElsifCondition);
-    checkConstantCondition(context, branch.condition);
     falls |= checkStatements(context, branch.body);
   }
   const bool otherwise = checkStatements(context, node.otherwise);
@@ -217,7 +207,8 @@ bool checkIf(Context& context, const IfStmt& node) {
   return falls || otherwise;
 }
 
-void checkLabel(Context& context, ExprId& label, TypeId selector, CaseLabels& labels, int64_t* value) {
+// Converts a label to the selector's type; its value, which the rule on labels reads, must be known.
+void checkLabel(Context& context, ExprId& label, TypeId selector) {
   const bool enumeration = context.types().kind(selector) == TypeKind::Enum;
   TypeId type = check(context, label, selector, Access::Read);
   if (type == types::kError) return;
@@ -226,18 +217,35 @@ void checkLabel(Context& context, ExprId& label, TypeId selector, CaseLabels& la
       !context.types().info(context.types().resolve(selector)).strict) {
     wanted = context.types().plain(selector);
   }
-  if (!convert(context, label, wanted, Purpose{Use::CaseLabel, {}, {}})) return;
+  if (!convert(context, label, wanted, Purpose{Use::CaseLabel, {}, {}})) {
+    context.tree().expr(label).type = types::kError;
+    return;
+  }
   const std::optional<int64_t> known = constantInteger(context, label);
   if (!known) {
     context.report(diag::LabelNotConstant, context.tree().begin(label));
     return;
   }
-  *value = *known;
-  labels.ok = true;
   if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return;
   // Lowering need not compute it again.
   context.replace(label, makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
                                      context.tree().begin(label)));
+}
+
+void checkLabels(Context& context, const CaseBranch& branch, TypeId selector) {
+  for (ExprId& label : context.tree().list(branch.labels)) {
+    const bool is_range = context.tree().kind(label) == ExprKind::Range;
+    if (selector == types::kError) {
+      if (!is_range) checkExpr(context, label);
+    } else if (is_range) {
+      RangeExpr& range = context.tree().as<RangeExpr>(label);
+      checkLabel(context, range.low, selector);
+      checkLabel(context, range.high, selector);
+      range.h.type = selector;
+    } else {
+      checkLabel(context, label, selector);
+    }
+  }
 }
 
 bool checkCase(Context& context, CaseStmt& node) {
@@ -248,33 +256,11 @@ bool checkCase(Context& context, CaseStmt& node) {
     context.report(diag::CaseSelector, context.tree().loc(node.selector), {context.types().toString(selector)});
     selector = types::kError;
   }
-  CaseLabels labels;
   bool falls = false;
   for (const CaseBranch& branch : context.tree().list(node.branches)) {
-    for (ExprId& label : context.tree().list(branch.labels)) {
-      const Loc loc = context.tree().begin(label);
-      if (selector == types::kError) {
-        if (context.tree().kind(label) != ExprKind::Range) checkExpr(context, label);
-      } else if (context.tree().kind(label) == ExprKind::Range) {
-        RangeExpr& range = context.tree().as<RangeExpr>(label);
-        int64_t low = 0, high = 0;
-        labels.ok = false;
-        checkLabel(context, range.low, selector, labels, &low);
-        const bool ok = labels.ok;
-        labels.ok = false;
-        checkLabel(context, range.high, selector, labels, &high);
-        range.h.type = selector;
-        if (ok && labels.ok) addCaseLabel(context, labels, low, high, loc, context.types().isSigned(kind));
-      } else {
-        int64_t value = 0;
-        labels.ok = false;
-        checkLabel(context, label, selector, labels, &value);
-        if (labels.ok) addCaseLabel(context, labels, value, value, loc, true);
-      }
-    }
+    checkLabels(context, branch, selector);
     falls |= checkStatements(context, branch.body);
   }
-  checkCaseLabels(context, labels, selector, context.types().isSigned(kind));
   const bool otherwise = checkStatements(context, node.otherwise);
   return falls || otherwise || !node.has_else;
 }
@@ -298,6 +284,24 @@ TypeId stepType(Context& context, ExprId step, TypeId control) {
   }
 }
 
+// The type of the control variable, an integer; kError after a report. IEC 61131-3 ed. 3, 7.3.3.4.2.
+//   passes  FOR i := 1 TO 9 DO          fails  FOR r := 0.0 TO 1.0 DO                     E0710
+TypeId checkForControl(Context& context, ForStmt& node) {
+  const TypeId type = check(context, node.control, {}, Access::ReadWrite);
+  if (type == types::kError) return type;
+  if (isUntyped(context, type)) finalizeUntyped(context, node.control);
+  if (!checkWritable(context, node.control, Purpose{Use::LoopControl, {}, {}})) {
+    return types::kError;
+  }
+  const TypeKind kind = context.types().plainKind(type);
+  const bool enumeration = context.types().kind(type) == TypeKind::Enum;
+  if (!enumeration && (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && !context.iec()))) {
+    return type;
+  }
+  context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().toString(type)});
+  return types::kError;
+}
+
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
   const NameId name = lvalueName(context, node.control);
@@ -319,7 +323,7 @@ void checkFor(Context& context, ForStmt& node) {
   } else {
     bound(node.step, type, Use::LoopStep);
   }
-  if (type != types::kError) checkForBounds(context, node);
+  if (type == types::kError) context.tree().expr(node.control).type = type;
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {
     const Entity entity = context.tree().as<NameExpr>(node.control).entity;
@@ -441,79 +445,12 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
       reported = true;
     }
     const bool falls = checkStatement(context, id);
+    context.rules->statement(context, id);
     reachable = reachable && falls;
   }
   body.block = outer;
   --body.stmt_depth;
   return reachable;
-}
-
-// Turns a body in IL or SFC into statements, once the declarations of all files are known.
-static void schedule(Context& context, PouDecl& decl) {
-  const BodyKind kind = decl.body_kind;
-  if (decl.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
-  ProjectSignatures signatures(context);
-  Tree& tree = context.tree();
-  Diagnostics& diagnostics = context.symbols.diagnostics;
-  decl.scheduled = true;
-  const auto take = [&](const auto& created) {
-    decl.body = created.body;
-    declareTemporaries(context, created.temporaries);
-  };
-  if (kind == BodyKind::Network) {
-    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
-                                   decl));
-  } else if (kind == BodyKind::Il) {
-    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
-  } else {
-    if ((decl.h.bits & kBrokenDeclarations) != 0) return;
-    if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;
-  }
-  if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
-}
-
-void checkBody(Context& context, PouId id) {
-  Pou& pou = context.symbols.pou(id);
-  if (!pou.decl) return;
-  resolvePou(context, id);
-  PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  if (decl.body_kind == BodyKind::Native || pou.generic) return;
-  const std::string_view name = string(context, pou.name);
-  setPhaseSubject(name.data(), name.size());
-  BodyState body;
-  Context inner{.symbols = context.symbols,
-                .project = context.project,
-                .scopes = context.scopes,
-                .pou = id,
-                .file = pou.file,
-                .body = &body,
-                .library = pou.library,
-                .region = context.region,
-                .resource = context.resource};
-  if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
-  schedule(inner, decl);
-  body.statements = decl.body;
-  checkStatements(inner, decl.body);
-  finalizeTemporaries(inner);
-  checkJumpLabels(inner);
-  checkEndlessJumps(inner);
-  checkResultAssigned(inner);
-  checkCallMemory(inner);
-}
-
-void checkAfterBodies(Context& context) {
-  checkRecursion(context);
-  checkUnusedVariables(context);
-  checkOverlappingAddresses(context);
-  checkSharedGlobals(context);
-  checkTaskNeeds(context);
-  checkOutputWriters(context);
-  checkSafeValues(context);
-  checkHiddenGlobals(context);
-  checkRepeatedTimerCalls(context);
-  checkUncalledInstances(context);
-  checkUnsetTemporaries(context);
-  checkCamTables(context);
 }
 
 }  // namespace rung::sema

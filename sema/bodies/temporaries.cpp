@@ -4,8 +4,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "sema/bodies/access.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/resolve.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,7 +4,7 @@
 // only literals, to the type that the first reader wants.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

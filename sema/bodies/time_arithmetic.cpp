@@ -3,8 +3,14 @@
 // In: a BinaryExpr with a time or date on one side. Out: the same as arithmetic on integers of the type's own unit,
 // with conversions at both ends, so that lowering and the kernel know one kind of arithmetic.
 // TIME and TOD count milliseconds, DATE and DT seconds, the L forms nanoseconds.
-#include "sema/bodies/bodies.h"
+#include "sema/bodies/time_arithmetic.h"
+
+#include "sema/bodies/conversions.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
 #include "sema/diagnostics.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
+#include "sema/bodies/access.h"
+#include "sema/bodies/addressable.h"
+#include "sema/bodies/any_inputs.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/names.h"
 #include "sema/bodies/pseudo_functions.h"
-#include "sema/checks/addressable.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -4,9 +4,8 @@
 //   passes  FUNCTION Sum : LREAL VAR_IN_OUT table : ARRAY[0..3000000] OF LREAL; END_VAR
 //   fails   FUNCTION Zeros : Table              TYPE Table : ARRAY[0..3000000] OF LREAL; END_TYPE          E0588
 // Called at the end of each body.
-#include "sema/checks/call_memory.h"
-
-#include "sema/checks/diagnostics.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

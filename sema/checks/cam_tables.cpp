@@ -7,16 +7,17 @@
 //   fails   the same with nElements := 3                                                          E1324
 //   fails   … := [(dX := 360), (dX := 0)]                                                          E1321
 // Called once, when all bodies are checked. Linear in the expressions and in the rows.
-#include "sema/checks/cam_tables.h"
+#include "sema/checks/rules.h"
 
 #include <cmath>
 
 #include "cam/design/text_form.h"
 #include "frontend/syntax/children.h"
-#include "sema/bodies/bodies.h"
-#include "sema/checks/diagnostics.h"
-#include "sema/constant_cams.h"
+#include "sema/bodies/constant_cams.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/constants.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

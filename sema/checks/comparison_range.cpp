@@ -6,11 +6,12 @@
 //   warns   WHILE count >= 0 DO          count : UINT          W0584
 // An arithmetic expression has more values than its type in codesys, so variables and results of calls alone are looked
 // at. Called for each comparison, infix or in call form.
-#include "sema/checks/comparison_range.h"
+#include "sema/bodies/expressions.h"
+#include "sema/checks/operation.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 #include <utility>
-
-#include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
 namespace {
@@ -67,9 +68,12 @@ std::optional<bool> decided(Op op, __int128 low, __int128 high, __int128 number)
 
 }  // namespace
 
-void checkComparisonRange(Context& context, Op op, ExprId left, ExprId right, Loc loc) {
-  if (context.library || !left || !right) return;
-  ExprId variable = withoutConversion(context, left), number = withoutConversion(context, right);
+void checkComparisonRange(Context& context, ExprId expr) {
+  if (context.library) return;
+  const std::optional<Operation> operation = operationOf(context, expr);
+  if (!operation || operation->op < Op::Eq || operation->op > Op::Ge) return;
+  Op op = operation->op;
+  ExprId variable = withoutConversion(context, operation->left), number = withoutConversion(context, operation->right);
   if (isLiteral(context, variable)) {
     std::swap(variable, number);
     op = mirrored(op);
@@ -94,7 +98,7 @@ void checkComparisonRange(Context& context, Op op, ExprId left, ExprId right, Lo
   const auto text = [](__int128 n) {
     return n < 0 ? std::to_string(static_cast<int64_t>(n)) : std::to_string(static_cast<uint64_t>(n));
   };
-  context.report(diag::ComparisonDecided, loc,
+  context.report(diag::ComparisonDecided, context.tree().expr(expr).loc,
                  {*always ? "TRUE" : "FALSE", context.types().toString(type), text(low), text(high)});
 }
 

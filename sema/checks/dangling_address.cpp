@@ -4,9 +4,9 @@
 //   passes  FUNCTION f … VAR p : REF_TO INT; x : INT; END_VAR p := REF(x);
 //   fails   FUNCTION f … VAR x : INT; END_VAR keeper.p := REF(x);                                        E0538
 // Called for each assignment of a pointer and each binding of a reference.
-#include "sema/checks/dangling_address.h"
-
-#include "sema/checks/diagnostics.h"
+#include "sema/bodies/names.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

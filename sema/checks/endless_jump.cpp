@@ -5,11 +5,12 @@
 //   warns   again: n := n + 1; JMP again;                             W0887
 // Called at the end of each body of any language, after checkJumpLabels. Conditions count as undecided; a FOR or WHILE
 // may always end, because a constant condition has a warning of its own (W0756). Linear in the statements.
-#include "sema/checks/endless_jump.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/limits.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 #include <algorithm>
-
-#include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
 

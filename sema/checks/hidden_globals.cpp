@@ -5,12 +5,11 @@
 //   passes  VAR_EXTERNAL level : INT; END_VAR             with VAR_GLOBAL level : INT
 //   fails   PROGRAM Main VAR level : INT; END_VAR         with VAR_GLOBAL level : INT
 // Called once, when all bodies are checked.
-#include "sema/checks/hidden_globals.h"
+#include "sema/checks/rules.h"
 
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -3,12 +3,12 @@
 //   passes  IF done THEN JMP finish; END_IF … finish: …
 //   fails   JMP finsh;   finish: … finish: …
 // Called at the end of each body.
-#include "sema/checks/jump_labels.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
-#include "sema/checks/diagnostics.h"
+#include "sema/bodies/body.h"
 
 namespace rung::sema {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mocks of tests. A mock replaces a function or block in the tests that name it. It has the same pins and result, so
-// each test is checked with the original; for `rung test`, tests with mocks are then checked and translated once more
-// for each set of mocks (Options::mocks), where the replaced names mean the mocks. Layout, initial values and calls
-// follow, in both engines.
+// Forbids mocks that do not fit what they replace, and the use of anything else as a mock. A mock replaces a function
+// or block in the tests that name it. It has the same pins and result, so each test is checked with the original; for
+// `rung test`, tests with mocks are then checked and translated once more for each set of mocks (Options::mocks), where
+// the replaced names mean the mocks. Layout, initial values and calls follow, in both engines.
 //   passes  {replaces 'Level'} FUNCTION Full : REAL …   {test} {mock 'Full'} PROGRAM stops_when_full …
 //   fails   {replaces 'Levl'} FUNCTION Full : REAL …                                             E0621
 //   fails   {replaces 'Level'} FUNCTION_BLOCK Full …                                             E0622
@@ -10,42 +10,19 @@
 //   fails   {test} {mock 'Ful'} PROGRAM stops_when_full …                                        E0624
 //   fails   {test} {mock 'Full'} {mock 'Empty'} PROGRAM stops_when_full …                        E0625
 //   fails   {mock 'Full'} PROGRAM Main …                                                         E0626
-#include "sema/checks/mocks.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/calls.h"
+#include "sema/bodies/names.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
-
-void chooseTests(Context& context) {
-  Symbols& symbols = context.symbols;
-  const Options& options = context.project.options;
-  std::vector<NameId> chosen;
-  for (const std::string& name : options.mocks) chosen.push_back(keyOf(context, context.names().intern(name)));
-  const auto byIndex = [](NameId a, NameId b) { return a.index < b.index; };
-  std::sort(chosen.begin(), chosen.end(), byIndex);
-  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
-    Pou& pou = symbols.pous[i];
-    for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
-      if (keyOf(context, pragma.name) != context.scopes.known_names.mock) continue;
-      pou.pragmas.mocks.push_back(keyOf(context, context.names().intern(context.tree().string(pragma.value))));
-    }
-    std::sort(pou.pragmas.mocks.begin(), pou.pragmas.mocks.end(), byIndex);
-    if (pou.pragmas.test) {
-      pou.excluded = !options.with_tests || pou.pragmas.mocks != chosen;
-    } else if (pou.pragmas.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
-      pou.pragmas.test_only = false;  // the program uses it now
-      const std::string_view dotted = context.names().string(pou.pragmas.replaces);
-      const NameId last = context.names().intern(dotted.substr(dotted.rfind('.') + 1));
-      context.scopes.mocks.push_back({.key = keyOf(context, last), .mock = PouId{i}});
-    } else {
-      pou.excluded = pou.pragmas.replaces || (pou.pragmas.test_only && !options.with_tests);
-    }
-  }
-}
 
 namespace {
 

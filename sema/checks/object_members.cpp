@@ -7,13 +7,17 @@
 //   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
 //   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
 // Called once for each object of the project, when everything is declared.
-#include "sema/checks/object_members.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/conversions.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
@@ -264,7 +268,7 @@ void checkHalves(Context& context, PouId object) {
 
 }  // namespace
 
-void checkObjectMembers(Context& context, PouId object) {
+static void checkObject(Context& context, PouId object) {
   const Pou& pou = context.symbols.pou(object);
   checkHalves(context, object);
   if (pou.kind == PouKind::Interface) return checkPrototypes(context, object);
@@ -294,13 +298,11 @@ void checkObjectMembers(Context& context, PouId object) {
   }
 }
 
-// Forbids instances of an ABSTRACT type.   fails   VAR s : Shape; END_VAR (ABSTRACT)      E0356
-bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
-  while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
-  const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
-  if (!pou || (context.symbols.pou(pou).object.modifiers & kAbstract) == 0) return true;
-  context.report(diag::AbstractInstance, loc, {string(context, context.symbols.pou(pou).name)});
-  return false;
+void checkObjectMembers(Context& context) {
+  for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
+    const Pou& pou = context.symbols.pous[i];
+    if (pou.decl && !pou.owner && !pou.library) checkObject(context, PouId{i});
+  }
 }
 
 }  // namespace rung::sema

@@ -5,10 +5,10 @@
 //   passes  one program computes `pump`, the only one that writes it
 //   fails   two programs have `pump := ...;`
 // Called once, when all bodies are checked. Linear in the writes.
-#include "sema/checks/output_writers.h"
+#include "sema/checks/rules.h"
 
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

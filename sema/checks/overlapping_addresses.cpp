@@ -4,12 +4,12 @@
 //   passes  word AT %MW0 : WORD; bit AT %MX0.3 : BOOL;   only one of them is written
 //   fails   low AT %MW0 : DWORD; high AT %MW1 : WORD;    both are
 // Called once, when all bodies are checked and all addresses are known. Sorted by position: no pair is compared twice.
-#include "sema/checks/overlapping_addresses.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -3,19 +3,17 @@
 //   passes  Outer calls Inner
 //   fails   Fact := n * Fact(n - 1);
 // Called once, when all bodies are checked. One depth-first walk over the calls, with an explicit stack.
-#include "sema/checks/recursion.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
 void checkRecursion(Context& context) {
-  std::vector<Project::CallEdge>& edges = context.project.call_edges;
-  std::stable_sort(edges.begin(), edges.end(),
-                   [](const auto& a, const auto& b) { return a.caller.index < b.caller.index; });
+  const std::vector<Project::CallEdge>& edges = context.project.call_edges;
   const size_t count = context.symbols.pous.size();
   std::vector<uint32_t> first(count + 1, 0);
   for (const auto& edge : edges) ++first[edge.caller.index + 1];

@@ -7,15 +7,14 @@
 //   passes  delay(IN := FALSE); delay(IN := TRUE, PT := T#1s);
 //   fails   delay(IN := a, PT := T#1s); delay(IN := b, PT := T#2s);
 // Called once, when all bodies are checked. Linear in the statements.
-#include "sema/checks/repeated_timer_call.h"
+#include "sema/checks/rules.h"
 
 #include <map>
 
 #include "frontend/syntax/children.h"
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -3,10 +3,10 @@
 //   passes  FUNCTION Twice : INT … Twice := 2 * x;
 //   fails   FUNCTION Twice : INT … y := 2 * x;
 // Called at the end of each body.
-#include "sema/checks/result_assigned.h"
-
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/checks/rules.h"
+#include "sema/declarations/objects.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

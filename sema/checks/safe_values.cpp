@@ -5,9 +5,8 @@
 //   passes  [safe] with `valve = TRUE`, where `valve AT %QX0.1 : BOOL`, or with `%QW3 = 100`
 //   fails   [safe] with `Main.count = 0`                                                             E1290
 // Called once, when all bodies are checked.
-#include "sema/checks/safe_values.h"
+#include "sema/checks/rules.h"
 
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
 
 namespace rung::sema {

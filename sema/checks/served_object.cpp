@@ -4,9 +4,9 @@
 //   passes  power(Axis := left);   power2(Axis := right);
 //   warns   power(Axis := left);   power(Axis := right);             W0843
 // Called for each call of an instance, in the order of the body. Only plain variables are compared.
-#include "sema/checks/served_object.h"
-
-#include "sema/checks/diagnostics.h"
+#include "sema/bodies/body.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,13 +4,13 @@
 //   passes  one task writes `level`, the other reads it
 //   fails   both tasks have `count := count + 1;`                                                    W0829
 //   fails   both tasks have `move(Axis := X);`                                                       W1530
-// Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
-#include "sema/checks/shared_globals.h"
+// Called once, when all bodies are checked. Linear in POUs and calls for each task.
+#include "sema/checks/rules.h"
 
-#include "sema/bodies/bodies.h"
-#include "sema/checks/diagnostics.h"
-#include "sema/checks/uncopied.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/uncopied.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,14 +4,20 @@
 //   passes  low := SHR(mask, 8);         mask : WORD
 //   warns   low := SHR(mask, 16);        mask : WORD           W0585
 // Called for each call of these operators.
-#include "sema/checks/shift_width.h"
-
-#include "sema/checks/diagnostics.h"
+#include "sema/bodies/expressions.h"
+#include "sema/bodies/literals.h"
+#include "sema/checks/operation.h"
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
-void checkShiftWidth(Context& context, ExprId value, ExprId count) {
-  if (context.library || !value || !count) return;
+void checkShiftWidth(Context& context, ExprId expr) {
+  using types::Op;
+  if (context.library) return;
+  const std::optional<Operation> operation = operationOf(context, expr);
+  if (!operation || (operation->op != Op::Shl && operation->op != Op::Shr && operation->op != Op::Sar)) return;
+  const ExprId value = operation->left, count = operation->right;
   const TypeId type = context.tree().expr(value).type;
   if (!type || type == types::kError || isUntyped(context, type)) return;
   const TypeKind kind = context.types().plainKind(type);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Warns of a task that runs a block which needs another one. What a block needs is written at its declaration:
-//   {attribute 'task_interval' := '1, 2, 4'}   a cyclic task of one of these intervals in ms. TM/TP manual 9.1
-//   {attribute 'task_priority' := '16'}        a task of this priority or a lower one (a greater number). TM/TP 6.17.2
-//   {attribute 'task_priorities' := '15 to 30'} not the task of priority 0, if there are others. TM/TP table 1-3,
-//   AX 6.5 passes  TASK t(INTERVAL := T#2ms) with a program that calls ENC_Counter fails   TASK t(INTERVAL := T#10ms)
-//   with that program                       W1220
-// Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
-#include "sema/checks/task_needs.h"
+// {attribute 'task_interval' := '1, 2, 4'}, a cyclic task of one of these intervals in ms (TM/TP manual 9.1);
+// {attribute 'task_priority' := '16'}, a task of this priority or a lower one, a greater number (TM/TP manual 6.17.2);
+// {attribute 'task_priorities' := '15 to 30'}, not the task of priority 0, if there are others (TM/TP table 1-3,
+// AX 6.5).
+//   passes  TASK t(INTERVAL := T#2ms) with a program that calls ENC_Counter
+//   warns   TASK t(INTERVAL := T#10ms) with that program                       W1220
+// Called once, when all bodies are checked. Linear in POUs and calls for each task.
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

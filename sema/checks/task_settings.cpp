@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules on the settings of tasks; see task_settings.h. Tasks of one resource share a CPU, so each rule compares the
-// tasks of one resource only. Linear in tasks but for the periods, which are at most 100 a resource.
-#include "sema/checks/task_settings.h"
+// Warns of settings of tasks that do not fit each other, and forbids more tasks than a resource may have. Tasks of one
+// resource share a CPU, so only these are compared.
+//   fails   the 101st TASK t(INTERVAL := …)                                        E1141
+//   warns   TASK a(…, PRIORITY := 1); TASK b(…, PRIORITY := 1);                    W1142
+// Linear in tasks but for the periods, which are at most 100 a resource.
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "sema/bodies/bodies.h"
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

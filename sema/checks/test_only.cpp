@@ -4,18 +4,18 @@
 //   passes  {test} PROGRAM opens_late … TEST_ADVANCE(T#100ms);
 //   fails   PROGRAM Main … TEST_ADVANCE(T#100ms);          E0620
 // Called for every call of a function and every named type.
-#include "sema/checks/test_only.h"
-
-#include "sema/checks/diagnostics.h"
+#include "sema/checks/rules.h"
 
 namespace rung::sema {
 
-void checkTestOnly(Context& context, PouId used, Loc loc) {
-  const Pou& pou = context.symbols.pou(used);
-  if (!pou.pragmas.test_only || context.library) return;
+void checkTestOnly(Context& context, const UsedName& used) {
+  if (!used.pou || context.library) return;
+  const Pou& pou = context.symbols.pou(used.pou);
+  // The type of an instance was reported where it is declared.
+  if (!pou.pragmas.test_only || (used.is_call && pou.kind != PouKind::Function)) return;
   const Pou& user = context.symbols.pou(context.pou);
   if (user.pragmas.test || user.pragmas.test_only || user.pragmas.replaces) return;
-  context.report(diag::TestOnly, loc, {context.names().string(pou.name)});
+  context.report(diag::TestOnly, used.loc, {context.names().string(pou.name)});
 }
 
 }  // namespace rung::sema

@@ -6,13 +6,15 @@
 //   fails   {teardown} FUNCTION drain VAR_INPUT level : INT; END_VAR ...                          E1170
 //   fails   {skip 'later'} FUNCTION Level ...                                                     E1171
 //   fails   {test} METHOD fill ...                                                                E1186
-#include "sema/checks/test_pragmas.h"
+#include "sema/checks/rules.h"
 
 #include <algorithm>
 
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {

@@ -4,10 +4,8 @@
 // of two variables, mostly settings, are not reported, and neither are tests, which advance the time themselves.
 //   passes  IF delay.ET >= T#2s THEN    IF delay.ET = T#0s THEN    IF setting <> old_setting THEN
 //   fails   IF delay.ET = T#2s THEN
-// Called by operators.cpp when both sides are typed.
-#include "sema/checks/time_equality.h"
-
-#include "sema/checks/diagnostics.h"
+// Called for each operation whose sides are typed.
+#include "sema/checks/rules.h"
 
 namespace rung::sema {
 
@@ -31,7 +29,10 @@ bool isConstantTime(const Context& context, ExprId expr) {
 
 }  // namespace
 
-void checkTimeEquality(Context& context, const BinaryExpr& node) {
+void checkTimeEquality(Context& context, ExprId expr) {
+  if (context.tree().kind(expr) != ExprKind::Binary) return;
+  const BinaryExpr& node = context.tree().as<BinaryExpr>(expr);
+  if (node.op() != BinaryOp::Equal && node.op() != BinaryOp::NotEqual) return;
   if (context.library || (context.pou && context.symbols.pou(context.pou).pragmas.test)) return;
   const types::TypeKind kind = context.types().plainKind(context.tree().expr(node.left).type);
   if (kind != types::TypeKind::Time && kind != types::TypeKind::LTime) return;

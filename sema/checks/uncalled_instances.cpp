@@ -4,13 +4,13 @@
 //   passes  delay(IN := run, PT := T#1s); lamp := delay.Q;
 //   fails   lamp := delay.Q;                                         with VAR delay : TON; END_VAR
 // Called once, when all bodies are checked. Linear in the expressions.
-#include "sema/checks/uncalled_instances.h"
+#include "sema/checks/rules.h"
 
 #include "frontend/syntax/children.h"
-#include "sema/checks/diagnostics.h"
-#include "sema/declarations/declarations.h"
+#include "sema/bodies/names.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -5,11 +5,11 @@
 //   passes  sum := a + b; mean := sum / 2;                          with VAR_TEMP sum : INT; END_VAR
 //   fails   count := count + 1;                                     with VAR_TEMP count : INT; END_VAR
 // Called once, when all bodies are checked. Linear in the statements.
-#include "sema/checks/unset_temporaries.h"
+#include "sema/checks/rules.h"
 
 #include "frontend/syntax/children.h"
-#include "sema/checks/diagnostics.h"
 #include "sema/project.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -5,10 +5,11 @@
 //   passes  VAR n : INT; END_VAR   n := n + 1;
 //   fails   VAR n : INT; END_VAR   (nothing)
 // Called once, when all bodies are checked; silent when there are errors, since uses may then be missing.
-#include "sema/checks/unused_variables.h"
+#include "sema/checks/rules.h"
 
 #include "frontend/schedule/sfc_schedule.h"
-#include "sema/checks/diagnostics.h"
+#include "sema/declarations/objects.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,10 +4,9 @@
 // same as SA0130 of CODESYS Static Analysis.
 //   passes  d := INT_TO_DINT(i) * j;   i := i * j;
 //   fails   d := i * j;                                  W0581
-// Called by conversions.cpp for each implicit conversion that loses nothing.
-#include "sema/checks/widened_result.h"
-
-#include "sema/checks/diagnostics.h"
+// Called for each implicit conversion that loses nothing.
+#include "sema/checks/rules.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

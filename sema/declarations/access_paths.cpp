@@ -2,13 +2,21 @@
 // VAR_ACCESS: names under which the host finds single variables. In: the sections of configurations and programs, once
 // all instances are known. Out: Project::access_paths, each with the location that it names. Without a direction an
 // access path is READ_ONLY. IEC 61131-3 ed. 3 table 62, 10 and table 47, 9.
+#include "sema/declarations/access_paths.h"
+
 #include "sema/declarations/configuration.h"
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/types.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

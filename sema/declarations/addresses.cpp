@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Located variables and direct addresses: %IX0.3, %QW4, %ID48 as views of the process image. A number counts units of
 // the size letter (%ID48 begins at byte 192); %IX5 is byte 0, bit 5.
+#include "sema/declarations/addresses.h"
+
 #include <algorithm>
 
 #include <algorithm>
 #include "frontend/parse/diagnostics.h"
 
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <charconv>
 
-#include "sema/checks/diagnostics.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/objects.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
 
 namespace rung::sema {
 

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "sema/declarations/declarations.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 

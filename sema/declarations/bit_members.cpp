@@ -2,8 +2,14 @@
 // Members of type BIT (codesys): eight in a row share a byte, the first is its lowest bit. In: variables declared BIT.
 // Out: hidden BYTE fields, the position of each bit, and the byte made of the bits' initial values. In bodies such a
 // member is a BitAccess to that byte (bodies/names.cpp). In a union each is bit 0.
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
+
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

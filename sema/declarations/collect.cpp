@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collects declarations: every POU, type, enumeration item and global of the files gets its entity and its name, so
 // that the order of files and declarations does not matter. Nothing is resolved here.
+#include "sema/declarations/collect.h"
+
 #include <string>
 
 #include "frontend/syntax/diagnostics.h"
-#include "sema/charts.h"
 #include "sema/declarations/attributes.h"
+#include "sema/declarations/charts.h"
 #include "sema/declarations/configuration.h"
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/objects.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

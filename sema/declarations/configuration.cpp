@@ -7,10 +7,18 @@
 #include <unordered_map>
 
 #include "frontend/source/scanner.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
 #include "sema/declarations/task_triggers.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
@@ -73,7 +81,7 @@ struct TaskReader {
     if (tree.kind(expr) == ExprKind::Literal && tree.as<LiteralExpr>(expr).literal() == LiteralKind::Duration) {
       return static_cast<int64_t>(tree.as<LiteralExpr>(expr).value());
     }
-    const TypeId type = checkExpr(context, expr, types::kTime);
+    const TypeId type = context.expressions->check(context, expr, types::kTime);
     if (type == types::kError) return std::nullopt;
     if (!TypeTable::isDuration(context.types().plainKind(type))) {
       context.report(diag::TaskSettingType, tree.begin(expr), {setting, "a TIME"});
@@ -339,7 +347,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   if (!decl.arguments.empty()) {
     const ExprId callee = context.build().name(type.name, type.loc, found);
     instance.connections = context.build().call(callee, decl.arguments, type.loc, type.loc);
-    checkConnections(context, instance.connections, instance.program);
+    context.expressions->checkConnections(context, instance.connections, instance.program);
   }
   for (const ProgramInstance& other : project.instances) {
     if (!context.names().same(other.name, instance.name) || !(other.resource == instance.resource) ||

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constant expressions, evaluated by the arithmetic kernel. In: checked expressions. Out: their values. A constant also
 // keeps memory in the instance or list that declares it, so that it can be watched; code uses its value.
+#include "sema/declarations/constants.h"
+
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
 #include "sema/intermediate.h"
 #include "sema/project.h"
 
@@ -22,78 +24,7 @@ constexpr uint32_t kMaxDepth = 2000;
 
 bool isUntypedLiteral(TypeKind kind) { return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral; }
 
-// The code of a string of one character: a byte for a CHAR, else a code point (a WCHAR: one 16-bit unit).
-uint64_t characterOf(std::string_view text, TypeKind kind) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const uint64_t lead = byte(0);
-  if (kind == TypeKind::Char || text.size() < 2 || lead < 0xc0) return lead;
-  if (lead < 0xe0) return (lead & 0x1f) << 6 | (byte(1) & 0x3f);
-  if (lead < 0xf0) return (lead & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
-  return (lead & 0x07) << 18 | (byte(1) & 0x3f) << 12 | (byte(2) & 0x3f) << 6 | (byte(3) & 0x3f);
-}
-
 }  // namespace
-
-Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
-  const TypeTable& table = symbols.types;
-  const TypeId type = table.resolve(literal.h.type);
-  const TypeKind kind = table.plainKind(type);
-  const bool negative = (literal.h.bits & kLiteralNegative) != 0;
-  switch (literal.literal()) {
-    case LiteralKind::Bool:
-    case LiteralKind::Null: return {type, literal.value()};
-    case LiteralKind::Integer: {
-      const uint64_t bits = negative ? 0 - literal.value() : literal.value();
-      if (!TypeTable::isReal(kind) && kind != TypeKind::RealLiteral) return {type, bits};
-      return types::convert(table, {types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits}, type).value;
-    }
-    case LiteralKind::Real: {
-      const Value number{types::kLReal, literal.value()};
-      if (kind == TypeKind::RealLiteral) return {type, number.bits};
-      return types::convert(table, number, type).value;
-    }
-    case LiteralKind::String:
-    case LiteralKind::WString: {
-      const std::string_view text = symbols.tree.string(literal.string());
-      if (TypeTable::isCharacter(kind)) return {type, characterOf(text, kind)};
-      return {type, symbols.names.intern(text).index};
-    }
-    case LiteralKind::Duration: {
-      if (kind != TypeKind::Time) return {type, literal.value()};
-      const uint64_t ms = (negative ? 0 - literal.value() : literal.value()) / 1'000'000;
-      return types::convert(table, {types::kLInt, negative ? 0 - ms : ms}, type).value;
-    }
-    case LiteralKind::Date: return types::convert(table, {types::idOf(TypeKind::LDate), literal.value()}, type).value;
-    case LiteralKind::TimeOfDay:
-      return types::convert(table, {types::idOf(TypeKind::LTimeOfDay), literal.value()}, type).value;
-    case LiteralKind::DateTime:
-      return types::convert(table, {types::idOf(TypeKind::LDateTime), literal.value()}, type).value;
-  }
-  return {type, 0};
-}
-
-Op operatorOf(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::Or:
-    case BinaryOp::OrElse: return Op::Or;
-    case BinaryOp::Xor: return Op::Xor;
-    case BinaryOp::And:
-    case BinaryOp::AndThen: return Op::And;
-    case BinaryOp::Equal: return Op::Eq;
-    case BinaryOp::NotEqual: return Op::Ne;
-    case BinaryOp::Less: return Op::Lt;
-    case BinaryOp::LessEqual: return Op::Le;
-    case BinaryOp::Greater: return Op::Gt;
-    case BinaryOp::GreaterEqual: return Op::Ge;
-    case BinaryOp::Add: return Op::Add;
-    case BinaryOp::Subtract: return Op::Sub;
-    case BinaryOp::Multiply: return Op::Mul;
-    case BinaryOp::Divide: return Op::Div;
-    case BinaryOp::Modulo: return Op::Mod;
-    case BinaryOp::Power: return Op::Power;
-  }
-  return Op::Add;
-}
 
 namespace {
 
@@ -173,8 +104,9 @@ std::optional<Value> callFunction(Context& context, PouId function, std::vector<
     if (i >= pou.pins.size()) return std::nullopt;
     value = types::convert(context.types(), value, symbols.var(pou.pins[i]).type).value;
   }
-  return context.project.options.call_constant(context.project, function, values,
-                                               [&](PouId callee) { return ensureBody(context, callee); });
+  return context.project.options.call_constant(context.project, function, values, [&](PouId callee) {
+    return context.expressions->ensureBody(context, callee);
+  });
 }
 
 std::optional<Value> evaluateCall(Context& context, ExprId id, uint32_t depth) {
@@ -372,7 +304,7 @@ std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type)
 std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
   if (const auto number = plainInteger(context, expr)) return number;
   if (context.tree().kind(expr) == ExprKind::Error) return std::nullopt;
-  const TypeId type = checkExpr(context, expr);
+  const TypeId type = context.expressions->check(context, expr, {});
   if (type == types::kError) return std::nullopt;
   const TypeKind kind = context.types().plainKind(type);
   if (!TypeTable::isInteger(kind) && !TypeTable::isBits(kind) && kind != TypeKind::IntegerLiteral) {

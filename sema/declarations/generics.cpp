@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instances of generic library functions and of blocks with VAR_GENERIC CONSTANT: the source is parsed again for each
 // tuple of types or values, so that the instance is checked and lowered like any other POU.
+#include "sema/declarations/generics.h"
+
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -3,13 +3,17 @@
 // values, and the variables whose value is not constant (Scopes::reading_inits). Out: Project::late, the global
 // variables that are set after all lists, and Pou::late, those of one instance; both in order of dependence. Functions
 // that an initial value calls may read globals too: neither CODESYS nor Rung guarantees an order there.
+#include "sema/declarations/initial_order.h"
+
 #include <algorithm>
 #include <unordered_map>
 
 #include "frontend/syntax/children.h"
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/objects.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -2,13 +2,23 @@
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
 // constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
 // place; surplus array elements are removed and repetition counts are literals.
+#include "sema/declarations/initial_values.h"
+
 #include <algorithm>
 #include <array>
 
-#include "sema/bodies/bodies.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -133,10 +143,10 @@ struct Initializer {
     }
     if (plainLiteral(init, type)) return;
     if (context.types().kind(type) == TypeKind::Reference) {
-      if (!bindReference(context, init, type)) init = {};
+      if (!context.expressions->bindReference(context, init, type)) init = {};
       return;
     }
-    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
+    if (!context.expressions->checkAs(context, init, type, std::string("used as ") + std::string(what))) return;
     const TypeKind to = context.types().kind(type);
     if (to == TypeKind::Pointer) {
       reads |= may == InitialReads::Variables && !isStatic(init, 0);
@@ -246,7 +256,7 @@ struct Initializer {
     const ExprKind written = tree().kind(init);
     if (context.iec() || (written != ExprKind::Name && written != ExprKind::Member && written != ExprKind::Index))
       return false;
-    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) {
+    if (!context.expressions->checkAs(context, init, type, std::string("used as ") + std::string(what))) {
       init = {};
       return true;
     }
@@ -304,7 +314,7 @@ struct Initializer {
       if (likeAnother(init, type)) return;
       if (tree().kind(init) == ExprKind::Call && !context.iec()) {  // __VARINFO(x)
         ExprId value = init;
-        if (checkExprAs(context, value, type, std::string("used as ") + std::string(what)) &&
+        if (context.expressions->checkAs(context, value, type, std::string("used as ") + std::string(what)) &&
             tree().kind(value) == ExprKind::AnyValue) {
           init = value;
           return;

@@ -6,10 +6,15 @@
 
 #include <algorithm>
 
-#include "sema/bodies/bodies.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/addresses.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/initial_values.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/types.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

@@ -2,12 +2,16 @@
 // The names of items as strings, {attribute 'to_string'}. In: an enumeration. Out: a function of the library __SYSTEM;
 // its source is composed here, so that it is checked and lowered like any other. CODESYS, "Attribute: to_string".
 // Called for TO_STRING and TO_WSTRING of an enumeration.
+#include "sema/declarations/item_names.h"
+
 #include <unordered_set>
 
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/resolve.h"
 #include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -5,8 +5,11 @@
 
 #include "frontend/source/dialect.h"
 #include "frontend/source/scanner.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/resolve.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

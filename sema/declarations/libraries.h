@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/parse/parse.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 
@@ -24,5 +25,19 @@ struct IndexedBlock {
   uint8_t standards = kAllStandards, qualified = 0;
 };
 std::vector<IndexedBlock> indexLibrary(std::string_view source);
+
+inline constexpr uint32_t kNoLibrary = ~0u;
+// An entity of the library __SYSTEM, the compiler's own, by name.
+Entity lookUpSystem(Context& context, std::string_view name);
+// The structure __SYSTEM.AnyType.
+TypeId anyType(Context& context);
+void indexLibraries(Context& context);
+// A name of the libraries, read on first use; of one library only when `library` is given.
+Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);
+// The name by which the module knows a POU or type of a library: with the library's name if the bare name means one of
+// the project or of another library.
+NameId uniqueNameInLibrary(Context& context, uint32_t library, NameId name);
+// `CAA.PVOID`: how messages name it then.
+NameId nameWithLibrary(Context& context, uint32_t library, NameId name);
 
 }  // namespace rung::sema

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Name lookup: the meaning of a name at a location, members of records, the name nearest to a misspelled one.
+#include "sema/declarations/names.h"
+
 #include <algorithm>
 #include <vector>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

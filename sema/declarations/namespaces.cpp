@@ -7,9 +7,14 @@
 // Lookup goes from the inside out: the declarations of the namespace around the name, then those that the USINGs of
 // that block open, then the same for the next outer namespace; at file level the project's names, the USINGs of the
 // file, the libraries. A USING opens the declarations of its namespace, not the namespaces in it.
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/namespaces.h"
+
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/names.h"
 #include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -7,15 +7,26 @@
 // project extends. So the first derived block changes the layout of its base, and resolveHeaders() reads all headers
 // before the first layout. A derived object holds its base as its first field, a nested record: the base's initialiser
 // is that of a field, and no pointer is cast. If only the derived one has a type id, it comes first.
+#include "sema/declarations/objects.h"
+
 #include <algorithm>
 
-#include "sema/charts.h"
 #include "sema/declarations/attributes.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/charts.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/namespaces.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
+#include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
+
+using types::TypeKind;
 
 bool isLifeMethod(const Context& context, NameId name) {
   const std::string_view text = context.names().string(name);
@@ -344,6 +355,75 @@ PouId interfaceOf(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(record);
   if (info.kind != types::TypeKind::Record || info.record_kind != types::RecordKind::Interface) return {};
   return context.scopes.named(record)->pou;
+}
+
+PouId pouOf(Context& context, TypeId record) {
+  const NamedType* named = context.scopes.named(context.types().resolve(record));
+  return named == nullptr ? PouId{} : named->pou;
+}
+
+namespace {
+
+bool isPin(SectionKind section) {
+  return section == SectionKind::Input || section == SectionKind::InOut || section == SectionKind::Output;
+}
+
+}  // namespace
+
+std::span<const VarId> pinsOf(Context& context, PouId id) {
+  Pou& pou = context.symbols.pou(id);
+  if (!pou.progress.pins_ready) {
+    resolvePou(context, id);
+    pou.pins.clear();
+    if (pou.base) {  // those of the base come first
+      const std::span<const VarId> inherited = pinsOf(context, pou.base);
+      pou.pins.assign(inherited.begin(), inherited.end());
+    }
+    for (const VarId var : pou.vars) {
+      if (isPin(context.symbols.var(var).section)) pou.pins.push_back(var);
+    }
+    pou.progress.pins_ready = true;
+  }
+  return pou.pins;
+}
+
+namespace {
+
+const char* kindName(AccessLevel access) {
+  switch (access) {
+    case AccessLevel::Private: return "PRIVATE";
+    case AccessLevel::Protected: return "PROTECTED";
+    case AccessLevel::Internal: return "INTERNAL";
+    case AccessLevel::None:
+    case AccessLevel::Public: break;
+  }
+  return "PUBLIC";
+}
+
+}  // namespace
+
+bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
+  const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
+  if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
+  if (access == AccessLevel::None || access == AccessLevel::Public) return true;
+  const bool same_project = context.library || !context.symbols.pou(owner).library;
+  if (access == AccessLevel::Internal && same_project && isInside(context, context.scopes.pous[owner.index].region))
+    return true;
+  const PouId object = objectOf(context);
+  if (object == owner) return true;
+  if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
+  context.report(diag::NotAccessible, loc,
+                 {string(context, name), kindName(access), string(context, context.symbols.pou(owner).name)});
+  return false;
+}
+
+// Forbids instances of an ABSTRACT type.   fails   VAR s : Shape; END_VAR (ABSTRACT)      E0356
+bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
+  while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
+  const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
+  if (!pou || (context.symbols.pou(pou).object.modifiers & kAbstract) == 0) return true;
+  context.report(diag::AbstractInstance, loc, {string(context, context.symbols.pou(pou).name)});
+  return false;
 }
 
 }  // namespace rung::sema

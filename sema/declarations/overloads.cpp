@@ -5,44 +5,13 @@
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/overloads.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
-
-bool sameParameters(const Symbols& symbols, PouId a, PouId b) {
-  const auto isParameter = [&](VarId id) {
-    const SectionKind section = symbols.var(id).section;
-    return section == SectionKind::Input || section == SectionKind::Output || section == SectionKind::InOut;
-  };
-  std::vector<VarId> left, right;
-  for (const VarId id : symbols.pou(a).vars)
-    if (isParameter(id)) left.push_back(id);
-  for (const VarId id : symbols.pou(b).vars)
-    if (isParameter(id)) right.push_back(id);
-  if (left.size() != right.size()) return false;
-  for (size_t i = 0; i < left.size(); ++i) {
-    const Var &one = symbols.var(left[i]), &other = symbols.var(right[i]);
-    const TypeId type = symbols.types.resolve(one.type);
-    const bool texts = types::TypeTable::isString(symbols.types.info(type).kind) &&
-                       symbols.types.info(type).kind == symbols.types.kind(other.type);
-    if (one.section != other.section || (!texts && type != symbols.types.resolve(other.type))) return false;
-  }
-  return true;
-}
-
-PouId methodLike(const Symbols& symbols, PouId object, PouId like_id) {
-  const Pou& like = symbols.pou(like_id);
-  for (const PouId member : symbols.pou(object).members) {
-    const Pou& pou = symbols.pou(member);
-    const bool is_action = like.kind == PouKind::Action && pou.kind == PouKind::Action && !pou.chart;
-    if ((pou.kind != PouKind::Method && !is_action) || pou.object.accessor != like.object.accessor ||
-        !symbols.names.same(pou.name, like.name))
-      continue;
-    if ((!pou.overloads && !like.overloads) || sameParameters(symbols, member, like_id)) return member;
-  }
-  return {};
-}
 
 bool addOverload(Context& context, Entity first, PouId added) {
   Symbols& symbols = context.symbols;

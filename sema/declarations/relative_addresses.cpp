@@ -3,10 +3,14 @@
 // the gaps, so that the natural layout equals the one written. In: the members, resolved. Out: the fields of the
 // record. IEC 61131-3 ed. 3 table 11, 8 and 9. A BOOL at %X3.0 is a bit. With OVERLAP the record is a union whose
 // members have offsets, in source order.
+#include "sema/declarations/relative_addresses.h"
+
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 
 namespace rung::sema {
 

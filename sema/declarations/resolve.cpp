@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Resolves declarations: types, POUs and lists; cuts types that contain themselves, lays everything out and checks
 // initial values. Runs after collecting the files, and again whenever a library declaration was read.
+#include "sema/declarations/resolve.h"
+
 #include <algorithm>
 #include <unordered_set>
 
 #include "sema/declarations/attributes.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/initial_values.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 

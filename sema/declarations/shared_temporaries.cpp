@@ -6,12 +6,16 @@
 // temporary that it names lies in the instance: a call of the body saves the field, gives it the initial value, and
 // restores it at the end, so a call inside of a call has values of its own. While no body runs (`in_body`), an action
 // begins with the initial values. A method cannot use it (bodies/names.cpp).
+#include "sema/declarations/shared_temporaries.h"
+
 #include <algorithm>
 #include <variant>
 #include <vector>
 
 #include "frontend/syntax/children.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/addresses.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 
@@ -112,7 +116,7 @@ class TriggerPath {
 }  // namespace
 
 std::string triggerPath(Context& context, ExprId trigger, std::string_view task) {
-  const TypeId type = checkExpr(context, trigger, types::kBool);
+  const TypeId type = context.expressions->check(context, trigger, types::kBool);
   if (type == types::kError) return {};
   TriggerPath found(context);
   if (context.types().kind(type) == types::TypeKind::Bool && found.append(trigger)) return found.path;

@@ -12,9 +12,13 @@
 #include <algorithm>
 
 #include "frontend/parse/parse.h"
-#include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/initial_values.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/variables.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {

@@ -2,13 +2,26 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
 // blocks within blocks need no deep recursion.
+#include "sema/declarations/types.h"
+
 #include "frontend/syntax/diagnostics.h"
-#include "sema/checks/obsolete.h"
-#include "sema/checks/test_only.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/bit_members.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/generics.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/relative_addresses.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/hooks.h"
 #include "sema/project.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 
 #include <limits>
 
@@ -149,7 +162,6 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }
   if (found.entityKind() == EntityKind::Error) return types::kError;
-  if (found.entityKind() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
     context.report(diag::BitAsBool, last.loc);
     return types::kBool;
@@ -166,7 +178,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   const TypeId type = typeOf(context, found);
   if (const NamedType* named = type ? context.scopes.named(type) : nullptr) {
     const DeclId decl = named->pou ? context.symbols.pou(named->pou).decl : named->decl;
-    if (decl) checkObsolete(context, context.tree().decl(decl), last.name, last.loc);
+    if (decl) context.rules->use(context, {named->pou, context.tree().decl(decl), last.name, last.loc, false});
   }
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);

@@ -1,18 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "sema/declarations/variables.h"
+
 #include <algorithm>
 
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/signatures.h"
-#include "sema/checks/object_members.h"
-#include "sema/checks/uncopied.h"
+#include "sema/declarations/addresses.h"
 #include "sema/declarations/attributes.h"
+#include "sema/declarations/bit_members.h"
+#include "sema/declarations/collect.h"
 #include "sema/declarations/configuration.h"
-#include "sema/declarations/declarations.h"
+#include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/expressions.h"
+#include "sema/declarations/initial_values.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/limits.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/namespaces.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/shared_temporaries.h"
+#include "sema/declarations/signatures.h"
+#include "sema/declarations/types.h"
+#include "sema/declarations/uncopied.h"
 #include "sema/diagnostics.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -459,7 +475,8 @@ void ensureInitialValue(Context& context, VarId id) {
   }
   const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
   uint32_t elements = 0;
-  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type, elements) : CallId{};
+  const CallId constructor =
+      decl.type && makes_object ? there.expressions->checkConstructor(there, decl.type, elements) : CallId{};
   decl.h.progress = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;

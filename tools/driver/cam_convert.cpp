@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rung cam convert`: a cam as a `.cam` file, as CSV, as declarations in ST, or as a PLCopen project with these. CSV
 // has the lines of a `.cam` file with commas between the words, so nothing is lost, and tables of spreadsheets become
-// cams. A program that declares a cam with its initial values is read like any program (sema/constant_cams.h).
+// cams. A program that declares a cam with its initial values is read like any program (sema/bodies/constant_cams.h).
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -10,8 +10,7 @@
 #include "cam/design/text_form.h"
 #include "frontend/export/plcopen.h"
 #include "frontend/import/formats.h"
-#include "sema/constant_cams.h"
-#include "sema/project.h"
+#include "sema/check.h"
 #include "tools/driver/cam_commands.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"

@@ -18,7 +18,7 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "native_table.h"
-#include "sema/project.h"
+#include "sema/check.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/output_files.h"

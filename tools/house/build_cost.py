@@ -93,7 +93,7 @@ def main():
         print("\nunits that rebuild after a change of")
         for header, count in users.most_common(20):
             print(f"  {count:4}  {header}")
-        lists = {header: count for header, count in users.items() if header.endswith("diagnostics.def")}
+        lists = {header: count for header, count in users.items() if header.endswith(("diagnostics.def", "rules.def"))}
         print("\nunits that rebuild after a change of one message")
         for header, count in sorted(lists.items(), key=lambda item: -item[1]):
             print(f"  {count:4}  {header}")

@@ -19,9 +19,14 @@
 #include "frontend/source/render.h"
 #include "ir/builder.h"
 #include "ir/lower.h"
-#include "sema/declarations/declarations.h"
+#include "sema/check.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/generics.h"
 #include "sema/declarations/libraries.h"
-#include "sema/project.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/variables.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
 #include "tools/driver/namespaces.h"
 
 namespace {
@@ -103,7 +108,7 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   options.libraries = libraries.files;
   rung::sema::Project project(sources, names, diagnostics, tree, options);
   rung::sema::Scopes scopes;
-  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
+  Context context = rung::sema::contextOf(project, scopes);
   rung::sema::internKnownNames(context);
   rung::sema::indexLibraries(context);
   for (const rung::sema::LibraryFile& file : libraries.files) {

@@ -16,7 +16,7 @@
 #include "frontend/parse/parse.h"
 #include "frontend/render/picture.h"
 #include "frontend/source/dialect.h"
-#include "sema/project.h"
+#include "sema/check.h"
 
 namespace rung {
 namespace {

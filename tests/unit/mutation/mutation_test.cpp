@@ -13,7 +13,7 @@
 
 #include "frontend/parse/lexer.h"
 #include "frontend/source/dialect.h"
-#include "sema/project.h"
+#include "sema/check.h"
 
 namespace rung {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "frontend/import/plcopen/plcopen.h"
 #include "frontend/parse/parse.h"
-#include "sema/project.h"
+#include "sema/check.h"
 
 namespace rung {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frontend/parse/parse.h"
-#include "sema/project.h"
+#include "sema/check.h"
 
 namespace rung::sema {
 

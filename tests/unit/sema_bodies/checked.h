@@ -6,7 +6,7 @@
 #include <string>
 
 #include "frontend/source/dialect.h"
-#include "sema/project.h"
+#include "sema/check.h"
 
 namespace rung::sema_test {
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every code of the diagnostics.def files is unique and in the registry, has a page in docs/errors and a test program that
-# provokes it, and every page has a code.
+# Every code of the diagnostics.def files and of sema/checks/rules.def is unique and in the registry, has a page in
+# docs/errors and a test program that provokes it, and every page has a code.
 set -eu
 cd "$(dirname "$0")/../../.."
 bad=0
-lists=$(tools/house/tracked diagnostics.def)
+lists=$(tools/house/tracked diagnostics.def rules.def)
 codes=$(sed -nE 's/^RUNG_(ERROR|WARNING|INFO)\(([EWI][0-9]{4}),.*/\2/p' $lists)
 for list in $lists; do
   grep -q "\"$list\"" frontend/source/registry.cpp || { echo "frontend/source/registry.cpp: does not include $list"; bad=1; }

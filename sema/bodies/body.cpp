@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The body of a POU in any language. In: a POU whose declarations are resolved. Out: its statements, scheduled where it
+// is IL, SFC or a diagram, and checked. Called for each POU of the project, and for each library POU in use.
+#include "sema/bodies/body.h"
+
+#include "frontend/schedule/il_schedule.h"
+#include "frontend/schedule/network_schedule.h"
+#include "frontend/schedule/sfc_schedule.h"
+#include "frontend/source/invariant.h"
+#include "sema/bodies/cpp_bodies.h"
+#include "sema/bodies/literal_storage.h"
+#include "sema/bodies/statements.h"
+#include "sema/bodies/temporaries.h"
+#include "sema/declarations/charts.h"
+#include "sema/declarations/names.h"
+#include "sema/declarations/signatures.h"
+#include "sema/declarations/variables.h"
+#include "sema/hooks.h"
+#include "sema/project.h"
+#include "sema/shorthands.h"
+
+namespace rung::sema {
+
+// Turns a body in IL or SFC into statements, once the declarations of all files are known.
+static void schedule(Context& context, PouDecl& decl) {
+  const BodyKind kind = decl.body_kind;
+  if (decl.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
+  ProjectSignatures signatures(context);
+  Tree& tree = context.tree();
+  Diagnostics& diagnostics = context.symbols.diagnostics;
+  decl.scheduled = true;
+  const auto take = [&](const auto& created) {
+    decl.body = created.body;
+    declareTemporaries(context, created.temporaries);
+  };
+  if (kind == BodyKind::Network) {
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
+                                   decl));
+  } else if (kind == BodyKind::Il) {
+    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
+  } else {
+    if ((decl.h.bits & kBrokenDeclarations) != 0) return;
+    if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;
+  }
+  if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
+}
+
+void checkBody(Context& context, PouId id) {
+  Pou& pou = context.symbols.pou(id);
+  if (!pou.decl) return;
+  resolvePou(context, id);
+  PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  if (decl.body_kind == BodyKind::Native || pou.generic) return;
+  const std::string_view name = string(context, pou.name);
+  setPhaseSubject(name.data(), name.size());
+  BodyState body;
+  Context inner{.symbols = context.symbols,
+                .project = context.project,
+                .scopes = context.scopes,
+                .pou = id,
+                .file = pou.file,
+                .body = &body,
+                .library = pou.library,
+                .region = context.region,
+                .resource = context.resource,
+                .rules = context.rules,
+                .expressions = context.expressions};
+  if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
+  schedule(inner, decl);
+  body.statements = decl.body;
+  checkStatements(inner, decl.body);
+  finalizeTemporaries(inner);
+  context.rules->pou(inner);
+}
+
+bool ensureBody(Context& context, PouId id) {
+  using Body = Pou::Progress::Body;
+  Project& project = context.project;
+  Body& state = project.pou(id).progress.body;
+  if (state != Body::New) return state == Body::Correct;
+  const Pou& pou = project.pou(id);
+  if (pou.pragmas.native || (pou.owner && (pou.object.modifiers & kAbstract) != 0)) {
+    state = Body::Correct;
+    return true;
+  }
+  const std::string_view name = project.names.string(pou.name);
+  setPhaseSubject(name.data(), name.size());
+  const uint32_t errors = project.diagnostics.errorCount();
+  state = Body::Busy;
+  resolvePou(context, id);
+  Context there = atPou(context, id);
+  checkBody(there, id);
+  declareLiteralStorage(context, id);
+  const bool broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
+  state = broken ? Body::Broken : Body::Correct;
+  return !broken;
+}
+
+}  // namespace rung::sema

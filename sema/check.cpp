@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sema/check.h"
+
+#include "frontend/schedule/network_pins.h"
+#include "frontend/source/invariant.h"
+#include "sema/bodies/body.h"
+#include "sema/bodies/for_declarations.h"
+#include "sema/bodies/literal_storage.h"
+#include "sema/checks/rules.h"
+#include "sema/declarations/access_paths.h"
+#include "sema/declarations/call_graph.h"
+#include "sema/declarations/chosen_tests.h"
+#include "sema/declarations/collect.h"
+#include "sema/declarations/configuration.h"
+#include "sema/declarations/initial_order.h"
+#include "sema/declarations/instance_paths.h"
+#include "sema/declarations/libraries.h"
+#include "sema/declarations/objects.h"
+#include "sema/declarations/overloads.h"
+#include "sema/declarations/resolve.h"
+#include "sema/declarations/signatures.h"
+#include "sema/declarations/test_cases.h"
+#include "sema/scopes.h"
+#include "sema/shorthands.h"
+
+namespace rung::sema {
+namespace {
+
+void declare(Context& context) {
+  setPhase("sema");
+  context.symbols.diagnostics.closeLines();
+  internKnownNames(context);
+  indexLibraries(context);
+  collectFiles(context);
+  chooseTests(context);
+  collectConfigurations(context);
+  resolveHeaders(context);
+  resolveDeclarations(context);
+}
+
+void checkBodies(Context& context) {
+  Project& project = context.project;
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {  // grows while bodies use library POUs
+    if (!project.pous[i].generic) ensureBody(context, PouId{i});
+  }
+  setPhaseSubject("", 0);
+}
+
+}  // namespace
+
+Context contextOf(Project& project, Scopes& scopes) {
+  return Context{.symbols = project,
+                 .project = project,
+                 .scopes = scopes,
+                 .pou = {},
+                 .file = {},
+                 .rules = &allRules(),
+                 .expressions = &expressionsForDeclarations()};
+}
+
+std::vector<bool> inOutsOfBoxes(Project& project) {
+  Scopes scopes;
+  Context context = contextOf(project, scopes);
+  declare(context);
+  std::vector<bool> in_outs;
+  const auto count = static_cast<uint32_t>(project.pous.size());  // those of libraries are added on demand
+  for (uint32_t i = 1; i < count; ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.library || !pou.decl) continue;
+    const PouDecl& decl = project.tree.as<PouDecl>(pou.decl);
+    if (decl.body_kind != BodyKind::Network) continue;
+    Context there = atPou(context, PouId{i});
+    ProjectSignatures signatures(there);
+    diagram::markInOuts(project.tree, project.names, signatures, decl.diagram, in_outs);
+  }
+  return in_outs;
+}
+
+std::vector<ConstantCam> constantCams(Project& project) {
+  Scopes scopes;
+  Context context = contextOf(project, scopes);
+  return constantCams(context);
+}
+
+void check(Project& project) {
+  Scopes scopes;
+  Context context = contextOf(project, scopes);
+  declare(context);
+  markOverloads(context);
+  resolveConfigurations(context);
+  resolveTestCases(context);
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});
+  context.rules->declarations(context);
+  checkBodies(context);
+  addFreeProgram(context);
+  setTaskDurations(context);
+  setIoModules(context);
+  declareLiteralStorage(context);
+  orderInitialValues(context);
+  resolveInstancePaths(context);
+  resolveAccessPaths(context);
+  sortCalls(project);
+  context.rules->project(context);
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sema/checks/rules.h"
+
+#undef RUNG_ERROR
+#undef RUNG_WARNING
+#undef RUNG_INFO
+#undef RUNG_NOTE
+#define RUNG_ERROR(code, name, text)
+#define RUNG_WARNING(code, name, text)
+#define RUNG_INFO(code, name, text)
+#define RUNG_NOTE(name, text)
+
+namespace rung::sema {
+namespace {
+
+enum class Hook : uint8_t { Use, Assignment, Conversion, Expression, Call, Statement, Pou, Declarations, Project };
+
+template <Hook kHook, class... Found>
+void run(Context& context, const Found&... found) {
+#define RUNG_RULE(hook, file, function) \
+  if constexpr (kHook == Hook::hook) function(context, found...);
+#include "sema/checks/rules.def"
+#undef RUNG_RULE
+}
+
+class AllRules final : public Rules {
+ public:
+  void use(Context& context, const UsedName& used) const override { run<Hook::Use>(context, used); }
+  void assignment(Context& context, ExprId target, ExprId value) const override {
+    run<Hook::Assignment>(context, target, value);
+  }
+  void conversion(Context& context, ExprId value, TypeId to) const override {
+    run<Hook::Conversion>(context, value, to);
+  }
+  void expression(Context& context, ExprId expr) const override { run<Hook::Expression>(context, expr); }
+  void call(Context& context, const CallExpr& node, const Call& call) const override {
+    run<Hook::Call>(context, node, call);
+  }
+  void statement(Context& context, StmtId statement) const override { run<Hook::Statement>(context, statement); }
+  void pou(Context& context) const override { run<Hook::Pou>(context); }
+  void declarations(Context& context) const override { run<Hook::Declarations>(context); }
+  void project(Context& context) const override { run<Hook::Project>(context); }
+};
+
+}  // namespace
+
+const Rules& allRules() {
+  static const AllRules kRules;
+  return kRules;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sema/declarations/call_graph.h"
+
+#include <algorithm>
+
+#include "sema/hooks.h"
+#include "sema/project.h"
+
+namespace rung::sema {
+
+void noteCall(Context& context, PouId callee, Loc loc) {
+  Pou& pou = context.symbols.pou(callee);
+  pou.progress.used = true;
+  if (pou.decl) context.rules->use(context, {callee, context.tree().decl(pou.decl), pou.name, loc, true});
+  // Of library blocks only those that may ask for a task (checks/task_needs.cpp).
+  const bool matters = !pou.library || (pou.kind == PouKind::FunctionBlock && pou.decl &&
+                                        !context.tree().decl(pou.decl).pragmas.empty());
+  if (matters && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
+}
+
+void sortCalls(Project& project) {
+  std::stable_sort(project.call_edges.begin(), project.call_edges.end(),
+                   [](const auto& a, const auto& b) { return a.caller.index < b.caller.index; });
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sema/declarations/charts.h"
+#include "sema/declarations/collect.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+text::Charts chartsOf(const Context& context) {
+  const Symbols& symbols = context.symbols;
+  const Dialect dialect = context.library ? Dialect::Codesys : symbols.dialect;
+  return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, dialect};
+}
+
+text::ChartContext chartContextOf(const Context& context, PouId pou) {
+  text::ChartContext chart;
+  chart.final_scan = !context.iec();
+  for (PouId at = pou; at;) {
+    const Pou& of = context.symbols.pou(at);
+    const PouDecl& decl = context.tree().as<PouDecl>(of.decl);
+    if (at != pou) chart.around.push_back(&decl);
+    if (findPragma(context, decl.h, context.scopes.known_names.no_final_scan) != nullptr) chart.final_scan = false;
+    at = of.chart ? of.chart : of.owner;
+  }
+  return chart;
+}
+
+}  // namespace rung::sema

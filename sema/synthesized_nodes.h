@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nodes that sema adds to the tree, complete with their types: known values become literals, implicit operations
+// expressions; see synthesized_nodes.cpp.
+#pragma once
+
+#include <string_view>
+
+#include "sema/context.h"
+
+namespace rung::sema {
+
+// Gives a new node its type (synthesized_nodes.cpp).
+ExprId typed(Context& context, ExprId created, TypeId type);
+// A literal of a known type.
+ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
+// A string that lives in the tree, of the type STRING(its length).
+ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc);
+ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
+ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
+ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);
+// An integer of either sign.
+ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
+
+}  // namespace rung::sema
