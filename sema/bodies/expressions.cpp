@@ -23,7 +23,8 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
   const TypeKind kind = context.types().plainKind(type);
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
   if (type == types::kError) return type;
-  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
+  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && (!enumeration || context.profile().enums_as_numbers))
+    return type;
   context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(type)});
   return types::kError;
 }
@@ -39,7 +40,7 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Acc
     return types::kError;
   }
   const bool reads = access == Access::Read || access == Access::Qualifier;
-  const bool from_one = context.iec();
+  const bool from_one = context.profile().characters_from_one;
   const types::Dimension characters{from_one ? 1 : 0, int64_t{info.length} - (reads || from_one ? 0 : 1)};
   ExprId& index = context.tree().list(node.indices)[0];
   const TypeId type = checkIndexValue(context, index);
@@ -57,8 +58,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
-  const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
-  if (TypeTable::isString(info->kind) && count == 1 && !edition2) {
+  if (TypeTable::isString(info->kind) && count == 1 && context.profile().indexed_strings) {
     return node.h.type = checkCharacter(context, node, base, access);
   }
   const bool array = info->kind == TypeKind::Array;
@@ -175,7 +175,7 @@ TypeId checkBitOf(Context& context, ExprId expr) {
   if (!base || base == types::kError) return node.h.type = types::kError;
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
-  if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
+  if ((!TypeTable::isBits(kind) && !integer) || (integer && !context.profile().bits_of_integers)) {
     context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
     return node.h.type = types::kError;
   }

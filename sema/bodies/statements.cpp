@@ -222,7 +222,7 @@ void checkLabel(Context& context, ExprId& label, TypeId selector, CaseLabels& la
   TypeId type = check(context, label, selector, Access::Read);
   if (type == types::kError) return;
   TypeId wanted = selector;
-  if (enumeration && isUntyped(context, type) && !context.iec() &&
+  if (enumeration && isUntyped(context, type) && context.profile().enums_as_numbers &&
       !context.types().info(context.types().resolve(selector)).strict) {
     wanted = context.types().plain(selector);
   }
@@ -284,7 +284,7 @@ bool checkCase(Context& context, CaseStmt& node) {
 TypeId stepType(Context& context, ExprId step, TypeId control) {
   const TypeId plain = context.types().plain(control);  // a step is not a value of the subrange
   const TypeKind kind = context.types().info(plain).kind;
-  if (context.iec() || context.types().isSigned(kind)) return plain;
+  if (!context.profile().unsigned_loops_count_down || context.types().isSigned(kind)) return plain;
   const TypeId type = context.tree().expr(step).type;
   __int128 value = 0;
   const bool negative = isUntyped(context, type) ? untypedValue(context, step, value) && value < 0
@@ -346,7 +346,7 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
 // __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
 bool checkTry(Context& context, TryStmt& node) {
   constexpr uint32_t kMostNested = 32;  // the time that g++ needs grows with the square
-  if (context.iec()) context.report(diag::TryExtension, node.h.loc);
+  if (!context.profile().try_statement) context.report(diag::TryExtension, node.h.loc);
   if (context.try_depth == kMostNested) {
     context.report(diag::TryTooDeep, node.h.loc, {std::to_string(kMostNested)});
     return true;
@@ -464,7 +464,7 @@ static void schedule(Context& context, PouDecl& decl) {
     take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
                                    decl));
   } else if (kind == BodyKind::Il) {
-    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
+    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
     if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;

@@ -20,7 +20,8 @@ TypeId checkForControl(Context& context, ForStmt& node) {
   }
   const TypeKind kind = context.types().plainKind(type);
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
-  if (!enumeration && (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && !context.iec()))) {
+  if (!enumeration &&
+      (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && context.profile().bit_arithmetic))) {
     return type;
   }
   context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().toString(type)});
@@ -31,7 +32,7 @@ TypeId checkForControl(Context& context, ForStmt& node) {
 // cannot be set"), the loop begins again. Rung's loops end.
 //   warns   FOR i := 0 TO 127 DO         i : SINT              W0586
 static void checkLastValue(Context& context, const ForStmt& node, int64_t from, int64_t to, int64_t step) {
-  if (context.iec()) return;
+  if (!context.profile().warns_of_endless_loops) return;
   const TypeId type = context.tree().expr(node.control).type;
   const TypeKind kind = context.types().plainKind(type);
   const bool is_signed = context.types().isSigned(kind);

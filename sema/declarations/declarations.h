@@ -103,7 +103,9 @@ Entity findDotted(Context& context, NameId dotted);
 
 // ---- variables.cpp
 // VAR_GLOBAL in a PROGRAM: allowed by the standard, not by codesys.
-inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
+inline bool mayHoldGlobals(const Context& context, PouKind kind) {
+  return kind == PouKind::Program && context.profile().globals_in_programs;
+}
 // Gives the variables of one VarDecl their ids and names. Types follow later.
 void declareVars(Context& context, DeclId decl, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
                  std::vector<VarId>& into);
