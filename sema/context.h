@@ -51,9 +51,10 @@ struct Context {
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
     return symbols.diagnostics.report(diag, loc, args);
   }
-  bool iec() const { return !library && symbols.dialect != Dialect::Codesys; }
+  // What the language of the current code allows and means.
+  const LanguageProfile& profile() const { return library ? profileOf(Dialect::Library) : symbols.profile; }
   // Integers compute in the native width: sema/intermediate.h.
-  bool isWide() const { return !library && symbols.dialect == Dialect::Codesys; }
+  bool isWide() const { return profile().narrow_integers_widen; }
 };
 
 }  // namespace rung::sema

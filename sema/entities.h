@@ -267,8 +267,8 @@ struct Symbols {
   Names& names;
   Diagnostics& diagnostics;
   Tree& tree;
-  Dialect dialect;
-  uint32_t native_width;  // 32 or 64: intermediate.h
+  const LanguageProfile& profile;  // of the project's own sources; Context::profile() is that of the current code
+  uint32_t native_width;           // 32 or 64: intermediate.h
   types::TypeTable types;
 
   std::deque<Var> vars = std::deque<Var>(1);

@@ -66,7 +66,7 @@ struct ConfiguredModule {
 
 // The choices of the command line and rung.project.
 struct Options {
-  Dialect dialect = Dialect::Codesys;
+  Dialect dialect = kDefaultDialect;
   uint32_t pointer_size = 8;
   uint32_t native_width = 32;  // codesys: intermediate results have at least so many bits, 32 or 64
   diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;  // of LD

@@ -11,13 +11,13 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
               the_names,
               the_diagnostics,
               the_tree,
-              the_options.dialect,
+              profileOf(the_options.dialect),
               the_options.native_width,
               types::TypeTable(the_names, the_options.pointer_size)},
       options(std::move(the_options)) {
   for (const types::MemoryArea& area : options.areas) area_bytes.push_back(area.bytes);
-  types.time_is_signed = dialect != Dialect::Codesys;
-  types.long_time_is_signed = dialect == Dialect::Iec3;
+  types.time_is_signed = !profile.unsigned_time;
+  types.long_time_is_signed = profile.signed_long_time;
 }
 
 VarId ResourceGlobals::of(NameId resource) const {

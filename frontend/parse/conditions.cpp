@@ -131,7 +131,7 @@ class FileConditions {
       : source_(text),
         base_(base),
         defines_(std::move(defines)),
-        dialect_(dialect),
+        profile_(profileOf(dialect)),
         declared_(declared),
         diagnostics_(diagnostics) {}
 
@@ -174,7 +174,7 @@ class FileConditions {
   std::string_view source_;
   Loc base_;
   std::vector<Define> defines_;
-  Dialect dialect_;
+  const LanguageProfile& profile_;
   const Declared* declared_;
   Diagnostics& diagnostics_;
   std::vector<Open> open_;
@@ -193,7 +193,7 @@ void FileConditions::run() {
     if (c == '/' && next == '/') {
       at = std::min(source_.find('\n', at), source_.size());
     } else if ((c == '(' || c == '/') && next == '*') {
-      at = endOfComment(source_, at, dialect_ != Dialect::Iec2);
+      at = endOfComment(source_, at, profile_.nested_comments);
     } else if (c == '\'' || c == '"') {
       at = endOfString(source_, at);
     } else if (c == '{') {

@@ -13,16 +13,16 @@ Cursor::Cursor(Tree& tree, Names& names, const Sources& sources, FileId file, Di
       names_(names),
       sources_(sources),
       file_(file),
-      dialect_(dialect),
+      profile_(profileOf(dialect)),
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
       source_(sources.sourceText(file)) {}
 
 void Cursor::read(uint32_t begin, uint32_t end, std::vector<Comment>* comments) {
   stream_.comments = comments;
-  lex(stream_, names_, sources_, file_, begin, end, dialect_, diagnostics_);
+  lex(stream_, names_, sources_, file_, begin, end, profile_.dialect, diagnostics_);
   resolveObjectKeywords(stream_);
-  balanceBlocks(stream_, names_, sources_, file_, dialect_, diagnostics_);
+  balanceBlocks(stream_, names_, sources_, file_, profile_.dialect, diagnostics_);
   tokens_ = std::move(stream_.tokens);
   t_ = tokens_.data();
 }

@@ -60,7 +60,7 @@ class Cursor {
 
   bool isOperand(Tok kind) const;
   // CODESYS knows NULL as a value only: items and members may have this name.
-  bool isNullName(const Token* t) const { return t->kind == Tok::Null && dialect_ == Dialect::Codesys; }
+  bool isNullName(const Token* t) const { return t->kind == Tok::Null && profile_.null_as_name; }
 
   // ---- errors
   Report fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
@@ -132,7 +132,7 @@ class Cursor {
   Names& names_;
   const Sources& sources_;
   FileId file_;
-  Dialect dialect_;
+  const LanguageProfile& profile_;
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view source_;

@@ -42,11 +42,11 @@ constexpr std::string_view kWordsOfBoth[] = {
 constexpr std::string_view kWordsOfEdition3[] = {"CHAR",  "CONTINUE", "LDATE",  "LDT",
                                                  "LTIME", "LTOD",     "REF_TO", "WCHAR"};
 
-bool isKeywordIn(Dialect dialect, std::string_view name) {
+bool isReserved(const LanguageProfile& profile, std::string_view name) {
   const auto is_name = [&](std::string_view word) { return sameIdentifier(name, word); };
-  if (dialect == Dialect::Codesys) return false;
-  return std::any_of(std::begin(kWordsOfBoth), std::end(kWordsOfBoth), is_name) ||
-         (dialect == Dialect::Iec3 && std::any_of(std::begin(kWordsOfEdition3), std::end(kWordsOfEdition3), is_name));
+  return (profile.reserved_words && std::any_of(std::begin(kWordsOfBoth), std::end(kWordsOfBoth), is_name)) ||
+         (profile.reserved_words_of_edition_3 &&
+          std::any_of(std::begin(kWordsOfEdition3), std::end(kWordsOfEdition3), is_name));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ bool DeclarationParser::beginsType(const Token* t) const {
 }
 
 bool DeclarationParser::parseNewName(Ident& out) {
-  if (isName(kind()) && isKeywordIn(dialect_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
+  if (isName(kind()) && isReserved(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
   return parseName(out);
 }
 

@@ -85,7 +85,7 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
       return left;
     }
     // The syntax manual 001, table of 5.4.1.3.2, prints `%` as the sign of MOD.
-    const bool is_mod_sign = op->kind == Tok::Percent && dialect_ != Dialect::Codesys;
+    const bool is_mod_sign = op->kind == Tok::Percent && profile_.percent_is_modulo;
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess && !is_mod_sign)
       slip(diag::ForeignOperator, op, {spelling(op->kind), kNativeOperators[op->kind]});
     advance();
@@ -96,10 +96,10 @@ ExprId ExpressionParser::parseExpr(uint32_t least) {
       height_ = 1;
       return build_.error(loc(op));
     }
-    if (row.op == BinaryOp::Power && dialect_ != Dialect::Codesys && tree_.kind(left) == ExprKind::Unary &&
+    if (row.op == BinaryOp::Power && profile_.negation_before_power && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(diag::NegatedPower, tree_.loc(left), {"tighter"});
-    if (row.op == BinaryOp::Or && dialect_ == Dialect::Codesys && isBareXor(right))
+    if (row.op == BinaryOp::Or && profile_.warns_of_xor_beside_or && isBareXor(right))
       diagnostics_.report(diag::XorBesideOr, tree_.loc(right));
     left = ended(build_.binary(row.op, left, right, loc(op)));
   }
@@ -147,7 +147,7 @@ ExprId ExpressionParser::parseUnary() {
   const Loc start = here();
   if (!enterExpr("expressions")) return build_.error(start);
   advance();
-  const ExprId operand = dialect_ == Dialect::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
+  const ExprId operand = profile_.negation_before_power ? parseUnary() : parseExpr(kPowerPrecedence);
   --expr_depth_;
   if (++height_ > kMaxExprHeight + 1) {
     tooDeep("operators", kMaxChain);
@@ -176,7 +176,7 @@ ExprId ExpressionParser::parsePrimary() {
   if (at(Tok::Address)) return parsePostfix(ended(parseAddress()));
   if (at(Tok::LeftParen)) return parseInParens();
   // CODESYS, "Operator: Global Namespace".
-  if (at(Tok::Dot) && dialect_ == Dialect::Codesys && isName(peek()) && t_[1].offset == t_->offset + 1) {
+  if (at(Tok::Dot) && profile_.global_operator && isName(peek()) && t_[1].offset == t_->offset + 1) {
     advance();
     const ExprId name = build_.name(nameOf(t_), here());
     tree_.expr(name).op = kGlobalName;
@@ -209,7 +209,7 @@ ExprId ExpressionParser::parseOperandName() {
   }
   if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
   // In the initial value of a member: the structure itself. TwinCAT compiles it; its help has no page on it.
-  if (declares_ && dialect_ == Dialect::Codesys && names_.same(nameOf(t_), this_struct_)) {
+  if (declares_ && profile_.this_struct && names_.same(nameOf(t_), this_struct_)) {
     advance();
     return parsePostfix(ended(build_.deref(ended(build_.thisObject(start)), start)));
   }
@@ -406,7 +406,7 @@ ExprId ExpressionParser::parseNew(ExprId callee) {
 
 // Whether SIZEOF or XSIZEOF is followed by a type that no expression begins with. CODESYS.
 bool ExpressionParser::isSizeOfType(ExprId callee) const {
-  if (dialect_ != Dialect::Codesys || tree_.kind(callee) != ExprKind::Name) return false;
+  if (!profile_.size_of_types || tree_.kind(callee) != ExprKind::Name) return false;
   const std::string_view name = names_.string(tree_.as<NameExpr>(callee).name);
   if (!sameIdentifier(name, "SIZEOF") && !sameIdentifier(name, "XSIZEOF")) return false;
   const Tok first = peek(), second = peek(2);
@@ -468,7 +468,7 @@ Argument ExpressionParser::parseArgument(size_t first) {
     a.is_output = binder == Tok::Arrow;
     t_ = const_cast<Token*>(pin) + 2;
     if (at(Tok::Comma) || at(Tok::RightParen)) {
-      if (dialect_ != Dialect::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
+      if (!profile_.empty_bindings) slip(diag::EmptyBinding, pin, {textOf(pin)});
     } else if (atNestedIl()) {
       parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
     } else {
@@ -499,7 +499,7 @@ bool ExpressionParser::continuesArguments() {
   if (at(Tok::RightParen)) return false;
   if (at(Tok::Comma)) {
     if (peek() == Tok::RightParen) {
-      if (dialect_ == Dialect::Codesys)
+      if (profile_.trailing_commas)
         diagnostics_.report(diag::TrailingCommaWarning, here());
       else
         slip(diag::TrailingComma, t_);
@@ -554,7 +554,7 @@ ExprId ExpressionParser::parseCompared(ExprId left, bool in_condition) {
   const ExprShape shape_of_left = shape(tree_.kind(left));
   const bool variable =
       tree_.kind(left) == ExprKind::Name || tree_.kind(left) == ExprKind::Address || shape_of_left == ExprShape::Step;
-  const bool assigns = dialect_ == Dialect::Codesys && variable && tree_.expr(left).in_parens == 0;
+  const bool assigns = profile_.assignment_expressions && variable && tree_.expr(left).in_parens == 0;
   if (!assigns)
     slip(diag::CompareWithAssign, t_);
   else if (in_condition)

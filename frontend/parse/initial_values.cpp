@@ -12,7 +12,7 @@ namespace rung::text {
 
 // The value after `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
 ExprId DeclarationParser::parseDeclaredInit(TypeExprId type) {
-  if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
+  if (!profile_.values_without_brackets || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
     return parseInit();
   const Loc start = here();
   const size_t first = exprs_.size();
@@ -30,7 +30,7 @@ ExprId DeclarationParser::parseDeclaredInit(TypeExprId type) {
 ExprId DeclarationParser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
-  if (at(Tok::LeftParen) && peek() == Tok::RightParen && dialect_ == Dialect::Codesys) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && profile_.empty_structure_values) return parseStructInit();
   return parseExpr();
 }
 
@@ -101,7 +101,7 @@ ExprId DeclarationParser::parseStructInit() {
 
 // The value of a member. CODESYS 2.3 writes the values of an array without brackets: `a := 1, 2(0), b := 3`.
 ExprId DeclarationParser::parseFieldValue(Tok close) {
-  if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket)) return parseInit();
+  if (!profile_.values_without_brackets || at(Tok::LeftBracket)) return parseInit();
   const Loc start = here();
   const size_t first = exprs_.size();
   for (;;) {

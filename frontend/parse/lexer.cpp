@@ -198,7 +198,7 @@ class Lexer {
   Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics)
       : out_(out),
         names_(names),
-        dialect_(dialect),
+        profile_(profileOf(dialect)),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
         source_(sources.sourceText(file)),
@@ -254,7 +254,7 @@ class Lexer {
 
   TokenStream& out_;
   Names& names_;
-  Dialect dialect_;
+  const LanguageProfile& profile_;
   bool nests_ = true;  // CODESYS 2.3: comments nest in the current object
   Diagnostics& diagnostics_;
   uint32_t base_;
@@ -421,7 +421,7 @@ void Lexer::checkUnderscores(const char* begin, const char* end) {
       name = name.substr(0, rest);
   }
   if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
-  if (dialect_ == Dialect::Codesys) {
+  if (profile_.double_underscores) {
     if (name.substr(0, 2) != "__") diagnostics_.report(diag::UnderscoresInNameWarning, loc(begin), {name});
   } else {
     diagnostics_.report(diag::UnderscoresInName, loc(begin), {name});
@@ -475,7 +475,7 @@ const char* Lexer::number(const char* begin) {
 // CODESYS: a string may continue on the next lines. A quote is missing where another string begins on the line that
 // would end this one.
 bool Lexer::continuesOverLines(const char* p, char quote) const {
-  if (dialect_ != Dialect::Codesys) return false;
+  if (!profile_.strings_over_lines) return false;
   uint32_t quotes = 0;
   for (; p < end_ && (quotes == 0 || (*p != '\n' && *p != '\r')); ++p) {
     if (*p == '$' && p + 1 < end_)
@@ -592,7 +592,7 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
   if (const char* const end = debugLine(begin); end != nullptr) return end;
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
-  const bool nests = dialect_ != Dialect::Iec2 && nests_;
+  const bool nests = profile_.nested_comments && nests_;
   bool reported = false;
   uint32_t depth = 1;
   for (; p < end_; ++p) {

@@ -50,7 +50,7 @@ ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
     last_error_ = token;
     return build_.error(start);
   }
-  if (value.has_underscore_pair && dialect_ != Dialect::Codesys)
+  if (value.has_underscore_pair && !profile_.double_underscores_in_numbers)
     diagnostics_.report(diag::NumberUnderscore, loc(token), {textOf(token)});
   uint8_t bits = static_cast<uint8_t>((negative ? kLiteralNegative : 0) | (value.is_based ? kLiteralBased : 0));
   if (prefix) {
@@ -115,7 +115,7 @@ ExprId ExpressionParser::parseTime() {
   const Token* token = t_;
   advance();
   TimeValue value;
-  value.is_unsigned = dialect_ == Dialect::Codesys;
+  value.is_unsigned = profile_.unsigned_dates;
   const auto read = token->kind == Tok::Duration    ? readDuration
                     : token->kind == Tok::Date      ? readDate
                     : token->kind == Tok::TimeOfDay ? readTimeOfDay

@@ -69,7 +69,7 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
 // type {"," type}
 // CODESYS ignores a comma after the last name.
 bool DeclarationParser::endsWithComma() {
-  if (dialect_ != Dialect::Codesys || (isName(kind()) && !isObjectWord(kind()) && !at(Tok::Implements))) return false;
+  if (!profile_.trailing_commas || (isName(kind()) && !isObjectWord(kind()) && !at(Tok::Implements))) return false;
   diagnostics_.report(diag::ListEndsWithComma, loc(t_ - 1));
   return true;
 }
@@ -80,7 +80,7 @@ Slice<TypeExprId> DeclarationParser::parseTypeNames() {
   do {
     NamedTypeExpr named{header(TypeExprKind::Named, here()), {}, {}, false, {}, {}};
     parseNamePath(named.path);
-    if (!panic_ && at(Tok::Less) && dialect_ == Dialect::Codesys) named.generics = parseGenerics();
+    if (!panic_ && at(Tok::Less) && profile_.type_arguments) named.generics = parseGenerics();
     if (panic_) break;
     list.push_back(ended(tree_.add<TypeExprId>(named)));
   } while (accept(Tok::Comma) && !endsWithComma());

@@ -125,7 +125,7 @@ DeclId Parser::parseProperty() {
   --in_property_;
   if (accept(Tok::EndProperty)) {
     accept(Tok::Semicolon);
-  } else if (dialect_ != Dialect::Codesys) {
+  } else if (!profile_.optional_ends) {
     missingEnd("END_PROPERTY", open, "PROPERTY");
   }
   return finish(d);

@@ -257,7 +257,7 @@ void Parser::closePou(PouDecl& d, const Token* open, Tok word, Tok end) {
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
         accept(end);
       }
-    } else if (dialect_ != Dialect::Codesys) {
+    } else if (!profile_.optional_ends) {
       missingEnd(spelling(end), open, spelling(word));
     }
   }

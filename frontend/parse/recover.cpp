@@ -85,7 +85,7 @@ class Balancer {
         tokens_(stream.tokens),
         names_(names),
         sources_(sources),
-        dialect_(dialect),
+        profile_(profileOf(dialect)),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
         source_(sources.sourceText(file)),
@@ -213,7 +213,7 @@ class Balancer {
   std::vector<Token>& tokens_;
   const Names& names_;
   const Sources& sources_;
-  Dialect dialect_;
+  const LanguageProfile& profile_;
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view source_;
@@ -239,8 +239,7 @@ void Balancer::run() {
   const std::vector<uint32_t>& blocks = stream_.blocks;
   for (const Tok member : {Tok::Method, Tok::Property, Tok::Action}) {
     const auto closes = [&](uint32_t b) { return tokens_[b].kind == closerOf(member); };
-    if (dialect_ != Dialect::Codesys || std::any_of(blocks.begin(), blocks.end(), closes))
-      members_closed_.push_back(member);
+    if (!profile_.optional_ends || std::any_of(blocks.begin(), blocks.end(), closes)) members_closed_.push_back(member);
   }
   size_t start = 0;
   bool any = false;
@@ -279,7 +278,7 @@ bool Balancer::balanced(size_t first_block, size_t end_block) {
       stack.pop_back();
     }
   }
-  if (dialect_ == Dialect::Codesys && stack.size() == 1 && isPouOpener(stack.back())) return true;
+  if (profile_.optional_ends && stack.size() == 1 && isPouOpener(stack.back())) return true;
   return stack.empty();
 }
 
@@ -303,7 +302,7 @@ void Balancer::repair(uint32_t first, uint32_t end) {
   while (!stack_.empty()) {
     const Open open = stack_.back();
     stack_.pop_back();
-    if (isPouOpener(open.kind) && dialect_ == Dialect::Codesys) continue;
+    if (isPouOpener(open.kind) && profile_.optional_ends) continue;
     leaveOpen(open, end);
   }
 }

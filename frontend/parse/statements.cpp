@@ -36,7 +36,7 @@ bool StatementParser::atBlockEnd() {
 
 // False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL after it begins a list of globals.
 bool StatementParser::pouCloses() {
-  if (dialect_ != Dialect::Codesys) return true;
+  if (!profile_.optional_ends) return true;
   if (pou_closes_ == Known::NotYet) {
     const Token* t = t_;
     while (t->kind != pou_end_ && t->kind != Tok::End && t->kind != Tok::Function && t->kind != Tok::FunctionBlock &&
@@ -112,7 +112,7 @@ void StatementParser::parseStatement() {
   if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod)) && peek() == Tok::LeftParen)
     return parseExprStatement();
   if (skipForeign()) return;
-  if (at(Tok::Dot) && dialect_ == Dialect::Codesys && isName(peek()) && t_[1].offset == t_->offset + 1)
+  if (at(Tok::Dot) && profile_.global_operator && isName(peek()) && t_[1].offset == t_->offset + 1)
     return parseExprStatement();
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
@@ -169,7 +169,7 @@ void StatementParser::parseReturn(Loc start) {
     stmts_.push_back(leave);
     return;
   }
-  if (dialect_ != Dialect::Codesys) slip(diag::ReturnCondition, t_);
+  if (!profile_.return_conditions) slip(diag::ReturnCondition, t_);
   advance();
   const ExprId condition = parseCompared(parseExpr());
   closeParen(Tok::RightParen, false);
@@ -230,7 +230,7 @@ void StatementParser::parseExprStatement() {
   }
   if (misspelledStart(first)) return;
   const ExprKind written = tree_.kind(target);
-  if (dialect_ == Dialect::Codesys && at(Tok::Semicolon) &&
+  if (profile_.bare_names_as_statements && at(Tok::Semicolon) &&
       (written == ExprKind::Name || written == ExprKind::Member || written == ExprKind::Index ||
        written == ExprKind::Deref)) {  // an action is called by its bare name
     const Loc start = tree_.loc(target);
@@ -365,7 +365,7 @@ bool StatementParser::atListOfValues() const {
 
 // S= or R= after a value: `a S= b R= c`.
 bool StatementParser::atRowOperator() const {
-  return dialect_ == Dialect::Codesys && (at(Tok::SetModifier) || at(Tok::ResetModifier)) && peek() == Tok::Equal &&
+  return profile_.set_reset_assignments && (at(Tok::SetModifier) || at(Tok::ResetModifier)) && peek() == Tok::Equal &&
          t_[1].offset == t_->offset + lengthOf(t_) && !atLineStart();
 }
 
@@ -420,7 +420,7 @@ void StatementParser::parseRow(ExprId target, AssignOp assign, ExprId value, Tok
 // a := b := c assigns c to b, then b to a. Targets are parsed again from their tokens, since each use needs separate
 // nodes.
 void StatementParser::parseChain(ExprId target, ExprId value, Token* value_start, const Token* op) {
-  if (dialect_ != Dialect::Codesys) slip(diag::ChainedAssign, t_);
+  if (!profile_.chained_assignments) slip(diag::ChainedAssign, t_);
   struct Link {
     ExprId target;
     Token* start;  // where it begins as a value

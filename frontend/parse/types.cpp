@@ -172,7 +172,7 @@ TypeExprId DeclarationParser::namedType() {
   NamedTypeExpr named{header(TypeExprKind::Named, start), {}, {}, false, {}, {}};
   const Token* first = t_;
   parseNamePath(named.path);
-  if (!panic_ && at(Tok::Less) && dialect_ == Dialect::Codesys) named.generics = parseGenerics();
+  if (!panic_ && at(Tok::Less) && profile_.type_arguments) named.generics = parseGenerics();
   const TypeExprId base = ended(tree_.add<TypeExprId>(named));
   if (panic_) return base;
   if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
@@ -297,7 +297,7 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
     items.push_back(item);
     if (accept(Tok::Comma)) {
       if (at(Tok::RightParen)) {
-        if (dialect_ == Dialect::Codesys)
+        if (profile_.trailing_commas)
           diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1));
         else
           slip(diag::TrailingComma, t_ - 1);

@@ -176,7 +176,7 @@ bool Cursor::lineEnds() {
 }
 
 void Cursor::acceptChainOverLines() {
-  if (dialect_ != Dialect::Codesys || !lineEnds() || !isName(kind()) || pastPath(t_)->kind != Tok::Assign) return;
+  if (!profile_.chained_assignments || !lineEnds() || !isName(kind()) || pastPath(t_)->kind != Tok::Assign) return;
   diagnostics_.report(diag::ChainOverLines, endOfPrevious(), {textOf(t_)}).length(1);
   chain_target_ = t_;
 }

@@ -98,7 +98,7 @@ void DeclarationParser::parseLocation(VarDecl& d) {
   const bool open = textOf(t_).ends_with('*');
   if (!in_structure_) {
     if (!readLocation(d)) last_error_ = t_;
-  } else if (dialect_ == Dialect::Codesys && open) {
+  } else if (!profile_.incomplete_members && open) {
     if (!address_reported_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
     address_reported_ = true;
   } else if (open) {
@@ -166,7 +166,7 @@ void DeclarationParser::parseVarInit(VarDecl& d) {
     d.init = parseInit();
   } else if (accept(Tok::Assign)) {
     d.init = parseDeclaredInit(d.type);
-  } else if (at(Tok::RefModifier) && peek() == Tok::Equal && dialect_ == Dialect::Codesys) {  // REF= x
+  } else if (at(Tok::RefModifier) && peek() == Tok::Equal && profile_.reference_initialisers) {  // REF= x
     advance();
     advance();
     d.h.bits = kReferenceInit;

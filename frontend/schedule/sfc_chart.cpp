@@ -82,7 +82,7 @@ Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& conte
     by_name.push_back({charts_.names.key(actions_[i].name).index, static_cast<uint32_t>(actions.size())});
     actions.push_back(actions_[i]);
   }
-  if (charts_.dialect == Dialect::Codesys) sortByName(charts_.names, actions, by_name);
+  if (charts_.profile.actions_by_name) sortByName(charts_.names, actions, by_name);
   std::sort(by_name.begin(), by_name.end());
   actions_ = std::move(actions);
   action_by_name_ = std::move(by_name);

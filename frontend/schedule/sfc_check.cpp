@@ -220,7 +220,7 @@ bool Checker::enter(const Ident& step, const Region& region) {
   Region& own = regions_[index_.of(step.name)];
   if (own.empty()) own = region;
   if (own == region) return true;
-  if (charts_.dialect == Dialect::Codesys) {
+  if (charts_.profile.crossed_branches) {
     if (!crossed_) charts_.diagnostics.report(diag::SfcBranchLeft, step.loc, {string(step.name)});
     return crossed_ = true;
   }
@@ -321,7 +321,7 @@ bool Checker::run() {
     checkSteps(t.to);
     const std::span<const Ident> from = charts_.tree.list(t.from), to = charts_.tree.list(t.to);
     // Forbids a transition to the step that it leaves, in codesys. TM/TP manual 5.5.2.4.
-    if (charts_.dialect == Dialect::Codesys && from.size() == 1 && to.size() == 1 &&
+    if (!charts_.profile.transitions_to_same_step && from.size() == 1 && to.size() == 1 &&
         charts_.names.same(from[0].name, to[0].name))
       charts_.diagnostics.report(diag::SfcSameStep, to[0].loc, {string(to[0].name)});
   }

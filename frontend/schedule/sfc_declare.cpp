@@ -60,8 +60,8 @@ void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context)
   Writer out(charts, pou.body_begin);
   writeSections(chart, out);
   pou.chart_sections = out.finish();
-  pou.hidden =
-      parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.dialect, charts.diagnostics);
+  pou.hidden = parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.profile.dialect,
+                             charts.diagnostics);
 }
 
 }  // namespace rung::text

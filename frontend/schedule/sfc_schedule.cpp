@@ -330,8 +330,8 @@ bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, con
   SfcScheduler(chart, signatures, out, check.crossed).run();
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
-  pou.body =
-      parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.dialect, charts.diagnostics);
+  pou.body = parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.profile.dialect,
+                             charts.diagnostics);
   return true;
 }
 

@@ -28,7 +28,7 @@ struct Charts {
   Names& names;
   Sources& sources;
   Diagnostics& diagnostics;
-  Dialect dialect;
+  const LanguageProfile& profile;
 };
 
 // The context of a chart.

@@ -97,6 +97,7 @@ class BodyPart {
   ExprId arithmetic(ExprId operation);
   bool checksOverflow() const;
   bool wraps() const;
+  const LanguageProfile& profile() const { return isLibraryCode() ? profileOf(Dialect::Library) : project_.profile; }
   bool isLibraryCode() const { return pou_ && project_.pou(pou_).library; }
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc, types::Rounding rounding = types::Rounding::ToEven);

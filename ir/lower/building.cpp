@@ -102,7 +102,7 @@ ExprId BodyPart::binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc) 
   type = strip(type);
   if (op == Op::Sar && !TypeTable::isSignedInteger(types_.plainKind(type))) op = Op::Shr;
   // iec: MOD by zero is 0, by the standard's definition of MOD.
-  const bool defined_for_0 = project_.dialect != Dialect::Codesys && !isLibraryCode();
+  const bool defined_for_0 = profile().modulo_by_zero_is_zero;
   bool divides = op == Op::Div || (op == Op::Mod && !defined_for_0);
   bool checked = divides && !TypeTable::isReal(types_.plainKind(type));
   return add(loc, type, BinaryExpr{.left = left, .right = right, .op = op},

@@ -252,7 +252,7 @@ void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   limit.statements = build_.block();
   build_.close(outer);
   const Block body = lowerBlock(stmt.body);
-  const bool once = project_.dialect != Dialect::Codesys || isLibraryCode() || types_.kind(type) == TypeKind::Subrange;
+  const bool once = !profile().for_end_in_each_turn || types_.kind(type) == TypeKind::Subrange;
   limit.is_variable = !once && !isConst(body_.expr(limit.value));
   if (!limit.is_variable && limit.statements.first) {
     if (!isStable(from)) from = toTemp(from, loc);

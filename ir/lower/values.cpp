@@ -178,8 +178,7 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
   bool logical = op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::AndThen || op == BinaryOp::OrElse;
   if (logical && types_.plainKind(strip(node.h.type)) == TypeKind::Bool) {
     bool is_and = op == BinaryOp::And || op == BinaryOp::AndThen;
-    bool short_circuit =
-        op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.dialect != Dialect::Codesys;
+    bool short_circuit = op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.profile.short_circuit;
     return lowerLogical(id, is_and, short_circuit);
   }
   if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));

@@ -20,7 +20,9 @@ const char* whyNotAddressable(const Context& context, VarId id) {
   if (var->storage == Storage::Image && var->image.is_bit) return "one bit of the process image";
   if (var->storage == Storage::Constant) return "a constant";
   const bool number = types::TypeTable::isScalar(context.types().plainKind(var->type));
-  return context.iec() && var->constant && number && var->section != SectionKind::InOut ? "a constant" : nullptr;
+  return !context.profile().addresses_of_constants && var->constant && number && var->section != SectionKind::InOut
+             ? "a constant"
+             : nullptr;
 }
 
 const char* whyNotAddressable(const Context& context, ExprId lvalue) {

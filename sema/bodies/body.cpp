@@ -37,7 +37,7 @@ static void schedule(Context& context, PouDecl& decl) {
     take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
                                    decl));
   } else if (kind == BodyKind::Il) {
-    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
+    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
     if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;

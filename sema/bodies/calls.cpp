@@ -83,18 +83,18 @@ int extensibleSlot(Context& context, PouId pou, NameId written) {
 //   fails   limited := Scale(x := 3, 2);      E0640
 //   fails   limited := Scale(3);              E0605
 bool checkFormality(Context& context, const CallExpr& node, PouId pou) {
-  if (!context.iec()) return true;
+  const LanguageProfile& profile = context.profile();
   const Pou& callee = context.symbols.pou(pou);
   const std::span<const Argument> arguments = context.tree().list(node.arguments);
   const auto isFormal = [](const Argument& argument) { return static_cast<bool>(argument.pin.name); };
   const auto formal = static_cast<size_t>(std::count_if(arguments.begin(), arguments.end(), isFormal));
-  if (formal != 0 && formal != arguments.size()) {
+  if (!profile.mixed_arguments && formal != 0 && formal != arguments.size()) {
     const auto other = std::find_if_not(arguments.begin(), arguments.end(), isFormal);
     context.report(diag::MixedArguments, other->loc, {string(context, callee.name)});
     return false;
   }
   const bool takes_all = callee.kind != PouKind::Action && callee.kind != PouKind::Program;
-  if (formal != 0 || arguments.empty() || !takes_all || callee.library) return true;
+  if (profile.open_inputs_of_functions || formal != 0 || arguments.empty() || !takes_all || callee.library) return true;
   size_t given = arguments.size();
   for (const VarId id : pinsOf(context, pou)) {
     const Var& pin = context.symbols.var(id);
@@ -166,11 +166,11 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     if (base && object && isKindOf(here, object, base)) return true;
     if (extendsStructure(context, actual, pin)) return true;
   }
-  if (!context.iec()) {
-    if (types::TypeTable::haveSameBits(wanted.kind, given.kind)) return true;
-    // The variable of an enumeration is one of its base type.
-    if (given.kind == TypeKind::Enum && table.resolve(given.base) == table.resolve(pin)) return true;
-  }
+  const LanguageProfile& profile = context.profile();
+  if (profile.in_outs_of_equal_bits && types::TypeTable::haveSameBits(wanted.kind, given.kind)) return true;
+  // The variable of an enumeration is one of its base type.
+  if (profile.in_outs_of_enums && given.kind == TypeKind::Enum && table.resolve(given.base) == table.resolve(pin))
+    return true;
   if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }
@@ -249,7 +249,7 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   if (!binding.value) return;
   const TypeId actual = checkArgument(context, binding.value, pin.type, Access::Read, checked);
   if (actual == types::kError) return;
-  const bool shortens = pin.pragmas.long_time && context.symbols.dialect == Dialect::Iec3 &&
+  const bool shortens = pin.pragmas.long_time && context.symbols.profile.timers_of_long_time &&
                         context.types().plainKind(actual) == TypeKind::LTime;
   if (shortens)
     wrapConvert(context, binding.value, pin.type);
@@ -288,7 +288,9 @@ namespace {
 // items.
 TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type) {
   const bool wide = isNamed(context, callee.name, "TO_WSTRING");
-  if (context.iec() || !callee.library || (!wide && !isNamed(context, callee.name, "TO_STRING"))) return type;
+  if (!context.profile().named_items_as_strings || !callee.library ||
+      (!wide && !isNamed(context, callee.name, "TO_STRING")))
+    return type;
   if (type == types::kError || context.tree().kind(expr) != ExprKind::Call) return type;
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (!node.call || context.symbols.call(node.call).bindings.size() != 1) return type;
@@ -385,7 +387,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       context.report(diag::CallOfBlockType, node.h.loc, {string(context, callee.name)});
       return refuse(context, node);
     case PouKind::Program:
-      if (context.iec()) {
+      if (!context.profile().programs_call_programs) {
         context.symbols.pou(pou).progress.used = true;  // after this error, the program is not reported as never called
         context.report(diag::CallOfProgram, node.h.loc, {string(context, callee.name)});
         return refuse(context, node);
@@ -488,7 +490,8 @@ void checkLooseArguments(Context& context, const CallExpr& node) {
 // Forbids, in iec, a value for a declared EN in a call without names. IEC 61131-3 ed. 3, 6.6.1.4.2.
 //   passes  r := g(a, b);  r := g(EN := TRUE, a := a, b := b);      fails   r := g(TRUE, a, b);      E0636
 static bool passesEnable(Context& context, const CallExpr& node, PouId pou) {
-  if (!context.iec() || node.arguments.empty() || context.tree().list(node.arguments)[0].pin.name) return false;
+  if (context.profile().enable_by_position || node.arguments.empty() || context.tree().list(node.arguments)[0].pin.name)
+    return false;
   size_t inputs = 0;
   bool has_enable = false;
   for (const VarId id : pinsOf(context, pou)) {
@@ -517,7 +520,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   };
   // iec: a call without names gives no value to EN and ENO that are declared. ed. 3, 6.6.1.4.2.
   const auto isLeftOut = [&](size_t i) {
-    return context.iec() && isControl(string(context, context.symbols.var(pins[i]).name));
+    return !context.profile().enable_by_position && isControl(string(context, context.symbols.var(pins[i]).name));
   };
   if (!checkFormality(context, node, pou)) out.ok = false;
   if (context.symbols.pou(pou).extensible && node.arguments.count > kMaxOperands) {

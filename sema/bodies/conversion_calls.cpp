@@ -124,7 +124,7 @@ bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
 // The name of the library function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
 // edition 3, `WORD_TO_BOOL` takes the rightmost one. Else empty.
 std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
-  if (!context.iec()) return {};
+  if (!context.profile().conversions_by_library) return {};
   if (TypeTable::isReal(from) == TypeTable::isReal(to) && (to != TypeKind::Bool || from == TypeKind::Bool)) return {};
   std::string function(string(context, context.types().info(types::idOf(from)).name));
   function.append("_TO_").append(string(context, context.types().info(types::idOf(to)).name));
@@ -153,7 +153,8 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     }
     if (from == types::kError) return node.h.type = types::kError;
   }
-  if (!context.iec() && context.types().kind(from) == TypeKind::Pointer) {  // the number of its first byte
+  if (context.profile().pointers_as_numbers &&
+      context.types().kind(from) == TypeKind::Pointer) {  // the number of its first byte
     from = types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt);
     wrapConvert(context, value, from);
   }

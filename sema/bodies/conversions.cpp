@@ -33,7 +33,7 @@ Fit fitNumbers(const Context& context, TypeId from, TypeId to) {
   const TypeKind a = context.types().plainKind(from), b = context.types().plainKind(to);
   if (TypeTable::isReal(a) && isWholeKind(b)) return Fit::No;
   const bool lossless = types::isLossless(context.types(), from, to);
-  if (context.iec() && TypeTable::isBits(a) != TypeTable::isBits(b)) return Fit::Extension;
+  if (!context.profile().bits_as_integers && TypeTable::isBits(a) != TypeTable::isBits(b)) return Fit::Extension;
   return lossless ? Fit::Lossless : Fit::Lossy;
 }
 
@@ -56,7 +56,8 @@ std::string conversionName(const Context& constant, TypeId from, TypeId to) {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
     if (own.kind == TypeKind::Enum)
       return own.name && !own.shown_name ? std::string(string(context, own.name)) : std::string("ANY");
-    if (own.kind == TypeKind::Pointer && type == from && !context.iec()) {  // a number in codesys
+    if (own.kind == TypeKind::Pointer && type == from &&
+        context.profile().pointers_as_numbers) {  // a number in codesys
       const types::TypeInfo& target = context.types().info(context.types().resolve(own.base));
       const bool is_interface = target.kind == TypeKind::Record && target.record_kind == types::RecordKind::Interface;
       if (is_interface || !TypeTable::isInteger(context.types().plainKind(to))) return {};
@@ -191,7 +192,8 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
 // codesys: the value of an object or structure that extends another one contains a value of that.
 bool isPartOf(const Context& constant, TypeId from, TypeId to) {
   Context context = constant;
-  if (context.iec() || context.types().kind(from) != TypeKind::Record || context.types().kind(to) != TypeKind::Record)
+  if (!context.profile().copied_base_parts || context.types().kind(from) != TypeKind::Record ||
+      context.types().kind(to) != TypeKind::Record)
     return false;
   const PouId base = pouOf(context, to), object = pouOf(context, from);
   const bool is_block = base && context.symbols.pou(base).kind == PouKind::FunctionBlock;
@@ -217,12 +219,12 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& target = table.info(to);
   const TypeKind a = table.plainKind(from), b = table.plainKind(to);
   if (source.kind == TypeKind::Enum || target.kind == TypeKind::Enum) {
-    if (context.iec() && isNamedValueOf(context, from, to)) return Fit::Lossless;
-    if (source.kind == target.kind) return context.iec() ? Fit::No : Fit::Lossy;
+    if (!context.profile().enums_as_numbers && isNamedValueOf(context, from, to)) return Fit::Lossless;
+    if (source.kind == target.kind) return context.profile().enums_become_others ? Fit::Lossy : Fit::No;
     if (target.strict) return Fit::No;
     if (!TypeTable::isNumber(a) || !TypeTable::isNumber(b)) return Fit::No;
     if (TypeTable::isReal(a)) return Fit::No;
-    if (context.iec()) return Fit::Extension;
+    if (!context.profile().enums_as_numbers) return Fit::Extension;
     if (target.kind == TypeKind::Enum) return Fit::Lossy;
     const Fit plain = fit(context, table.plain(from), to);
     return plain == Fit::Same ? Fit::Lossless : plain;
@@ -234,15 +236,14 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   }
   if (TypeTable::isNumber(a) && TypeTable::isNumber(b)) return fitNumbers(context, from, to);
   // Figure 12 of edition 3.
-  if (a == TypeKind::Bool && TypeTable::isBits(b) && context.symbols.dialect == Dialect::Iec3 && !context.library)
-    return Fit::Lossless;
+  if (a == TypeKind::Bool && TypeTable::isBits(b) && context.profile().bool_widens) return Fit::Lossless;
   if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
   if (TypeTable::isString(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
   // An addition of edition 4.
   const bool widens =
       (a == TypeKind::String && b == TypeKind::WString) || (a == TypeKind::Char && b == TypeKind::WChar);
-  if (widens && context.symbols.dialect != Dialect::Iec2) return Fit::Lossless;
-  if (!context.iec() && haveEqualLengths(context, source, target)) return Fit::Lossless;
+  if (widens && context.symbols.profile.strings_widen) return Fit::Lossless;
+  if (context.profile().arrays_of_equal_lengths && haveEqualLengths(context, source, target)) return Fit::Lossless;
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
@@ -256,7 +257,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (isInterface(context, source)) return Fit::No;
   if ((target.kind == TypeKind::Pointer && isWholeKind(a)) || (source.kind == TypeKind::Pointer && isWholeKind(b))) {
     const uint32_t bits = table.pointerSize() * 8;
-    if (context.iec()) return Fit::No;
+    if (!context.profile().pointers_as_numbers) return Fit::No;
     const bool narrow = source.kind == TypeKind::Pointer && TypeTable::bitWidth(b) < bits;
     return narrow ? Fit::Lossy : Fit::Lossless;
   }
@@ -342,15 +343,15 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
         return true;
       }
       context.report(
-          context.iec() ? diag::LossyConversion : diag::MayLoseValues, loc,
+          context.profile().lossy_conversions ? diag::MayLoseValues : diag::LossyConversion, loc,
           {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
-      return !context.iec();
+      return context.profile().lossy_conversions;
     }
     case Fit::Pointer:
       if (context.library) return true;
-      context.report(context.iec() ? diag::OtherPointer : diag::PointerToOther, loc,
+      context.report(context.profile().pointers_to_other_types ? diag::PointerToOther : diag::OtherPointer, loc,
                      {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
-      return !context.iec();
+      return context.profile().pointers_to_other_types;
     case Fit::Extension:
     case Fit::No: break;
   }
@@ -388,7 +389,7 @@ namespace {
 
 // A constant is checked by its value: `VAR CONSTANT k : INT := 3` fits a SINT.
 bool constantFits(Context& context, ExprId expr, TypeId to) {
-  if (context.iec() || !context.tree().expr(expr).is_constant) return false;
+  if (!context.profile().fitting_constants || !context.tree().expr(expr).is_constant) return false;
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
   const std::optional<types::Value> value = evaluate(context, expr);
   return value && target.kind != TypeKind::Enum && TypeTable::isScalar(context.types().plainKind(value->type)) &&
@@ -402,7 +403,7 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
 //   fails   actual := 7;     the same of a strict enumeration       E0547
 // False when this does not apply; `ok`: no error was reported.
 bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
-  if (context.iec()) return false;
+  if (!context.profile().enums_as_numbers) return false;
   const TypeId target = context.types().resolve(to);
   const TypeId from = context.tree().expr(expr).type;
   const types::TypeInfo& info = context.types().info(target);
@@ -447,7 +448,7 @@ bool checkSubrange(Context& context, ExprId expr, TypeId to) {
   const std::optional<types::Value> value = isWholeKind(from) ? evaluate(context, expr) : std::nullopt;
   if (!value) return true;
   const __int128 number = context.types().isSigned(from) ? __int128{value->asSigned()} : __int128{value->bits};
-  return isInSubrange(context, expr, number, to) || !context.iec();
+  return isInSubrange(context, expr, number, to) || context.profile().free_subranges;
 }
 
 // A library's own name for POINTER TO BYTE stands for memory of any type, such as the rows of a cam.
@@ -462,7 +463,7 @@ bool isMemory(const Context& context, TypeId type) {
 
 // codesys: the address of an array as that of its first element.
 bool isFirstElement(const Context& context, TypeId from, TypeId to) {
-  if (context.iec()) return false;
+  if (!context.profile().array_address_is_element_address) return false;
   const types::TypeInfo* source = &context.types().info(context.types().resolve(from));
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
   if (source->kind != TypeKind::Pointer || target.kind != TypeKind::Pointer) return false;
@@ -481,8 +482,8 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   if (from == to) return from != types::kError && checkCopied(context, expr, to);
   if (!from || from == types::kError || to == types::kError) return false;
   __int128 number = 1;
-  if (!context.iec() && isUntyped(context, from) && untypedValue(context, expr, number) && number == 0 &&
-      isInterface(context, context.types().info(context.types().resolve(to)))) {  // 0: no object
+  if (context.profile().zero_is_no_object && isUntyped(context, from) && untypedValue(context, expr, number) &&
+      number == 0 && isInterface(context, context.types().info(context.types().resolve(to)))) {  // 0: no object
     context.replace(expr, makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr)));
     return true;
   }

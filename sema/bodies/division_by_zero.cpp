@@ -33,7 +33,7 @@ bool checkDivisor(Context& context, ExprId divisor, BinaryOp op) {
   if (!zero) return true;
   const bool is_real = header.type == types::idOf(types::TypeKind::RealLiteral) ||
                        types::TypeTable::isReal(context.types().plainKind(header.type));
-  const bool is_defined = is_real || (op == BinaryOp::Modulo && context.iec());
+  const bool is_defined = is_real || (op == BinaryOp::Modulo && context.profile().modulo_by_zero_is_zero);
   if (is_defined) {
     if (!context.library)
       context.report(diag::ZeroDivisor, context.tree().begin(divisor), {is_real ? "infinite or NaN" : "0"});

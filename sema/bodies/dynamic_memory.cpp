@@ -75,8 +75,8 @@ bool mayBeAllocated(Context& context, TypeId type, TypeExprId what) {
 //   fails   p := __NEW(Main);                                       E0592
 TypeId checkNew(Context& context, ExprId& expr) {
   NewExpr& node = context.tree().as<NewExpr>(expr);
-  if (node.h.type) return node.h.type;                    // checked before
-  if (context.iec()) return node.h.type = types::kError;  // reported by the lexer
+  if (node.h.type) return node.h.type;                                        // checked before
+  if (!context.profile().dynamic_memory) return node.h.type = types::kError;  // reported by the lexer
   TypeId type = resolveType(context, node.allocated);
   if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
   if (type == types::kError || !mayBeAllocated(context, type, node.allocated)) return node.h.type = types::kError;
@@ -98,7 +98,7 @@ TypeId checkNew(Context& context, ExprId& expr) {
 TypeId checkDelete(Context& context, ExprId& expr, const PseudoCall& pseudo) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
-  if (context.iec()) return fail();  // reported by the lexer
+  if (!context.profile().dynamic_memory) return fail();  // reported by the lexer
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
     context.report(diag::WrongArgumentCount, node.h.loc,
                    {string(context, pseudo.name), "1", std::to_string(node.arguments.count)});

@@ -39,7 +39,8 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
   const TypeKind kind = context.types().plainKind(type);
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
   if (type == types::kError) return type;
-  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
+  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && (!enumeration || context.profile().enums_as_numbers))
+    return type;
   context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(type)});
   return types::kError;
 }
@@ -60,7 +61,8 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Acc
   if (type == types::kError) return type;
   if (!reads) node.h.bits |= kWritesCharacter;
   node.h.writable = context.tree().expr(node.base).writable;
-  if (context.iec()) return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
+  if (context.profile().characters_from_one)
+    return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
   return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
 }
 
@@ -70,8 +72,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
-  const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
-  if (TypeTable::isString(info->kind) && count == 1 && !edition2) {
+  if (TypeTable::isString(info->kind) && count == 1 && context.profile().indexed_strings) {
     node.h.type = checkCharacter(context, node, base, access);
     if (node.h.type != types::kError) context.rules->expression(context, expr);
     return node.h.type;
@@ -191,7 +192,7 @@ TypeId checkBitOf(Context& context, ExprId expr) {
   if (!base || base == types::kError) return node.h.type = types::kError;
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
-  if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
+  if ((!TypeTable::isBits(kind) && !integer) || (integer && !context.profile().bits_of_integers)) {
     context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
     return node.h.type = types::kError;
   }

@@ -23,7 +23,7 @@ bool belongs(const Context& context, TypeId type, TypeKind generic) {
   const TypeKind kind = context.types().kind(type), plain = context.types().plainKind(type);
   if (TypeTable::belongsTo(kind, generic) || TypeTable::belongsTo(plain, generic)) return true;
   if (generic == TypeKind::Any) return true;
-  return !context.iec() && TypeTable::belongsToInCodesys(plain, generic);
+  return context.profile().generics_mix_bits_and_integers && TypeTable::belongsToOrMixes(plain, generic);
 }
 
 namespace {
@@ -166,7 +166,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
       const TypeId type = check(context, value, hint, Access::Read);
       out.ok &= type != types::kError;
       // codesys: a pointer as the number of its first byte, where anything elementary is converted
-      if (!context.iec() && context.types().kind(type) == TypeKind::Pointer &&
+      if (context.profile().pointers_as_numbers && context.types().kind(type) == TypeKind::Pointer &&
           context.types().info(declared).kind == TypeKind::AnyElementary && !result_is_generic)
         wrapConvert(context, value,
                     types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt));

@@ -114,7 +114,7 @@ void findImplicitChecks(Context& context) {
 
 // The function for a check in the body of context.pou; none: nothing is called.
 PouId functionFor(Context& context, ImplicitCheck check) {
-  if (context.library || context.iec() || context.body == nullptr || !context.pou) return {};
+  if (!context.profile().implicit_checks || context.body == nullptr || !context.pou) return {};
   if (!context.scopes.implicit_checks_found) findImplicitChecks(context);
   const PouId found = context.scopes.implicit_checks[static_cast<size_t>(check)];
   if (!found) return {};

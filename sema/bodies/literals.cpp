@@ -183,7 +183,8 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
 //   warns   count : UINT := -1;      W0562
 bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   Int128 value;
-  if (context.iec() || context.types().isSigned(kind) || kind == TypeKind::Bool) return false;
+  if (!context.profile().negative_bit_patterns || context.types().isSigned(kind) || kind == TypeKind::Bool)
+    return false;
   const uint32_t width = types::TypeTable::bitWidth(kind);
   if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
   const Int128 bits = (Int128{1} << width) + value;
@@ -198,7 +199,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
 //   warns   id : INT := 37000;       W0583
 bool adaptPattern(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   Int128 value;
-  if (context.iec() || !context.types().isSigned(kind)) return false;
+  if (!context.profile().unsigned_bit_patterns || !context.types().isSigned(kind)) return false;
   const uint32_t width = types::TypeTable::bitWidth(kind);
   if (!untypedValue(context, expr, value) || value < Int128{1} << (width - 1) || value >= Int128{1} << width)
     return false;
@@ -345,8 +346,8 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   // IEC 61131-3 ed. 2, 2.2.3.1: only the most significant unit may overflow. CODESYS, "TIME Constants".
   //   passes  T#90m        fails  T#1h90m        E0246, in codesys W0258
   if ((node.h.bits & kLiteralOverflows) != 0)
-    context.report(context.iec() ? diag::DurationOverflow : diag::DurationOverflowWarning, node.h.loc,
-                   {context.symbols.sources.tokenAt(node.h.loc)});
+    context.report(context.profile().overflowing_durations ? diag::DurationOverflowWarning : diag::DurationOverflow,
+                   node.h.loc, {context.symbols.sources.tokenAt(node.h.loc)});
   // A duration is 64 bits of nanoseconds; LTIME with a sign has one bit less, without one no negative values.
   const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
   const bool is_signed = context.types().isSigned(longer);
@@ -400,8 +401,8 @@ void retypeString(Context& context, ExprId& expr, TypeId wanted) {
   if (node.prefix || (node.literal() != LiteralKind::String && !wide)) return;
   if (!is_string && !types::TypeTable::isCharacter(kind)) return;
   const bool is_wide_kind = kind == TypeKind::WString || kind == TypeKind::WChar;
-  const bool edition2 = context.symbols.dialect == Dialect::Iec2;
-  if (wide ? !is_wide_kind : is_wide_kind && edition2) return;
+  const bool widens = context.symbols.profile.wide_plain_strings;
+  if (wide ? !is_wide_kind : is_wide_kind && !widens) return;
   const std::string_view value = context.tree().string(node.string());
   if (kind != TypeKind::String && kind != TypeKind::Char && !wide && !isUtf8(value)) {
     if (!is_string && value.size() != 1) return;
@@ -447,7 +448,8 @@ bool isInSubrange(Context& context, ExprId expr, Int128 value, TypeId subrange) 
   const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
   const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
   if (value >= low && value <= high) return true;
-  context.report(context.iec() ? diag::NotInSubrange : diag::OutsideSubrange, context.tree().begin(expr),
+  context.report(context.profile().free_subranges ? diag::OutsideSubrange : diag::NotInSubrange,
+                 context.tree().begin(expr),
                  {toString(value), context.types().toString(subrange), toString(low), toString(high)});
   return false;
 }
@@ -511,7 +513,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       Int128 value;
       if (untypedValue(context, expr, value) && value >= bounds.low && value <= bounds.high) {
         if (!isInSubrange(context, expr, value, to)) {
-          if (context.iec()) return false;
+          if (!context.profile().free_subranges) return false;
           if (!adaptInteger(context, expr, info.base, bounds)) return false;
           wrapConvert(context, expr, to);
           return true;

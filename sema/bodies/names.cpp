@@ -122,7 +122,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
       if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
         return header.type = {};
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
-      if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
+      if (access == Access::Qualifier && is_block && context.profile().block_names_qualify) return header.type = {};
       if (takesAddress(access) && pou.record) return header.type = pou.record;
       if (isFirstReport(context, name))
         context.report(diag::NotAValue, loc, {string(context, name), kindName(pou.kind)});
@@ -339,7 +339,7 @@ Entity resolveName(Context& context, const NameExpr& written, TypeId expected) {
     const bool decided = wanted && entity.entityKind() == EntityKind::EnumValue &&
                          context.types().resolve(context.symbols.enum_values[entity.index].type) == wanted;
     // iec: a value of two enumerations always needs its type. ed. 3, 6.4.4.3; ed. 2, 2.3.3.1.
-    if ((context.iec() && several && entity.entityKind() == EntityKind::EnumValue) ||
+    if ((!context.profile().items_by_wanted_type && several && entity.entityKind() == EntityKind::EnumValue) ||
         (!decided && isAmbiguousItem(context, entity))) {
       const TypeId type = context.symbols.enum_values[entity.index].type;
       context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)});
@@ -446,7 +446,7 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   if (!types::TypeTable::isInteger(index) && !types::TypeTable::isBits(index)) return std::nullopt;
   node.entity = Entity::of(EntityKind::Error, 0);
   node.h.type = types::kError;
-  if (context.iec()) {
+  if (!context.profile().named_bits) {
     context.report(diag::NamedBitExtension, node.h.loc);
     return types::kError;
   }
@@ -495,7 +495,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
   if (base == types::kError) return node.h.type = types::kError;
   const Entity hidden = hiddenEnumeration(context, node, base);
-  if (hidden && context.iec()) {
+  if (hidden && !context.profile().hidden_enumerations) {
     const std::string typed =
         std::string(string(context, nameOf(context, node.base))) + "#" + std::string(string(context, node.member));
     context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})

@@ -33,7 +33,8 @@ bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDa
 
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
   const TypeKind kind = context.types().plainKind(type);
-  const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
+  const bool extension = (TypeTable::isBits(kind) && !context.profile().bit_arithmetic) ||
+                         (TypeTable::isInteger(kind) && !context.profile().integers_as_bits);
   context.report(extension ? diag::OperandExtension : diag::OperandType, loc, {what, context.types().toString(type)});
   return types::kError;
 }
@@ -57,8 +58,8 @@ TypeId join(Context& context, TypeId a, TypeId b) {
   const TypeKind x = table.plainKind(a), y = table.plainKind(b);
   if (TypeTable::isNumber(x) && TypeTable::isNumber(y)) {
     const bool enums = table.kind(a) == TypeKind::Enum || table.kind(b) == TypeKind::Enum;
-    if (enums && (context.iec() || table.kind(a) == table.kind(b))) return {};
-    if (context.iec() && TypeTable::isBits(x) != TypeTable::isBits(y)) return {};
+    if (enums && (!context.profile().enums_as_numbers || table.kind(a) == table.kind(b))) return {};
+    if (!context.profile().bits_as_integers && TypeTable::isBits(x) != TypeTable::isBits(y)) return {};
     return commonNumber(context, a, b);
   }
   const TypeId left = table.resolve(a), right = table.resolve(b);
@@ -67,7 +68,8 @@ TypeId join(Context& context, TypeId a, TypeId b) {
   if (fit(context, b, a) == Fit::Lossless) return a;
   if (table.info(left).kind == TypeKind::NullLiteral && table.info(right).kind == TypeKind::Pointer) return b;
   if (table.info(right).kind == TypeKind::NullLiteral && table.info(left).kind == TypeKind::Pointer) return a;
-  if (table.info(left).kind == TypeKind::Pointer && table.info(right).kind == TypeKind::Pointer && !context.iec()) {
+  if (table.info(left).kind == TypeKind::Pointer && table.info(right).kind == TypeKind::Pointer &&
+      context.profile().pointers_beside_others) {
     return a;
   }
   return {};
@@ -78,10 +80,10 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
   types::TypeTable& table = context.types();
   const TypeId plain = table.plain(typed);
   const TypeKind kind = table.info(plain).kind;
-  if (table.kind(typed) == TypeKind::Enum && context.iec()) return {};
+  if (table.kind(typed) == TypeKind::Enum && !context.profile().enums_as_numbers) return {};
   if (untypedFits(context, literal, plain)) return plain;
   if (context.tree().expr(literal).type == types::idOf(TypeKind::RealLiteral)) {
-    if (!TypeTable::isNumber(kind) || (context.iec() && TypeTable::isBits(kind))) return {};
+    if (!TypeTable::isNumber(kind) || (!context.profile().bit_arithmetic && TypeTable::isBits(kind))) return {};
     const TypeKind wanted = expected ? table.plainKind(expected) : TypeKind::None;
     if (TypeTable::isReal(wanted)) return types::idOf(wanted);
     return types::isLossless(table, plain, types::kReal) ? types::kReal : types::kLReal;
@@ -90,7 +92,7 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
     for (const TypeId wider : {types::kWord, types::kDWord, types::kLWord}) {
       if (untypedFits(context, literal, wider)) return wider;
     }
-    if (context.iec()) return {};
+    if (!context.profile().bits_as_integers) return {};
   }
   if (!TypeTable::isNumber(kind)) return {};
   return commonNumber(context, plain, defaultType(context, literal));
@@ -102,19 +104,21 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   const bool enumeration = kind == TypeKind::Enum;
   if (enumeration && accepted != Operands::Anything && accepted != Operands::Equatable) {
     const bool named_values = context.types().info(context.types().resolve(type)).named_values;
-    if ((context.iec() && !named_values) ||
+    if ((!context.profile().enums_as_numbers && !named_values) ||
         (context.types().info(context.types().resolve(type)).strict && accepted != Operands::Comparable)) {
       return false;
     }
   }
   const bool bits = TypeTable::isBits(plain);
   switch (accepted) {
-    case Operands::Number: return TypeTable::isNumber(plain) && !(bits && context.iec());
+    case Operands::Number: return TypeTable::isNumber(plain) && (!bits || context.profile().bit_arithmetic);
     case Operands::NumberOrTime:
-      return (TypeTable::isNumber(plain) && !(bits && context.iec())) || TypeTable::isDuration(plain);
-    case Operands::Bits: return plain == TypeKind::Bool || bits || (TypeTable::isInteger(plain) && !context.iec());
+      return (TypeTable::isNumber(plain) && (!bits || context.profile().bit_arithmetic)) ||
+             TypeTable::isDuration(plain);
+    case Operands::Bits:
+      return plain == TypeKind::Bool || bits || (TypeTable::isInteger(plain) && context.profile().integers_as_bits);
     case Operands::Comparable:  // the standard compares references for equality only: ed. 3, 6.4.4.10.5
-      if (kind == TypeKind::Pointer && context.iec()) return false;
+      if (kind == TypeKind::Pointer && !context.profile().ordered_pointers) return false;
       [[fallthrough]];
     case Operands::Equatable:
       return TypeTable::isElementary(plain) || kind == TypeKind::Pointer || kind == TypeKind::NullLiteral;
@@ -203,8 +207,8 @@ TypeId combineUntyped(Context& context, BinaryExpr& node) {
 bool areOtherEnums(const Context& context, Operands accepted, TypeId a, TypeId b) {
   const types::TypeTable& table = context.types();
   const bool compares = accepted == Operands::Comparable || accepted == Operands::Equatable;
-  return compares && !context.iec() && table.kind(a) == TypeKind::Enum && table.kind(b) == TypeKind::Enum &&
-         table.resolve(a) != table.resolve(b);
+  return compares && context.profile().enums_compared && table.kind(a) == TypeKind::Enum &&
+         table.kind(b) == TypeKind::Enum && table.resolve(a) != table.resolve(b);
 }
 
 }  // namespace
@@ -237,7 +241,7 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
              Loc loc) {
   Tree& tree = context.tree();
   if (keepsOwnType(accepted)) typeCharacters(context, operands);
-  if (context.iec() && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
+  if (context.profile().addresses_as_numbers && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
     typeAddresses(context, operands);
   TypeId common;
   bool untyped = false, real = false, mixed_enums = false;
@@ -273,7 +277,8 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
     for (const ExprId operand : operands) {
       if (!isUntyped(context, tree.expr(operand).type)) continue;
       // CODESYS takes a whole number as a pointer: SEL(is_valid, 0, pointer).
-      const bool is_address = !context.iec() && context.types().kind(common) == TypeKind::Pointer &&
+      const bool is_address = context.profile().pointers_as_numbers &&
+                              context.types().kind(common) == TypeKind::Pointer &&
                               tree.expr(operand).type == types::idOf(TypeKind::IntegerLiteral);
       const TypeId joined = accepted == Operands::Anything && (is_address || untypedFits(context, operand, common))
                                 ? common

@@ -55,8 +55,8 @@ bool mayUseLocal(Context& context, const Var& var, Access access) {
   while (type && context.types().kind(type) == TypeKind::Array)
     type = context.types().info(context.types().resolve(type)).base;
   if (type && isInstance(context, type)) writes = access == Access::Write && type == var.type;
-  if (writes && !(!context.iec() && isInTest(context))) return false;
-  return is_program || (!context.iec() && !context.symbols.pou(var.pou).library);
+  if (writes && !(context.profile().locals_written_by_tests && isInTest(context))) return false;
+  return is_program || (context.profile().locals_read_outside && !context.symbols.pou(var.pou).library);
 }
 
 }  // namespace
@@ -88,11 +88,13 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   };
   switch (var.section) {
     case SectionKind::Input:  // set for the next call: ed. 3 table 42, 6a, table 69, 2
-      if (!context.iec() || program || sets || access == Access::Qualifier || access == Access::Refer) return true;
+      if (context.profile().inputs_read_outside || program || sets || access == Access::Qualifier ||
+          access == Access::Refer)
+        return true;
       return refuse(diag::InputReadOutside);
     case SectionKind::Output:
       if (!writes) return true;
-      if (access != Access::InOut || context.iec()) return refuse(diag::OutputWrittenOutside);
+      if (access != Access::InOut || !context.profile().outputs_as_in_outs) return refuse(diag::OutputWrittenOutside);
       context.report(diag::OutputPassed, node.h.loc, {pin, block}).declaredHere(var.loc);
       return true;
     case SectionKind::InOut: return refuse(diag::InOutUsedOutside);

@@ -28,7 +28,7 @@ namespace rung::sema {
 // IEC 61131-3 ed. 3, 6.4.4.10.2.
 //   passes  r := REF(level) where level is a VAR of the block      fails  the same in a function      E0641
 static bool checkReferable(Context& context, ExprId lvalue, NameId function) {
-  if (!context.iec() || !isNamed(context, function, "REF")) return true;
+  if (context.profile().references_to_temporaries || !isNamed(context, function, "REF")) return true;
   const Tree& tree = context.tree();
   ExprId root = lvalue;
   while (shape(tree.kind(root)) == ExprShape::Step && tree.kind(root) != ExprKind::Deref) root = tree.base(root);
@@ -54,7 +54,8 @@ TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
     lvalue = context.tree().as<BitAccessExpr>(lvalue).base;
     type = types::kByte;
   }
-  if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) && !context.iec())
+  if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) &&
+      context.profile().addresses_of_strings)
     type = context.tree().expr(lvalue = storageOfLiteral(context, lvalue)).type;
   if (!checkAddressable(context, lvalue) || !checkReferable(context, lvalue, call.name)) return types::kError;
   context.replace(expr, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
@@ -148,7 +149,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
 TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.tree().as<IndexExpr>(expr);
   const Loc loc = node.h.loc;
-  if (context.iec()) {
+  if (!context.profile().indexed_pointers) {
     context.report(diag::IndexOfPointer, loc);
     return node.h.type = types::kError;
   }
@@ -187,7 +188,7 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   if (!both && !isWhole(context, isPointer(context, left) ? right : left)) return {};
   const BinaryOp op = node.op();
   const bool comparison = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
-  if (context.iec() || (both && comparison)) return {};
+  if (!context.profile().pointer_arithmetic || (both && comparison)) return {};
   if (isUntyped(context, left)) finalizeUntyped(context, node.left, types::kLInt);
   if (isUntyped(context, right)) finalizeUntyped(context, node.right, types::kLInt);
   const bool step = !both && (op == BinaryOp::Add || (op == BinaryOp::Subtract && isPointer(context, left)));

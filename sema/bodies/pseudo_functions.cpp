@@ -17,7 +17,7 @@ struct Row {
   std::string_view name;
   uint32_t arguments;
   PseudoHandler* check;
-  bool only_codesys = false;
+  bool is_of_system = false;
 };
 // CODESYS: "the operator INDEXOF is not supported any longer; use ADR instead" (C0191).
 TypeId refuseIndexOf(Context& context, ExprId& expr, const PseudoCall&) {
@@ -54,7 +54,7 @@ constexpr Row kFunctions[] = {
 std::optional<TypeId> checkPseudoCall(Context& context, ExprId& expr, NameId name, bool as_statement) {
   const auto* row = std::find_if(std::begin(kFunctions), std::end(kFunctions),
                                  [&](const Row& candidate) { return isNamed(context, name, candidate.name); });
-  if (row == std::end(kFunctions) || (row->only_codesys && context.iec())) return std::nullopt;
+  if (row == std::end(kFunctions) || (row->is_of_system && !context.profile().system_operators)) return std::nullopt;
   const CallExpr& node = context.tree().as<CallExpr>(expr);
   const PseudoCall call{name, context.tree().list(node.arguments), as_statement};
   const bool all_given =

@@ -22,7 +22,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   const Pou& pou = context.symbols.pou(id);
   const std::span<const VarId> pins = pinsOf(context, id);
   const uint32_t named = node.arguments.count - arguments.positional;
-  const bool of_block = context.iec() && arguments.positional > 0;  // ed. 3, 6.6.1.4.2
+  const bool of_block = !context.profile().open_inputs_of_blocks && arguments.positional > 0;  // ed. 3, 6.6.1.4.2
   const bool by_position = (pou.kind == PouKind::Function || pou.kind == PouKind::Method || of_block) && named == 0;
   bool ok = true;
   for (size_t i = 0; i < pins.size(); ++i) {
@@ -39,7 +39,8 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
           .declaredHere(pin.loc);
       ok = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
-      if (context.iec() && isNamed(context, pin.name, kEnable)) continue;  // not among arguments without names
+      if (!context.profile().enable_by_position && isNamed(context, pin.name, kEnable))
+        continue;  // not among arguments without names
       if (!isBroken(context, id))
         context.report(diag::MissingArgument, node.end ? node.end : node.h.loc,
                        {string(context, pou.name), string(context, pin.name)});

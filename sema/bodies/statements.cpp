@@ -213,7 +213,7 @@ void checkLabel(Context& context, ExprId& label, TypeId selector) {
   TypeId type = check(context, label, selector, Access::Read);
   if (type == types::kError) return;
   TypeId wanted = selector;
-  if (enumeration && isUntyped(context, type) && !context.iec() &&
+  if (enumeration && isUntyped(context, type) && context.profile().enums_as_numbers &&
       !context.types().info(context.types().resolve(selector)).strict) {
     wanted = context.types().plain(selector);
   }
@@ -270,7 +270,7 @@ bool checkCase(Context& context, CaseStmt& node) {
 TypeId stepType(Context& context, ExprId step, TypeId control) {
   const TypeId plain = context.types().plain(control);  // a step is not a value of the subrange
   const TypeKind kind = context.types().info(plain).kind;
-  if (context.iec() || context.types().isSigned(kind)) return plain;
+  if (!context.profile().unsigned_loops_count_down || context.types().isSigned(kind)) return plain;
   const TypeId type = context.tree().expr(step).type;
   __int128 value = 0;
   const bool negative = isUntyped(context, type) ? untypedValue(context, step, value) && value < 0
@@ -295,7 +295,8 @@ TypeId checkForControl(Context& context, ForStmt& node) {
   }
   const TypeKind kind = context.types().plainKind(type);
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
-  if (!enumeration && (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && !context.iec()))) {
+  if (!enumeration &&
+      (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && context.profile().bit_arithmetic))) {
     return type;
   }
   context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().toString(type)});
@@ -350,7 +351,7 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
 // __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
 bool checkTry(Context& context, TryStmt& node) {
   constexpr uint32_t kMostNested = 32;  // the time that g++ needs grows with the square
-  if (context.iec()) context.report(diag::TryExtension, node.h.loc);
+  if (!context.profile().try_statement) context.report(diag::TryExtension, node.h.loc);
   if (context.try_depth == kMostNested) {
     context.report(diag::TryTooDeep, node.h.loc, {std::to_string(kMostNested)});
     return true;

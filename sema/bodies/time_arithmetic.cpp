@@ -63,7 +63,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
     if (!adapt(context, factor, untypedFits(context, factor, units) ? units : defaultType(context, factor), {})) {
       return types::kError;
     }
-  } else if (!TypeTable::isInteger(by) && !(TypeTable::isBits(by) && !context.iec())) {
+  } else if (!TypeTable::isInteger(by) && !(TypeTable::isBits(by) && context.profile().bit_arithmetic)) {
     return {};
   }
   if (op == BinaryOp::Divide) {
@@ -94,7 +94,7 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
     if (span_left && !span_right && !TypeTable::isDate(b)) return scale(context, self, op, left, right, a, loc);
     return {};
   }
-  if (op == BinaryOp::Modulo && span_left && span_right && !context.iec()) {
+  if (op == BinaryOp::Modulo && span_left && span_right && context.profile().modulo_of_times) {
     const TypeKind kind = isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time;
     const TypeId units = counter(context, kind);
     context.replace(

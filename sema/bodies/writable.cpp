@@ -46,16 +46,16 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
       context.report(diag::OpenInputWritten, loc, {name}).declaredHere(var.loc);
       return false;
     }
-    context.report(context.iec() ? diag::AssignToInput : diag::InputWritten, loc, {name});
-    return !context.iec();
+    context.report(context.profile().writable_inputs ? diag::InputWritten : diag::AssignToInput, loc, {name});
+    return context.profile().writable_inputs;
   }
   if (!checkOutside(context, var.external ? context.symbols.var(var.external) : var, loc)) return false;
   if (context.body == nullptr) return true;
   for (const BodyState::LoopControl& loop : context.body->loop_controls) {
     if (loop.var != id) continue;
-    context.report(context.iec() ? diag::AssignToControl : diag::ControlWritten, loc, {name})
+    context.report(context.profile().writable_controls ? diag::ControlWritten : diag::AssignToControl, loc, {name})
         .note(loop.loc, diag::LoopIsHere);
-    return !context.iec();
+    return context.profile().writable_controls;
   }
   return true;
 }

@@ -14,7 +14,7 @@ namespace {
 std::optional<types::Dimension> boundsOf(const Context& context, const IndexExpr& node, uint32_t dimension) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(context.tree().expr(node.base).type));
   if (types::TypeTable::isString(info.kind)) {
-    const bool from_one = context.iec();
+    const bool from_one = context.profile().characters_from_one;
     const bool writes = (node.h.bits & kWritesCharacter) != 0;  // not the zero at the end
     return types::Dimension{from_one ? 1 : 0, int64_t{info.length} - (writes && !from_one ? 1 : 0)};
   }

@@ -60,7 +60,7 @@ void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   const bool leaves = keeper && (context.symbols.var(keeper).section == SectionKind::Output ||
                                  keeper == context.symbols.pou(context.pou).result_var);
   if (keeper && !leaves && isCallScoped(context, keeper)) return;
-  context.report(context.iec() ? diag::DanglingAddress : diag::AddressOutlives, tree.loc(address),
+  context.report(context.profile().lasting_addresses ? diag::AddressOutlives : diag::DanglingAddress, tree.loc(address),
                  {string(context, context.symbols.var(variable).name)});
 }
 

@@ -14,7 +14,7 @@ namespace rung::sema {
 // cannot be set"), the loop begins again. Rung's loops end.
 //   warns   FOR i := 0 TO 127 DO         i : SINT              W0586
 static void checkLastValue(Context& context, const ForStmt& node, int64_t from, int64_t to, int64_t step) {
-  if (context.iec()) return;
+  if (!context.profile().warns_of_endless_loops) return;
   const TypeId type = context.tree().expr(node.control).type;
   const TypeKind kind = context.types().plainKind(type);
   const bool is_signed = context.types().isSigned(kind);

@@ -47,7 +47,7 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
   const bool hidden = pou.access == AccessLevel::Private || pou.access == AccessLevel::Protected;
   const bool of_interface = context.symbols.pou(other.owner).kind == PouKind::Interface;
   const bool shown = of_interface || other.access == AccessLevel::Public || other.access == AccessLevel::Internal ||
-                     (other.access == AccessLevel::None && !context.iec());
+                     (other.access == AccessLevel::None && context.profile().public_members);
   const bool narrower =
       (hidden && shown) || (pou.access == AccessLevel::Private && other.access == AccessLevel::Protected);
   if (!narrower) return;
@@ -201,7 +201,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
     context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
   }
-  if (owner.base && context.iec()) {
+  if (owner.base && !context.profile().methods_named_as_variables) {
     const Entity first = findInObject(context, owner.base, method.name);
     if (first.entityKind() == EntityKind::Var)
       return reportTwice(context, method.name, method.loc, context.symbols.vars[first.index].loc);
@@ -214,7 +214,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   }
   const Pou& other = context.symbols.pou(replaced);
   const std::string_view base = string(context, context.symbols.pou(other.owner).name);
-  const bool needs_override = context.symbols.dialect == Dialect::Iec3;  // edition 2 lacks the word
+  const bool needs_override = context.symbols.profile.override_required;  // edition 2 lacks the word
   if ((other.object.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {

@@ -45,7 +45,7 @@ void checkRecursion(Context& context) {
           cycle.append("`").append(string(context, context.symbols.pous[path[i].first].name)).append("`");
         }
         cycle.append(" calls `").append(string(context, context.symbols.pous[callee].name)).append("`");
-        context.report(context.iec() ? diag::Recursion : diag::RecursionAllowed, edge.loc, {cycle});
+        context.report(context.profile().recursion ? diag::RecursionAllowed : diag::Recursion, edge.loc, {cycle});
       }
     }
   }

@@ -104,9 +104,8 @@ void checkTaskSettings(Context& context) {
   for (const auto& [resource, tasks] : resources) {
     checkTaskCount(context, tasks);
     checkWatchdogs(context, tasks);
-    if (context.iec()) continue;
-    checkEqualPriorities(context, tasks);
-    checkPeriods(context, tasks);
+    if (context.profile().warns_of_equal_priorities) checkEqualPriorities(context, tasks);
+    if (context.profile().warns_of_odd_periods) checkPeriods(context, tasks);
   }
 }
 

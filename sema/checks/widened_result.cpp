@@ -14,7 +14,9 @@ using types::TypeTable;
 
 void checkWidenedResult(Context& context, ExprId value, TypeId to) {
   const Tree& tree = context.tree();
-  if (!context.iec() || tree.kind(value) != ExprKind::Binary || tree.expr(value).is_constant) return;
+  if (!context.profile().warns_of_widened_results || tree.kind(value) != ExprKind::Binary ||
+      tree.expr(value).is_constant)
+    return;
   const BinaryExpr& node = tree.as<BinaryExpr>(value);
   const TypeKind from = context.types().plainKind(node.h.type), target = context.types().plainKind(to);
   if (!TypeTable::isInteger(from) || TypeTable::bitWidth(target) <= TypeTable::bitWidth(from)) return;

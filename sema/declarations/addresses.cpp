@@ -113,7 +113,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
       context.report(diag::AddressType, loc, {text, context.types().toString(type)});
       return std::nullopt;
     }
-    if (is_bool && !is_bit && context.iec()) {
+    if (is_bool && !is_bit && !context.profile().bools_at_bytes) {
       context.report(diag::AddressOfBool, loc, {text});
       return std::nullopt;
     }
@@ -155,7 +155,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   const NameId name = context.names().intern(text);
   Entity known = scopes.hierarchical_names.find(keyOf(context, name));
   if (!known) {
-    if (!context.iec() && !context.library) context.report(diag::HierarchicalAddress, loc, {text});
+    if (!context.profile().hierarchical_addresses) context.report(diag::HierarchicalAddress, loc, {text});
     known = Entity::of(EntityKind::Var, static_cast<uint32_t>(scopes.hierarchical.size()));
     scopes.hierarchical_names.insert(keyOf(context, name), known);
     Var var;

@@ -16,7 +16,7 @@ namespace rung::sema {
 bool isNamedBit(const Context& context, NameId name) { return sameIdentifier(context.names().string(name), "BIT"); }
 
 bool isBit(Context& context, TypeExprId written) {
-  if (context.iec() || context.tree().kind(written) != TypeExprKind::Named) return false;
+  if (!context.profile().bit_type || context.tree().kind(written) != TypeExprKind::Named) return false;
   const NamedTypeExpr& expr = context.tree().as<NamedTypeExpr>(written);
   if (expr.path.count != 1) return false;
   const NameId name = context.tree().list(expr.path)[0].name;

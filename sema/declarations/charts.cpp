@@ -7,13 +7,12 @@ namespace rung::sema {
 
 text::Charts chartsOf(const Context& context) {
   const Symbols& symbols = context.symbols;
-  const Dialect dialect = context.library ? Dialect::Codesys : symbols.dialect;
-  return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, dialect};
+  return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, context.profile()};
 }
 
 text::ChartContext chartContextOf(const Context& context, PouId pou) {
   text::ChartContext chart;
-  chart.final_scan = !context.iec();
+  chart.final_scan = context.profile().final_scan;
   for (PouId at = pou; at;) {
     const Pou& of = context.symbols.pou(at);
     const PouDecl& decl = context.tree().as<PouDecl>(of.decl);

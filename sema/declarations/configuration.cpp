@@ -121,7 +121,8 @@ struct TaskReader {
 
   // CODESYS has the priorities 0 to 31; the standard gives no limit (ed. 3, 6.8.2).
   void priority(ExprId& expr) {
-    const auto value = number(expr, "PRIORITY", 0, context.iec() ? kLowestPriority : kUsualPriority);
+    const auto value =
+        number(expr, "PRIORITY", 0, context.profile().high_priorities ? kLowestPriority : kUsualPriority);
     if (!value) return;
     task.priority = static_cast<uint32_t>(*value);
     task.priority_loc = context.tree().begin(expr);
@@ -339,7 +340,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   }
   if (decl.task.name) {
     instance.task = findTask(context, part, decl.task, tasks);
-  } else if (context.iec()) {
+  } else if (context.profile().programs_without_task) {
     instance.task = backgroundTask(context, part);
   } else {
     context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});

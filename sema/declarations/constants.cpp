@@ -73,7 +73,8 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
     left = types::convert(table, left, right.type).value;
   }
   Outcome outcome = types::apply(table, context.names(), op, left, right);
-  if (op == Op::Mod && context.iec()) outcome.fault = types::Fault::None;  // MOD by zero is 0
+  if (op == Op::Mod && context.profile().modulo_by_zero_is_zero)
+    outcome.fault = types::Fault::None;  // MOD by zero is 0
   return checked(context, outcome, loc, divisor);
 }
 

@@ -165,7 +165,7 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   }
   const PouDecl& source = tree.as<PouDecl>(block.decl);
   const Slice<DeclId> decls = text::parseDeclarations(tree, symbols.names, symbols.sources, source.h.begin,
-                                                      endOfBlock(tree, source), Dialect::Codesys, symbols.diagnostics);
+                                                      endOfBlock(tree, source), Dialect::Library, symbols.diagnostics);
   for (const DeclId decl : tree.list(decls)) {
     if (tree.kind(decl) != DeclKind::Pou) continue;
     tree.as<PouDecl>(decl).name = name;
@@ -223,7 +223,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   const PouDecl& written = context.tree().as<PouDecl>(generic.decl);
   const Slice<DeclId> decls =
       text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.h.begin, written.h.end,
-                              generic.library ? Dialect::Codesys : symbols.dialect, symbols.diagnostics);
+                              generic.library ? Dialect::Library : symbols.profile.dialect, symbols.diagnostics);
   for (const DeclId decl : symbols.tree.list(decls)) {
     if (symbols.tree.kind(decl) != DeclKind::Pou) continue;
     Pou pou = generic;

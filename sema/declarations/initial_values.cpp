@@ -46,7 +46,7 @@ struct Initializer {
     bool ok = false;
     if (literal.literal() == LiteralKind::Integer) {
       if (kind == TypeKind::Bool) {
-        ok = literal.value() <= 1 && !context.iec();
+        ok = literal.value() <= 1;
       } else if (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) {
         const uint32_t width = TypeTable::bitWidth(kind) - (context.types().isSigned(kind) ? 1u : 0u);
         ok = width >= 64 || (literal.value() >> width) == 0;
@@ -254,7 +254,8 @@ struct Initializer {
   // element's.
   bool likeAnother(ExprId& init, TypeId type) {
     const ExprKind written = tree().kind(init);
-    if (context.iec() || (written != ExprKind::Name && written != ExprKind::Member && written != ExprKind::Index))
+    if (!context.profile().copied_initial_values ||
+        (written != ExprKind::Name && written != ExprKind::Member && written != ExprKind::Index))
       return false;
     if (!context.expressions->checkAs(context, init, type, std::string("used as ") + std::string(what))) {
       init = {};
@@ -312,7 +313,7 @@ struct Initializer {
   void record(ExprId& init, TypeId type) {
     if (tree().kind(init) != ExprKind::StructInit) {
       if (likeAnother(init, type)) return;
-      if (tree().kind(init) == ExprKind::Call && !context.iec()) {  // __VARINFO(x)
+      if (tree().kind(init) == ExprKind::Call && context.profile().system_operators) {  // __VARINFO(x)
         ExprId value = init;
         if (context.expressions->checkAs(context, value, type, std::string("used as ") + std::string(what)) &&
             tree().kind(value) == ExprKind::AnyValue) {
@@ -354,9 +355,9 @@ struct Initializer {
         context.report(diag::DuplicateMember, given.field.loc, {name});
         continue;
       }
-      const bool settable =
-          var.storage == Storage::Field && var.section != SectionKind::InOut &&
-          (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public || !context.iec());
+      const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
+                            (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public ||
+                             context.profile().initialised_members);
       if (!settable) {
         context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
             .declaredHere(var.loc);

@@ -364,7 +364,7 @@ struct InstancePathResolver {
     const types::AreaId area = var.image.area;
     const bool is_bool = context.types().kind(var.type) == TypeKind::Bool;
     const TypeInfo& info = context.types().info(context.types().resolve(var.type));
-    if (context.iec()) {
+    if (!context.profile().completed_addresses) {
       std::string address = "%";
       address += letterOf(area);
       address += is_bool ? "X0.0" : info.size == 2 ? "W0" : info.size == 4 ? "D0" : info.size == 8 ? "L0" : "B0";

@@ -51,7 +51,7 @@ PouId itemNamesOf(Context& context, TypeId type) {
   const Loc begin = symbols.sources.begin(file);
   const Slice<DeclId> decls =
       text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, begin, Loc{begin.offset + length},
-                              Dialect::Codesys, symbols.diagnostics);
+                              Dialect::Library, symbols.diagnostics);
   const PouId id{static_cast<uint32_t>(symbols.pous.size())};
   Context there = at(context, {}, file, true);
   for (const DeclId decl : symbols.tree.list(decls)) collectDecl(there, decl, file, system.index);

@@ -179,9 +179,10 @@ void skipActions(Scanner& scan) {
 
 uint8_t standardsOf(std::string_view pragma) {
   uint8_t standards = 0;
-  if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec2);
-  if (pragma.find("iec3") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec3);
-  if (pragma.find("codesys") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Codesys);
+  for (const LanguageProfile& profile : kProfiles) {
+    const bool has_name = profile.is_chosen && pragma.find(profile.name) != std::string_view::npos;
+    if (has_name) standards |= bitOf(profile.dialect);
+  }
   return standards;
 }
 
@@ -268,7 +269,7 @@ static void addLibraryProjects(Context& context) {
 void indexLibraries(Context& context) {
   Libraries& libraries = context.scopes.libraries;
   const auto files = context.project.options.libraries;
-  const auto dialect = static_cast<unsigned>(context.symbols.dialect);
+  const uint8_t dialect = bitOf(context.symbols.profile.dialect);
   libraries.library_of_file.resize(files.size());
   libraries.sources.resize(files.size());
   for (uint32_t f = 0; f < files.size(); ++f) {
@@ -289,9 +290,9 @@ void indexLibraries(Context& context) {
     libraries.library_of_file[f] = space.index;
     libraries.sources[f] = files[f].file;
     for (const IndexedBlock& block : indexLibrary(files[f].source)) {
-      if ((block.standards >> dialect & 1u) == 0) continue;
+      if ((block.standards & dialect) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
-      libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> dialect & 1u) != 0});
+      libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified & dialect) != 0});
       if (!block.base.empty()) libraries.extended.insert(keyOf(context, context.names().intern(block.base)), space);
       for (const std::string_view spelling_of_name : block.names) {
         const NameId spelling = context.names().intern(spelling_of_name);
@@ -334,7 +335,7 @@ void load(Context& context, LibraryBlock& block) {
   const uint32_t library = libraries.library_of_file[block.file];
   const Slice<DeclId> decls =
       text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, Loc{base + block.begin},
-                              Loc{base + block.end}, Dialect::Codesys, symbols.diagnostics);
+                              Loc{base + block.end}, Dialect::Library, symbols.diagnostics);
   Context there = at(context, {}, from, true);
   for (uint32_t i = 0; i < decls.count; ++i) collectDecl(there, symbols.tree.list(decls)[i], from, library);
 }

@@ -13,14 +13,16 @@
 
 namespace rung::sema {
 
-constexpr uint8_t kAllStandards = 7;
+constexpr uint8_t bitOf(Dialect dialect) { return static_cast<uint8_t>(1u << static_cast<unsigned>(dialect)); }
+constexpr uint8_t kAllStandards = bitOf(Dialect{kDialects}) - 1;
+static_assert(kDialects < 8);
 
 // A POU, a TYPE block or a VAR_GLOBAL block, from the pragmas before it to its END_… keyword.
 struct IndexedBlock {
   uint32_t begin = 0, end = 0;
   std::vector<std::string_view> names;  // the POU; the types and enumeration items; the variables
   std::string_view base;                // that the POU extends, without its library
-  // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard. {std 'iec2, else qualified'}: the others
+  // {std 'iec2 iec3'}: the dialects that have it, as bits. {std 'iec2, else qualified'}: the others
   // have it by its full name only.
   uint8_t standards = kAllStandards, qualified = 0;
 };

@@ -404,7 +404,8 @@ const char* kindName(AccessLevel access) {
 
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
   const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
-  if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
+  if (access == AccessLevel::None && !context.profile().public_members && !of_interface)
+    access = AccessLevel::Protected;
   if (access == AccessLevel::None || access == AccessLevel::Public) return true;
   const bool same_project = context.library || !context.symbols.pou(owner).library;
   if (access == AccessLevel::Internal && same_project && isInside(context, context.scopes.pous[owner.index].region))

@@ -15,7 +15,7 @@ namespace rung::sema {
 
 bool addOverload(Context& context, Entity first, PouId added) {
   Symbols& symbols = context.symbols;
-  if (symbols.dialect != Dialect::Iec3 || first.entityKind() != EntityKind::Pou) return false;
+  if (!symbols.profile.overloads || first.entityKind() != EntityKind::Pou) return false;
   const PouId head{first.index};
   Pou& pou = symbols.pou(added);
   const PouKind kind = symbols.pou(head).kind;
@@ -38,7 +38,7 @@ bool addOverload(Context& context, Entity first, PouId added) {
 
 void markOverloads(Context& context) {
   Symbols& symbols = context.symbols;
-  if (symbols.dialect != Dialect::Iec3) return;
+  if (!symbols.profile.overloads) return;
   const auto isOverloadedIn = [&](PouId object, const Pou& like) {
     for (const PouId member : symbols.pou(object).members)
       if (symbols.pou(member).overloads && symbols.names.same(symbols.pou(member).name, like.name)) return true;

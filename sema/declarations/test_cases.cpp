@@ -128,7 +128,7 @@ struct CaseResolver {
     const Loc end{begin.offset + static_cast<uint32_t>(content.size())};
     const Slice<FieldInit> written =
         text::parseFieldInits(context.tree(), context.names(), context.symbols.sources, begin, end,
-                              context.symbols.dialect, context.symbols.diagnostics);
+                              context.symbols.profile.dialect, context.symbols.diagnostics);
     for (uint32_t i = 0; i < written.count; ++i) addInput(context.tree().list(written)[i], added);
     context.symbols.pou(test).pragmas.cases.push_back(std::move(added));
   }

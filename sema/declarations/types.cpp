@@ -44,7 +44,8 @@ std::string toString(int64_t number) { return std::to_string(number); }
 
 // TwinCAT reaches the types of its type system, which libraries and the system declare, by the namespace Global too.
 bool isGlobalNamespace(Context& context, NameId name) {
-  return !context.iec() && sameIdentifier(context.names().string(name), "Global") && !findNamespace(context, name);
+  return context.profile().global_namespace && sameIdentifier(context.names().string(name), "Global") &&
+         !findNamespace(context, name);
 }
 
 // Forbids an undeclared type name, and a name that is not a type.
@@ -162,7 +163,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }
   if (found.entityKind() == EntityKind::Error) return types::kError;
-  if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
+  if (!found && length == 1 && context.profile().bit_type && isNamedBit(context, last.name)) {
     context.report(diag::BitAsBool, last.loc);
     return types::kBool;
   }
@@ -193,7 +194,7 @@ TypeId resolveString(Context& context, TypeExprId id) {
   if (!expr.length) return types::idOf(kind);
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
-  const int64_t least = context.iec() ? 1 : 0;  // CODESYS knows STRING(0), which holds '' alone
+  const int64_t least = context.profile().empty_strings ? 0 : 1;  // CODESYS knows STRING(0), which holds '' alone
   if (*length < least || *length > kMaxStringLength) {
     context.report(diag::StringLength, context.tree().begin(expr.length),
                    {toString(*length), toString(least), toString(kMaxStringLength)});
@@ -230,7 +231,7 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     context.tree().list(expr.bounds)[i] = bound;
     if (!low || !high) {
       ok = false;
-    } else if (*low > *high && (context.iec() || *low - 1 != *high)) {
+    } else if (*low > *high && (!context.profile().empty_arrays || *low - 1 != *high)) {
       context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {toString(*low), toString(*high)});
       ok = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {

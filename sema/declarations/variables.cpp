@@ -117,7 +117,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.storage = storageOf(context, section.section, pou, decl);
   var.edge = decl.edge;
   // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
-  const bool settable = section.section == SectionKind::Input && !context.iec() && !context.library;
+  const bool settable = section.section == SectionKind::Input && context.profile().settable_constant_inputs;
   var.constant = (section.h.bits & kConstant) != 0 && !settable;
   var.persistent = (section.h.bits & kPersistent) != 0;
   var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
@@ -259,7 +259,7 @@ void matchExternal(Context& context, VarId id) {
     var.type = types::kError;
     return;
   }
-  if (global.constant && !var.constant && context.iec())
+  if (global.constant && !var.constant && !context.profile().implied_constant_externals)
     context.report(diag::ExternalConstant, loc, {context.names().string(name)}).declaredHere(global.loc);
   if (global.constant) var.constant = true;
   var.external = global_id;
@@ -313,16 +313,16 @@ void checkPlacement(Context& there, const Var& var, const VarDecl& decl) {
   if (there.library || var.record) return;
   const std::string_view name = there.names().string(var.name);
   const PouKind kind = var.pou ? there.symbols.pou(var.pou).kind : PouKind::Program;
-  if (there.iec() && decl.located && var.section == SectionKind::External)
+  if (!there.profile().located_externals && decl.located && var.section == SectionKind::External)
     there.report(diag::ExternalAddress, decl.address_loc, {name});
-  else if (there.iec() && decl.located && !decl.address.incomplete && kind != PouKind::Program)
+  else if (!there.profile().addresses_in_blocks && decl.located && !decl.address.incomplete && kind != PouKind::Program)
     there.report(diag::AddressInBlock, decl.address_loc, {kindWord(kind)});
   const bool has_memory = var.section == SectionKind::Local || var.section == SectionKind::Temp || !var.pou;
   if (var.type == types::kError || !has_memory || !isBlock(there, var.type)) return;
   const std::string block = there.types().toString(var.type);
-  if (there.iec() && var.constant)
+  if (!there.profile().constant_instances && var.constant)
     there.report(diag::ConstantBlock, var.loc, {name, block});
-  else if (kind == PouKind::Function && there.symbols.dialect == Dialect::Iec2)
+  else if (kind == PouKind::Function && !there.profile().instances_in_functions)
     there.report(diag::BlockInFunction, var.loc, {name, block});
   else if (kind == PouKind::Function && !isForTests(there, var.pou))
     there.report(diag::BlockOfCall, var.loc, {name, block});
@@ -367,7 +367,7 @@ void ensureVarType(Context& context, VarId id) {
     // An ANY input of CODESYS describes the caller's variable; generic types of the standard are for the library only.
     const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
     const bool may_report = var.section == SectionKind::Input || var.section == SectionKind::Local;
-    if (generic && may_report && !there.library && !there.iec()) {
+    if (generic && may_report && there.profile().any_inputs) {
       var.any = var.type;
       var.type = anyType(there);
     }
@@ -460,7 +460,7 @@ void ensureInitialValue(Context& context, VarId id) {
     std::string what = "the initial value of `" + toString(context, var.name) + "`";
     InitialReads may = InitialReads::Constants;
     const bool of_call = there.pou && isFunction(symbols.pou(there.pou).kind);
-    if (there.iec() || var.record)
+    if (!there.profile().variables_in_initial_values || var.record)
       may = InitialReads::Constants;
     else if (of_call && var.section == SectionKind::Input)
       may = InitialReads::Globals;  // the caller evaluates the default of an input that it leaves open
@@ -601,21 +601,22 @@ void checkModifiers(Context& context, const SectionDecl& section) {
   const bool of_call = context.pou && isFunction(context.symbols.pou(context.pou).kind) && !lives;
   if (of_call && (section.h.bits & (kRetain | kPersistent)) != 0) {
     const std::string_view word = (section.h.bits & kRetain) != 0 ? "RETAIN" : "PERSISTENT";
-    if (context.iec())
+    if (!context.profile().retain_in_functions)
       context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
     else
       context.report(diag::RetainOfCall, section.h.loc, {word, kindWord(context.symbols.pou(context.pou).kind)});
     return;
   }
-  if (!context.iec()) return;
-  const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0;
+  const LanguageProfile& profile = context.profile();
+  const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0 && !profile.retain_without_memory;
   const bool constant = (section.h.bits & kConstant) != 0;
   const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
   if (retain && constant)
     context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
   else if (retain && is_pin_or_temp)
     context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "RETAIN"});
-  else if (constant && (section.section == SectionKind::Output || section.section == SectionKind::InOut))
+  else if (constant && !profile.constant_outputs &&
+           (section.section == SectionKind::Output || section.section == SectionKind::InOut))
     context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "CONSTANT"});
 }
 
@@ -638,7 +639,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
   if (section.section == SectionKind::Access && kind == PouKind::Program) return;     // access_paths.cpp
   const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                          section.section == SectionKind::Config || kind == PouKind::Interface ||
-                         (section.section == SectionKind::Stat && there.iec()) ||
+                         (section.section == SectionKind::Stat && !there.profile().static_variables) ||
                          (section.section == SectionKind::Inst && !is_member);
   if (misplaced) {
     there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
@@ -673,7 +674,7 @@ static void reportHiddenResult(Context& there, PouId id, Entity by) {
   if (there.library || by.entityKind() != EntityKind::Var || pou.object.accessor != AccessorKind::None) return;
   const Var& var = there.symbols.vars[by.index];
   if (!there.names().same(var.name, pou.name)) return;  // an alias
-  if (there.iec())
+  if (!there.profile().hidden_results)
     reportTwice(there, var.name, var.loc, pou.loc);
   else
     there.report(diag::ResultHidden, var.loc, {there.names().string(var.name), there.names().string(pou.name)})
@@ -762,7 +763,7 @@ void resolvePou(Context& context, PouId id) {
     const VarId memory = addHidden(edge, "_edge", types::kBool);
     symbols.var(edge).edge_memory = memory;
     // iec: the body of F_TRIG, which F_EDGE stands for, sees an edge in a first call with FALSE.
-    if (there.iec() && symbols.var(edge).edge == EdgeKind::Falling)
+    if (there.profile().falling_edge_at_start && symbols.var(edge).edge == EdgeKind::Falling)
       symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
   }
   for (const VarId instance : enabled) {

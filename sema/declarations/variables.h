@@ -14,7 +14,9 @@ namespace rung::sema {
 void resolvePou(Context& context, PouId pou);
 
 // VAR_GLOBAL in a PROGRAM: allowed by the standard, not by codesys.
-inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
+inline bool mayHoldGlobals(const Context& context, PouKind kind) {
+  return kind == PouKind::Program && context.profile().globals_in_programs;
+}
 
 // Gives the variables of one VarDecl their ids and names. Types follow later.
 void declareVars(Context& context, DeclId decl, const SectionDecl& section, PouId pou, ListId list, NameMap* names,

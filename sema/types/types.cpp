@@ -316,7 +316,7 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   return false;
 }
 
-bool TypeTable::belongsToInCodesys(TypeKind kind, TypeKind generic) {
+bool TypeTable::belongsToOrMixes(TypeKind kind, TypeKind generic) {
   if (belongsTo(kind, generic)) return true;
   if (isBits(kind)) {
     return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||

@@ -259,12 +259,12 @@ class TypeTable {
   static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for types that are not scalar
   // The representation of an elementary kind: signed or unsigned integer of bitWidth, or floating point.
   bool isSigned(TypeKind k) const;
-  // Of the dialect: TIME is unsigned in codesys; LTIME has a sign in iec3 only (docs/language.md).
+  // Of the dialect (docs/dialects.md).
   bool time_is_signed = false, long_time_is_signed = false;
   // True when `kind` belongs to the generic type (ANY_NUM holds INT).
   static bool belongsTo(TypeKind kind, TypeKind generic);
-  // The same in codesys, which takes bit strings where integers are accepted, and vice versa.
-  static bool belongsToInCodesys(TypeKind kind, TypeKind generic);
+  // The same where bit strings are taken for integers, and vice versa.
+  static bool belongsToOrMixes(TypeKind kind, TypeKind generic);
 
  private:
   void place(TypeId id, uint32_t align);

@@ -170,7 +170,7 @@ class Writer {
       for (const DeclId inner : tree_.list(tree_.as<NamespaceDecl>(id).decls)) declareAccess(inner, false, edits);
       return;
     }
-    if (tree_.kind(id) != DeclKind::Pou || program_.dialect != Dialect::Codesys) return;
+    if (tree_.kind(id) != DeclKind::Pou || !profileOf(program_.dialect).public_members) return;
     const auto& pou = tree_.as<PouDecl>(id);
     for (const DeclId member : tree_.list(pou.members))
       declareAccess(member, pou.pou_kind == PouKind::Interface, edits);

@@ -88,8 +88,8 @@ int runInit(const Options& options, Sink& sink) {
   std::string text = "# " + name +
                      "; `rung help` lists the commands, which find this file in this folder and below.\n" +
                      "[project]\nname = " + moduleNameOf(name) + "\n";
-  const std::string dialect = dialectName(compilation->options.dialect);
-  if (compilation->options.dialect != Dialect::Codesys) text += "std = " + dialect + "\n";
+  const std::string dialect = std::string(profileOf(compilation->options.dialect).name);
+  if (compilation->options.dialect != kDefaultDialect) text += "std = " + dialect + "\n";
   const std::vector<std::string> programs = programsWithoutTask(project);
   if (!programs.empty()) {
     text +=

@@ -94,7 +94,7 @@ int listLibraries(const Options& options, Sink& sink) {
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
     if (library != file.library) flush();
     library = file.library;
-    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) == 0) return;
+    if ((block.standards & sema::bitOf(options.dialect)) == 0) return;
     for (std::string_view name : block.names) names.emplace_back(name);
   });
   flush();
@@ -157,7 +157,7 @@ int listSignature(const Options& options, Sink& sink) {
     }
   }
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
-    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.source, block);
+    if ((block.standards & sema::bitOf(options.dialect)) != 0) add(file.path, file.source, block);
   });
   if (!list.empty()) return printResult(sink, list.text());
   const std::string unknown = "unknown function, block or type `" + options.signature + "`";

@@ -64,19 +64,17 @@ std::string parseChoice(std::string_view option, std::string_view value, std::st
 bool isModuleName(std::string_view name) { return name.size() <= 200 && isIdentifier(name); }
 
 std::string parseDialect(std::string_view name, Dialect& dialect) {
-  uint32_t choice = 0;
-  std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
-  if (error.empty()) dialect = static_cast<Dialect>(choice);
-  return error;
-}
-
-const char* dialectName(Dialect dialect) {
-  switch (dialect) {
-    case Dialect::Iec2: return "iec2";
-    case Dialect::Iec3: return "iec3";
-    case Dialect::Codesys: return "codesys";
+  std::vector<Dialect> dialects;
+  std::string names;
+  for (const LanguageProfile& profile : kProfiles) {
+    if (!profile.is_chosen) continue;
+    names.append(dialects.empty() ? "" : "|").append(profile.name);
+    dialects.push_back(profile.dialect);
   }
-  return "";
+  uint32_t choice = 0;
+  std::string error = parseChoice("--std", name, names, choice);
+  if (error.empty()) dialect = dialects[choice];
+  return error;
 }
 
 std::string parseNativeWidth(std::string_view bits, uint32_t& width) {

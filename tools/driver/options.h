@@ -49,7 +49,7 @@ struct Options {
   std::vector<text::Define> defines;       // -D
   std::string root;                        // --root
   std::string name;                        // --name; empty: plc
-  Dialect dialect = Dialect::Codesys;
+  Dialect dialect = kDefaultDialect;
   bool dialect_given = false;
   uint8_t checks = defaultChecks();  // ir::Check bits
   bool checks_given = false;
@@ -135,7 +135,6 @@ struct Options {
 // NAME or NAME=VALUE.
 [[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);
 [[nodiscard]] std::string parseDialect(std::string_view name, Dialect& dialect);
-const char* dialectName(Dialect dialect);  // as --std takes it
 
 // `name` in backquotes.
 std::string backquoted(std::string_view text);

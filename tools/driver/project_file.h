@@ -37,7 +37,7 @@ struct ProjectFile {
   std::vector<std::string> sources, libraries;  // paths relative to `folder`
   std::string name;
   bool has_dialect = false, has_native_width = false, has_edge_coils = false, has_checks = false, has_level = false;
-  Dialect dialect = Dialect::Codesys;
+  Dialect dialect = kDefaultDialect;
   uint32_t native_width = 32;
   diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;
   uint8_t checks = 0;

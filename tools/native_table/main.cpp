@@ -84,7 +84,7 @@ void instantiateAll(Context& context, PouId generic) {
     }
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
       const auto of = static_cast<TypeKind>(kind);
-      if (!TypeTable::belongsToInCodesys(of, generics[at])) continue;
+      if (!TypeTable::belongsToOrMixes(of, generics[at])) continue;
       // A string has its largest capacity inside: one instance serves every length.
       chosen[at] = rung::types::TypeTable::isString(of) ? context.types().string(of, 255) : rung::types::idOf(of);
       self(self, at + 1);
@@ -203,11 +203,12 @@ void addDeclarations(const rung::ir::Module& module, std::map<std::string, std::
 // One program of all dialects may use a block, so its layout cannot differ between them.
 bool header(const LibrarySources& libraries, std::string& out) {
   std::map<std::string, std::string> narrow, wide;
-  for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
+  for (const rung::LanguageProfile& profile : rung::kProfiles) {
+    if (!profile.is_chosen) continue;
     for (const uint32_t pointer_size : {4u, 8u}) {
       std::map<std::string, std::string>& known = pointer_size == 4 ? narrow : wide;
       std::map<std::string, std::string> here;
-      if (!withNatives(libraries, dialect, pointer_size,
+      if (!withNatives(libraries, profile.dialect, pointer_size,
                        [&](const rung::ir::Module& module) { addDeclarations(module, here); }))
         return false;
       for (const auto& [library, declarations] : here) {
@@ -267,8 +268,9 @@ int main(int argc, char** argv) {
         {libraries.names.back().c_str(), libraries.paths.back().c_str(), libraries.contents.back()});
   }
   std::map<std::string, std::string> table;
-  for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
-    if (!withNatives(libraries, dialect, sizeof(void*),
+  for (const rung::LanguageProfile& profile : rung::kProfiles) {
+    if (!profile.is_chosen) continue;
+    if (!withNatives(libraries, profile.dialect, sizeof(void*),
                      [&](const rung::ir::Module& module) { addThunks(module, table); }))
       return 1;
   }
