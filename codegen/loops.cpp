@@ -161,7 +161,7 @@ void appendStep(std::string& out, std::string_view name, int64_t step) {
 
 namespace {
 
-// Whether the body may leave the loop before its last iteration.
+// Tells whether the body may leave the loop before its last iteration.
 bool mayLeave(const ir::Body& body, ir::StmtId first) {
   bool found = false;
   ir::forEachStmt(body, first, [&](ir::StmtId id) {

@@ -92,7 +92,7 @@ class Exporter {
     return {};
   }
 
-  // What the text has that the edition of the profile does not; empty: nothing.
+  // Returns what the text has that the edition of the profile does not; empty: nothing.
   std::string foreignIn(const std::string& text, const Profile& profile) const {
     const Source source(text, profile.dialect);
     return foreignTo(profile.edition, source, vocabulary_);
