@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions of generated programs: each has a type, and a depth that it does not exceed.
 #include "frontend/source/dialect.h"
-#include "frontend/source/names.h"
+#include "frontend/source/text.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {
@@ -48,13 +48,19 @@ std::string Generator::literal(int type) {
   return "0";
 }
 
+std::string lowered(const char* name) {
+  std::string text = name;
+  for (char& c : text) c = foldedCharacter(c);
+  return text;
+}
+
 std::string Generator::readable(int type) {
   if (body_ != Body::Program && chance(40)) {
     for (size_t i = 0; i < own_inputs_.size(); ++i) {
       if (own_inputs_[i] == type) return "in" + std::to_string(i);
     }
   }
-  if (chance(5)) return "c_" + foldedIdentifier(kTypes[type].name);
+  if (chance(5)) return "c_" + lowered(kTypes[type].name);
   if (chance(12)) {
     if (const std::string parts = part(type); !parts.empty()) return parts;
   }
@@ -63,7 +69,7 @@ std::string Generator::readable(int type) {
 
 // A variable of the type. Every body may use the same local ones; declarations() finds those that it uses.
 std::string Generator::writable(int type) {
-  const std::string name = foldedIdentifier(kTypes[type].name);
+  const std::string name = lowered(kTypes[type].name);
   if (chance(25)) {
     if (const std::string place = led(type); !place.empty()) return place;
   }
@@ -93,14 +99,14 @@ std::string Generator::part(int type) {
   int whole = (type == kBool ? kByte : type + 1) + below(type == kBool ? 4 : kLword - type);
   int bits = 8 << (whole - kByte);
   const int wide = type == kBool ? 1 : 8 << (type - kByte);
-  std::string name = "v_" + foldedIdentifier(kTypes[whole].name);
+  std::string name = "v_" + lowered(kTypes[whole].name);
   if (codesys() && chance(40)) {
     const std::string place = led(whole);
     if (!place.empty()) name = place;
   } else if (whole != kLword && chance(15)) {
-    name = prefix_ + "_at_" + foldedIdentifier(kTypes[whole].name);
+    name = prefix_ + "_at_" + lowered(kTypes[whole].name);
   } else if (codesys() && chance(20)) {
-    name = "v_" + foldedIdentifier(kTypes[whole - kByte + kSint].name);
+    name = "v_" + lowered(kTypes[whole - kByte + kSint].name);
   }
   name += ".";
   const char* letter[] = {"B", "W", "D"};
