@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all writers of a body share: see body_part.h.
+// The common part of all writers of a body: see body_part.h.
 #include "codegen/body_part.h"
 
 #include "codegen/signature.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all writers of a body share: the state of the body being written, names, and questions to its analyses. In: a
+// All writers of a body share this: the state of the body being written, names, and questions to its analyses. In: a
 // body and its analyses. Out: its statements as C++ that is a value (cxx/nodes.h), in BodyState. BodyPart is the base
 // of the writers (body_parts.h), which call each other through it.
 #pragma once

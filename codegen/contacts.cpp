@@ -23,8 +23,8 @@ bool ExpressionWriter::isPlainRead(ExprId id) const {
   return root == ExprKind::Const || root == ExprKind::Local || root == ExprKind::Self || root == ExprKind::Image;
 }
 
-// Whether to evaluate all of a condition costs less than to jump around its operands: a ladder has a contact every few
-// bytes of code. The operands only read and compare; in a long condition the jumps pay.
+// Tells whether to evaluate all of a condition costs less than to jump around its operands: a ladder has a contact
+// every few bytes of code. The operands only read and compare; in a long condition the jumps pay.
 bool ExpressionWriter::isContacts(ExprId id) const {
   uint32_t steps = 0;
   bool any_bit = false;
@@ -75,7 +75,7 @@ cxx::Ex ExpressionWriter::shifted(Ex bits, uint32_t from, uint32_t to) {
                    : tree_.infix(Operator::ShiftLeft, bits, tree_.number(to - from));
 }
 
-// Whether `bits` has no bit but that at its position.
+// Tells whether `bits` has no bit but that at its position.
 bool ExpressionWriter::isSingleBit(ExprId id) const {
   const Expr& e = expr(id);
   if (ir::isNot(e)) {  // ~ of contacts, ! of anything else

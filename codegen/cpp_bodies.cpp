@@ -642,7 +642,7 @@ class Writer {
     return block + "]))." + mangled(string(field.name));
   }
 
-  // What declares a name, and what initialises a member of an object.
+  // The declaration of a name, and the initialiser of a member of an object.
   struct Declared {
     std::string declaration, member, value;
   };

@@ -17,6 +17,7 @@
 #include "codegen/signature.h"
 #include "codegen/types.h"
 #include "frontend/source/invariant.h"
+#include "frontend/source/names.h"
 
 namespace rung::codegen {
 
@@ -80,9 +81,7 @@ std::string around(const ir::Module& module, const Group& group, RecordDefinitio
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
   for (NameId library : group.libraries) {
-    std::string file(module.names.string(library));
-    for (char& c : file) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    out += "#include \"rung/" + file + ".h\"\n";
+    out += "#include \"rung/" + foldedIdentifier(module.names.string(library)) + ".h\"\n";
   }
   for (const std::string& file : files) out += "#include \"" + file + "\"\n";
   auto paragraph = [&](const std::string& text) {

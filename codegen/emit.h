@@ -23,7 +23,7 @@ struct EmitOptions {
   bool counts_steps = false;  // `rung run`, `rung test`: bodies use up rung_context::steps, so that endless loops end
 };
 
-// What other tools read to find variables (codegen/symbols.h); all other files are for the C++ compiler.
+// Other tools read this to find variables (codegen/symbols.h); all other files are for the C++ compiler.
 inline constexpr const char* kSymbolFile = "symbols.json";
 
 struct OutputFile {

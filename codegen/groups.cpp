@@ -5,6 +5,7 @@
 
 #include "codegen/group.h"
 #include "codegen/names.h"
+#include "frontend/source/names.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -27,11 +28,7 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const ir::Body& body = module.bodies[i];
     if (body.native || body.cpp != 0 || body.abstract || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
-    Row row{std::string(module.names.string(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
-    for (char& c : row.key) {
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    rows.push_back(std::move(row));
+    rows.push_back({foldedIdentifier(module.names.string(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}});
   }
   std::sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
     if (a.key != b.key) return a.key < b.key;

@@ -55,7 +55,7 @@ class CoilFollower {
     return assign != nullptr && ir::isImageBit(body_.expr(assign->place));
   }
 
-  // Whether an expression may reach memory that it does not name, or fault.
+  // Tells whether an expression may reach memory that it does not name, or fault.
   bool isOpaque(ExprId root) const {
     bool opaque = false;
     ir::forEachExpr(body_, root, [&](ExprId id) {

@@ -34,7 +34,7 @@ struct MeasuredStrings {
 
 MeasuredStrings analyzeLengths(const ir::Module& module, const ir::Body& body, const Facts& facts, const Uses& uses);
 
-// What is asked of the strings of a body while its lengths are analysed and while it is written.
+// Both the analysis of lengths and the writers ask this of the strings of a body.
 struct StringsOfBody {
   const ir::Module& module;
   const ir::Body& body;

@@ -85,7 +85,7 @@ namespace {
 
 uint64_t magnitude(int64_t step) { return step < 0 ? 0 - static_cast<uint64_t>(step) : static_cast<uint64_t>(step); }
 
-// Whether the body may leave the loop before its last iteration.
+// Tells whether the body may leave the loop before its last iteration.
 bool mayLeave(const ir::Body& body, ir::StmtId first) {
   bool found = false;
   ir::forEachStmt(body, first, [&](ir::StmtId id) {

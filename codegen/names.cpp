@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "codegen/emit.h"
+#include "frontend/source/text.h"
 
 namespace rung::codegen {
 
@@ -29,35 +30,6 @@ bool isPlain(std::string_view name) {
   for (const char c : name)
     if (!kPlain.is[static_cast<unsigned char>(c)]) return false;
   return true;
-}
-
-// Calls f(unit) for the UTF-16 units of a UTF-8 string.
-template <class F>
-void forEachUnit(std::string_view text, F&& f) {
-  for (size_t i = 0; i < text.size();) {
-    auto byte = [&](size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
-    const uint32_t lead = byte(i);
-    if (lead == 0) return;
-    uint32_t point = lead;
-    size_t length = 1;
-    if (lead >= 0xf0) {
-      point = (lead & 7) << 18 | (byte(i + 1) & 63) << 12 | (byte(i + 2) & 63) << 6 | (byte(i + 3) & 63);
-      length = 4;
-    } else if (lead >= 0xe0) {
-      point = (lead & 15) << 12 | (byte(i + 1) & 63) << 6 | (byte(i + 2) & 63);
-      length = 3;
-    } else if (lead >= 0xc0) {
-      point = (lead & 31) << 6 | (byte(i + 1) & 63);
-      length = 2;
-    }
-    i += length;
-    if (point >= 0x10000) {
-      f(0xd800 + ((point - 0x10000) >> 10));
-      f(0xdc00 + ((point - 0x10000) & 0x3ff));
-    } else {
-      f(point);
-    }
-  }
 }
 
 }  // namespace
@@ -138,28 +110,29 @@ void appendQuoted(std::string& out, std::string_view text) {
 
 void appendQuotedWide(std::string& out, std::string_view text) {
   out += "u\"";
-  forEachUnit(text, [&](uint32_t unit) {
+  for (Utf16Units units(text.substr(0, text.find('\0'))); !units.done();) {
+    const uint32_t unit = units.next();
     if (unit >= 0x20 && unit < 0x7f && unit != '"' && unit != '\\' && unit != '?') {
       out += static_cast<char>(unit);
-      return;
+      continue;
     }
     out += "\\x";
     for (int shift = 12; shift >= 0; shift -= 4) out += kHex[unit >> shift & 15];
     out += "\" u\"";  // a hex escape would swallow hex digits that follow
-  });
+  }
   out += '"';
 }
 
 uint32_t wideLength(std::string_view text) {
   uint32_t length = 0;
-  forEachUnit(text, [&](uint32_t) { ++length; });
+  for (Utf16Units units(text.substr(0, text.find('\0'))); !units.done(); units.next()) ++length;
   return length;
 }
 
 uint64_t nameHash(std::string_view name) {
   uint64_t hash = kHashStart;
-  for (char c : name) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  for (const char letter : name) {
+    const char c = foldedCharacter(letter);
     hash = hashBytes(hash, &c, 1);
   }
   return hash;

@@ -190,7 +190,7 @@ class PassingSlices {
     slices_.is_slice.resize(strings_.variables.count());
     slices_.is_slice[variable] = 1;
   }
-  // Whether a sized function that gives no string reads it, somewhere in the expression.
+  // Tells whether a sized function that gives no string reads it, somewhere in the expression.
   bool isReadSized(ExprId id, uint32_t variable) const {
     const Expr& e = body_.expr(id);
     bool found = false;

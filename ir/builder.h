@@ -172,7 +172,7 @@ class Builder {
   uint32_t temps_ = 0;
 };
 
-// Whether a variable of this kind and type is passed by reference (Local::by_reference).
+// Tells whether a variable of this kind and type is passed by reference (Local::by_reference).
 bool isPassedByReference(const types::TypeTable& types, LocalKind kind, TypeId type);
 // Arrays, records and strings: copied whole, passed by reference.
 bool isAggregate(const types::TypeTable& types, TypeId type);

@@ -147,10 +147,11 @@ class Describer {
 
   // ---- blocks and the ranges of them that are kept
 
-  // What keeps a variable: nothing, warm starts, or downloads too. The stronger one holds where two meet.
+  // The strength with which a variable is kept: not, over warm starts, or over downloads too. The stronger one holds
+  // where two meet.
   enum class Keeping : uint8_t { None, Retain, Persistent };
 
-  // What the variables in a type ask for themselves: to be kept, or not to be.
+  // The wish of the variables in a type: to be kept, or not to be.
   struct Kept {
     Keeping keeps = Keeping::None;
     bool excludes = false;

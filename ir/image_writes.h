@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the output and memory areas each task may write: a host that gives tasks their own copy of the image takes
-// that from it when the activation ends. In: the module. Out: the rows of rung_module::writes. Called by Description.
+// Finds the parts of the output and memory areas that each task may write: a host that gives tasks their own copy of
+// the image takes that from it when the activation ends. In: the module. Out: the rows of rung_module::writes. Called
+// by Description.
 #pragma once
 
 #include <vector>

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "frontend/source/invariant.h"
+#include "frontend/source/text.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -226,8 +227,7 @@ StmtId Builder::fault(types::Fault fault, ExprId value) { return append(FaultStm
 
 std::string nativePrefix(std::string_view library) {
   std::string out = "rung_";
-  for (const char c : library.empty() ? "project" : library)
-    out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char c : library.empty() ? "project" : library) out += foldedCharacter(c);
   return out;
 }
 

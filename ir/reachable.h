@@ -8,7 +8,7 @@
 
 namespace rung::ir {
 
-// What task `task` (its index) calls: its programs and blocks, and what is called around them.
+// The bodies that task `task` (its index) calls: its programs and blocks, and what is called around them.
 std::vector<BodyId> rootsOfTask(const Module& module, uint32_t task);
 
 // These bodies and those that they reach, each once; missing ids are skipped. Needs Module::dispatches.

@@ -378,7 +378,7 @@ ExprId Reader::primary(TypeId wanted) {
   return variable();
 }
 
-// What the name that follows stands for in a table; fails when it is not there.
+// The row of a table for the name that follows; fails when it is not there.
 uint32_t Reader::numberOf(const Map& by_name, std::string_view what, bool numbered) {
   const Loc loc = token().loc;
   NameId base;

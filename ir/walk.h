@@ -148,7 +148,7 @@ inline ExprId exitTest(const Body& body, StmtId id) {
   return inner.kind == StmtKind::Break && !inner.next ? test->condition : ExprId{};
 }
 
-// Whether the evaluation of a tree may fault.
+// Tells whether the evaluation of a tree may fault.
 inline bool mayFault(const Body& body, ExprId root) {
   const Expr& expr = body.expr(root);
   bool found = expr.checks != 0;

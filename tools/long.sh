@@ -83,7 +83,7 @@ cams() {
   local folder seed
   folder=$(mktemp -d)
   for ((seed = first; seed < first + ${COUNT:-200}; ++seed)); do
-    sed "s/SEED : ULINT := 42/SEED : ULINT := $seed/; s/CYCLES : DINT := 20000/CYCLES : DINT := 100000/" tests/conformance/motion/cam_judge.st >"$folder/$seed.st"
+    sed "s/SEED : ULINT := 42/SEED : ULINT := $seed/; s/CYCLES : DINT := 20000/CYCLES : DINT := 100000/" tests/conformance/machines/motion/cam_judge.st >"$folder/$seed.st"
     "$bin/rung" test "$folder/$seed.st" --engine=native --timeout T#5m >"$folder/log" 2>&1 || { grep -v warning "$folder/log" | tail -5; echo "seed $seed"; exit 1; }
   done
   echo "$((seed - first)) seeds, 100000 cycles of four slaves each: within 1e-9 of the stroke"
@@ -125,7 +125,7 @@ tidy() { tools/clang_tidy.sh; }
 conversions() {
   needs rung
   local files
-  files=$(ls tests/conformance/*/*.st tests/conformance/plcopen/*.xml | grep -v 'pointers/what_is_known\|/nct')
+  files=$(ls tests/conformance/*/*/*.st tests/conformance/language/plcopen/*.xml | grep -v 'pointers/what_is_known\|/nct')
   # shellcheck disable=SC2086
   PATH=$bin:$PATH python3 tests/programs/convert_st/tests_pass.py $files
   PATH=$bin:$PATH python3 tests/programs/convert_st/names.py

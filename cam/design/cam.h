@@ -21,7 +21,7 @@ inline constexpr size_t kMostPulses = 32;      // tappets of a cam that switch b
 inline constexpr size_t kMostName = 80;        // MC_CAM_REF.strCAMName
 inline constexpr size_t kLeastCapacity = 256;  // points that the array of a cam has room for, unless it says so
 
-// What the slave does after the end of the cam.
+// The slave does this after the end of the cam.
 enum class Repeat : uint8_t {
   Never,     // the cam ends
   Closed,    // back to the position of the begin, which is that of the end

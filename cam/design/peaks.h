@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a cam asks of the slave's axis at a speed of the master: the exact extremes of position, velocity, acceleration
+// A cam asks this of the slave's axis at a speed of the master: the exact extremes of position, velocity, acceleration
 // and jerk, and the steps where pieces meet and where the cam repeats. In: a cam and its curve. Out: peaks per second,
 // and which limits they exceed. Called by `rung cam check`, `show` and `fit`.
 #pragma once

@@ -34,7 +34,7 @@ struct EndCondition {
   std::optional<double> slope, curvature;  // per unit of the master
 };
 
-// What is continuous: C2 the acceleration, C3 the jerk too.
+// C2: the acceleration is continuous; C3: the jerk too.
 enum class Smoothness : uint8_t { C2, C3 };
 
 // How much a point counts that is far from the curve.

@@ -34,7 +34,7 @@ enum class Law : uint8_t {
   Polynomial11,
 };
 
-// What a law takes besides stroke and length: bits of Ends::given.
+// A law takes these besides stroke and length: bits of Ends::given.
 enum Given : uint8_t {
   kV0 = 1,
   kV1 = 2,

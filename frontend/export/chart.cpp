@@ -23,9 +23,10 @@ constexpr int kStepRow = 80, kStepColumn = 200;
 
 class ChartExport {
  public:
-  ChartExport(Export& to, const PouDecl& pou)
+  ChartExport(Export& to, const PouDecl& pou, BodyExport body)
       : to_(to),
         pou_(pou),
+        body_(body),
         inline_actions_(to.tree, to.names, pou),
         steps_(to.tree.list(pou.steps)),
         transitions_(to.tree.list(pou.transitions)) {}
@@ -72,6 +73,7 @@ class ChartExport {
 
   Export& to_;
   const PouDecl& pou_;
+  const BodyExport body_;
   InlineActions inline_actions_;
   std::span<const SfcStep> steps_;
   std::span<const SfcTransition> transitions_;
@@ -206,7 +208,7 @@ void ChartExport::actions(uint32_t i) {
     if (!indicators.empty()) to_.xml.attribute("indicator", to_.string(indicators[0].name));
     to_.xml.open("relPosition").attribute("x", "0").attribute("y", std::to_string(20 * row++)).close();
     if (const PouDecl* body = inline_actions_.find(a.action.name))
-      exportBody(to_, *body, "inline");
+      body_(to_, *body, "inline");
     else
       to_.xml.open("reference").attribute("name", to_.string(a.action.name)).close();
     if (indicators.size() > 1) {
@@ -258,7 +260,7 @@ void ChartExport::step(uint32_t i) {
 void ChartExport::condition(const SfcTransition& t) {
   to_.xml.open("condition");
   if (t.body && !t.name.name) {
-    exportBody(to_, to_.tree.as<PouDecl>(t.body), "inline");
+    body_(to_, to_.tree.as<PouDecl>(t.body), "inline");
   } else if (t.condition.value && !t.body) {
     to_.xml.open("inline").attribute("name", "");
     to_.xml.formatted("ST", text(t.condition));
@@ -352,16 +354,16 @@ void ChartExport::run() {
 
 }  // namespace
 
-void exportChart(Export& to, const PouDecl& pou) { ChartExport(to, pou).run(); }
+void exportChart(Export& to, const PouDecl& pou, BodyExport body) { ChartExport(to, pou, body).run(); }
 
-void exportTransitions(Export& to, const PouDecl& pou) {
+void exportTransitions(Export& to, const PouDecl& pou, BodyExport body) {
   bool any = false;
   for (const SfcTransition& t : to.tree.list(pou.transitions)) {
     if (!t.body || !t.name.name) continue;
     if (!any) to.xml.open("transitions");
     any = true;
     to.xml.open("transition").attribute("name", to.string(t.name.name));
-    exportBody(to, to.tree.as<PouDecl>(t.body));
+    body(to, to.tree.as<PouDecl>(t.body), "body");
     to.xml.close();
   }
   if (any) to.xml.close();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared by the parts of the export. Private to frontend/export: plcopen.cpp (the project and its POUs),
-// types.cpp, configuration.cpp, chart.cpp, networks.cpp.
+// body.cpp, types.cpp, configuration.cpp, chart.cpp, networks.cpp.
 #pragma once
 
 #include <string>
@@ -60,7 +60,7 @@ class AddData {
   bool open_ = false;
 };
 
-// ---- export.cpp
+// ---- exporter.cpp
 
 // <text>, in Rung's own addData.
 void exportOwnText(Export& to, std::string_view text, AddData& data);
@@ -83,15 +83,19 @@ void exportPlainText(Export& to, std::string_view text, AddData& data);
 // <localVars> …; if TC6 has no list for the kind, the nearest one.
 std::string_view sectionElement(SectionKind kind);
 
-// ---- export.cpp
+// ---- body.cpp
 
 // <body>, or <inline name="">: its statements, instructions, chart or networks.
 void exportBody(Export& to, const PouDecl& pou, std::string_view element = "body");
 
+// ---- configuration.cpp, chart.cpp, networks.cpp
+
 void exportConfiguration(Export& to, DeclId configuration);
-void exportChart(Export& to, const PouDecl& pou);
+// Writes the bodies of actions and transitions of a chart.
+using BodyExport = void (*)(Export& to, const PouDecl& pou, std::string_view element);
+void exportChart(Export& to, const PouDecl& pou, BodyExport body);
 // The <transitions> of a chart that have bodies.
-void exportTransitions(Export& to, const PouDecl& pou);
+void exportTransitions(Export& to, const PouDecl& pou, BodyExport body);
 void exportNetworks(Export& to, const Diagram& diagram);  // <LD>, <FBD>, or <ST> and <addData> with a <CFC>
 
 }  // namespace rung::exporter

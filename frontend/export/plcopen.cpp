@@ -13,25 +13,6 @@
 
 namespace rung::exporter {
 
-void Export::openData(std::string_view name, std::string_view unknown) {
-  xml.open("data").attribute("name", name).attribute("handleUnknown", unknown);
-}
-
-void Export::openVendorData(std::string_view kind) {
-  openData("http://www.3s-software.com/plcopenxml/" + std::string(kind));
-}
-
-void AddData::openOwn() {
-  begin();
-  to_.openData("urn:rung/extension", "discard");
-}
-
-void exportOwnText(Export& to, std::string_view text, AddData& data) {
-  data.openOwn();
-  to.xml.formatted("text", text);
-  data.close();
-}
-
 namespace {
 
 std::string_view accessWord(AccessLevel level) {
@@ -317,7 +298,7 @@ void PouExport::run() {
   interfaceOf(pou_);
   const bool is_lossless = to_.is_lossless;
   actions();
-  exportTransitions(to_, pou_);
+  exportTransitions(to_, pou_, exportBody);
   if (!is_class) exportBody(to_, pou_);
   {
     AddData data(to_);
@@ -333,7 +314,7 @@ void PouExport::run() {
   to_.xml.close();
 }
 
-// What TC6 has no elements for.
+// Writes the parts that TC6 has no elements for.
 void PouExport::extensions(AddData& data) {
   exportAttributes(to_, pou_.h.pragmas, data);
   const bool is_lossless = to_.is_lossless;
@@ -492,8 +473,8 @@ void ProjectExport::ownTexts(AddData& data) {
   });
 }
 
-// Whether charts in actions, which are exported as text, may use conditions of the block: then the block is exported as
-// text, too.
+// Tells whether charts in actions, which are exported as text, may use conditions of the block: then the block is
+// exported as text, too.
 bool ProjectExport::sharesWithInner(const PouDecl& pou) const {
   const auto members = to_.tree.list(pou.members);
   const bool inner = std::any_of(members.begin(), members.end(), [&](DeclId member) {
@@ -539,33 +520,6 @@ void ProjectExport::run(const std::string& project) {
 }
 
 }  // namespace
-
-//   warns   {C++} … {END_C++}          W1099
-void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
-  const SourceText& source = *to.source;
-  to.xml.open(element);
-  if (element == "inline") to.xml.attribute("name", "");
-  if (pou.body_kind == BodyKind::Network) {
-    exportNetworks(to, pou.diagram);
-  } else if (pou.body_kind == BodyKind::Sfc) {
-    exportChart(to, pou);
-  } else if (pou.body_kind == BodyKind::Cpp) {
-    to.onlyRung(pou.h.loc, "C++ bodies");
-    to.xml.formatted("ST", "");
-    AddData data(to);
-    std::string text;
-    if (pou.cpp_file_begin != pou.cpp_file_end)
-      text.append(source.cut(source.at(pou.cpp_file_begin), source.at(pou.cpp_file_end))).append("\n");
-    text += source.cut(source.at(pou.body_begin), source.at(pou.body_end));
-    exportOwnText(to, text, data);
-  } else {
-    size_t begin = source.at(pou.body_begin), end = source.at(pou.body_end);
-    if (pou.closed || begin != end) begin = source.commentsBefore(begin, true);
-    end = source.endWithComments(end);
-    to.xml.formatted(pou.body_kind == BodyKind::Il ? "IL" : "ST", source.cut(begin, end));
-  }
-  to.xml.close();
-}
 
 std::string writeProject(const Program& program, const std::string& project, Diagnostics& diagnostics) {
   Export to{program.tree, program.names, program.sources, diagnostics};

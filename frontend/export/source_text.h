@@ -39,7 +39,7 @@ class SourceText {
   size_t endOfWord(size_t p, std::string_view word) const;
   // The start of the last such word before `p`; `p` if there is none.
   size_t wordBefore(size_t p, std::string_view word) const;
-  // Whether the first unit at or after `p` is `word`, or begins with it.
+  // Tells whether the first unit at or after `p` is `word`, or begins with it.
   bool wordFollows(size_t p, std::string_view word) const;
   // The offset after the `;` of the variable or type whose name is at `p`.
   size_t endOfDeclaration(size_t p) const;

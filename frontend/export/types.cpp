@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frontend/export/exporter.h"
+#include "frontend/source/text.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::exporter {
@@ -55,14 +56,14 @@ void exportRange(Export& to, std::string_view element, ExprId low, ExprId high) 
 void exportSubrange(Export& to, const SubrangeTypeExpr& type) {
   std::string base;
   if (to.tree.kind(type.base) == TypeExprKind::Named) base = pathOf(to, to.tree.as<NamedTypeExpr>(type.base).path);
-  const bool is_unsigned = base.size() > 4 && (base[0] | 0x20) == 'u';
+  const bool is_unsigned = base.size() > 4 && foldedCharacter(base[0]) == 'u';
   to.xml.open(is_unsigned ? "subrangeUnsigned" : "subrangeSigned");
   exportRange(to, "range", type.low, type.high);
   exportHeld(to, "baseType", type.base);
   to.xml.close();
 }
 
-// Whether the value has separate elements: <arrayValue>, <structValue>.
+// Tells whether the value has separate elements: <arrayValue>, <structValue>.
 bool isListed(const Export& to, ExprId value) {
   const auto single = [&](ExprId element) {
     return to.tree.kind(element) != ExprKind::Repeat || to.tree.as<RepeatExpr>(element).elements.count == 1;

@@ -147,7 +147,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-// What is written for each: several are the lines of one text. None: they stay as they are.
+// The text for each: several are the lines of one text. None: they stay as they are.
 std::vector<std::string> formattedTexts(std::string_view source, const Texts& texts, bool is_il, const Style& style,
                                         Dialect dialect) {
   const auto rawOf = [&](const Content& content) { return source.substr(content.begin, content.end - content.begin); };

@@ -11,6 +11,7 @@
 #include "frontend/format/pieces.h"
 #include "frontend/format/spacing.h"
 #include "frontend/source/names.h"
+#include "frontend/source/text.h"
 
 namespace rung::format {
 namespace {
@@ -51,9 +52,7 @@ struct Code {
 };
 
 char inCase(char c, KeywordCase wanted) {
-  if (wanted == KeywordCase::Upper && c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
-  if (wanted == KeywordCase::Lower && c >= 'A' && c <= 'Z') return static_cast<char>(c - 'A' + 'a');
-  return c;
+  return wanted == KeywordCase::Upper ? upper(c) : wanted == KeywordCase::Lower ? foldedCharacter(c) : c;
 }
 
 class Formatter {
@@ -87,7 +86,7 @@ class Formatter {
     return static_cast<uint32_t>(std::count(source_.begin() + begin, source_.begin() + end, '\n'));
   }
 
-  // What is written for a piece: keywords in their case, the words of elements in small letters.
+  // The text of a piece: keywords in their case, the words of elements in small letters.
   std::string spelled(const Piece& piece) const {
     std::string text(textOf(piece));
     const bool is_element = piece.network == NetworkPiece::Element;

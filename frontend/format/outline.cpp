@@ -21,7 +21,7 @@ constexpr TokSet kPous = {Tok::Program,   Tok::Function,   Tok::FunctionBlock, T
                           Tok::Namespace, Tok::Transition, Tok::InitialStep,   Tok::Type};
 constexpr TokSet kMiddles = {Tok::Else, Tok::Elsif, Tok::Until, Tok::Catch, Tok::Finally};
 
-// What a closing keyword closes; End: it closes nothing.
+// The keyword that a closing one closes; End: it closes nothing.
 constexpr text::TokMap<Tok> kDeclarationEnds = {
     {Tok::EndVar, Tok::Var},
     {Tok::EndStruct, Tok::Struct},
@@ -253,7 +253,7 @@ class Outliner {
     if (pieces_[k].network == NetworkPiece::Heading && !open_.empty()) open_.back().indents = true;
   }
 
-  // What a token does to the state; `starts`: it is the first of a statement.
+  // Changes the state by a token; `starts`: it is the first of a statement.
   void advance(uint32_t k, bool starts) {
     const Tok token = pieces_[k].token;
     if (pieces_[k].network != NetworkPiece::None) {

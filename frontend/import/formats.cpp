@@ -14,6 +14,7 @@
 #include "frontend/import/twincat/twincat.h"
 #include "frontend/import/xml.h"
 #include "frontend/source/scanner.h"
+#include "frontend/source/text.h"
 
 namespace rung::importer {
 namespace {
@@ -65,8 +66,7 @@ const Format& formatOf(FileKind kind) {
 bool hasExtension(std::string_view path, std::string_view extension) {
   if (path.size() <= extension.size()) return false;
   const std::string_view end = path.substr(path.size() - extension.size());
-  return std::equal(end.begin(), end.end(), extension.begin(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + 32) : a) == b; });
+  return std::equal(end.begin(), end.end(), extension.begin(), [](char a, char b) { return foldedCharacter(a) == b; });
 }
 
 FileKind kindOfExtension(std::string_view path) {

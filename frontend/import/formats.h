@@ -40,7 +40,7 @@ struct Library {
   Loc loc;
 };
 
-// What an NCT control is set to: the periods of Main and Int0, and where user memory begins.
+// The settings of an NCT control: the periods of Main and Int0, and where user memory begins.
 struct LadderSettings {
   int64_t plc_period_ns = 10'000'000, time_slice_ns = 2'000'000;
   uint32_t kept = 4000, volatile_ = 5024;  // PLCNVRAM, PLCRAM
@@ -87,10 +87,10 @@ const Format& formatOf(FileKind kind);
 FileKind kindOf(std::string_view path, std::string_view text);
 FileKind kindOfExtension(std::string_view path);
 
-// Whether sources of this kind end in the parser.
+// Tells whether sources of this kind end in the parser.
 bool holdsProgram(FileKind kind);
 
-// Whether a file of this kind says which other files belong to a program.
+// Tells whether a file of this kind says which other files belong to a program.
 bool isProject(FileKind kind);
 
 bool hasExtension(std::string_view path, std::string_view extension);  // in lower case, with its dot

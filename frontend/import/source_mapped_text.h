@@ -58,7 +58,7 @@ class SourceMappedText {
 
   bool empty() const { return text_.empty(); }
   const std::string& text() const { return text_; }
-  // What an excerpt says.
+  // The characters of an excerpt.
   std::string spellingOf(const Excerpt& excerpt) const;
   // Registers it as the program of `file`.
   FileId finish(Sources& sources, FileId file);

@@ -7,7 +7,7 @@
 
 namespace rung::importer {
 
-// Whether a comment with one of these tags is among the comments before the first code of the source.
+// Tells whether a comment with one of these tags is among the comments before the first code of the source.
 bool hasToolComment(std::string_view source, std::initializer_list<std::string_view> tags);
 
 }  // namespace rung::importer

@@ -5,7 +5,7 @@
 
 namespace rung::text {
 
-// The condition of a block's header and the keyword after it.
+// expr connective, where the connective is THEN, DO or OF: the header of a block.
 ExprId StatementParser::parseHeader(Tok connective) {
   const ExprId condition = parseCompared(parseExpr());
   finishHeader(connective);
@@ -87,7 +87,7 @@ bool StatementParser::enterBlock() {
   return false;
 }
 
-// END_… and the optional `;` after it.
+// END_… [";"]
 void StatementParser::closeBlock(const Token* open, Tok end) {
   --stmt_depth_;
   if (accept(end)) {

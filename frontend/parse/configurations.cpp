@@ -26,6 +26,7 @@ DeclId Parser::parseConfiguration() {
   return finish(d);
 }
 
+// {member} `end` [";"]
 Slice<DeclId> Parser::membersUntil(Tok end, const Token* open) {
   const size_t first = decls_.size();
   parseMembers(end, decls_);
@@ -37,6 +38,7 @@ Slice<DeclId> Parser::membersUntil(Tok end, const Token* open) {
   return listFrom(decls_, first);
 }
 
+// member = section | resource | task | program
 void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
   for (;;) {
     if (accept(Tok::Semicolon)) continue;

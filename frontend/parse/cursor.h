@@ -78,7 +78,7 @@ class Cursor {
   // ---- unfinished lines (unfinished.cpp)
   enum class Begins : uint8_t { Nothing, Element, New };
   Begins begins(const Token* t) const;
-  // Whether the line above needs something that the first token of this one cannot be.
+  // Tells whether the line above needs something that the first token of this one cannot be.
   bool lineEnds();
   // After `:=` in codesys: the line below begins with the second target of a chain, which draws a warning.
   void acceptChainOverLines();

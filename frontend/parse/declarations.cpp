@@ -66,11 +66,13 @@ bool DeclarationParser::beginsType(const Token* t) const {
          (isName(t->kind) && (t->flags & kLineStart) == 0) || t->kind == Tok::LeftParen;
 }
 
+// name, of what is declared: reported where a keyword of the dialect stands for it.
 bool DeclarationParser::parseNewName(Ident& out) {
   if (isName(kind()) && isReserved(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
   return parseName(out);
 }
 
+// name
 bool DeclarationParser::parseName(Ident& out) {
   if (atLineStart() && lineEnds()) {
     fail(diag::MissingName, t_, {describe(t_)});
@@ -97,6 +99,7 @@ bool DeclarationParser::parseName(Ident& out) {
   return false;
 }
 
+// path = name {"." name}
 void DeclarationParser::parseNamePath(Slice<Ident>& out) {
   const size_t first = idents_.size();
   do {

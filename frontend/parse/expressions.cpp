@@ -59,6 +59,8 @@ ExpressionParser::ExpressionParser(Tree& tree, Names& names, const Sources& sour
       eno_(names.intern(kEnableOutput)),
       this_struct_(names.intern("THISSTRUCT")) {}
 
+// expr = unary {operator expr}, with operators that bind at least as tight as `least`; those of equal precedence from
+// the left.
 ExprId ExpressionParser::parseExpr(uint32_t least) {
   ExprId left = parseUnary();
   uint32_t height = height_;
@@ -159,6 +161,8 @@ ExprId ExpressionParser::parseUnary() {
   return ended(build_.unary(op, operand, start));
 }
 
+// operand = name | literal | address | "(" expr ")" | NULL | (AND | OR | XOR | MOD | NOT) "(" arguments ")" | "." name,
+// with what follows
 ExprId ExpressionParser::parsePrimary() {
   const Loc start = here();
   height_ = 1;
@@ -404,7 +408,7 @@ ExprId ExpressionParser::parseNew(ExprId callee) {
   return build_.newObject(allocated, count, tree_.loc(callee));
 }
 
-// Whether SIZEOF or XSIZEOF is followed by a type that no expression begins with. CODESYS.
+// Tells whether SIZEOF or XSIZEOF is followed by a type that no expression begins with. CODESYS.
 bool ExpressionParser::isSizeOfType(ExprId callee) const {
   if (!profile_.size_of_types || tree_.kind(callee) != ExprKind::Name) return false;
   const std::string_view name = names_.string(tree_.as<NameExpr>(callee).name);

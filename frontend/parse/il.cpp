@@ -101,7 +101,7 @@ bool beginsIl(Tok kind, std::string_view text, const Token& next) {
                   next.kind == Tok::Address);
 }
 
-// Whether an instruction may begin here, judged by its first token only.
+// Tells whether an instruction may begin here, judged by its first token only.
 bool IlParser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
@@ -137,8 +137,8 @@ bool IlParser::isPlainInstruction(const Token* t) const {
   return false;
 }
 
-// Whether the body that begins here is in IL, decided by its first instruction. In a .il file a body is IL unless it
-// can only be ST.
+// Tells whether the body that begins here is in IL, decided by its first instruction. In a .il file a body is IL unless
+// it can only be ST.
 bool IlParser::atIl() const {
   const Token* t = t_;
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
@@ -170,7 +170,7 @@ bool IlParser::atIl() const {
   return open == 0 && !isInfix(t->kind) && isPlainInstruction(t);
 }
 
-// The instructions up to the end of the body, or of the `(` around a nested list.
+// instructions = {instruction}: up to the end of the body, or of the `(` around a nested list.
 Slice<IlInstruction> IlParser::parseIl(bool nested) {
   const size_t first = il_.size(), first_open = il_open_.size();
   const size_t outside = std::exchange(il_outside_, first_open);
@@ -215,6 +215,7 @@ Slice<IlInstruction> IlParser::parseIl(bool nested) {
   return listFrom(il_, first);
 }
 
+// instruction = [label ":"] [operator ["?"] operands | name operands | ")"]
 void IlParser::parseInstruction() {
   IlInstruction i{};
   i.kind = IlKind::Label;
@@ -303,6 +304,7 @@ void IlParser::endInstruction() {
   }
 }
 
+// operands = nothing | label (of a jump) | callee ["(" pins ")"] (of a call) | "(" … ")" | list
 void IlParser::parseOperands(IlInstruction& i, const Token* op) {
   switch (i.kind) {
     case IlKind::Not:
@@ -361,7 +363,7 @@ void IlParser::parseIlList(IlInstruction& i, const Token* op) {
   i.operands = listFrom(arguments_, first);
 }
 
-// A callee without its arguments: a name, a method, an instance in an array.
+// callee = name {"." name | "[" expr {"," expr} "]"}, without its arguments
 ExprId IlParser::parseIlCallee() {
   const Loc start = here();
   height_ = 1;
@@ -384,7 +386,7 @@ void IlParser::parseIlPins(IlInstruction& i) {
   i.nested = listFrom(il_nested_, nested);
 }
 
-// After an operator or a function: named pins, a list, or a deferred operator.
+// "(" pins ")" | "(" list ")" | "(" [unary]: after an operator or a function; the last one defers it up to its `)`.
 void IlParser::parseIlParens(IlInstruction& i, const Token* op) {
   const Token* first = t_ + 1;
   const Token* pin = first->kind == Tok::Not ? first + 1 : first;
@@ -446,6 +448,7 @@ bool IlParser::listFollows(const Token* first) const {
 // `pin := (LD a  AND b)`: the value is the accumulator at the end of the list.
 bool IlParser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
 
+// "(" instructions ")" as a value
 void IlParser::parseNestedIl(uint32_t operand) {
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("parentheses", kMaxExprDepth);

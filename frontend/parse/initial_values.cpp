@@ -47,6 +47,7 @@ void DeclarationParser::parseElements(Tok close) {
   }
 }
 
+// element = init | (number | name) "(" [init {"," init}] ")"
 void DeclarationParser::parseElement() {
   // N(1, 2) looks like a call; sema tells them apart.
   const bool named =
@@ -71,6 +72,7 @@ void DeclarationParser::parseElement() {
   exprs_.push_back(ended(build_.repeat(count, elements, count_loc)));
 }
 
+// "[" [elements] "]"
 ExprId DeclarationParser::parseArrayInit() {
   const Loc start = here();
   if (isName(peek()) && peek(2) == Tok::Assign && declares_) {  // [x := 1.0, y := 2.0]
@@ -89,6 +91,7 @@ ExprId DeclarationParser::parseArrayInit() {
   return ended(build_.arrayInit(listFrom(exprs_, first), start));
 }
 
+// "(" [field ":=" init {"," …}] ")"
 ExprId DeclarationParser::parseStructInit() {
   const Loc start = here();
   if (!enterExpr("initial values")) return build_.error(start);
@@ -99,7 +102,8 @@ ExprId DeclarationParser::parseStructInit() {
   return ended(build_.structInit(fields, start));
 }
 
-// The value of a member. CODESYS 2.3 writes the values of an array without brackets: `a := 1, 2(0), b := 3`.
+// init | element {"," element}: the value of a member. CODESYS 2.3 writes the values of an array without brackets: `a
+// := 1, 2(0), b := 3`.
 ExprId DeclarationParser::parseFieldValue(Tok close) {
   if (!profile_.values_without_brackets || at(Tok::LeftBracket)) return parseInit();
   const Loc start = here();

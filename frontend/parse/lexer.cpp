@@ -12,6 +12,7 @@
 #include "frontend/source/dialect.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/nested_comments.h"
+#include "frontend/source/text.h"
 #include "frontend/syntax/diagnostics.h"
 
 namespace rung::text {
@@ -41,10 +42,6 @@ constexpr std::array<bool, 256> makeWordChars() {
   return w;
 }
 constexpr std::array<bool, 256> kWordChar = makeWordChars();
-
-constexpr unsigned char fold(unsigned char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<unsigned char>(c | 0x20) : c;
-}
 
 struct Spelling {
   const char* text;
@@ -93,8 +90,7 @@ Tok findKeyword(const char* s, uint32_t n) {
     if (k == 0) return Tok::Ident;
     if (kSpellings[k].length != n) continue;
     uint32_t i = 0;
-    while (i < n && fold(static_cast<unsigned char>(s[i])) == fold(static_cast<unsigned char>(kSpellings[k].text[i])))
-      ++i;
+    while (i < n && foldedCharacter(s[i]) == foldedCharacter(kSpellings[k].text[i])) ++i;
     if (i == n) return static_cast<Tok>(k);
   }
 }
@@ -363,7 +359,7 @@ const char* Lexer::word(const char* begin) {
   return p;
 }
 
-// Whether the token declares a variable or member, by what is on both sides of it.
+// Tells whether the token declares a variable or member, by what is on both sides of it.
 static bool isDeclared(const std::vector<Token>& tokens, size_t i) {
   const Tok next = tokens[i + 1].kind;
   if (next != Tok::Colon && next != Tok::Comma && !(next == Tok::At && tokens[i + 2].kind == Tok::Address))

@@ -59,14 +59,14 @@ struct TokenStream {
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
          Dialect dialect, Diagnostics& diagnostics);
 
-// Whether a line begins with an instruction of IL that cannot begin a statement or declaration: an operator such as LD
-// or JMP, followed by an operand (il.cpp).
+// Tells whether a line begins with an instruction of IL that cannot begin a statement or declaration: an operator such
+// as LD or JMP, followed by an operand (il.cpp).
 bool beginsIl(Tok kind, std::string_view text, const Token& next);
 
 // Turns object keywords that begin no declaration into names (objects.cpp).
 void resolveObjectKeywords(TokenStream& stream);
 
-// Whether a word is the keyword of an elementary type, such as INT, which no variable can have as its name.
+// Tells whether a word is the keyword of an elementary type, such as INT, which no variable can have as its name.
 bool isElementaryType(std::string_view word);
 
 }  // namespace rung::text

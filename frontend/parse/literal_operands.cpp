@@ -42,6 +42,7 @@ ExprId ExpressionParser::parseTyped() {
   return build_.error(start);
 }
 
+// A number as the lexer found it: digits, base#digits or a real.
 ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
   const Token* token = t_;
   advance();
@@ -87,6 +88,7 @@ static constexpr StringPrefix kStringPrefixes[] = {
     {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String}, {"UTF8", "STRING", Tok::String},
 };
 
+// "'" characters "'" or the same in double quotes, after a prefix such as STRING# or W#
 ExprId ExpressionParser::parseStringLiteral(NameId prefix, Loc start) {
   const Token* token = t_;
   advance();
@@ -111,6 +113,7 @@ ExprId ExpressionParser::parseStringLiteral(NameId prefix, Loc start) {
   return build_.text(wide ? LiteralKind::WString : LiteralKind::String, buffer_, start, prefix);
 }
 
+// T#… | D#… | TOD#… | DT#… and their long forms
 ExprId ExpressionParser::parseTime() {
   const Token* token = t_;
   advance();
@@ -131,6 +134,7 @@ ExprId ExpressionParser::parseTime() {
   return build_.literal(value.kind, value.value, loc(token), {}, bits);
 }
 
+// "%" area [size] number {"." number}
 ExprId ExpressionParser::parseAddress() {
   const Token* token = t_;
   advance();

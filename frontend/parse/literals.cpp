@@ -7,22 +7,22 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/source/scanner.h"
+#include "frontend/source/text.h"
 
 namespace rung::text {
 namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; }
 int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
-  c = lower(c);
+  c = foldedCharacter(c);
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
 // 0x10, 0b101 and 0o17 of C and others, as IEC writes them: 16#10. Empty: something else.
 std::string basedForm(std::string_view text) {
   if (text.size() < 3 || text[0] != '0') return {};
-  const char letter = lower(text[1]);
+  const char letter = foldedCharacter(text[1]);
   const int base = letter == 'x' ? 16 : letter == 'o' ? 8 : letter == 'b' ? 2 : 0;
   const std::string_view digits = text.substr(2);
   const bool fits = base != 0 && std::all_of(digits.begin(), digits.end(),
@@ -73,7 +73,7 @@ bool take(std::string_view& text, char c) {
 }
 
 std::string_view afterHash(std::string_view text) { return text.substr(text.find('#') + 1); }
-bool isLong(std::string_view text) { return lower(text.front()) == 'l'; }
+bool isLong(std::string_view text) { return foldedCharacter(text.front()) == 'l'; }
 
 // A fraction ".25" of a unit in nanoseconds, truncated to nanoseconds.
 uint64_t fractionOf(std::string_view digits, uint64_t unit) {
@@ -196,7 +196,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
   }
   size_t i = 0;
   while (i < text.size() && (isDigit(text[i]) || text[i] == '_')) ++i;
-  value.is_real = i < text.size() && (text[i] == '.' || ((text[i] | 0x20) == 'e' && i + 1 < text.size()));
+  value.is_real = i < text.size() && (text[i] == '.' || (foldedCharacter(text[i]) == 'e' && i + 1 < text.size()));
   if (value.is_real) {
     std::string plain;
     for (char c : text)
@@ -412,7 +412,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
     }
     ++i;
     if (high_surrogate != 0 && !(is_code && code >= 0xDC00 && code < 0xE000)) endSurrogate();
-    switch (lower(next)) {
+    switch (foldedCharacter(next)) {
       case '$':
       case '\'':
       case '"': value += next; continue;
@@ -479,11 +479,11 @@ bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, Direc
   std::string_view rest = text.substr(1);
   // The areas are sema's to know.
   address.area = rest.empty() ? '\0' : upper(rest.front());
-  bool ok = address.area >= 'A' && address.area <= 'Z' && !isSize(lower(address.area));
+  bool ok = address.area >= 'A' && address.area <= 'Z' && !isSize(foldedCharacter(address.area));
   address.size = 'X';
   if (ok) rest.remove_prefix(1);
   if (ok && !rest.empty()) {
-    const char size = lower(rest.front());
+    const char size = foldedCharacter(rest.front());
     if (isSize(size)) {
       address.size = upper(size);
       address.size_given = true;

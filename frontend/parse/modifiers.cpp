@@ -66,7 +66,6 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
   }
 }
 
-// type {"," type}
 // CODESYS ignores a comma after the last name.
 bool DeclarationParser::endsWithComma() {
   if (!profile_.trailing_commas || (isName(kind()) && !isObjectWord(kind()) && !at(Tok::Implements))) return false;
@@ -74,6 +73,7 @@ bool DeclarationParser::endsWithComma() {
   return true;
 }
 
+// types = (EXTENDS | IMPLEMENTS) path [generics] {"," path [generics]} [","]
 Slice<TypeExprId> DeclarationParser::parseTypeNames() {
   std::vector<TypeExprId> list;
   advance();

@@ -108,6 +108,7 @@ bool NetworkParser::takeModifier(Modifiable& out) {
   return true;
 }
 
+// wires = number ["(" pin ")"] {OR number ["(" pin ")"]}
 void NetworkParser::parseWires(DiagramPin& pin) {
   const size_t first = wires_.size();
   do {
@@ -124,6 +125,7 @@ void NetworkParser::parseWires(DiagramPin& pin) {
   pin.wires = listFrom(wires_, first);
 }
 
+// pins = [pin {"," pin}] "]"; pin = name {modifier} (":=" [wires] ["=>"] | "=>")
 void NetworkParser::parsePins(std::vector<DiagramPin>& out) {
   while (!panic_ && !at(Tok::RightBracket)) {
     DiagramPin pin{};
@@ -143,7 +145,7 @@ void NetworkParser::parsePins(std::vector<DiagramPin>& out) {
   if (!panic_) expect(Tok::RightBracket);
 }
 
-// A path or a name: the callee of a box, the label of a jump.
+// path = name {"." name}: the callee of a box, the label of a jump.
 ExprId NetworkParser::parseElementPath(Ident& name) {
   if (!takeWord(name)) return {};
   ExprId path = ended(build_.name(name));
@@ -155,6 +157,9 @@ ExprId NetworkParser::parseElementPath(Ident& name) {
   return path;
 }
 
+// element = word number [path] {modifier | HOLDING | ORDER n | AT x, y [, w, h] | "(" [expr] ")" | ":=" wires | "["
+// pins
+//            | statements | string}
 void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const Token* word = t_;
   const auto* known =
@@ -268,6 +273,7 @@ void NetworkParser::connectWires(std::span<const DiagramElement> elements) {
   }
 }
 
+// body = "{network" [LD | FBD | CFC] "}" {NETWORK number [DISABLED] [title] ";" | element ";"} "{end_network}"
 void NetworkParser::parseNetworks(PouDecl& d) {
   const Token* open = t_;
   const std::string_view opener = textOf(t_);

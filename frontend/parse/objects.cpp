@@ -160,6 +160,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   out.push_back(finish(d));
 }
 
+// (GET | SET) modifiers [";"] sections statements [END_GET | END_SET]
 DeclId Parser::parseAccessor(const Ident& property, const PropertyDecl& of) {
   PouDecl d{};
   d.h = declHeader(DeclKind::Pou);

@@ -14,7 +14,7 @@ class Trivia;
 
 namespace rung::text {
 
-// Whether a word is a keyword in every dialect, so that nothing can have it as its name.
+// Tells whether a word is a keyword in every dialect, so that nothing can have it as its name.
 bool isReservedWord(std::string_view word);
 
 // Parses a whole file and appends it to tree.files. With `comments` it keeps the comments of the file there.

@@ -15,12 +15,14 @@ namespace rung::text {
 
 // ---- files
 
+// {declaration}
 Slice<DeclId> Parser::parseDecls() {
   std::vector<DeclId> decls;
   while (!at(Tok::End)) parseTopLevel(decls);
   return tree_.addList<DeclId>(decls);
 }
 
+// expr, and nothing after it
 ExprId Parser::parseLoneExpression() {
   if (at(Tok::End)) return {};
   const ExprId e = parseExpr();
@@ -28,18 +30,21 @@ ExprId Parser::parseLoneExpression() {
   return panic_ ? ExprId{} : e;
 }
 
+// field ":=" init {"," …}, and nothing after it
 Slice<FieldInit> Parser::parseLoneFieldInits() {
   const std::vector<FieldInit> fields = parseFieldInits(Tok::End);
   if (!panic_ && !at(Tok::End)) fail(diag::MissingToken, t_, {",", describe(t_)});
   return tree_.addList<FieldInit>(fields);
 }
 
+// {section}, and nothing after it
 Slice<DeclId> Parser::parseLoneSections() {
   std::vector<DeclId> sections;
   while (atSection()) sections.push_back(parseSection());
   return tree_.addList<DeclId>(sections);
 }
 
+// statements
 Slice<StmtId> Parser::parseLoneStatements() { return parseStatements(0); }
 
 // file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL … | NAMESPACE … | USING …}
@@ -179,6 +184,7 @@ void Parser::parseBases(PouDecl& d) {
   if (at(Tok::Implements)) d.implements = parseTypeNames();
 }
 
+// name; of the functional form of an operator a keyword
 void Parser::parsePouName(PouDecl& d) {
   Ident name{{}, here()};
   if (atLineStart()) {

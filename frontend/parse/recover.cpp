@@ -8,6 +8,7 @@
 #include "frontend/parse/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/scanner.h"
+#include "frontend/source/text.h"
 
 namespace rung::text {
 namespace {
@@ -357,9 +358,9 @@ void Balancer::visit(uint32_t i) {
         const bool label =
             top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash ||
                                       tokens_[i + 1].kind == Tok::DotDot);
-        suspicious =
-            top.line_start && !label && (!middle || line_column_ < top.column) &&
-            !(k == Tok::Ident && (textOf(i)[0] | 0x20) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
+        suspicious = top.line_start && !label && (!middle || line_column_ < top.column) &&
+                     !(k == Tok::Ident && foldedCharacter(textOf(i)[0]) == 'e' &&
+                       nearestKeyword(textOf(i), kClosers) != Tok::End);
       }
       if (suspicious) top.suspect = i;
     }
@@ -412,8 +413,8 @@ void Balancer::visit(uint32_t i) {
         !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_")))
       return;
     const Tok next = tokens_[i + 1].kind;
-    if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon &&
-        next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
+    if (word.size() >= 4 && foldedCharacter(word[0]) == 'e' && next != Tok::Assign && next != Tok::Dot &&
+        next != Tok::Colon && next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
       Tok meant = nearestKeyword(word, kClosers);
       if (meant != Tok::End) {
         // Of two close candidates, the one that closes the open block.

@@ -69,6 +69,7 @@ void ChartParser::parseMembersOf(const PouDecl& d, std::vector<DeclId>& members,
   }
 }
 
+// chart = {step | transition | macro | ACTION … END_ACTION}
 void ChartParser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions) {
   const Token* first = t_;
   const uint32_t errors = diagnostics_.errorCount();
@@ -135,6 +136,7 @@ void ChartParser::syncChart(Tok end) {
     advance();
 }
 
+// (INITIAL_STEP | STEP) name [position] [times] ":" {association ";"} END_STEP
 void ChartParser::parseStep(std::vector<SfcStep>& out) {
   const Token* open = t_;
   SfcStep step{};
@@ -165,6 +167,7 @@ void ChartParser::parseStep(std::vector<SfcStep>& out) {
   out.push_back(step);
 }
 
+// position = AT x, y [, w, h]
 void NetworkParser::parsePosition(SfcPosition& position) {
   if (!is(t_, "AT") || (peek() != Tok::Number && peek() != Tok::Minus)) return;
   advance();
@@ -190,6 +193,7 @@ void ChartParser::parseStepTimes(SfcStep& step) {
   if (!panic_) expect(Tok::RightParen);
 }
 
+// expr, with the range that it covers
 SfcExpr ChartParser::parseSfcExpr() {
   SfcExpr e{{}, here(), {}};
   e.value = parseExpr();
@@ -284,6 +288,7 @@ bool ChartParser::parseSteps(Slice<Ident>& out) {
   return true;
 }
 
+// TRANSITION [name] [position] ["(" [PRIORITY] ":=" number ")"] [FROM steps TO steps] condition END_TRANSITION
 bool ChartParser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members) {
   const Token* open = t_;
   SfcTransition t{};

@@ -104,6 +104,7 @@ bool StatementParser::atListEnd(uint8_t stops) {
   return atBlockEnd() || ((stops & kStopLabel) != 0 && atCaseLabel());
 }
 
+// statement = keyword statement | assignment | call | label | section (reported)
 void StatementParser::parseStatement() {
   statement_start_ = t_;
   const Loc start = here();
@@ -177,7 +178,7 @@ void StatementParser::parseReturn(Loc start) {
   stmts_.push_back(build_.ifStatement(condition, {&leave, 1}, start, kConditionalOp));
 }
 
-// What cannot begin a statement.
+// Reports a token that cannot begin a statement.
 void StatementParser::parseStray(Loc start) {
   if (at(Tok::Error)) {
     last_error_ = t_;
@@ -241,7 +242,7 @@ void StatementParser::parseExprStatement() {
   reportNoEffect(first);
 }
 
-// `again:`, and a declaration among the statements: `x : INT;`
+// name ":", and a declaration among the statements, which is reported: `x : INT;`
 bool StatementParser::parseLabelOrDeclaration() {
   if (isName(kind()) && peek() == Tok::Colon) {
     const Tok third = peek(2);
@@ -350,7 +351,7 @@ void StatementParser::reportNoEffect(const Token* first) {
   syncStatement();
 }
 
-// Whether `[1, 2]` or `(x := 1, y := 2)` is written as a value; `(x := 1)` is an assignment or comparison.
+// Tells whether `[1, 2]` or `(x := 1, y := 2)` is written as a value; `(x := 1)` is an assignment or comparison.
 bool StatementParser::atListOfValues() const {
   if (at(Tok::LeftBracket)) return true;
   if (!at(Tok::LeftParen) || !isName(peek()) || peek(2) != Tok::Assign) return false;

@@ -53,6 +53,7 @@ void Cursor::skipStructOfC() {
   accept(Tok::Semicolon);
 }
 
+// [access] name [EXTENDS type] ":" type [":=" init] [";"]
 DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
   lost_ = false;
   while (at(Tok::Ident) && isName(peek()) && (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT"))) {
@@ -107,6 +108,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
 
 // ---- type expressions
 
+// type = array | structure | enumeration | (REF_TO | POINTER TO | REFERENCE TO) type | named type
 TypeExprId DeclarationParser::parseType() {
   if (++type_depth_ > kMaxTypeDepth) {
     tooDeep("types", kMaxTypeDepth);
@@ -248,7 +250,7 @@ Slice<Argument> DeclarationParser::parseGenerics() {
   return tree_.addList<Argument>(list);
 }
 
-// Whether the parentheses here contain `low .. high`.
+// Tells whether the parentheses here contain `low .. high`.
 bool DeclarationParser::rangeFollows() const {
   uint32_t depth = 0;
   for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {

@@ -32,7 +32,7 @@ bool isBoundary(Tok k) {
   return isReserved(k) && !isTypeWord(k) && !isOperator(k) && !kContinue.has(k);
 }
 
-// Whether a line that ends with this token needs another one. TASK, RESOURCE, ON and WITH may be names.
+// Tells whether a line that ends with this token needs another one. TASK, RESOURCE, ON and WITH may be names.
 bool needsMore(const Token* t, bool declares) {
   const Tok k = t->kind;
   if (k == Tok::Task || k == Tok::Resource) return (t->flags & kLineStart) != 0;
@@ -75,7 +75,7 @@ bool isLetterAssign(const Token* t) {  // S= R= REF=
          t[1].kind == Tok::Equal;
 }
 
-// What ends the construct that begins at a token, outside of its own brackets.
+// The token that ends the construct which begins at another, outside of its own brackets.
 enum class Ends : uint8_t { InList, WithColon, AsStatement, InHeader, Unknown };
 
 Ends endOfConstruct(const Token* first, bool declares) {
@@ -110,8 +110,8 @@ bool Cursor::isVariable(const Token* t) const {
   return false;
 }
 
-// Whether a bracket of the statement or declaration is open before t; `otherwise` where its beginning is too far away,
-// as in a long list.
+// Tells whether a bracket of the statement or declaration is open before t; `otherwise` where its beginning is too far
+// away, as in a long list.
 bool Cursor::inBrackets(const Token* t, bool otherwise) const {
   uint32_t closed = 0;
   for (const Token* p = t; p > tokens_.data() && t - p < kMaxScan;) {

@@ -9,6 +9,7 @@
 
 namespace rung::text {
 
+// {variable}, up to the `end` of the section
 void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
   const bool outer = std::exchange(declares_, true);
   while (!at(end) && !endsDeclarations(kind())) {
@@ -87,7 +88,7 @@ bool DeclarationParser::nameFollows(bool dotted) {
   return false;
 }
 
-// AT %IX0.0; in a structure AT %I*: a variable in the image without an address yet; AT %B0: an offset.
+// AT address: AT %IX0.0; in a structure AT %I*: a variable in the image without an address yet; AT %B0: an offset.
 void DeclarationParser::parseLocation(VarDecl& d) {
   const Token* word = t_;
   advance();
@@ -143,7 +144,7 @@ void DeclarationParser::parseAccessTarget(VarDecl& d) {
   if (!panic_) expect(Tok::Colon);
 }
 
-// The edge follows the type; some programs write it before the type.
+// type [R_EDGE | F_EDGE] [READ_ONLY | READ_WRITE]: the edge follows the type; some programs write it before the type.
 void DeclarationParser::parseVarType(VarDecl& d, SectionKind section) {
   const bool outer = std::exchange(in_variable_, true);
   d.type = parseType();
@@ -158,6 +159,7 @@ void DeclarationParser::parseVarType(VarDecl& d, SectionKind section) {
   }
 }
 
+// [":=" init | "REF=" expr]
 void DeclarationParser::parseVarInit(VarDecl& d) {
   if (at(Tok::Equal) || (at(Tok::Colon) && peek() == Tok::Equal)) {
     slip(diag::AssignWithEqual, t_, {at(Tok::Equal) ? "=" : ": ="});

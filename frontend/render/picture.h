@@ -16,7 +16,7 @@
 
 namespace rung::picture {
 
-// What a picture of networks shows besides what is written.
+// A picture of networks shows this besides what is written.
 struct NetworkNotes {
   // The elements that run, by their index: an element without a number in the file gets one from its place here. Empty:
   // it gets none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What coils that detect an edge do to their variable in a cycle without an edge (--edge-coils): IEC 61131-3 ed. 3,
+// The behaviour of coils that detect an edge, in a cycle without one (--edge-coils): IEC 61131-3 ed. 3,
 // table 76, makes it FALSE, the IEC syntax manual, 5.7.1.5, leaves it unchanged.
 #pragma once
 

@@ -8,7 +8,7 @@
 
 namespace rung::text {
 
-// Whether the accumulator is the first argument. In f(a, b) it is not, if f takes only two.
+// Tells whether the accumulator is the first argument. In f(a, b) it is not, if f takes only two.
 bool takesAccumulator(Signatures& signatures, const IlInstruction& i) {
   if ((i.flags & kIlFormal) != 0) return false;
   const Signature signature = signatures.of(i.callee);

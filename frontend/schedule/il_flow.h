@@ -31,7 +31,7 @@ struct IlFlow {
 IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Signatures& signatures,
               Slice<IlInstruction> list, bool nested);
 
-// Whether the accumulator is the first argument of a function.
+// Tells whether the accumulator is the first argument of a function.
 bool takesAccumulator(Signatures& signatures, const IlInstruction& i);
 // `CU counter`: the input of an instance that the name of a function, or LD, S or R, denotes. Null: not an input
 // operator.

@@ -2,10 +2,10 @@
 // How it works. The accumulator is an expression that is not part of a statement yet; LD begins a new one, operators
 // wrap it, ST, JMPC and the like put it into a statement. Values that must be evaluated before another statement become
 // temporaries: the accumulator where an instruction reads it afterwards, and the values in front of open parentheses.
-// Whether an instruction reads it is known in advance (il_flow.h, one walk), so most bodies need no temporary at all;
-// literals are repeated instead. Unreachable instructions are dropped.
-// Inputs of an instance that are stored before CAL (`LD a  ST timer.IN`) are ordinary assignments, in edition 2 as
-// well: inputs may be set from outside in every dialect (ed. 3 table 42, 6a).
+// Tells whether an instruction reads it is known in advance (il_flow.h, one walk), so most bodies need no temporary at
+// all; literals are repeated instead. Unreachable instructions are dropped. Inputs of an instance that are stored
+// before CAL (`LD a  ST timer.IN`) are ordinary assignments, in edition 2 as well: inputs may be set from outside in
+// every dialect (ed. 3 table 42, 6a).
 #include "frontend/schedule/il_schedule.h"
 
 #include <algorithm>

@@ -48,7 +48,7 @@ class Search {
     return true;
   }
 
-  // What the walk reports about a root.
+  // The walk reports this about a root.
   struct Visitor {
     Search& search;
     uint32_t root;

@@ -13,7 +13,7 @@ namespace rung::diagram {
 
 // EN or ENO.
 inline bool isControl(const Names& names, NameId pin) { return rung::isControl(names.string(pin)); }
-// What a box calls; not one of an operator. `e` is as declareNetworks() left it.
+// The POU that a box calls; not one of an operator. `e` is as declareNetworks() left it.
 Signature signatureOf(Signatures& signatures, const DiagramElement& e);
 // Extensible pins are named IN3, IN4, …
 bool hasPin(const Names& names, const Signature& signature, const Ident& pin);

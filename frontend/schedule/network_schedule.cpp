@@ -325,7 +325,7 @@ void Scheduler::resolve(uint32_t element) {
   }
 }
 
-// Whether the variable of a contact may be read wherever its wire is read: nothing in its network changes it.
+// Tells whether the variable of a contact may be read wherever its wire is read: nothing in its network changes it.
 bool Scheduler::readable(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
   const DiagramPin* pin = graph_.inputPin(element);

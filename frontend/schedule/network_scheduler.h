@@ -33,7 +33,7 @@ class Scheduler {
   ScheduledBody run(const PouDecl& pou);
 
  private:
-  // What the walk through the body tells the scheduler.
+  // The walk through the body tells the scheduler this.
   struct Visitor {
     Scheduler& scheduler;
     void resolve(uint32_t element) {

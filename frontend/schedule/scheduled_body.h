@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the schedulers of IL and of networks make of a body. Called by sema, which checks it.
+// The result of scheduling IL and networks. Called by sema, which checks it.
 #pragma once
 
 #include <span>

@@ -153,7 +153,7 @@ void Checker::ancestors(uint32_t branch, std::vector<uint32_t>& out) const {
   for (const uint32_t parent : splits_[branches_[branch].split].parent) ancestors(parent, out);
 }
 
-// Whether they are in different branches of one split.
+// Tells whether they are in different branches of one split.
 bool Checker::concurrent(uint32_t a, uint32_t b) const {
   std::vector<uint32_t> of_a, of_b;
   ancestors(a, of_a);

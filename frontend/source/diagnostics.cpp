@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "frontend/source/names.h"
+#include "frontend/source/text.h"
 
 namespace rung {
 namespace {
@@ -42,9 +43,9 @@ std::string formatMessage(const char* text, std::initializer_list<std::string_vi
 std::string switchName(const DiagInfo& info) {
   std::string name;
   for (const char* at = info.name; *at != '\0'; ++at) {
-    const bool upper = *at >= 'A' && *at <= 'Z';
-    if (upper && !name.empty()) name += '-';
-    name += upper ? static_cast<char>(*at + 32) : *at;
+    const char folded = foldedCharacter(*at);
+    if (folded != *at && !name.empty()) name += '-';
+    name += folded;
   }
   return name;
 }

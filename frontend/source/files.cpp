@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "frontend/source/invariant.h"
+#include "frontend/source/text.h"
 
 namespace rung {
 namespace {
@@ -68,8 +69,8 @@ size_t literalLength(std::string_view source) {
     ++n;
     while (n < source.size() && isWordChar(source[n])) ++n;
   }
-  if (number && n + 1 < source.size() && (source[n] == '+' || source[n] == '-') && (source[n - 1] | 0x20) == 'e' &&
-      isDigit(source[n + 1])) {
+  if (number && n + 1 < source.size() && (source[n] == '+' || source[n] == '-') &&
+      foldedCharacter(source[n - 1]) == 'e' && isDigit(source[n + 1])) {
     ++n;
     while (n < source.size() && isWordChar(source[n])) ++n;
   }

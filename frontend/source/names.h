@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/source/text.h"
+
 namespace rung {
 
 struct NameId {
@@ -52,8 +54,6 @@ class Names {
   std::deque<std::vector<char>> storage_;
 };
 
-// An ASCII letter in lower case.
-constexpr char foldedCharacter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
 // True when the two spellings are the same IEC identifier (ASCII case folded).
 bool sameIdentifier(std::string_view a, std::string_view b);
 // The spelling in lower case: equal for equal identifiers, and the collation order that the dialects use.

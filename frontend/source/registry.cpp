@@ -81,7 +81,7 @@ std::vector<Diag> warningsNamed(std::string_view name) {
 }
 
 bool isCodesysCode(std::string_view name) {
-  return name.size() > 1 && (name[0] | 0x20) == 'c' &&
+  return name.size() > 1 && foldedCharacter(name[0]) == 'c' &&
          name.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 

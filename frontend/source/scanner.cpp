@@ -125,14 +125,6 @@ bool isPath(std::string_view s) {
   }
 }
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-std::string upper(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = upper(c);
-  return out;
-}
-
 std::string_view withoutMark(std::string_view source) {
   return source.starts_with("\xef\xbb\xbf") ? source.substr(3) : source;
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "frontend/source/text.h"
+
 namespace rung {
 
 enum class UnitKind : uint8_t { End, Comment, Pragma, String, Name, Number, Other };
@@ -44,7 +46,7 @@ size_t endOfPragma(std::string_view source, size_t at);  // strings in a pragma 
 // The first word of a source after comments and pragmas, in upper case: FUNCTION_BLOCK. Empty: it begins otherwise.
 std::string firstWord(std::string_view source);
 
-// Whether the source begins with a declaration outside of POUs: PROGRAM, TYPE, VAR_GLOBAL, …
+// Tells whether the source begins with a declaration outside of POUs: PROGRAM, TYPE, VAR_GLOBAL, …
 bool startsDeclaration(std::string_view source);
 // END_FUNCTION for FUNCTION; empty for words that do not begin a POU.
 std::string_view endWordOf(std::string_view word);
@@ -53,8 +55,6 @@ bool isBlankCharacter(char c);
 bool isNameCharacter(char c);           // ASCII only
 bool isIdentifier(std::string_view s);  // in ASCII
 bool isPath(std::string_view s);        // identifiers, separated by dots
-char upper(char c);                     // ASCII letters
-std::string upper(std::string_view s);
 
 // Without the byte order mark of UTF-8.
 std::string_view withoutMark(std::string_view source);

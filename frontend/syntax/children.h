@@ -145,7 +145,7 @@ void forEachSection(const Tree& tree, const PouDecl& pou, Visit&& visit) {
   for (const DeclId section : tree.list(pou.hidden)) visit(tree.as<SectionDecl>(section));
 }
 
-// Whether `test` is true of an operand.
+// Tells whether `test` is true of an operand.
 template <class Test>
 bool anyOperand(const Tree& tree, ExprId id, Test&& test) {
   bool found = false;

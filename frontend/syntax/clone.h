@@ -12,7 +12,7 @@ ExprId clone(Tree& tree, ExprId expr);
 // A literal, or a variable, member or element whose path consists of names and literals: reading it again costs nothing
 // and calls nothing.
 bool isPlainPath(const Tree& tree, ExprId expr);
-// Whether it contains a call.
+// Tells whether it contains a call.
 bool hasCall(const Tree& tree, ExprId expr);
 
 }  // namespace rung

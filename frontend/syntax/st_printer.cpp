@@ -9,6 +9,7 @@
 #include "frontend/source/files.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/quoting.h"
+#include "frontend/source/text.h"
 
 namespace rung {
 namespace {
@@ -203,7 +204,7 @@ void StPrinter::literal(const LiteralExpr& e) {
       const bool based = (e.h.bits & kLiteralBased) != 0;
       const auto end = std::to_chars(digits, digits + sizeof digits, e.value(), based ? 16 : 10).ptr;
       if (based) out += "16#";
-      for (const char* d = digits; d != end; ++d) out += *d >= 'a' ? static_cast<char>(*d - 32) : *d;
+      for (const char* d = digits; d != end; ++d) out += upper(*d);
       return;
     }
     case LiteralKind::Real: {

@@ -13,7 +13,7 @@ std::string_view between(const Sources& sources, Loc begin, Loc end) {
   return sources.sourceText(file).substr(begin.offset - sources.begin(file).offset, end.offset - begin.offset);
 }
 
-// Whether anything precedes a location on its line.
+// Tells whether anything precedes a location on its line.
 bool followsOnLine(const Sources& sources, Loc loc) {
   const Loc begin = sources.begin(sources.fileOf(loc));
   const std::string_view source = between(sources, begin, loc);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the code of a body tells about its run: the source location of each statement, how often lines and branches run,
+// The code of a body tells this about its run: the source location of each statement, how often lines and branches run,
 // the steps that a limit counts, which POU is called. In: statements and calls as they are translated. Out: entries of
 // Code, and instructions for what was asked for. The base of BodyTranslator (translate.h).
 #pragma once

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "frontend/source/text.h"
 #include "ir/interpreter/translate.h"
 
 namespace rung::ir::interpreter {
@@ -11,31 +12,7 @@ namespace {
 
 std::u16string utf16(std::string_view string) {
   std::u16string out;
-  const auto byte = [&](size_t i) -> uint32_t {
-    return i < string.size() ? static_cast<unsigned char>(string[i]) : 0u;
-  };
-  for (size_t at = 0; at < string.size();) {
-    const uint32_t lead = byte(at);
-    uint32_t point = lead;
-    if (lead >= 0xf0) {
-      point = (lead & 7) << 18 | (byte(at + 1) & 63) << 12 | (byte(at + 2) & 63) << 6 | (byte(at + 3) & 63);
-      at += 4;
-    } else if (lead >= 0xe0) {
-      point = (lead & 15) << 12 | (byte(at + 1) & 63) << 6 | (byte(at + 2) & 63);
-      at += 3;
-    } else if (lead >= 0xc0) {
-      point = (lead & 31) << 6 | (byte(at + 1) & 63);
-      at += 2;
-    } else {
-      at += 1;
-    }
-    if (point < 0x10000) {
-      out += static_cast<char16_t>(point);
-    } else {
-      out += static_cast<char16_t>(0xd800 + ((point - 0x10000) >> 10));
-      out += static_cast<char16_t>(0xdc00 + ((point - 0x10000) & 0x3ff));
-    }
-  }
+  for (Utf16Units units(string); !units.done();) out += static_cast<char16_t>(units.next());
   return out;
 }
 

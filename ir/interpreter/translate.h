@@ -13,7 +13,7 @@
 
 namespace rung::ir::interpreter {
 
-// Whether an expression or something below it is of that kind.
+// Tells whether an expression or something below it is of that kind.
 inline bool contains(const Body& body, ExprId root, ExprKind kind) {
   bool found = false;
   forEachExpr(body, root, [&](ExprId at) { found = found || body.expr(at).kind == kind; });

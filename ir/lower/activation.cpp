@@ -6,12 +6,29 @@
 
 namespace rung::ir {
 
-void ModuleLowering::addActivations() {
+void TaskLowering::addTasks() {
+  for (const sema::Task& task : project.tasks) {
+    Task created;
+    created.name = task.name;
+    created.resource = task.resource;
+    created.kind = static_cast<TaskKind>(task.kind);
+    created.interval_ns = task.interval_ns;
+    created.priority = task.priority;
+    created.trigger = task.trigger;
+    created.external_event = task.external_event;
+    created.watchdog_ns = task.watchdog_ns;
+    created.sensitivity = task.sensitivity;
+    created.duration_ns = task.duration_ns;
+    module.tasks.push_back(created);
+  }
+}
+
+void TaskLowering::addActivations() {
   using Path = sema::InstancePath;
   if (project.instance_paths.empty()) {
     for (uint32_t i = 0; i < project.instances.size(); ++i)
-      if (program_of_instance_[i] != 0 && project.instances[i].connections)
-        addActivation(program_of_instance_[i] - 1, &project.instances[i], {});
+      if (all.instances.isCreated(i) && project.instances[i].connections)
+        addActivation(all.instances.programOf(i), &project.instances[i], {});
     return;
   }
   auto pathsOf = [&](uint32_t instance, sema::PouId program) {
@@ -23,15 +40,15 @@ void ModuleLowering::addActivations() {
     return own;
   };
   for (uint32_t i = 0; i < project.instances.size(); ++i)
-    if (program_of_instance_[i] != 0)
-      addActivation(program_of_instance_[i] - 1, &project.instances[i], pathsOf(i, project.instances[i].program));
+    if (all.instances.isCreated(i))
+      addActivation(all.instances.programOf(i), &project.instances[i], pathsOf(i, project.instances[i].program));
   for (uint32_t i = 1; i < project.pous.size(); ++i)
     if (project.pous[i].pragmas.test && !project.pous[i].excluded && project.pous[i].record)
-      addActivation(instanceOf({i}), nullptr, pathsOf(Path::kNone, {i}));
+      addActivation(all.instances.instanceOf({i}), nullptr, pathsOf(Path::kNone, {i}));
 }
 
-void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance* instance,
-                                   std::span<const sema::InstancePath> paths) {
+void TaskLowering::addActivation(uint32_t program, const sema::ProgramInstance* instance,
+                                 std::span<const sema::InstancePath> paths) {
   rung::ExprId call = instance != nullptr ? instance->connections : rung::ExprId{};
   bool copies = false, sets = false;
   for (const sema::InstancePath& path : paths) {
@@ -41,20 +58,20 @@ void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance
   const Loc loc = instance != nullptr ? instance->loc : module.body(module.programs[program].body).loc;
   if (call || copies) {
     const BodyId id = newActivation(program, "__run", loc);
-    BodyLowering lowering(*this, module.body(id), {});
+    BodyLowering lowering(all, module.body(id), {});
     lowering.statements.lowerActivation(program, module.programs[program].body, call, paths);
     module.programs[program].run = id;
   }
   if (sets) {
     const BodyId id = newActivation(program, "__setup", loc);
-    BodyLowering lowering(*this, module.body(id), {});
+    BodyLowering lowering(all, module.body(id), {});
     lowering.statements.lowerSetup(program, paths);
     module.programs[program].setup = id;
   }
 }
 
 // A function without parameters that a program instance has for itself.
-BodyId ModuleLowering::newActivation(uint32_t program, const char* what, Loc loc) {
+BodyId TaskLowering::newActivation(uint32_t program, const char* what, Loc loc) {
   module.bodies.emplace_back();
   const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
   Body& body = module.bodies.back();
@@ -69,10 +86,10 @@ BodyId ModuleLowering::newActivation(uint32_t program, const char* what, Loc loc
   return id;
 }
 
-void ModuleLowering::addBlockTasks() {
+void TaskLowering::addBlockTasks() {
   for (const sema::BlockTask& task : project.block_tasks) {
-    if (program_of_instance_[task.instance] == 0) continue;
-    const uint32_t program = program_of_instance_[task.instance] - 1;
+    if (!all.instances.isCreated(task.instance)) continue;
+    const uint32_t program = all.instances.programOf(task.instance);
     const sema::Var& block = project.var(task.block);
     module.bodies.emplace_back();
     const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
@@ -86,7 +103,7 @@ void ModuleLowering::addBlockTasks() {
     body.kind = BodyKind::Function;
     body.loc = task.loc;
     body.file = project.sources.fileOf(body.loc);
-    BodyLowering lowering(*this, body, {});
+    BodyLowering lowering(all, body, {});
     lowering.statements.lowerBlockTask(program, task.block);
     module.block_tasks.push_back({task.task, id, program});
   }
@@ -97,7 +114,7 @@ void StatementLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
   const sema::Var& var = project_.var(block);
   const ExprId instance =
       field(asBase(places().programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
-  const BodyId code = in_.bodyOf(in_.pouOfRecord(strip(var.type)));
+  const BodyId code = in_.bodyOf(in_.records.pouOf(strip(var.type)));
   append(loc, CallStmt{.callee = code, .self = instance});
   body_.first = build_.block().first;
 }

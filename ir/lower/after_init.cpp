@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What {attribute 'call_after_global_init_slot'} calls when all variables have their initial values, by ascending slot.
-// In: functions, programs and methods of a checked project. Out: Module::after_init, and ProgramInstance::after_init
-// for the instances in a test; functions without parameters, or none. CODESYS, "Attribute:
+// {attribute 'call_after_global_init_slot'} calls these methods when all variables have their initial values, by
+// ascending slot. In: functions, programs and methods of a checked project. Out: Module::after_init, and
+// ProgramInstance::after_init for the instances in a test; functions without parameters, or none. CODESYS, "Attribute:
 // call_after_global_init_slot".
 #include <algorithm>
 
@@ -16,7 +16,7 @@ bool ModuleLowering::holds(TypeId type, sema::PouId block) {
   if (kind != TypeKind::Record || types.info(type).record_kind == types::RecordKind::Union) return false;
   const uint64_t key = uint64_t{type.index} << 32 | block.index;
   if (const auto known = holds_.find(key); known != holds_.end()) return known->second;
-  const sema::PouId object = pouOfRecord(type);
+  const sema::PouId object = records.pouOf(type);
   bool found = object && isKindOf(object, block);
   for (const types::Field& field : types.info(type).fields)
     found = found || (!field.by_reference && holds(field.type, block));
@@ -32,7 +32,7 @@ void ObjectLowering::callInstances(ExprId place, sema::PouId method) {
     forEachElement(place, type, loc, 0, indices, [&](ExprId element) { callInstances(element, method); });
     return;
   }
-  const sema::PouId object = in_.pouOfRecord(type);
+  const sema::PouId object = in_.records.pouOf(type);
   const bool is_instance = object && in_.isKindOf(object, project_.pou(method).owner);
   if (const sema::PouId found = is_instance ? in_.implementation(object, method) : sema::PouId{}) {
     sema::Call call;
@@ -124,7 +124,7 @@ void ModuleLowering::addAfterInit() {
   addToTests(&ProgramInstance::after_init, [&](NameId name, const Root& root) {
     return afterInitOf(name, "~after_init", called, {&root, 1}, true);
   });
-  module.after_init = afterInitOf(module.names.intern("after_init"), "~", called, roots(), false);
+  module.after_init = afterInitOf(module.names.intern("after_init"), "~", called, instances.roots(), false);
 }
 
 }  // namespace rung::ir

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all parts of lowering do with a body: make nodes with the checks that the options ask for, temporaries, and the
+// All parts of lowering do this with a body: make nodes with the checks that the options ask for, temporaries, and the
 // order of evaluation. BodyPart is the base of the parts (lowering.h); it changes nothing but the body's IR. The nodes
 // are made in building.cpp; what moves to a temporary is decided in evaluation_order.cpp.
 #pragma once
@@ -25,7 +25,7 @@ class ValueLowering;
 class CallLowering;
 class ObjectLowering;
 
-// What variables of the module lie in.
+// A list or program, in which variables of the module are.
 struct Root {
   bool is_list;  // else a program
   uint32_t index;

@@ -80,7 +80,7 @@ ExprId BodyPart::field(ExprId base, uint32_t index, TypeId type, Loc loc) {
 
 ExprId BodyPart::asBase(ExprId place, sema::PouId base, Loc loc) {
   for (;;) {
-    const sema::PouId object = in_.pouOfRecord(typeOf(place));
+    const sema::PouId object = in_.records.pouOf(typeOf(place));
     if (object == base || !object || !project_.pou(object).base) return place;
     const sema::Pou& pou = project_.pou(object);
     place = field(place, project_.var(pou.object.base_var).field, project_.pou(pou.base).record, loc);
@@ -136,7 +136,7 @@ ExprId BodyPart::convert(ExprId operand, TypeId to, Loc loc, types::Rounding rou
   return add(loc, to, ConvertExpr{.operand = operand, .rounding = rounding}, checks);
 }
 
-// What the address of a view of the image is a multiple of, at least: an area begins at a multiple of 8.
+// The alignment that the address of a view of the image has at least: an area begins at a multiple of 8.
 uint32_t BodyPart::alignmentInImage(ExprId view) const {
   const Expr& e = body_.expr(view);
   uint64_t offset = 0;
@@ -153,7 +153,7 @@ uint32_t BodyPart::alignmentInImage(ExprId view) const {
   return offset == 0 ? base_align : std::min(base_align, lowestBit(offset));
 }
 
-// What the address of a place is a multiple of, at least; a record has no demands, since its C++ struct knows.
+// The alignment that the address of a place has at least; a record has no demands, since its C++ struct knows.
 uint32_t BodyPart::alignmentOf(ExprId place) const {
   const Expr& e = body_.expr(place);
   if (const auto* part = e.tryAs<FieldExpr>()) {

@@ -37,12 +37,12 @@ void ModuleLowering::addCppVariable(CppBody& cpp, sema::VarId id, NameId list, b
   };
   switch (var.storage) {
     case sema::Storage::Global:
-      declareRecordsOf(type);
+      records.declare(type);
       cpp.variables.push_back(
-          {list, own.name, type, false, listIndex(var.list), var.field, kNoBit, is_constant, of_object});
+          {list, own.name, type, false, instances.listIndex(var.list), var.field, kNoBit, is_constant, of_object});
       break;
     case sema::Storage::Image: {
-      declareRecordsOf(type);
+      records.declare(type);
       const uint32_t bit = var.image.is_bit ? var.image.bit : kNoBit;
       cpp.variables.push_back(
           {list, own.name, type, true, var.image.area.index, var.image.byte, bit, is_constant, of_object});

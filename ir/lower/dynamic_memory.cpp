@@ -16,7 +16,7 @@ ExprId ValueLowering::lowerNew(rung::ExprId id) {
   const NewExpr node = tree_.as<NewExpr>(id);
   const Loc loc = node.h.loc;
   const TypeId pointer_type = strip(node.h.type), declared = types_.info(pointer_type).base, type = strip(declared);
-  in_.declareRecordsOf(type);
+  in_.records.declare(type);
   ExprId count = constant(types::kLInt, 1, loc);
   if (node.count) {
     count = temp(types::kLInt, loc);
@@ -26,7 +26,7 @@ ExprId ValueLowering::lowerNew(rung::ExprId id) {
   const ExprId memory = callPool(project_.call(node.memory).pou, {count, size}, loc);
   const ExprId pointer = temp(pointer_type, loc);
   assign(copy(pointer), convertValue(memory, pointer_type, loc), loc);
-  if (in_.isZero(declared)) return pointer;
+  if (in_.records.isZero(declared)) return pointer;
   const ExprId is_there = binary(Op::Ne, types::kBool, copy(pointer), constant(pointer_type, 0, loc), loc);
   const CallId outer = state_.given;
   state_.given = node.constructor;
@@ -74,7 +74,7 @@ void ValueLowering::lowerDelete(const sema::Call& call, Loc loc) {
     append(loc, IfStmt{.condition = failed, .then_block = fault});
   };
   const StmtId then = block([&] {
-    const sema::PouId object = in_.pouOfRecord(type);
+    const sema::PouId object = in_.records.pouOf(type);
     if (in_.hasExit(type) || (object && project_.pou(object).object.dispatched)) {
       const ExprId owned = callPool(call.owns, {memory()}, loc);
       require(copy(owned));

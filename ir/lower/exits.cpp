@@ -15,7 +15,7 @@ bool ModuleLowering::hasExit(TypeId type) {
   const auto known = has_exit_.find(type.index);
   if (known != has_exit_.end()) return known->second;
   has_exit_[type.index] = false;
-  bool found = !lifeMethodsOf(pouOfRecord(type), "FB_Exit").empty();
+  bool found = !lifeMethodsOf(records.pouOf(type), "FB_Exit").empty();
   for (const types::Field& field : info.fields) found = found || (!field.by_reference && hasExit(field.type));
   return has_exit_[type.index] = found;
 }
@@ -25,7 +25,7 @@ BodyId ModuleLowering::exitOf(TypeId record) {
   if (!hasExit(record)) return {};
   const auto known = exit_of_.find(record.index);
   if (known != exit_of_.end()) return known->second;
-  const sema::PouId pou = pouOfRecord(record);
+  const sema::PouId pou = records.pouOf(record);
   const BodyId created = addHelper(pou ? project.pou(pou).unique_name : types.info(record).name, pou, "~");
   exit_of_[record.index] = created;
   Body& body = module.body(created);
@@ -68,12 +68,12 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const R
 
 void ModuleLowering::addExit() {
   addToTests(&ProgramInstance::exit, [&](NameId name, const Root& root) { return endsOf(name, "~test", {&root, 1}); });
-  module.exit = endsOf(module.names.intern("FB_Exit"), "~", roots());
+  module.exit = endsOf(module.names.intern("FB_Exit"), "~", instances.roots());
 }
 
 void ObjectLowering::lowerExit(ExprId place, TypeId record) {
   const Loc loc = body_.loc;
-  const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.pouOfRecord(record), "FB_Exit");
+  const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.records.pouOf(record), "FB_Exit");
   rung::CallExpr node{};
   node.h.loc = loc;
   for (size_t i = methods.size(); i-- > 0;) {
@@ -90,7 +90,7 @@ void ObjectLowering::exitParts(ExprId place, TypeId record) {
   const auto count = static_cast<uint32_t>(types_.info(record).fields.size());
   for (uint32_t i = count; i-- > 0;) {
     const types::Field held = types_.info(record).fields[i];
-    if (held.by_reference || !in_.hasExit(held.type) || in_.isKeptFromExit(record, i)) continue;
+    if (held.by_reference || !in_.hasExit(held.type) || in_.records.isKeptFromExit(record, i)) continue;
     const TypeId type = strip(held.type);
     const ExprId part = field(copy(place), i, type, loc);
     if (held.role == types::FieldRole::Base) {
@@ -113,7 +113,7 @@ void ObjectLowering::exitElement(ExprId place, TypeId type) {
 }
 
 void ObjectLowering::callExit(ExprId place, bool exact, Loc loc) {
-  const sema::PouId object = in_.pouOfRecord(typeOf(place));
+  const sema::PouId object = in_.records.pouOf(typeOf(place));
   const bool is_virtual = object && !exact && project_.pou(object).object.dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
   if (!end) return;

@@ -122,7 +122,7 @@ void CallLowering::planPins(FunctionCall& plan) {
   });
 }
 
-// Whether the first input of a native string function may be built in the target of its result, as in
+// Tells whether the first input of a native string function may be built in the target of its result, as in
 // `s := CONCAT(CONCAT(a, b), c)`: a and b go to s, then c is appended in place. The other arguments must not see that,
 // and cutting to the target's capacity must not change the result.
 bool CallLowering::mayChain(const sema::Call& call, const Target& target) const {
@@ -145,7 +145,7 @@ ExprId CallLowering::defaultArgument(sema::VarId pin_id, rung::ExprId init, Loc 
   if (!isAggregate(type)) {
     if (init)
       if (auto value = constantOf(project_, init)) return convertValue(ofValue(*value, loc), type, loc);
-    if (!init && in_.isZero(type)) return zero(type, loc);
+    if (!init && in_.records.isZero(type)) return zero(type, loc);
   }
   ExprId place = temp(type, loc);
   objects().storeInitial(copy(place), type, init, false);
@@ -169,7 +169,7 @@ ExprId CallLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
 ExprId CallLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = places().lowerPlace(argument);
-  if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
+  if (sema::PouId wanted = in_.records.pouOf(strip(pin_type))) place = asBase(place, wanted, loc);
   if (isPlace(body_.expr(place).kind)) {
     place = stable(place);
     const bool is_string = TypeTable::isString(types_.kind(typeOf(place)));

@@ -77,13 +77,13 @@ bool ObjectLowering::writeDefault(TypeId declared, uint8_t* to) {
   const TypeInfo& info = types_.info(type);
   if (info.kind == TypeKind::Array) {
     uint64_t count = elementCount(info), size = types_.info(strip(info.base)).size;
-    if (count == 0 || in_.isZero(info.base)) return true;
+    if (count == 0 || in_.records.isZero(info.base)) return true;
     if (!writeDefault(info.base, to)) return false;
     for (uint64_t i = 1; i < count; ++i) std::memcpy(to + i * size, to, size);
     return true;
   }
   if (info.kind == TypeKind::Record) {
-    if (in_.isZero(type)) return true;
+    if (in_.records.isZero(type)) return true;
     if (info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program)
       return false;
     bool has_inits = type.index < project_.field_inits.size();
@@ -105,7 +105,7 @@ bool ObjectLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   type = strip(type);
   if (tree_.kind(init) == rung::ExprKind::ArrayInit) return writeArray(type, init, to);
   if (tree_.kind(init) == rung::ExprKind::StructInit) {
-    const sema::PouId object = in_.pouOfRecord(type);
+    const sema::PouId object = in_.records.pouOf(type);
     if ((object && project_.pou(object).base) || !writeDefault(type, to)) return false;
     const TypeInfo& info = types_.info(type);
     for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields)) {
@@ -201,14 +201,14 @@ bool ObjectLowering::isBasePart(ExprId place) const {
   while (const auto* index = body_.expr(place).tryAs<IndexExpr>()) place = index->base;
   const auto* part = body_.expr(place).tryAs<FieldExpr>();
   if (part == nullptr) return false;
-  const sema::PouId derived = in_.pouOfRecord(typeOf(part->base));
+  const sema::PouId derived = in_.records.pouOf(typeOf(part->base));
   return derived && project_.pou(derived).object.base_var &&
          project_.var(project_.pou(derived).object.base_var).field == part->field;
 }
 
 // When FB_Init has run and the values of the declaration are set. CODESYS, "Attribute: call_after_init".
 void ObjectLowering::callAfterInit(ExprId place, TypeId type) {
-  const sema::PouId object = in_.pouOfRecord(type);
+  const sema::PouId object = in_.records.pouOf(type);
   if (!object || isBasePart(place)) return;
   rung::CallExpr node{};
   node.h.loc = body_.expr(place).loc;
@@ -224,7 +224,7 @@ void ObjectLowering::callAfterInit(ExprId place, TypeId type) {
 const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
   while (const auto* index = body_.expr(place).tryAs<IndexExpr>()) place = index->base;
   const Expr& at = body_.expr(place);
-  if (const auto* part = at.tryAs<FieldExpr>()) return in_.constructedVar(typeOf(part->base), part->field);
+  if (const auto* part = at.tryAs<FieldExpr>()) return in_.records.constructedVar(typeOf(part->base), part->field);
   const uint32_t* index = localOf(at);
   if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
@@ -238,7 +238,7 @@ const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
 
 // FB_Init of an instance whose declared values are set, those of its bases first. Codesys.
 void ObjectLowering::construct(ExprId place, TypeId type) {
-  const sema::PouId object = in_.pouOfRecord(type);
+  const sema::PouId object = in_.records.pouOf(type);
   if (!object) return;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(object, "FB_Init");
   if (methods.empty()) return;
@@ -273,7 +273,7 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
 
 // A member that is a property: its SET is called. False for other members.
 bool ObjectLowering::setProperty(ExprId place, const FieldInit& given) {
-  const sema::PouId object = in_.pouOfRecord(typeOf(place));
+  const sema::PouId object = in_.records.pouOf(typeOf(place));
   for (sema::PouId at = object; at; at = project_.pou(at).base)
     for (const uint32_t index : project_.pou(at).object.properties) {
       const sema::Property& property = project_.properties[index];
@@ -306,12 +306,12 @@ void ObjectLowering::storeMembers(ExprId place, rung::ExprId init) {
         found = true;
         const TypeId type = info.fields[i].type;
         const ExprId member = field(copy(holder), i, type, loc);
-        if (in_.pouOfRecord(strip(type)) && tree_.kind(given.value) == rung::ExprKind::StructInit)
+        if (in_.records.pouOf(strip(type)) && tree_.kind(given.value) == rung::ExprKind::StructInit)
           storeMembers(member, given.value);
         else
           storeInitial(member, type, given.value, false);
       }
-      const sema::PouId object = in_.pouOfRecord(typeOf(holder));
+      const sema::PouId object = in_.records.pouOf(typeOf(holder));
       if (!object || !project_.pou(object).base) break;
       holder = asBase(copy(holder), project_.pou(object).base, loc);
     }
@@ -355,7 +355,7 @@ void ObjectLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId i
     if (whole) state_.element = 0;
     for (uint64_t i = 0; i < elementCount(info); ++i) {
       storeInitial(elementAt(copy(place), i, loc), info.base, {}, false);
-      if (in_.pouOfRecord(strip(info.base))) ++state_.element;
+      if (in_.records.pouOf(strip(info.base))) ++state_.element;
     }
   } else {
     std::vector<ExprId> indices;
@@ -402,7 +402,7 @@ void ObjectLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId in
       if (types_.info(t).kind != TypeKind::Alias) break;
     }
   TypeId type = strip(declared);
-  if (!init && in_.isZero(type)) {
+  if (!init && in_.records.isZero(type)) {
     if (!place_is_zero) assign(place, zero(type, loc), loc);
     return;
   }

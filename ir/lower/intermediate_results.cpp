@@ -30,7 +30,7 @@ ExprId ValueLowering::lowerIn(rung::ExprId id, TypeId type) {
   return last_bits ? operate(id, type) : convertValue(operate(id, native), type, loc);
 }
 
-// Whether an operand is an intermediate result itself.
+// Tells whether an operand is an intermediate result itself.
 bool ValueLowering::hasUncut(rung::ExprId id) const {
   if (tree_.kind(id) == rung::ExprKind::Unary)
     return static_cast<bool>(sema::uncutType(project_, tree_.as<rung::UnaryExpr>(id).operand));

@@ -99,7 +99,7 @@ void LoopLimits::write(const Body& body, ExprId place, Effects& effects) const {
   }
 }
 
-// What the statement itself writes, without those in its blocks.
+// Adds the names that the statement itself writes, without those in its blocks.
 void LoopLimits::add(const Body& body, StmtId id, Effects& effects) const {
   const Stmt& stmt = body.stmt(id);
   forEachRoot(module_, body, stmt, [&](ExprId root, Use use) {

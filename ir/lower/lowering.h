@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of lowering. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies, records and instances
-// of a project; BodyLowering walks one checked body and appends IR to it, a class for each subject: places, values,
-// calls, objects, statements. What the classes share is in body_part.h.
+// The parts of lowering. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies of a project, and has
+// its records, instances and tasks as parts (records.h, instances.h, tasks.h); BodyLowering walks one checked body and
+// appends IR to it, a class for each subject: places, values, calls, objects, statements. What the classes share is in
+// body_part.h.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,9 @@
 #include "frontend/source/function_ref.h"
 #include "ir/lower.h"
 #include "ir/lower/body_part.h"
+#include "ir/lower/instances.h"
+#include "ir/lower/records.h"
+#include "ir/lower/tasks.h"
 
 namespace rung::ir {
 
@@ -36,15 +40,12 @@ struct ModuleLowering {
   sema::PouId lowerBodies();
   void lowerCpp(sema::PouId id);
   void addCppVariable(CppBody& cpp, sema::VarId id, NameId list, bool of_object);
-  // Lists and instances as known while the project is being checked, without their memory and code.
-  void addNames();
   // The body of a POU's code; declares its parameters when first asked for.
   BodyId bodyOf(sema::PouId pou);
+  BodyId knownBodyOf(sema::PouId pou) const { return body_of_[pou.index]; }  // none: not asked for
+  BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
   // The initialiser of a record, or none when its initial value is all zeros.
   BodyId initOf(TypeId record);
-  uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
-  // The instance that a program's name means; created when the program has none.
-  uint32_t instanceOf(sema::PouId program);
   // The function that tests whether a type id is that of an object of this kind.
   BodyId kindTestOf(sema::PouId wanted);
   bool isKindOf(sema::PouId object, sema::PouId base) const;
@@ -55,7 +56,6 @@ struct ModuleLowering {
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
   // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
-  bool isKeptFromExit(TypeId record, uint32_t field) const;  // {attribute 'no-exit'}
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
   // after_init.cpp: whether a variable of the type is, or holds, an instance of the block.
@@ -63,44 +63,29 @@ struct ModuleLowering {
   // An object's implementation of a method; none when it has none, or an abstract one.
   sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   bool checksCasts() const { return (options.checks & kCheckCast) != 0; }
-  // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
-  const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.
   sema::PouId objectOf(sema::PouId pou) const;
-  sema::PouId pouOfRecord(TypeId record) const {
-    return record.index < pou_of_record_.size() ? pou_of_record_[record.index] : sema::PouId{};
-  }
-  uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
   void noteGlobal(const Body& body, ExprId place, sema::VarId var);
-  bool isZero(TypeId type);  // initial value of a type: all bytes zero
-  bool beginsWithZeros(TypeId type, const types::TypeInfo& info);
 
   const sema::Project& project;
   const LowerOptions& options;
   Module& module;
   const Tree& tree;
   TypeTable& types;
+  RecordLowering records;
+  InstanceLowering instances;
+  TaskLowering tasks;
   bool partial = false;  // only one function: see lowerFunction
   std::vector<VariableLimit> variable_limits;
 
-  // The module gets the records that the type is made of and those that it points to.
-  void declareRecordsOf(TypeId type);
-
  private:
-  void declareRecord(TypeId type);
-  void addRecord(TypeId record);
-  Record* recordOf(TypeId type);
-  void addPrograms();
   void addTests();
   BodyId addTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
   BodyId addTestSetup(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
-  void addLists();
   void simplifyLimits();
   void markFaulting();
   void addClasses();
   void fillKindTests();
-  BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
-  std::vector<Root> roots() const;  // the lists, then the programs but for tests
   // The function that f(NameId, const Root&) makes for each test.
   template <class F>
   void addToTests(BodyId ProgramInstance::*function, F&& f) {
@@ -117,40 +102,14 @@ struct ModuleLowering {
   BodyId afterInitOf(NameId name, const char* suffix, std::span<const sema::PouId> called, std::span<const Root> roots,
                      bool is_test);
   void addAfterInit();
-  void addTasks();
-  // task_calls.cpp: methods marked {before_task} and {after_task}.
-  void requestTaskCalls();
-  void addTaskCalls();
-  struct Held;
-  BodyId taskCallsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
-                     std::span<const Held> variables);
-  void addActivations();
-  void addActivation(uint32_t program, const sema::ProgramInstance* instance,
-                     std::span<const sema::InstancePath> places);
-  void addLocated();
-  void addAccessPaths();
-  void addBlockTasks();
-  BodyId newActivation(uint32_t program, const char* what, Loc loc);
   void copyForResources();
 
   std::vector<ResourcePlace> resource_places_;
-  std::vector<BodyId> body_of_;                            // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;           // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;           // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;            // by record TypeId
-  std::unordered_map<uint64_t, bool> holds_;               // by record TypeId and PouId
-  std::unordered_set<uint32_t> record_seen_;               // by TypeId
-  std::unordered_map<uint32_t, uint32_t> record_of_type_;  // by TypeId: indices of module.records
-  std::vector<TypeId> to_declare_;
-  bool is_declaring_ = false;
-  std::unordered_map<uint32_t, bool> zero_;                // by TypeId
-  std::unordered_map<uint64_t, const sema::Var*> marked_;  // by record and field: constructed, or kept from exit
-  std::vector<sema::PouId> pou_of_record_;                 // by TypeId
-  std::vector<sema::ListId> list_of_record_;               // by TypeId
-  std::vector<uint32_t> list_index;                        // by ListId
-  uint32_t last_list_ = 0;                                 // index in Module::lists: initialised after the others
-  std::vector<uint32_t> program_of_instance_;              // by sema instance: index in Module::programs + 1
-  std::unordered_map<uint32_t, uint32_t> instance_of_;     // by PouId: index in Module::programs
+  std::vector<BodyId> body_of_;                   // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;  // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;  // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;   // by record TypeId
+  std::unordered_map<uint64_t, bool> holds_;      // by record TypeId and PouId
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
   size_t next_to_lower_ = 0;
@@ -202,10 +161,11 @@ class PlaceLowering : public BodyPart {
   OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies);
   OpenArray noOpenArray(TypeId pin_type, Loc loc);  // of an output that is left open: without elements
 
-  // Whether an lvalue has no indices and pointers, so that it is the same whenever it is evaluated.
+  // Tells whether an lvalue has no indices and pointers, so that it is the same whenever it is evaluated.
   bool isPlainPlace(rung::ExprId expr) const;
   sema::VarId rootVar(rung::ExprId plain_place) const;
-  // Whether evaluating `value` has no effect, cannot fault and does not read `variable`. False where that is not sure.
+  // Tells whether evaluating `value` has no effect, cannot fault and does not read `variable`. False where that is not
+  // sure.
   bool isApart(rung::ExprId value, sema::VarId variable) const;
 
  private:

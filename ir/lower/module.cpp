@@ -14,28 +14,24 @@ void lower(const sema::Project& project, const LowerOptions& options, Module& mo
   ModuleLowering(project, options, module).run();
 }
 
+ModulePart::ModulePart(ModuleLowering& of) : all(of), project(of.project), module(of.module), types(of.types) {}
+
 ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to)
-    : project(from), options(with), module(to), tree(from.tree), types(to.types) {
+    : project(from),
+      options(with),
+      module(to),
+      tree(from.tree),
+      types(to.types),
+      records(*this),
+      instances(*this),
+      tasks(*this) {
   body_of_.resize(project.pous.size());
-  list_index.resize(project.global_lists.size());
-  pou_of_record_.resize(types.count());
-  list_of_record_.resize(types.count());
-  for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].record) pou_of_record_[project.pous[i].record.index] = {i};
-  for (uint32_t i = 1; i < project.global_lists.size(); ++i)
-    if (project.global_lists[i].record) list_of_record_[project.global_lists[i].record.index] = {i};
 }
 
 void ModuleLowering::run() {
-  for (const sema::Var& var : project.vars) {
-    if ((!var.start.constructor.index && !var.pragmas.no_exit) || var.storage == sema::Storage::Local) continue;
-    const TypeId record = var.list  ? project.global_lists[var.list.index].record
-                          : var.pou ? project.pou(var.pou).record
-                                    : var.record;
-    marked_[uint64_t{record.index} << 32 | var.field] = &var;
-  }
-  addLists();
-  addPrograms();
+  records.readMarks();
+  instances.addLists();
+  instances.addPrograms();
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.pragmas.operator_kind != sema::OperatorKind::None) continue;
@@ -45,8 +41,8 @@ void ModuleLowering::run() {
     bodyOf({i});
   }
   addTests();
-  addActivations();
-  addBlockTasks();
+  tasks.addActivations();
+  tasks.addBlockTasks();
   do {  // an initial value may need a function that nothing else calls
     lowerBodies();
     for (List& list : module.lists) list.init = initOf(list.record);
@@ -55,20 +51,20 @@ void ModuleLowering::run() {
       const BodyId init = initOf(module.records[i].type);
       module.records[i].init = init;
     }
-    requestTaskCalls();
+    tasks.requestCalls();
   } while (next_to_lower_ < to_lower_.size());
   addAfterInit();
   addExit();
   lowerBodies();  // the functions that these call
   addClasses();
   addDispatches();
-  addTasks();
-  addTaskCalls();
+  tasks.addTasks();
+  tasks.addCalls();
   simplifyLimits();
   copyForResources();
   markFaulting();
-  addLocated();
-  addAccessPaths();
+  instances.addLocated();
+  instances.addAccessPaths();
   module.aligned_globals = project.options.aligned_globals;
   module.io_modules = project.io_modules;
   module.areas = project.options.areas;
@@ -99,7 +95,7 @@ sema::PouId lowerFunction(const sema::Project& project, sema::PouId function, co
                           Module& module, BodyId& body) {
   ModuleLowering lowering(project, options, module);
   lowering.partial = true;
-  lowering.addNames();
+  lowering.instances.addNames();
   body = lowering.bodyOf(function);
   return lowering.lowerBodies();
 }
@@ -133,7 +129,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.self = pou.owner ? project.pou(pou.owner).record : pou.record;
   body.loc = pou.loc;
   body.file = pou.file;
-  if (body.self) declareRecordsOf(body.self);
+  if (body.self) records.declare(body.self);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& var = project.var(var_id);
     if (var.storage != sema::Storage::Local || var.shared) continue;
@@ -149,18 +145,18 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
       type = types.pointer(types.info(type).base);
       kind = LocalKind::Input;
     }
-    declareRecordsOf(type);
+    records.declare(type);
     body.locals.push_back({var.name, type, kind, isPassedByReference(types, kind, type), var.loc});
   }
   if (pou.result && types.kind(pou.result) != TypeKind::None) {
     TypeId type = types.resolve(pou.result);
-    declareRecordsOf(type);
+    records.declare(type);
     body.result = type;
     body.locals.push_back(
         {pou.name, type, LocalKind::Result, isPassedByReference(types, LocalKind::Result, type), pou.loc});
   }
   to_lower_.push_back(id);
-  if (Record* record = recordOf(pou.record)) record->body = known;
+  if (Record* record = records.find(pou.record)) record->body = known;
   return known;
 }
 
@@ -192,182 +188,20 @@ void ModuleLowering::markFaulting() {
   }
 }
 
-// ---- records and their initial values --------------------------------------------------------------------------
-
-void ModuleLowering::declareRecordsOf(TypeId type) {
-  to_declare_.push_back(type);
-  if (is_declaring_) return;  // asked for by a record that is being declared
-  is_declaring_ = true;
-  while (!to_declare_.empty()) {
-    const TypeId next = to_declare_.back();
-    to_declare_.pop_back();
-    declareRecord(next);
-  }
-  is_declaring_ = false;
-}
-
-// The records that a record holds come before it, those that it only points to after it: they may hold it.
-void ModuleLowering::declareRecord(TypeId type) {
-  type = types.resolve(type);
-  const TypeInfo& info = types.info(type);
-  if (info.kind == TypeKind::Array) return declareRecord(info.base);
-  if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference) return to_declare_.push_back(info.base);
-  if (info.kind != TypeKind::Record) return;
-  if (!record_seen_.insert(type.index).second) return;
-  for (const types::Field& f : info.fields) {
-    if (f.by_reference)
-      to_declare_.push_back(f.type);
-    else
-      declareRecord(f.type);
-  }
-  addRecord(type);
-}
-
-// The name and source of the POU to which a record or a body belongs.
-template <class T>
-static void takeHeader(T& to, const sema::Pou& owner) {
-  to.name = owner.unique_name ? owner.unique_name : owner.name;
-  to.library = owner.library;
-  to.loc = owner.loc;
-  to.file = owner.file;
-}
-
-void ModuleLowering::addRecord(TypeId type) {
-  const TypeInfo& info = types.info(type);
-  Record record;
-  record.type = type;
-  record.name = info.name;
-  if (sema::PouId pou = pou_of_record_[type.index]) {
-    takeHeader(record, project.pou(pou));
-  }
-  record_of_type_[type.index] = static_cast<uint32_t>(module.records.size());
-  module.records.push_back(record);
-  if (info.record_kind == types::RecordKind::Interface) return;
-  if (sema::PouId pou = pou_of_record_[type.index]) {
-    BodyId body = bodyOf(pou);  // may add records
-    recordOf(type)->body = body;
-  }
-}
-
-Record* ModuleLowering::recordOf(TypeId type) {
-  const auto found = record_of_type_.find(type.index);
-  return found == record_of_type_.end() ? nullptr : &module.records[found->second];
-}
-
-bool ModuleLowering::isZero(TypeId declared) {
-  auto known = zero_.find(declared.index);
-  if (known != zero_.end()) return known->second;
-  zero_[declared.index] = false;  // ends the recursion for a record with a pointer to itself
-  const bool result = beginsWithZeros(declared, types.info(declared));
-  zero_[declared.index] = result;
-  return result;
-}
-
-bool ModuleLowering::beginsWithZeros(TypeId declared, const TypeInfo& info) {
-  if (declared.index < project.type_inits.size() && project.type_inits[declared.index]) return false;
-  switch (info.kind) {
-    case TypeKind::Alias:
-    case TypeKind::Array: return isZero(info.base);
-    case TypeKind::Enum:
-    case TypeKind::Subrange: return types::defaultValue(types, module.names, declared).bits == 0;
-    case TypeKind::Record: {
-      if (sema::PouId pou = pou_of_record_[declared.index]) {
-        if (project.pou(pou).kind == PouKind::Interface) return true;
-        if (project.pou(pou).object.dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
-        if (!calledAfterInit(pou).empty()) return false;
-        for (sema::VarId id : project.pou(pou).vars) {
-          const sema::Var& var = project.var(id);
-          if (var.storage == sema::Storage::Image && var.init) return false;
-          if (var.storage == sema::Storage::Field &&
-              (var.init || (var.section != SectionKind::InOut && !isZero(var.type))))
-            return false;
-        }
-        return true;
-      }
-      if (sema::ListId list = list_of_record_[declared.index]) {
-        for (sema::VarId id : project.global_lists[list.index].vars) {
-          const sema::Var& var = project.var(id);
-          if (var.init || (var.storage == sema::Storage::Global && !isZero(var.type))) return false;
-        }
-        return true;
-      }
-      bool has_inits = declared.index < project.field_inits.size();
-      for (size_t i = 0; i < info.fields.size(); ++i) {
-        if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
-          return false;
-        if (!isZero(info.fields[i].type)) return false;
-        if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
-      }
-      return true;
-    }
-    case TypeKind::None:
-    case TypeKind::Error:
-    case TypeKind::Bool:
-    case TypeKind::Byte:
-    case TypeKind::Word:
-    case TypeKind::DWord:
-    case TypeKind::LWord:
-    case TypeKind::SInt:
-    case TypeKind::Int:
-    case TypeKind::DInt:
-    case TypeKind::LInt:
-    case TypeKind::USInt:
-    case TypeKind::UInt:
-    case TypeKind::UDInt:
-    case TypeKind::ULInt:
-    case TypeKind::Real:
-    case TypeKind::LReal:
-    case TypeKind::Time:
-    case TypeKind::LTime:
-    case TypeKind::Date:
-    case TypeKind::LDate:
-    case TypeKind::TimeOfDay:
-    case TypeKind::LTimeOfDay:
-    case TypeKind::DateTime:
-    case TypeKind::LDateTime:
-    case TypeKind::Char:
-    case TypeKind::WChar:
-    case TypeKind::UChar:
-    case TypeKind::String:
-    case TypeKind::WString:
-    case TypeKind::UString:
-    case TypeKind::IntegerLiteral:
-    case TypeKind::RealLiteral:
-    case TypeKind::NullLiteral:
-    case TypeKind::Any:
-    case TypeKind::AnyElementary:
-    case TypeKind::AnyMagnitude:
-    case TypeKind::AnyNum:
-    case TypeKind::AnyReal:
-    case TypeKind::AnyInt:
-    case TypeKind::AnyUnsigned:
-    case TypeKind::AnySigned:
-    case TypeKind::AnyDuration:
-    case TypeKind::AnyBit:
-    case TypeKind::AnyChars:
-    case TypeKind::AnyString:
-    case TypeKind::AnyChar:
-    case TypeKind::AnyDate:
-    case TypeKind::AnyDerived:
-    case TypeKind::Pointer:
-    case TypeKind::Reference:
-    case TypeKind::Count_: return true;
-  }
-  return true;
-}
+// ---- initial values --------------------------------------------------------------------------------------------
 
 BodyId ModuleLowering::initOf(TypeId type) {
   auto known = init_of_.find(type.index);
   if (known != init_of_.end()) return known->second;
-  const sema::ListId of_list = list_of_record_[type.index];
-  const bool sets_late = of_list && !project.late.empty() && list_index[of_list.index] == last_list_;
-  if (isZero(type) && !sets_late) return init_of_[type.index] = {};
+  const sema::ListId of_list = records.listOf(type);
+  const bool sets_late = of_list && !project.late.empty() && instances.isLast(of_list);
+  if (records.isZero(type) && !sets_late) return init_of_[type.index] = {};
   module.bodies.emplace_back();
   BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
   init_of_[type.index] = id;
   Body& body = module.bodies.back();
   const TypeInfo& info = types.info(type);
-  sema::PouId pou = pou_of_record_[type.index];
+  sema::PouId pou = records.pouOf(type);
   const sema::ListId list = of_list;
   body.name = info.name;
   if (pou) {
@@ -391,7 +225,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
     // A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
     if (var.storage != (pou ? sema::Storage::Field : sema::Storage::Global)) return;
     if (var.section == SectionKind::InOut || var.bits.is_bit || var.holds) return;
-    if (!var.init && isZero(var.type)) return;
+    if (!var.init && records.isZero(var.type)) return;
     lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
                                   var.type, var.init, true);
   };
@@ -423,163 +257,14 @@ BodyId ModuleLowering::initOf(TypeId type) {
         rung::ExprId init;
         if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
           init = project.field_inits[type.index][i];
-        if (info.overlaps ? init ? written : !written && !isZero(info.fields[i].type)
-                          : !written && (init || !isZero(info.fields[i].type)))
+        if (info.overlaps ? init ? written : !written && !records.isZero(info.fields[i].type)
+                          : !written && (init || !records.isZero(info.fields[i].type)))
           lowering.objects.storeInitial(lowering.code.field(lowering.code.self(loc), i, info.fields[i].type, loc),
                                         info.fields[i].type, init, !info.overlaps);
         if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
       }
   lowering.finish();
   return id;
-}
-
-// ---- lists, programs, tasks ------------------------------------------------------------------------------------
-
-void ModuleLowering::addLists() {
-  std::vector<std::pair<std::string, uint32_t>> order;
-  for (uint32_t i = 1; i < project.global_lists.size(); ++i)
-    if (project.global_lists[i].record)
-      order.push_back({foldedIdentifier(project.names.string(project.global_lists[i].name)), i});
-  std::sort(order.begin(), order.end());
-  for (const auto& [name, index] : order) {
-    const sema::GlobalList& list = project.global_lists[index];
-    list_index[index] = static_cast<uint32_t>(module.lists.size());
-    declareRecordsOf(list.record);
-    module.lists.push_back({list.name, list.record, {}, list.init_slot, list.resource ? list.configuration : NameId{}});
-    if (list.init_slot >= module.lists[last_list_].slot) last_list_ = list_index[index];
-  }
-}
-
-std::vector<Root> ModuleLowering::roots() const {
-  std::vector<Root> all;
-  for (uint32_t i = 0; i < module.lists.size(); ++i) all.push_back({true, i, module.lists[i].record});
-  for (uint32_t i = 0; i < module.programs.size(); ++i)
-    if (!module.programs[i].is_test) all.push_back({false, i, module.programs[i].record});
-  return all;
-}
-
-void ModuleLowering::addNames() {
-  for (uint32_t i = 1; i < project.global_lists.size(); ++i) {
-    list_index[i] = static_cast<uint32_t>(module.lists.size());
-    module.lists.push_back({project.global_lists[i].name, project.global_lists[i].record, {}});
-  }
-  for (const sema::ProgramInstance& instance : project.instances) {
-    const auto index = static_cast<uint32_t>(module.programs.size());
-    program_of_instance_.push_back(index + 1);
-    instance_of_.insert({instance.program.index, index});
-    module.programs.emplace_back().name = instance.name;
-    module.programs.back().record = project.pou(instance.program).record;
-  }
-}
-
-void ModuleLowering::addPrograms() {
-  program_of_instance_.resize(project.instances.size());
-  for (const sema::ProgramInstance& instance : project.instances) {
-    if (!instance.program) continue;
-    program_of_instance_[static_cast<size_t>(&instance - project.instances.data())] =
-        static_cast<uint32_t>(module.programs.size()) + 1;
-    const sema::Pou& pou = project.pou(instance.program);
-    ProgramInstance created;
-    created.name = instance.name;
-    created.record = pou.record;
-    created.slot = pou.pragmas.init_slot;
-    created.task = instance.task;
-    created.retain = instance.retain;
-    created.resource = instance.resource;
-    created.configuration = instance.configuration;
-    instance_of_.insert({instance.program.index, static_cast<uint32_t>(module.programs.size())});
-    module.programs.push_back(created);
-    module.programs.back().body = bodyOf(instance.program);
-  }
-  for (uint32_t i = 1; i < project.pous.size(); ++i) {
-    const sema::Pou& pou = project.pous[i];
-    const bool is_called = pou.kind == PouKind::Program && pou.pragmas.after_globals;
-    if ((pou.pragmas.test || is_called) && !pou.excluded && pou.record) instanceOf({i});
-    if (pou.pragmas.safe_values && !pou.excluded) module.safe = bodyOf({i});
-    if (pou.pragmas.setup && !pou.excluded) module.setups.push_back(bodyOf({i}));
-    if (pou.pragmas.teardown && !pou.excluded) module.teardowns.push_back(bodyOf({i}));
-  }
-}
-
-uint32_t ModuleLowering::instanceOf(sema::PouId program) {
-  auto known = instance_of_.find(program.index);
-  if (known != instance_of_.end()) return known->second;
-  const sema::Pou& pou = project.pou(program);
-  uint32_t index = static_cast<uint32_t>(module.programs.size());
-  instance_of_[program.index] = index;
-  ProgramInstance created;
-  created.name = pou.pragmas.test ? pou.unique_name : pou.name;
-  created.record = pou.record;
-  created.slot = pou.pragmas.init_slot;
-  module.programs.push_back(created);
-  BodyId body = bodyOf(program);
-  module.programs[index].body = body;
-  module.programs[index].is_test = pou.pragmas.test;
-  return index;
-}
-
-void ModuleLowering::addTasks() {
-  for (const sema::Task& task : project.tasks) {
-    Task created;
-    created.name = task.name;
-    created.resource = task.resource;
-    created.kind = static_cast<TaskKind>(task.kind);
-    created.interval_ns = task.interval_ns;
-    created.priority = task.priority;
-    created.trigger = task.trigger;
-    created.external_event = task.external_event;
-    created.watchdog_ns = task.watchdog_ns;
-    created.sensitivity = task.sensitivity;
-    created.duration_ns = task.duration_ns;
-    module.tasks.push_back(created);
-  }
-}
-
-void ModuleLowering::addAccessPaths() {
-  for (const sema::AccessPath& path : project.access_paths) {
-    if (path.root == sema::AccessPath::Root::Instance && program_of_instance_[path.index] == 0) continue;
-    AccessPath created;
-    created.name = path.name;
-    created.prefix = path.prefix;
-    created.configuration = path.configuration;
-    created.type = types.resolve(path.type);
-    created.read_only = path.read_only;
-    if (path.located) {
-      created.index = path.image.area.index;
-      created.offset = path.image.byte;
-      if (path.image.is_bit) created.bit = path.image.bit;
-    } else {
-      const bool of_list = path.root == sema::AccessPath::Root::List;
-      created.root = of_list ? AccessPath::Root::List : AccessPath::Root::Program;
-      created.index = of_list ? listIndex({path.index}) : programOfInstance(path.index);
-      created.offset = path.offset;
-      if (path.bit >= 0) created.bit = static_cast<uint32_t>(path.bit);
-    }
-    module.access_paths.push_back(created);
-  }
-}
-
-void ModuleLowering::addLocated() {
-  for (const sema::Var& var : project.vars) {
-    if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
-    if (var.pou && project.pou(var.pou).excluded && !body_of_[var.pou.index]) continue;
-    Located created;
-    created.name = var.name;
-    created.type = types.resolve(var.type);
-    created.area = var.image.area.index;
-    created.byte = var.image.byte;
-    created.bit = var.image.is_bit ? var.image.bit : kNoBit;
-    created.symbol_access = var.symbol_access;
-    created.retain = var.retain;
-    created.persistent = var.persistent;
-    if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
-    if (!var.pou && var.list) {
-      const sema::GlobalList& list = project.global_lists[var.list.index];
-      created.list = list.name;
-      if (list.resource) created.configuration = list.configuration;
-    }
-    module.located.push_back(created);
-  }
 }
 
 }  // namespace rung::ir

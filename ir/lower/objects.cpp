@@ -40,25 +40,11 @@ std::vector<sema::PouId> ModuleLowering::calledAfterInit(sema::PouId object) con
   return out;
 }
 
-const sema::Var* ModuleLowering::constructedVar(TypeId record, uint32_t field) const {
-  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
-  if (found == marked_.end()) return nullptr;
-  const sema::Var* var = found->second;
-  if (var->holds) var = &project.var(var->holds);
-  if (var->copy_of) var = &project.var(var->copy_of);
-  return var->start.constructor.index != 0 ? var : nullptr;
-}
-
-bool ModuleLowering::isKeptFromExit(TypeId record, uint32_t field) const {
-  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
-  return found != marked_.end() && found->second->pragmas.no_exit;
-}
-
 // Numbers the objects that have a type id: each line of descent in one run, in the order of their names.
 void ModuleLowering::addClasses() {
   std::vector<std::pair<std::string, sema::PouId>> order;
   for (const Record& record : module.records)
-    if (sema::PouId pou = pou_of_record_[record.type.index])
+    if (sema::PouId pou = records.pouOf(record.type))
       if (project.pou(pou).object.dispatched && project.pou(pou).kind != PouKind::Interface)
         order.push_back({foldedIdentifier(project.names.string(project.pou(pou).unique_name)), pou});
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -116,10 +102,10 @@ void ModuleLowering::addDispatches() {
     for (const auto& [pou, body] : block_calls)
       if (body.index == i) block = pou;
     sema::PouId ended;
-    if (!block && !method_of[i]) ended = pouOfRecord(module.bodies[i].self);
+    if (!block && !method_of[i]) ended = records.pouOf(module.bodies[i].self);
     const sema::PouId owner = block ? block : ended ? ended : project.pou(method_of[i]).owner;
     for (uint32_t c = 0; c < module.classes.size(); ++c) {
-      const sema::PouId object = pou_of_record_[module.classes[c].record.index];
+      const sema::PouId object = records.pouOf(module.classes[c].record);
       if (!isKindOf(object, owner)) continue;
       if (created.bodies.empty()) created.first = c + 1;
       created.bodies.resize(c + 1 - created.first);
@@ -193,7 +179,7 @@ void ModuleLowering::fillKindTests() {
     const Loc loc = body.loc;
     BodyLowering lowering(*this, body, {});
     auto holds = [&](size_t c) {
-      return c < module.classes.size() && isKindOf(pou_of_record_[module.classes[c].record.index], wanted);
+      return c < module.classes.size() && isKindOf(records.pouOf(module.classes[c].record), wanted);
     };
     auto compare = [&](Op op, size_t c) {
       const ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = module.classes[c].record});
@@ -216,7 +202,7 @@ void ModuleLowering::fillKindTests() {
 
 // ---- in bodies
 
-// Whether the object at a pointer that is not null is of a kind.
+// Tells whether the object at a pointer that is not null is of a kind.
 ExprId ValueLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
   if (!project_.pou(given).object.dispatched) return constantBool(in_.isKindOf(given, wanted), loc);
   const TypeId record = strip(types_.info(typeOf(pointer)).base);
@@ -244,7 +230,7 @@ ExprId ValueLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::P
 
 ExprId ValueLowering::lowerAttempt(const sema::Call& call, Loc loc) {
   const ExprId source = toTemp(lowerValue(call.bindings[0].value), loc);
-  const sema::PouId given = in_.pouOfRecord(strip(types_.info(typeOf(source)).base));
+  const sema::PouId given = in_.records.pouOf(strip(types_.info(typeOf(source)).base));
   const ExprId is = temp(types::kBool, loc);
   assign(copy(is), binary(Op::Ne, types::kBool, copy(source), constant(typeOf(source), 0, loc), loc), loc);
   if (call.pou) {

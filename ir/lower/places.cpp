@@ -25,7 +25,7 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
       for (sema::PouId at = pou_ ? in_.objectOf(pou_) : sema::PouId{}; at; at = project_.pou(at).base)
         if (at == var->pou) return field(asBase(self(loc), at, loc), var->field, type, loc);
       // A variable of another program, named through the program.
-      uint32_t instance = in_.instanceOf(var->pou);
+      uint32_t instance = in_.instances.instanceOf(var->pou);
       TypeId record = in_.module.programs[instance].record;
       return field(add(loc, record, ProgramExpr{.program = instance}), var->field, type, loc);
     }
@@ -41,7 +41,7 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
       return local(state_.local_of[var->field] - 1, loc);
     }
     case sema::Storage::Global: {
-      uint32_t list = in_.listIndex(var->list);
+      uint32_t list = in_.instances.listIndex(var->list);
       ExprId base = add(loc, in_.module.lists[list].record, GlobalExpr{.list = list});
       return field(base, var->field, type, loc);
     }
@@ -55,7 +55,7 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
   return {};
 }
 
-// Whether a member is a field of what is before it; else that only says where its name is declared.
+// Tells whether a member is a field of what is before it; else that only says where its name is declared.
 bool PlaceLowering::isField(const MemberExpr& node, const sema::Var& var) const {
   if (var.storage != sema::Storage::Field) return false;
   const TypeId base = strip(tree_.expr(node.base).type);
@@ -139,8 +139,8 @@ ExprId PlaceLowering::named(rung::ExprId id) {
       in_.noteGlobal(body_, place, var);
       return place;
     }
-    case EntityKind::Pou: return programPlace(in_.instanceOf({entity.index}), loc);
-    case EntityKind::Program: return programPlace(in_.programOfInstance(entity.index), loc);
+    case EntityKind::Pou: return programPlace(in_.instances.instanceOf({entity.index}), loc);
+    case EntityKind::Program: return programPlace(in_.instances.programOf(entity.index), loc);
     case EntityKind::None:
     case EntityKind::Error:
     case EntityKind::Type:

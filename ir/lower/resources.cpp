@@ -91,7 +91,7 @@ class ResourceCopies {
       body.expr(place.place).set(ImageExpr{.area = var.image.area.index, .byte = var.image.byte, .bit = bit});
       return;
     }
-    const uint32_t list = in_.listIndex(var.list);
+    const uint32_t list = in_.instances.listIndex(var.list);
     const ExprId base = build.add(loc, module_.lists[list].record, GlobalExpr{.list = list});
     body.expr(place.place).set(FieldExpr{.base = base, .field = var.field});
   }
@@ -116,7 +116,7 @@ void ModuleLowering::copyForResources() {
       program.run = copies.of(program.run, program.resource);
     } else if (program.body && copies.depends(program.body)) {
       const BodyId code = copies.of(program.body, program.resource);
-      const BodyId run = newActivation(i, "__run", module.body(code).loc);
+      const BodyId run = tasks.newActivation(i, "__run", module.body(code).loc);
       BodyLowering lowering(*this, module.body(run), {});
       lowering.statements.lowerActivation(i, code, {}, {});
       module.programs[i].run = run;

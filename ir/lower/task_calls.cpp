@@ -14,7 +14,7 @@
 namespace rung::ir {
 
 // A variable of a list or program that is or holds such instances.
-struct ModuleLowering::Held {
+struct TaskLowering::Held {
   Root root;
   uint32_t field;
 };
@@ -40,24 +40,24 @@ std::set<std::pair<uint32_t, uint32_t>> namedGlobals(const Module& module, const
 }  // namespace
 
 // The methods of the blocks that have instances.
-void ModuleLowering::requestTaskCalls() {
+void TaskLowering::requestCalls() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (!isTaskCall(pou) || pou.excluded || project.pou(pou.owner).generic) continue;
-    if (record_seen_.count(project.pou(pou.owner).record.index) != 0) bodyOf({i});
+    if (all.records.isDeclared(project.pou(pou.owner).record)) all.bodyOf({i});
   }
 }
 
-BodyId ModuleLowering::taskCallsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
-                                   std::span<const Held> variables) {
+BodyId TaskLowering::callsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
+                             std::span<const Held> variables) {
   if (methods.empty() || variables.empty()) return {};
-  const BodyId created = addHelper(name, {}, suffix);
+  const BodyId created = all.addHelper(name, {}, suffix);
   Body& body = module.body(created);
-  BodyLowering lowering(*this, body, {});
+  BodyLowering lowering(all, body, {});
   for (const sema::PouId method : methods) {
     for (const Held& held : variables) {
       const TypeId type = types.info(held.root.record).fields[held.field].type;
-      if (!holds(type, project.pou(method).owner)) continue;
+      if (!all.holds(type, project.pou(method).owner)) continue;
       const ExprId root = lowering.code.place(held.root, body.loc);
       lowering.objects.callInstances(lowering.code.field(root, held.field, types.resolve(type), body.loc), method);
     }
@@ -66,10 +66,10 @@ BodyId ModuleLowering::taskCallsOf(NameId name, const char* suffix, std::span<co
   return created;
 }
 
-void ModuleLowering::addTaskCalls() {
+void TaskLowering::addCalls() {
   std::vector<sema::PouId> before, after;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
-    if (!isTaskCall(project.pous[i]) || !body_of_[i]) continue;
+    if (!isTaskCall(project.pous[i]) || !all.knownBodyOf({i})) continue;
     (project.pous[i].pragmas.before_task ? before : after).push_back({i});
   }
   if (before.empty() && after.empty()) return;
@@ -81,7 +81,7 @@ void ModuleLowering::addTaskCalls() {
     std::vector<Held> held;
     const std::vector<types::Field>& fields = types.info(types.resolve(root.record)).fields;
     for (uint32_t i = 0; i < fields.size(); ++i) {
-      const auto isHeld = [&](sema::PouId method) { return holds(fields[i].type, project.pou(method).owner); };
+      const auto isHeld = [&](sema::PouId method) { return all.holds(fields[i].type, project.pou(method).owner); };
       if (fields[i].by_reference) continue;
       if (std::any_of(before.begin(), before.end(), isHeld) || std::any_of(after.begin(), after.end(), isHeld))
         held.push_back({root, i});
@@ -90,7 +90,7 @@ void ModuleLowering::addTaskCalls() {
   };
   std::vector<Held> globals;
   std::vector<std::vector<Held>> of_task(module.tasks.size());
-  for (const Root& root : roots()) {
+  for (const Root& root : all.instances.roots()) {
     const std::vector<Held> held = heldIn(root);
     const uint32_t task = root.is_list ? 0 : module.programs[root.index].task;
     if (root.is_list) globals.insert(globals.end(), held.begin(), held.end());
@@ -112,10 +112,10 @@ void ModuleLowering::addTaskCalls() {
     std::vector<BodyId> bodies;
     for (const std::vector<sema::PouId>* const methods : {&before, &after})
       for (const sema::PouId method : *methods)
-        if (holds(type, project.pou(method).owner)) bodies.push_back(body_of_[method.index]);
+        if (all.holds(type, project.pou(method).owner)) bodies.push_back(all.knownBodyOf(method));
     return bodies;
   };
-  // Whether the methods of an instance name one of the others.
+  // Tells whether the methods of an instance name one of the others.
   const auto goesWith = [&](const Held& held, const std::vector<Held>& others) {
     const auto named = namedGlobals(module, methodsOf(held));
     return std::any_of(others.begin(), others.end(), [&](const Held& other) {
@@ -129,13 +129,13 @@ void ModuleLowering::addTaskCalls() {
           of_task[task].push_back(held);
           break;
         }
-  const auto inReverse = [](std::vector<Held> all) {
-    std::reverse(all.begin(), all.end());
-    return all;
+  const auto inReverse = [](std::vector<Held> held) {
+    std::reverse(held.begin(), held.end());
+    return held;
   };
   for (uint32_t i = 0; i < module.tasks.size(); ++i) {
-    const BodyId first = taskCallsOf(module.tasks[i].name, "~before", before, of_task[i]);
-    const BodyId last = taskCallsOf(module.tasks[i].name, "~after", after, inReverse(of_task[i]));
+    const BodyId first = callsOf(module.tasks[i].name, "~before", before, of_task[i]);
+    const BodyId last = callsOf(module.tasks[i].name, "~after", after, inReverse(of_task[i]));
     module.tasks[i].before = first;
     module.tasks[i].after = last;
   }
@@ -150,8 +150,8 @@ void ModuleLowering::addTaskCalls() {
     const std::vector<Held> of_test = own;
     for (const Held& held : globals)
       if (named.count({held.root.index, held.field}) == 0 && goesWith(held, of_test)) own.push_back(held);
-    test.before = taskCallsOf(test.name, "~before", before, own);
-    test.after = taskCallsOf(test.name, "~after", after, inReverse(own));
+    test.before = callsOf(test.name, "~before", before, own);
+    test.after = callsOf(test.name, "~after", after, inReverse(own));
   }
 }
 

@@ -18,7 +18,7 @@ void StatementLowering::saveField(sema::VarId field, Loc loc) {
 bool StatementLowering::holdsInstance(TypeId type) const {
   type = strip(type);
   while (types_.kind(type) == TypeKind::Array) type = strip(types_.info(type).base);
-  return static_cast<bool>(in_.pouOfRecord(type));
+  return static_cast<bool>(in_.records.pouOf(type));
 }
 
 void StatementLowering::enterBody() {

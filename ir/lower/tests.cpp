@@ -43,7 +43,7 @@ BodyId ModuleLowering::addTestCall(sema::PouId test, std::span<const sema::TestC
 
 BodyId ModuleLowering::addTestSetup(sema::PouId test, std::span<const sema::TestCase::Input> inputs,
                                     const std::string& suffix) {
-  const uint32_t program = instanceOf(test);
+  const uint32_t program = instances.instanceOf(test);
   const BodyId created = addHelper(project.pou(test).unique_name, test, suffix.c_str());
   Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});

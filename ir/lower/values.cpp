@@ -199,7 +199,7 @@ ExprId ValueLowering::lowerAssignment(const AssignExpr& node) {
   return copy(kept);
 }
 
-// Whether the expression contains a call of a function that may have an effect.
+// Tells whether the expression contains a call of a function that may have an effect.
 bool ValueLowering::callsFunction(rung::ExprId id) const {
   switch (tree_.kind(id)) {
     case rung::ExprKind::Unary: return callsFunction(tree_.as<rung::UnaryExpr>(id).operand);
@@ -304,7 +304,7 @@ ExprId ValueLowering::lowerConvert(rung::ExprId id) {
 ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
   const Loc loc = node.h.loc;
   const TypeId type = strip(node.h.type);
-  const sema::PouId base = in_.pouOfRecord(type);
+  const sema::PouId base = in_.records.pouOf(type);
   ExprId place = places().lowerPlace(node.operand);
   place = base ? asBase(place, base, loc) : places().seenAs(place, type, loc);
   const ExprId part = temp(type, loc);
@@ -364,7 +364,7 @@ ExprId ValueLowering::lowerAnyValue(rung::ExprId id) {
 ExprId ValueLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
   const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
   if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
-  const sema::PouId wanted = in_.pouOfRecord(strip(types_.info(to).base));
+  const sema::PouId wanted = in_.records.pouOf(strip(types_.info(to).base));
   if (!wanted) return {};
   const Loc loc = node.h.loc;
   auto addressOf = [&](ExprId place) {
@@ -375,7 +375,7 @@ ExprId ValueLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
   if (types_.kind(from) == TypeKind::Record) return addressOf(places().lowerPlace(node.operand));
   if (types_.kind(from) != TypeKind::Pointer && types_.kind(from) != TypeKind::Reference) return {};
   const TypeId target = strip(types_.info(from).base);
-  const sema::PouId object = in_.pouOfRecord(target);
+  const sema::PouId object = in_.records.pouOf(target);
   if (!object || object == wanted) return {};
   ExprId pointer = lowerValue(node.operand);
   if (in_.isKindOf(wanted, object)) pointer = checkedDowncast(pointer, object, wanted, loc);

@@ -27,7 +27,7 @@ class Counters {
   // The iterations of a FOR; none: unknown. Without facts: `FOR i := 1 TO 8` and `FOR i := x - 1 TO x + 1`, which runs
   // three times or, where x + 1 wraps, not at all.
   std::optional<Int128> mostIterations(const ForStmt& loop) const;
-  // What one pass through the block does to each of the variables.
+  // The effect of one pass through the block on each of the variables.
   std::vector<Growth> growthIn(StmtId block, const std::vector<uint32_t>& variables) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a write to a place can change of the variables that a pass knows: the locals and the fields of self. In: a body
-// and its private locals (support.h). Out: the effect of one place. Used by the passes about checks.
+// The variables that a write to a place can change, of those that a pass knows: the locals and the fields of self. In:
+// a body and its private locals (support.h). Out: the effect of one place. Used by the passes about checks.
 #pragma once
 
 #include <vector>
@@ -23,11 +23,11 @@ struct Effect {
 
 Effect effectOfWrite(const Module& module, const Body& body, const std::vector<bool>& private_locals, ExprId place);
 
-// Whether a statement binds a reference in self: a pointer there has another value.
+// Tells whether a statement binds a reference in self: a pointer there has another value.
 bool bindsOwn(const Body& body, const Stmt& stmt);
 
-// Whether a call may write any field of self: it runs for self, or its code reaches the instance through globals. Else
-// it reaches the fields whose address is taken.
+// Tells whether a call may write any field of self: it runs for self, or its code reaches the instance through globals.
+// Else it reaches the fields whose address is taken.
 bool callReachesSelf(const Module& module, const Exposure& exposure, const Body& body, const CallStmt& call);
 
 // FUNCTION_BLOCK, PROGRAM or an interface: such a variable may be self.

@@ -134,7 +134,7 @@ class Hoister {
 
   // ---- the checks that the first iteration reaches first
 
-  // Whether the walk may go on after the expression. Its checks that can leave the loop are in found_.
+  // Tells whether the walk may go on after the expression. Its checks that can leave the loop are in found_.
   bool collect(ExprId id) {
     const size_t before = found_.size();
     bool goes_on = true;

@@ -175,8 +175,8 @@ class Privatizer {
     return false;
   }
 
-  // Whether a place is the same after the loop as at its end, apart from the control variable: its indices are sums and
-  // products of variables that the loop does not write.
+  // Tells whether a place is the same after the loop as at its end, apart from the control variable: its indices are
+  // sums and products of variables that the loop does not write.
   bool isFixed(ExprId place, StmtId first, const Scalar& control) const {
     bool fixed = true;
     forEachExpr(body_, place, [&](ExprId id) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What range analysis knows at a place of a body: an interval for each variable of known_variables.h; of a pointer it
+// Range analysis knows this at a place of a body: an interval for each variable of known_variables.h; of a pointer it
 // tells whether it may be null. Changes go to a trail, so that the end of a branch takes them back; where branches
 // meet, what they left is joined. Used by remove_checks.cpp, which walks the statements.
 #pragma once

@@ -97,7 +97,7 @@ class Analysis {
 
   // ---- statements
 
-  // Whether control leaves the end of the list. Statements after one that control does not leave are dead.
+  // Tells whether control leaves the end of the list. Statements after one that control does not leave are dead.
   bool block(StmtId first) {
     for (StmtId id = first; id; id = body_.stmt(id).next)
       if (!stmt(body_.stmt(id))) return false;
@@ -325,7 +325,7 @@ class Analysis {
     const Interval from = value(s.from);
     const Interval to = value(s.to);
     const uint32_t control = variable(s.control);
-    // Whether the body itself writes the control variable: its fact is set before the scan.
+    // Tells whether the body itself writes the control variable: its fact is set before the scan.
     if (control != kNone) facts_.set(control, from);
     const size_t mark = facts_.mark();
     facts_.effectsIn(s.body_block);

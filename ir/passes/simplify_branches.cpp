@@ -69,7 +69,8 @@ class Simplifier {
     return reached;
   }
 
-  // Whether a statement whose blocks became empty does nothing. An `if` that only has an else block is turned round.
+  // Tells whether a statement whose blocks became empty does nothing. An `if` that only has an else block is turned
+  // round.
   bool isEmptied(Stmt& s) {
     if (s.kind == StmtKind::If) {
       const IfStmt& node = s.as<IfStmt>();
@@ -88,7 +89,7 @@ class Simplifier {
     return first && body_.stmt(first).kind == StmtKind::Break && !body_.stmt(first).next;
   }
 
-  // Whether control can reach what follows the statement.
+  // Tells whether control can reach what follows the statement.
   bool stmt(Stmt& s) {
     switch (s.kind) {
       case StmtKind::None:

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "frontend/source/invariant.h"
+#include "frontend/source/text.h"
 
 namespace rung::types {
 
@@ -70,43 +71,10 @@ Outcome compare(Op op, int order, bool unordered) {
   return ofBool(order >= 0);
 }
 
-// The next UTF-16 unit of a UTF-8 string; surrogate pairs come as two. 0 at the end.
-struct Utf16Units {
-  std::string_view text;
-  size_t at = 0;
-  uint32_t low_surrogate = 0;
-  uint32_t next() {
-    if (low_surrogate != 0) {
-      const uint32_t unit = low_surrogate;
-      low_surrogate = 0;
-      return unit;
-    }
-    if (at >= text.size()) return 0;
-    const auto byte = [&](size_t i) -> uint32_t { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-    const uint32_t lead = byte(at);
-    uint32_t point = lead;
-    size_t length = 1;
-    if (lead >= 0xf0) {
-      point = (lead & 7) << 18 | (byte(at + 1) & 63) << 12 | (byte(at + 2) & 63) << 6 | (byte(at + 3) & 63);
-      length = 4;
-    } else if (lead >= 0xe0) {
-      point = (lead & 15) << 12 | (byte(at + 1) & 63) << 6 | (byte(at + 2) & 63);
-      length = 3;
-    } else if (lead >= 0xc0) {
-      point = (lead & 31) << 6 | (byte(at + 1) & 63);
-      length = 2;
-    }
-    at += length;
-    if (point < 0x10000) return point;
-    low_surrogate = 0xdc00 + ((point - 0x10000) & 0x3ff);
-    return 0xd800 + ((point - 0x10000) >> 10);
-  }
-};
-
 // The shorter string counts as padded with NUL.
 int compareStrings(std::string_view a, std::string_view b, bool wide) {
   if (!wide) return a.compare(b);
-  Utf16Units left{a}, right{b};
+  Utf16Units left(a), right(b);
   for (;;) {
     const uint32_t x = left.next(), y = right.next();
     if (x != y) return x < y ? -1 : 1;

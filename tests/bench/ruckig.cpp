@@ -161,7 +161,7 @@ void print(const char* what, const Request& r, double ours, double theirs) {
 
 double excess(double ours, double theirs, double limit) { return ours / std::max(theirs, limit) - 1; }
 
-// Whether the start is beyond a limit, or will be when its acceleration goes to 0 at once.
+// Tells whether the start is beyond a limit, or will be when its acceleration goes to 0 at once.
 bool isBeyond(const Request& r) {
   const double a = r.start.acceleration;
   const double rest = r.start.velocity + (r.isJerkLimited() ? a * std::fabs(a) / (2 * r.limits.jerk) : 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sites.py must find and what it must leave alone; mutation.py --sample compares its sites with the list at the
-// end, and runs this program with each of them active: every one changes what main prints.
+// sites.py must find some of this and leave the rest alone; mutation.py --sample compares its sites with the list at
+// the end, and runs this program with each of them active: every one changes what main prints.
 #include <cstdio>
 #include <string>
 #include <vector>

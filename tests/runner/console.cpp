@@ -111,7 +111,7 @@ std::string folderLikeRoot(const Setting& setting) {
   return folder;
 }
 
-// Whether a debugger may start a program here; some containers forbid it.
+// Tells whether a debugger may start a program here; some containers forbid it.
 static bool tracesProcesses() {
   const pid_t child = fork();
   if (child == 0) _exit(ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1);

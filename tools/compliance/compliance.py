@@ -71,7 +71,7 @@ class Tests:
 
 
 def link(file):
-    name = re.sub(r"^tests/(conformance/)?", "", file)
+    name = re.sub(r"^tests/(conformance/\w+/)?", "", file)
     return f"[{re.sub(r'/test[.]txt$|[.][a-z]+$', '', name)}](../{file})"
 
 

@@ -27,10 +27,10 @@ struct Checks {
 // `choices`: conditions about what the standard leaves open; they are left out. `body`: where its statements begin.
 Checks checksOf(const Source& source, DeclId test, size_t body, const std::set<std::string>& choices);
 
-// Whether something below the node asserts.
+// Tells whether something below the node asserts.
 bool hasAssertions(const Source& source, DeclId id);
 
-// Whether a name of the text begins like this.
+// Tells whether a name of the text begins like this.
 bool hasName(std::string_view text, std::string_view beginning);
 
 }  // namespace rung::conformance

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a text has that an edition of the standard does not: by the grammar of its annex (B of edition 2, A of edition
-// 3), its words, and the keywords that it reserves. In: plain source, as the exporter writes it. Out: the first such
-// thing in words. Called for each case before it is kept.
+// Finds what a text has that an edition of the standard does not: by the grammar of its annex (B of edition 2, A of
+// edition 3), its words, and the keywords that it reserves. In: plain source, as the exporter writes it. Out: the first
+// such thing in words. Called for each case before it is kept.
 #pragma once
 
 #include <map>

@@ -92,7 +92,7 @@ class Exporter {
     return {};
   }
 
-  // What the text has that the edition of the profile does not; empty: nothing.
+  // Returns what the text has that the edition of the profile does not; empty: nothing.
   std::string foreignIn(const std::string& text, const Profile& profile) const {
     const Source source(text, profile.dialect);
     return foreignTo(profile.edition, source, vocabulary_);
@@ -106,10 +106,10 @@ class Exporter {
     suite_.refusals.push_back({program.path, test, std::move(reason), program.features});
   }
 
-  // tests/conformance/table43/rs.st → table43/rs
+  // tests/conformance/standard/table43/rs.st → table43/rs
   static std::string stemOf(const Program& program) {
     std::string path = program.path.substr(program.path.find('/') + 1);
-    if (path.starts_with("conformance/")) path = path.substr(12);
+    if (path.starts_with("conformance/")) path = path.substr(path.find('/', 12) + 1);  // without the group
     return path.substr(0, path.rfind('.'));
   }
 

@@ -26,7 +26,7 @@ Commands:
                    DIR/README.md says how to run it
   export DIR PROGRAM...
                    only the cases of these programs, such as
-                   tests/conformance/table43/sr.st
+                   tests/conformance/standard/table43/sr.st
 
 Options:
   --profile=NAME   only cases of this profile; may be repeated: ed2-text,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a test of a program needs: the POUs and global variables that it reaches by their names. In: the source. Out:
-// what stays and what is left out. Called by neutral.cpp.
+// Finds what a test of a program needs: the POUs and global variables that it reaches by their names. In: the source.
+// Out: what stays and what is left out. Called by neutral.cpp.
 #pragma once
 
 #include <cstdint>

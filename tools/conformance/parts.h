@@ -10,7 +10,7 @@
 
 namespace rung::conformance {
 
-// What the exporter gives each body, so that it is one when its statements are gone.
+// The exporter gives each body this, so that it is one when its statements are gone.
 constexpr const char* kIdleDeclaration = "VAR suite_idle : BOOL; END_VAR ";
 constexpr const char* kIdleStatement = "suite_idle := TRUE;";
 

@@ -82,7 +82,7 @@ bool takesAnyNumber(std::string_view function) {
   return kNames.count(upper(function)) != 0;
 }
 
-// Whether the operand may have another type than the operation: a duration is multiplied by any number.
+// Tells whether the operand may have another type than the operation: a duration is multiplied by any number.
 bool mayDiffer(const driver::Compilation& compilation, ExprId parent) {
   const Tree& tree = compilation.tree;
   const types::TypeTable& table = compilation.project->types;

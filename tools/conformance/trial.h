@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Rung itself makes of an exported file: the exporter writes nothing that it has not tried in the plain form. In:
+// Runs an exported file with Rung itself: the exporter writes nothing that it has not tried in the plain form. In:
 // a file on disk and a dialect. Out: errors, or a trace. Every trial is a compilation of its own.
 #pragma once
 

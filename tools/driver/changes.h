@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What formatting changed, as a unified diff. In: a source before and after; they differ in white space and the case of
-// letters only. Out: hunks with three lines around each change; empty: they are equal. Called by fmt.cpp.
+// Shows the changes of formatting as a unified diff. In: a source before and after; they differ in white space and the
+// case of letters only. Out: hunks with three lines around each change; empty: they are equal. Called by fmt.cpp.
 #pragma once
 
 #include <string>

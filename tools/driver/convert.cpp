@@ -428,7 +428,7 @@ std::string projectContent(std::string_view text) {
   return out;
 }
 
-// Whether a file becomes a folder: that of a tool which keeps a project in one file, or any other on request.
+// Tells whether a file becomes a folder: that of a tool which keeps a project in one file, or any other on request.
 bool Converter::becomesFolder(const InputFile& input) const {
   switch (input.kind) {
     case FileKind::Plcopen:
@@ -500,7 +500,7 @@ std::vector<TextFile> Converter::outputs() {
   return out;
 }
 
-// What a folder of ST needs besides its files, as sections of rung.project: the memory of an NCT control, which a
+// A folder of ST needs this besides its files, as sections of rung.project: the memory of an NCT control, which a
 // ladder brings with it.
 std::string settingsOf(const Compilation& compilation) {
   const ProjectFile& project = compilation.inputs.project;

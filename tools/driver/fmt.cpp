@@ -13,6 +13,7 @@
 #include "frontend/format/format.h"
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/formats.h"
+#include "frontend/source/text.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/driver/changes.h"
 #include "tools/driver/commands.h"
@@ -45,20 +46,7 @@ std::string encodeUtf16(std::string_view source, bool little) {
     out += little ? high : low;
   };
   unit(0xfeff);
-  for (size_t i = 0; i < source.size();) {
-    const auto lead = static_cast<unsigned char>(source[i]);
-    const size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
-    uint32_t c = size == 1 ? lead : lead & (0xffu >> (size + 1));
-    for (size_t k = 1; k < size && i + k < source.size(); ++k)
-      c = c << 6 | (static_cast<unsigned char>(source[i + k]) & 0x3fu);
-    if (c >= 0x10000) {
-      unit(0xd800 + ((c - 0x10000) >> 10));
-      unit(0xdc00 + ((c - 0x10000) & 0x3ff));
-    } else {
-      unit(c);
-    }
-    i += size;
-  }
+  for (Utf16Units units(source); !units.done();) unit(units.next());
   return out;
 }
 
@@ -72,7 +60,7 @@ std::string encoded(const std::string& text, Encoding encoding) {
   return text;
 }
 
-// Whether it reports a body in a form that Rung does not read: nothing of it is formatted.
+// Tells whether it reports a body in a form that Rung does not read: nothing of it is formatted.
 bool isUnreadBody(Diag diag) {
   return diag == diag::NetworkBody || diag == diag::XmlBodyLanguage || diag == diag::ArchiveObject ||
          diag == diag::ArchiveIl;

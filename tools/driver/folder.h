@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a folder holds that may belong to a program. In: a folder. Out: the files whose extensions Rung reads, the
-// folders inside, and what kind of project of another tool it is. Called by inputs.cpp.
+// Finds the files of a folder that may belong to a program. In: a folder. Out: the files whose extensions Rung reads,
+// the folders inside, and what kind of project of another tool it is. Called by inputs.cpp.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct Folder {
   std::vector<std::pair<std::string, std::string>> outside;  // links to files elsewhere, with their targets
 };
 
-// What comes before the names of a folder's files: nothing in the current folder, so that messages say `main.st`.
+// The text before the names of a folder's files: nothing in the current folder, so that messages say `main.st`.
 std::string prefixOf(const std::string& folder);
 
 // Hidden entries and links to folders are left out: loops and `.git` do not belong to a project. So are links to files

@@ -114,7 +114,7 @@ class Collector {
     candidates_.push_back({absolutePath(path), path, {}, true});
   }
 
-  // Whether a file of a library has a PROGRAM or a POU for implicit checks.
+  // Tells whether a file of a library has a PROGRAM or a POU for implicit checks.
   bool mayBeInProjectToo(const std::string& path) const {
     if (!importer::hasExtension(path, ".tcpou")) return false;
     const std::string text = files_.read(path).content;
@@ -124,7 +124,7 @@ class Collector {
     return word == "PROGRAM" || (word == "FUNCTION" && upper(fs::path(path).stem().string()).starts_with("CHECK"));
   }
 
-  // Whether a file that was read has a PROGRAM or FUNCTION of this name.
+  // Tells whether a file that was read has a PROGRAM or FUNCTION of this name.
   bool declares(std::string_view name) const {
     for (const InputFile& input : inputs_.files) {
       Scanner scanner(sources_.original(input.file));

@@ -23,7 +23,7 @@ struct LibraryPath {
 };
 LibraryPath libraryPath(const std::string& written);
 
-// Whether a LibrarySet reads this file; inputs.cpp reads those of other formats.
+// Tells whether a LibrarySet reads this file; inputs.cpp reads those of other formats.
 bool isLibraryInSt(const std::string& path);
 
 class LibrarySet {
@@ -38,7 +38,7 @@ class LibrarySet {
   void prefer(const std::vector<std::string>& names);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }
-  // What -I names: a library and where it is.
+  // -I names this: a library and where it is.
   const std::vector<std::pair<std::string, std::string>>& folders() const { return folders_; }
   const std::vector<std::string>& read() const { return read_; }  // files and folders of -I, for depfiles
 

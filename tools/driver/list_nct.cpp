@@ -69,7 +69,7 @@ std::string address(SymbolKind kind, int32_t word, uint8_t bit) {
   return text;
 }
 
-// What may follow the comma: `0...7`, `0,2...14` of doubles, which are two words.
+// The forms that may follow the comma: `0...7`, `0,2...14` of doubles, which are two words.
 std::string indexes(const NcSymbol& symbol) {
   if (symbol.units <= 1) return "-";
   const bool is_double = symbol.kind == SymbolKind::Double;

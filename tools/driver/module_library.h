@@ -9,7 +9,7 @@
 
 namespace rung::driver {
 
-// Whether this process can load a shared object: not where it is linked statically.
+// Tells whether this process can load a shared object: not where it is linked statically.
 bool loadsCode();
 
 class ModuleLibrary {

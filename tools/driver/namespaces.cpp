@@ -2,6 +2,8 @@
 // Namespaces of the libraries: see namespaces.h.
 #include "tools/driver/namespaces.h"
 
+#include "frontend/source/text.h"
+
 namespace rung::driver {
 namespace {
 
@@ -45,7 +47,7 @@ std::string namespaceOf(std::string_view folder) {
   for (const Namespace& row : kNamespaces)
     if (folder == row.folder) return row.name;
   std::string name(folder);
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
+  if (!name.empty()) name[0] = upper(name[0]);
   return name;
 }
 

@@ -24,7 +24,7 @@ class NativeSources {
   void addTo(std::vector<codegen::OutputFile>& files, const ir::Module& module, const Sources& sources) const;
 
   bool empty() const { return sources_.empty(); }
-  // Whether some file has the word.
+  // Tells whether some file has the word.
   bool mention(std::string_view function, const Sources& sources) const;
 
  private:
@@ -39,7 +39,7 @@ class NativeSources {
   std::vector<Source> sources_;
 };
 
-// Whether the C function of a native body is part of Rung's runtime.
+// Tells whether the C function of a native body is part of Rung's runtime.
 bool isNativeOfRung(std::string_view function);
 
 }  // namespace rung::driver

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `rung new` and `rung init` share, and what the help says about templates.
+// `rung new` and `rung init` share this, and the help about templates.
 #pragma once
 
 #include <string>

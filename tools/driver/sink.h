@@ -18,7 +18,7 @@ class Sink {
 
   // Text for people, with its line breaks: diagnostics, notes, times.
   virtual void message(std::string_view text) = 0;
-  // What the command was asked for: IR, a list, a page. Returns an error message, or an empty string.
+  // Takes the result of the command: IR, a list, a page. Returns an error message, or an empty string.
   [[nodiscard]] virtual std::string output(std::string_view text) = 0;
 
   // The diagnostics of a project, sorted, when its command is done. Unless overridden, they become one message.

@@ -43,7 +43,7 @@ uint32_t batchCount(size_t modules) {
 
 using MockSets = std::vector<std::vector<std::string>>;
 
-// What a POU marked {test} is called in reports: itself, or each of its cases.
+// The names in reports of a POU marked {test}: itself, or each of its cases.
 std::vector<std::string> testNames(const sema::Project& project, const sema::Pou& pou) {
   std::vector<std::string> names;
   for (const sema::TestCase& one : pou.pragmas.cases) names.emplace_back(project.names.string(one.name));

@@ -23,7 +23,7 @@ class Console : public driver::Sink {
   bool shown_ = false;
 };
 
-// Whether what goes to this descriptor has colors.
+// Tells whether what goes to this descriptor has colors.
 bool useColor(Color choice, int descriptor);
 
 }  // namespace rung::tool

@@ -64,7 +64,8 @@ struct CommandDescription {
 };
 std::vector<CommandDescription> describeCommands();
 
-// Whether the inputs of the command are sources, so that without them it takes the project around the current folder.
+// Tells whether the inputs of the command are sources, so that without them it takes the project around the current
+// folder.
 bool readsProject(Command command);
 
 }  // namespace rung::tool

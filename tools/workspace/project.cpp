@@ -18,7 +18,7 @@ bool isFile(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// What the folder itself has, by order of preference.
+// The project files that a folder may have, by order of preference.
 FoundProject projectIn(const fs::path& folder, const std::string& shown) {
   const auto named = [&](const std::string& name) { return shown == "." ? name : shown + "/" + name; };
   if (isFile(folder / "rung.project")) return {shown, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a cam must hold, whatever file it comes from: rows in order, a master range that they cover, no jump, numbers
+// A cam must hold this, whatever file it comes from: rows in order, a master range that they cover, no jump, numbers
 // that fit. In: a cam and where its parts are. Out: all mistakes as diagnostics. Called by the readers of this folder.
 #pragma once
 

@@ -105,7 +105,7 @@ class Codesys2Reader {
     kept_ = to;
   }
 
-  // What only CODESYS 2.3 writes so: `10.` for 10.0, and the channel %IR3.0, a REAL of 32 bits.
+  // CODESYS 2.3 alone writes these so: `10.` for 10.0, and the channel %IR3.0, a REAL of 32 bits.
   void findSpellings(size_t from, size_t to) {
     spellings_.clear();
     Scanner scanner(source_.substr(0, to));

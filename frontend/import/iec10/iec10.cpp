@@ -9,6 +9,7 @@
 
 #include "frontend/import/iec10/parts.h"
 #include "frontend/source/names.h"
+#include "frontend/source/text.h"
 
 namespace rung::importer::iec10 {
 namespace {
@@ -121,7 +122,7 @@ void Iec10Reader::writeInterval(const Element& task) {
   }
   std::string time = "T#";
   for (const char c : interval->raw.substr(1))
-    if (c != 'T') time += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != 'T') time += foldedCharacter(c);
   import_.out.put(interval->loc, time + ", ");
 }
 

@@ -44,7 +44,7 @@ struct NcSpelling {
 std::span<const NcSpelling> ncSpellings();
 // By name or another spelling of it, any case; null: none.
 const NcSymbol* findNcSymbol(std::string_view name);
-// Whether the numerical control writes this word.
+// Tells whether the numerical control writes this word.
 bool isInputWord(int32_t word);
 // One past the last word of the numerical control.
 int32_t endOfNcWords();
@@ -96,7 +96,7 @@ class Memory {
   const Limits& limits() const { return limits_; }
   std::span<const Symbol> userSymbols() const { return user_; }
 
-  // What a word of an instruction means; `contact`: may begin with @, % or !. Broken: has been reported.
+  // The meaning of a word of an instruction; `contact`: may begin with @, % or !. Broken: has been reported.
   Operand operandOf(const Word& word, bool takes_query);
   // A name of the program, or of the numerical control. Null: none, not reported.
   const Symbol* find(std::string_view name);

@@ -10,7 +10,7 @@
 
 namespace rung::importer::nct {
 
-// What SCP reads: a row of nc_scopes.def.
+// SCP reads this: a row of nc_scopes.def.
 struct Scope {
   std::string_view name;
   int32_t last;  // of the first parameter; 0: without
@@ -22,7 +22,7 @@ class Operands {
   Operands(const Program& program, Memory& memory, Diagnostics& diagnostics)
       : program_(program), memory_(memory), diagnostics_(diagnostics) {}
 
-  // Whether the elements that follow are those of Int0.
+  // Tells whether the elements that follow are those of Int0.
   void enterModule(bool is_int0) { in_int0_ = is_int0; }
   // The operands of an instruction, each checked against its kind. False: one is wrong, which has been reported.
   bool take(const Element& element, std::vector<Operand>& operands);
@@ -30,13 +30,13 @@ class Operands {
   bool checkMessage(const Element& element, std::span<const Operand> operands);
   // The service of MR or MW.
   void checkService(const Element& element, std::span<const Operand> operands);
-  // What is known when all modules have been taken.
+  // These are known when all modules have been taken.
   void checkDrivers();
   // Bits of the PLC memory that elements with `!` drive.
   const std::set<std::pair<int32_t, uint8_t>>& owned() const { return owned_; }
 
  private:
-  // What drives an output, a timer or a counter.
+  // The elements that drive an output, a timer or a counter.
   struct Driver {
     Loc loc;
     bool immediate;

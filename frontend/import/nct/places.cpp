@@ -14,7 +14,7 @@ bool isNumbered(std::string_view name, std::string_view begin) {
   return name.starts_with(begin) && name.size() > begin.size() && name[begin.size()] >= '0' &&
          name[begin.size()] <= '9';
 }
-// Whether the generated ST has another use for the name, so that the symbol is reached by its address only.
+// Tells whether the generated ST has another use for the name, so that the symbol is reached by its address only.
 bool isTaken(const std::string& name, const std::string& program) {
   return text::isReservedWord(name) || text::isElementaryType(name) || name.starts_with("NCT_") ||
          name.find("_TO_") != std::string::npos || name == program + "_MAIN" || name == program + "_INT0" ||

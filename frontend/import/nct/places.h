@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an NCT program calls its memory in ST: located variables, and functions of the library nct for addresses that
-// are known when the program runs. In: operands. Out: expressions, and the declarations of the variables that they
+// The names in ST of the memory of an NCT program: located variables, and functions of the library nct for addresses
+// that are known when the program runs. In: operands. Out: expressions, and the declarations of the variables that they
 // need. Used by write.cpp.
 #pragma once
 

@@ -82,7 +82,7 @@ class Writer {
     return reportAt(diagnostics_, diag, at, arguments);
   }
 
-  // Whether anything may read word 0000. A symbol of a constant index counts as one of a register.
+  // Tells whether anything may read word 0000. A symbol of a constant index counts as one of a register.
   bool readsFlags(const Module& module) const {
     const auto may = [](std::string_view text) {
       const size_t comma = text.find_first_of(",;");
@@ -226,7 +226,7 @@ class Writer {
     return {power, closed};
   }
 
-  // What is at the end of a row.
+  // Checks the element at the end of a row.
   //   fails   a contact, or nothing                                                 E1412
   void checkEnd(const Element* last) {
     if (last == nullptr) {
@@ -382,7 +382,7 @@ class Writer {
   // FL_ER, which has this name where the ladder writes it.
   static std::string errorFlag() { return "NCT_ERROR"; }
 
-  // Whether all dynamic operands are in memory; empty: there are none. `result`: operand 0 is written.
+  // Tells whether all dynamic operands are in memory; empty: there are none. `result`: operand 0 is written.
   std::string reaches(const Element& element, std::span<const Operand> operands) {
     std::string text;
     const std::string_view kinds = element.instruction->operands;
@@ -681,7 +681,7 @@ class Writer {
 
   // ---- branches
 
-  // Whether the elements only read, so that they can be one expression.
+  // Tells whether the elements only read, so that they can be one expression.
   bool onlyReads(uint32_t begin, uint32_t end) const {
     for (uint32_t k = begin; k < end; ++k) {
       const Element& element = elements_[k];

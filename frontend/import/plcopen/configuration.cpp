@@ -27,11 +27,11 @@ void writeIdentifier(Import& import, const xml::Element& element, std::string_vi
 
 // Nanoseconds of an ISO 8601 duration: P1DT2H3M4.05S. Years and months are rejected, since their length varies.
 std::optional<uint64_t> isoDuration(std::string_view text) {
-  if (text.empty() || (text[0] | 0x20) != 'p') return std::nullopt;
+  if (text.empty() || foldedCharacter(text[0]) != 'p') return std::nullopt;
   uint64_t total = 0;
   bool in_time = false, any = false;
   for (size_t i = 1; i < text.size();) {
-    if ((text[i] | 0x20) == 't' && !in_time) {
+    if (foldedCharacter(text[i]) == 't' && !in_time) {
       in_time = true;
       ++i;
       continue;
@@ -45,7 +45,7 @@ std::optional<uint64_t> isoDuration(std::string_view text) {
         if (scale < 1'000'000'000) scale *= 10, fraction = fraction * 10 + static_cast<uint64_t>(text[i] - '0');
     if (!digits || i == text.size()) return std::nullopt;
     constexpr uint64_t kSecond = 1'000'000'000;
-    const char unit = static_cast<char>(text[i++] | 0x20);
+    const char unit = foldedCharacter(text[i++]);
     const uint64_t length = !in_time && unit == 'd'   ? 86400 * kSecond
                             : !in_time && unit == 'w' ? 7 * 86400 * kSecond
                             : in_time && unit == 'h'  ? 3600 * kSecond

@@ -67,7 +67,7 @@ void writeSection(Import& import, const xml::Element& list, std::string_view wor
 void writeSections(Import& import, const xml::Element& interface);
 // {list 'name'} VAR_GLOBAL … of a list with a name.
 void writeGlobals(Import& import, const xml::Element& globals);
-// Whether the interface of `owner` declares the variable.
+// Tells whether the interface of `owner` declares the variable.
 bool declares(const Import& import, const xml::Element& owner, std::string_view variable);
 
 // ---- pous.cpp

@@ -202,7 +202,7 @@ void findSteps(Import& import, const xml::Element& pou) {
   }
 }
 
-// Whether a comment, which ends at the first `*)`, contains the beginning of another one.
+// Tells whether a comment, which ends at the first `*)`, contains the beginning of another one.
 bool hasCommentInComment(std::string_view code) {
   const std::string marked = kCommentsDoNotNest + std::string(code);
   Scanner scanner(marked);

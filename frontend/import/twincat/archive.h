@@ -72,7 +72,7 @@ void writeNwl(const ArchivedBody& body);
 void writeCfc(const ArchivedBody& body);
 void writeSfc(const ArchivedBody& body);
 
-// Whether the chart below `body` has a step of this name.
+// Tells whether the chart below `body` has a step of this name.
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name);
 // A flag that a POU has: SFCINIT.
 struct DeclaredFlag {

@@ -433,7 +433,7 @@ bool TreeReader::isContact(const Element& tree) const {
          !archive_.text(*held, "Operand").empty();
 }
 
-// Whether the tree can be written as contacts. Other elements are allowed only at the power rail.
+// Tells whether the tree can be written as contacts. Other elements are allowed only at the power rail.
 bool TreeReader::isSeries(const Element& tree, bool at_rail) const {
   if (Archive::isNothing(tree)) return false;
   const std::string type = archive_.typeOf(tree);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cam blocks take from an MC_CAM_REF: the table that cam/table evaluates, checked, and its tappets. The points
+// The cam blocks take this from an MC_CAM_REF: the table that cam/table evaluates, checked, and its tappets. The points
 // stay where the program has them; everything else is copied.
 #pragma once
 

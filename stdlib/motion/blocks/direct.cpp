@@ -125,7 +125,7 @@ int16_t sideOf(const SMC_BacklashCompensation_type& block, double master_velocit
   return master_velocity == 0 ? block.side_ : static_cast<int16_t>(master_velocity > 0 ? 1 : -1);
 }
 
-// What is added to the master, `cycles` after the ramp began.
+// The offset to the master, `cycles` after the ramp began.
 State compensation(const SMC_BacklashCompensation_type& block, const Axis& slave, double cycles) {
   if (block.is_ramping_ == 0) return {block.target_, 0, 0};
   return at(*reinterpret_cast<const Profile*>(block.ramp_), cycles * slave.fTaskCycle_);

@@ -77,7 +77,7 @@ struct Curve {
   double position(double x) const { return quintic.way(x / length); }
   double derivative(double x) const { return slope + quintic.slopeChange(x / length) / length; }
   double curvature(double x) const { return quintic.curvatureChange(x / length) / (length * length); }
-  // Whether it goes back anywhere: the derivative is a quartic, looked at where it may be lowest.
+  // Tells whether it goes back anywhere: the derivative is a quartic, looked at where it may be lowest.
   bool reverses() const {
     const double sign = travel >= 0 ? 1 : -1;
     const double a = 20 * quintic.c5, b = 12 * quintic.c4,

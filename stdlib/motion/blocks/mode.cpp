@@ -7,7 +7,7 @@ using namespace rung::motion;
 
 namespace {
 
-// Whether the process data has what the mode needs.
+// Tells whether the process data has what the mode needs.
 bool isMapped(const Axis& a, int16_t mode) {
   const uint32_t needed = mode == SMC_torque_     ? RUNG_DRIVE_TARGET_TORQUE | RUNG_DRIVE_MODE
                           : mode == SMC_velocity_ ? RUNG_DRIVE_TARGET_VELOCITY | RUNG_DRIVE_MODE

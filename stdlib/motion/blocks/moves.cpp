@@ -25,7 +25,7 @@ Request requestOf(const Block& block, Motion motion, AxisState state) {
   return request;
 }
 
-// What a rising edge does: begins the request, or refuses.
+// A rising edge begins the request, or refuses.
 void startMove(Call& call, const Axis* axis, Error value_error, const Request& request) {
   const Error error = refusal(axis);
   if (error != SMC_NO_ERROR_)

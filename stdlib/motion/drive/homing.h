@@ -44,7 +44,7 @@ void interruptHoming(SimulatedDrive& drive);
 // The set velocity of this cycle.
 MotionPoint homingDemand(const SimulatedDrive& drive, MotionPoint from, double seconds);
 
-// What the machine has passed in this cycle. `before`: the inputs of the cycle before.
+// The switches that the machine has passed in this cycle. `before`: the inputs of the cycle before.
 void observeHoming(SimulatedDrive& drive, Way way, uint32_t before);
 
 // Bits 10, 12 and 13 of the statusword.

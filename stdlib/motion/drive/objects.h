@@ -18,7 +18,7 @@ void mapDefault(SimulatedDrive& drive, uint32_t mapped);
 // The bits of rung_drive_object that the assigned PDOs have.
 uint32_t mappedObjects(const SimulatedDrive& drive);
 
-// What the process data can have: an object, and its bit of rung_drive_object, or 0.
+// An object that the process data can have, and its bit of rung_drive_object, or 0.
 struct Mappable {
   uint32_t bit;
   uint16_t index;

@@ -9,7 +9,7 @@ namespace {
 
 enum FunctionBit : unsigned { kEnable = 1, kContinuous = 2, kSource = 12, kZPulse = 4, kRising = 16, kFalling = 32 };
 
-// Whether an enabled edge is being waited for: not after its first event, unless all are wanted.
+// Tells whether an enabled edge is being waited for: not after its first event, unless all are wanted.
 bool isAwaited(unsigned function, unsigned status, unsigned enable_bit, unsigned stored_bit) {
   return (function & enable_bit) != 0 && ((function & kContinuous) != 0 || (status & stored_bit) == 0);
 }

@@ -26,7 +26,7 @@ struct Image {
   size_t size;
 };
 
-// What the master has for an object of the drive. Of those that RUNG_DRIVE lacks it sends back what they are.
+// The place where the master has an object of the drive. Of those that RUNG_DRIVE lacks it sends back what they are.
 uint32_t toDrive(const SimulatedDrive& drive, const rung_drive& data, uint16_t index) {
   switch (index) {
     case 0x6040: return data.controlword;

@@ -124,7 +124,7 @@ void takeMode(SimulatedDrive& drive) {
   }
 }
 
-// Whether the drive stops by itself now, and how.
+// Tells whether the drive stops by itself now, and how.
 bool brakesNow(const SimulatedDrive& drive, Braking* braking) {
   const DriveState state = stateOf(drive);
   const bool stops = state == DriveState::QuickStopActive || state == DriveState::FaultReactionActive ||

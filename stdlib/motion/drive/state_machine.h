@@ -29,7 +29,7 @@ enum ControlBit : uint16_t {
   kHalt = 256
 };
 
-// What happens in the drive.
+// An event in the drive.
 struct DriveEvents {
   bool fault;          // an error is present
   bool power;          // the motor has its supply

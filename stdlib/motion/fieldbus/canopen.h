@@ -106,7 +106,7 @@ uint8_t answerGuard(NodeGuard& guard, NmtState state, uint64_t now);   // in the
 bool takeGuardAnswer(NodeGuard& guard, uint8_t answer, uint64_t now);  // in the master; false: the toggle bit is wrong
 void watchGuard(NodeGuard& guard, uint64_t now);
 
-// What the AX master sets up in its slaves: consumers that wait 1.2 times the producer time, or node guarding with life
+// The AX master sets this up in its slaves: consumers that wait 1.2 times the producer time, or node guarding with life
 // time factor 10 and 100 ms.
 uint16_t consumerTime(uint16_t producer_milliseconds);
 constexpr uint16_t kGuardTime = 100;

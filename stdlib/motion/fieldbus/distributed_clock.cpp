@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kSecond = 1000000000;
 
-// What the drift compensation has added until a local time.
+// The time that the drift compensation has added until a local time.
 double correctionAt(const DcClock& clock, int64_t local) {
   return clock.corrected + clock.speed * static_cast<double>(local - clock.corrected_at);
 }

@@ -47,8 +47,8 @@ void compensateDrift(DcClock& clock, int64_t reference_time, int64_t true_time, 
 // How much earlier than the SYNC event the master starts: its program, the frame, the line and a reserve for jitter.
 int64_t masterLead(int64_t program, int64_t frame, int64_t line, int64_t reserve);
 
-// Whether a frame that arrives `before_sync` ahead of the SYNC event is in time for a slave that needs `copy_time`
-// (T1).
+// Tells whether a frame that arrives `before_sync` ahead of the SYNC event is in time for a slave that needs
+// `copy_time` (T1).
 bool arrivesInTime(int64_t before_sync, int64_t copy_time);
 
 }  // namespace rung::fieldbus

@@ -51,7 +51,7 @@ uint16_t exchange(EcatSlave& slave, Access access, Access kind, uint16_t physica
   return counted(kind, reads, writes);
 }
 
-// What one FMMU shares with the logical bytes of the datagram.
+// The bytes that one FMMU shares with the datagram.
 uint16_t exchangeLogical(EcatSlave& slave, Datagram& datagram, Access access) {
   bool has_read = false, has_written = false;
   for (size_t i = 0; i < slave.fmmu_count; ++i) {

@@ -23,7 +23,7 @@ struct AlStatus {
   bool error;  // the last request was refused
 };
 
-// What a slave answers to a request for a state: a refused one leaves the state and raises the error flag.
+// The answer of a slave to a request for a state: a refused one leaves the state and raises the error flag.
 AlStatus requestState(AlStatus now, uint8_t requested);
 
 // The next state on the way to another.

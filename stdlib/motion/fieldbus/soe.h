@@ -53,7 +53,7 @@ enum SoeElement : uint8_t {
   kValue = 64
 };
 
-// What a telegram type of S-0-0015 carries.
+// The data that a telegram type of S-0-0015 carries.
 struct Telegram {
   uint16_t commands[4], feedbacks[4];
   uint8_t command_count, feedback_count;

@@ -24,7 +24,7 @@ using Added = rung_sm3_basic::AXIS_ADDED_MOTION_type;
 using Error = rung_sm3_basic::SMC_ERROR_type;
 using AxisState = rung_sm3_basic::SMC_AXIS_STATE_type;
 
-// What moves the axis.
+// The kind of command that moves the axis.
 enum class Motion : uint8_t {
   None,
   Position,    // to a position
@@ -88,7 +88,7 @@ Result plan(const Axis& axis, const Request& request, const State& from, Profile
 // The same without the velocity factor, for a block whose velocity comes from elsewhere; the ramps are scaled.
 Result planUnscaled(Axis& axis, const Request& request, const State& from, Profile& profile);
 
-// Whether the command with this serial is in the buffer.
+// Tells whether the command with this serial is in the buffer.
 bool isWaiting(const Axis& axis, uint32_t serial);
 // Makes a new command the owner, or puts it into the buffer. Returns false when the request cannot be planned, when the
 // buffer is full, and when a command would wait for itself.
@@ -98,14 +98,14 @@ bool renew(Axis& axis, const Command& command, const Request& request);
 // A superimposed motion; a shift of the master.
 bool beginExtra(Axis& axis, Command& command, const Request& request);
 bool beginPhase(Axis& axis, Command& command, const Request& request);
-// What is superimposed becomes part of the motion, and its command is aborted.
+// The superimposed motion becomes part of the motion, and its command is aborted.
 void mergeExtra(Axis& axis);
 
 // Computes the set values of this cycle, once.
 void advance(Axis& axis);
 // The set values from the block that owns a Follow. A step that is too far stops the axis where it is: error 40.
 void follow(Axis& axis, const State& state);
-// Whether the axis would need more than fMaxVelocity to be there at the end of this cycle.
+// Tells whether the axis would need more than fMaxVelocity to be there at the end of this cycle.
 bool isStepTooFar(const Axis& axis, double position);
 // The axis loses its owner, which is done or aborted: it rests, or goes on with its velocity in continuous motion.
 void release(Axis& axis, Outcome outcome = Outcome::Done);
@@ -118,7 +118,7 @@ void showAt(Axis& axis, double position);
 // Of an axis without power: increments of the drive in one unit, and the period of positions. The drive stays where it
 // is.
 void rescale(Axis& axis, double increments, double position_period);
-// What the drive is to control: the object 6060h for an SMC_CONTROLLER_MODE, 0: not supported.
+// The object 6060h, which the drive is to control, for an SMC_CONTROLLER_MODE, 0: not supported.
 int8_t driveMode(int16_t controller_mode);
 // The profile of the owner is over: InVelocity, InEndVelocity.
 bool isProfileOver(const Axis& axis);

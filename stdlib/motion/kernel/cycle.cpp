@@ -190,7 +190,7 @@ void stopWithoutRelease(Axis& a) {
   brake(a, brakeDeceleration(a, SMC_NO_ERROR_));
 }
 
-// What CiA 402 wants next on the way to where the axis should be.
+// The command of CiA 402 that is next on the way to the wanted state.
 uint16_t controlword(const Axis& a) {
   const uint16_t status = a.drive_.statusword_;
   const bool is_prepared = a.eConfiguration_ == complete_ || a.eConfiguration_ == unknown_;

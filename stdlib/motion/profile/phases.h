@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two planners share: the request in coordinates of the axis and the writer of phases. Called by plan.cpp,
+// The two planners share this: the request in coordinates of the axis and the writer of phases. Called by plan.cpp,
 // trapezoid.cpp and s_curve.cpp.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Request {
   double tolerance;
 };
 
-// What the rounding of a velocity makes of the distance of a ramp with the peak acceleration `acceleration`.
+// The error that the rounding of a velocity makes in the distance of a ramp with the peak acceleration `acceleration`.
 inline double rampRounding(double speed, double acceleration) { return 16 * rounding * square(speed) / acceleration; }
 
 // Writes the phases of a profile for an axis that runs forward or, with `sign` -1, mirrored.
@@ -59,7 +59,7 @@ class Writer {
     add(duration, 0, 0);
   }
 
-  // What comes now is counted from the end.
+  // The phases that come now are counted from the end.
   void setSeam() { profile_.seam = profile_.phase_count; }
 
  private:

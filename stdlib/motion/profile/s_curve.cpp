@@ -216,7 +216,7 @@ class Over {
     distanceOf(rootOf(distanceOf, low, high, guess(low, high, -distanceOf(low).value, top)));
   }
 
-  // Whether both ramps have the greatest acceleration of velocities above 0 at their peak `velocity`.
+  // Tells whether both ramps have the greatest acceleration of velocities above 0 at their peak `velocity`.
   bool areLimited(double velocity) const {
     const bool same = curve_.rise.below == curve_.rise.above;
     const auto isLimit = [](double peak, double limit) { return fabs(peak - limit) <= 1e-15 * limit; };

@@ -17,7 +17,7 @@ class Axes;
 // In the order of their requests and answers. NCT manual 7.15.1.
 enum class Mode : uint8_t { Jog, Increments, Handwheel, Reference, Edit, Automatic, Mdi };
 
-// What a channel asks of the tools. NCT manual 6.26.1.
+// A channel asks this of the tools. NCT manual 6.26.1.
 struct FoundTool {
   uint32_t magazine = 0, pot = 0;  // 0: not found
   bool expired = false;            // the group has only expired tools

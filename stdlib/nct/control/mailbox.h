@@ -18,7 +18,7 @@ class Mailbox {
   Code read(Block& block, uint32_t* memory, uint64_t waited) const;   // MR201
   Code write(Block& block, const uint32_t* memory, uint64_t waited);  // MW202
 
-  // What a test sets up; false: there is no such device, or protocol.
+  // A test sets these up; false: there is no such device, or protocol.
   bool setDevice(uint32_t index, uint32_t protocol, bool exists);
   bool setError(uint32_t index, uint32_t error, bool times_out);
   bool setObject(uint32_t index, uint32_t protocol, uint32_t object, uint64_t value, uint32_t bytes, uint32_t element);

@@ -27,7 +27,7 @@ class Messages {
   // On the screen, the newest first.
   const std::vector<Message>& screen() const { return screen_; }
   const std::vector<Message>& log() const { return log_; }
-  // Whether the operator has deleted messages since the last call.
+  // Tells whether the operator has deleted messages since the last call.
   bool takeCleared();
 
  private:

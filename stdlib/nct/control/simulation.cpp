@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What NCT_SIMULATE sets up in the simulated control, by subject: see simulation.h.
+// NCT_SIMULATE sets up the simulated control here, by subject: see simulation.h.
 #include "simulation.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool Control::simulate(int32_t what, const Settings& settings, double& result) {
   return false;  // the program gave another number
 }
 
-// What the operator, its files and its settings are.
+// Sets up the operator, files and settings.
 Simulation Control::simulateControl(int32_t what, const Settings& settings, double& result) {
   switch (what) {
     case Simulated::Parameter:
@@ -50,7 +50,7 @@ Simulation Control::simulateControl(int32_t what, const Settings& settings, doub
   }
 }
 
-// Axes, spindles, drives and what the operator turns.
+// Sets up axes, spindles, drives, inputs and handwheels.
 Simulation Control::simulateMachine(int32_t what, const Settings& settings, double&) {
   uint32_t unit = 0;
   switch (what) {
@@ -83,7 +83,7 @@ Simulation Control::simulateMachine(int32_t what, const Settings& settings, doub
   }
 }
 
-// Channels and their programs.
+// Sets up channels and their programs.
 Simulation Control::simulateChannel(int32_t what, const Settings& settings, double& result) {
   uint32_t unit = 0;
   switch (what) {
@@ -122,7 +122,7 @@ Simulation Control::simulateChannel(int32_t what, const Settings& settings, doub
   }
 }
 
-// Tables of tools and pallets.
+// Sets up the tables of tools and pallets.
 Simulation Control::simulateTools(int32_t what, const Settings& settings, double& result) {
   switch (what) {
     case Simulated::Tables:
@@ -154,7 +154,7 @@ Simulation Control::simulateTools(int32_t what, const Settings& settings, double
   }
 }
 
-// Devices with an EtherCAT mailbox.
+// Sets up devices with an EtherCAT mailbox.
 Simulation Control::simulateDevices(int32_t what, const Settings& settings, double&) {
   switch (what) {
     case Simulated::Device: return outcomeOf(mailbox_.setDevice(settings.word(0), settings.word(1), settings.flag(2)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What NCT_SIMULATE sets up or asks for, and its values; stdlib/nct/simulation.st says what each means. Used by
+// NCT_SIMULATE sets this up or asks for it; stdlib/nct/simulation.st says what each means. Used by
 // control.h.
 #pragma once
 

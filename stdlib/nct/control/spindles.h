@@ -24,7 +24,7 @@ class Spindles {
   void setAlarm(uint32_t spindle, bool alarm) { spindles_[spindle].has_alarm = alarm; }
 
  private:
-  // What a spindle does; a command that comes first here prevails over those after it.
+  // A spindle does one of these; a command that comes first here prevails over those after it.
   enum class Task : uint8_t { Stop, Turn, Orient, Synchronous, Close };
   struct Spindle {
     double command = 0;  // by the program

@@ -28,7 +28,7 @@ namespace nc {
 #undef NC_SYMBOL
 }  // namespace nc
 
-// What SCP reads, in the order of nc_scopes.def; NCT manual 6.17.
+// SCP reads these, in the order of nc_scopes.def; NCT manual 6.17.
 namespace scope {
 enum : uint32_t {
 #define NC_SCOPE(name, last) name,

@@ -60,7 +60,7 @@ class Tools {
   Code readItem(Block& block) const;        // MR107
   Code findByUserData(Block& block) const;  // MR108
 
-  // What a test sets up; false: there is no such thing.
+  // A test sets these up; false: there is no such thing.
   void setUse(const TableUse& use) { use_ = use; }
   bool setCartridge(uint32_t number, uint32_t pots, uint32_t first, uint32_t columns);
   bool setPattern(uint32_t figure, const uint32_t (&halves)[4], bool is_circle);

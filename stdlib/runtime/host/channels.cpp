@@ -107,7 +107,7 @@ void Channels::enqueue(Channel& channel) {
   wake();
 }
 
-// What is known without asking the system.
+// Refuses settings that are wrong whatever the system says.
 int64_t Channels::refuse(const rung_channel_settings& settings) const {
   uint32_t address = 0;
   if (settings.kind < RUNG_CHANNEL_SERIAL || settings.kind > RUNG_CHANNEL_MODBUS_RTU) return RUNG_CHANNEL_DENIED;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program may ask and set of the controller that runs it: the clock, the addresses of the Ethernet ports,
+// A program asks and sets this of the controller that runs it: the clock, the addresses of the Ethernet ports,
 // current faults. All of it is simulated: nothing changes on this machine. In: calls of the program. Out: the services
 // of a rung_host. Calls may come from several tasks. Called by run.cpp and test.cpp.
 #pragma once

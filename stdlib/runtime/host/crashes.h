@@ -11,7 +11,7 @@ namespace rung::host {
 // rung_guarded, with these signals as faults once catchCrashes has been called.
 uint8_t guarded(rung_context* ctx, void (*run)(rung_context*));
 
-// What this thread runs, or null.
+// The context that this thread runs, or null.
 rung_context* runningContext();
 // The current site of interpreted code, for a signal handler; RUNG_NONE: unknown.
 uint32_t currentSite(const rung_context* ctx, const void* details);

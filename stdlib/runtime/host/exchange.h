@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tasks see of the memory that they share. A task takes the image when its activation begins and gives what it
-// wrote when it ends, all at once: inputs do not change under it, and outputs leave together (TM/TP manual 1.3,
+// Gives each task its view of the memory that tasks share. A task takes the image when its activation begins and gives
+// what it wrote when it ends, all at once: inputs do not change under it, and outputs leave together (TM/TP manual 1.3,
 // AX 6.3). With RUNG_ALIGNED_GLOBALS, or with several resources, it does the same with global variables (TM/TP 1.5,
 // AX 6.5); else it shares them directly. In: the module's tables and memory. Called by tasks.cpp, from any thread.
 #pragma once

@@ -15,7 +15,7 @@ class Control;
 
 namespace rung::host {
 
-// Whether the module has the memories of an NCT program.
+// Tells whether the module has the memories of an NCT program.
 bool isNct(const rung_module& module);
 
 class NumericalControl {

@@ -12,7 +12,7 @@
 
 namespace rung::host {
 
-// What the system permits. The reason is a sentence for the user, empty where nothing is missing.
+// The rights that the system gives. The reason is a sentence for the user, empty where nothing is missing.
 struct Rights {
   bool preemptive = false;  // SCHED_FIFO and the choice of a CPU
   std::string missing;

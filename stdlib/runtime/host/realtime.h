@@ -55,7 +55,7 @@ class Realtime {
 
   RealtimeResult run();
 
-  // What a user may ask of the running program; called from the hook `idle`.
+  // A user may ask this of the running program; called from the hook `idle`.
   // Lets the activations that run end, and begins no others. False: one did not end within a second.
   bool pause();
   void resume() { paused_.store(false); }
@@ -81,7 +81,7 @@ class Realtime {
     sem_t event;
     std::thread thread;
   };
-  // What a thread that waits for a MUTEX or SEMA leaves and takes up again.
+  // A thread that waits for a MUTEX or SEMA leaves this and takes it up again.
   struct Place {
     Realtime* host;
     Processor* processor;

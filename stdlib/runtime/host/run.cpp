@@ -415,8 +415,8 @@ bool Run::obey(const Command& command) {
   return true;
 }
 
-// What counts before this row. In real time other tasks rest meanwhile, and a flood of commands waits for the next
-// turn, so that the watchdog and the program go on.
+// Does the commands that count before this row. In real time other tasks rest meanwhile, and a flood of commands waits
+// for the next turn, so that the watchdog and the program go on.
 bool Run::obey(int64_t row) {
   if (options.control_path.empty()) return true;
   constexpr int kMostAtOnce = 16;

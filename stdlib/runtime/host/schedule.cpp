@@ -30,7 +30,7 @@ void Schedule::releasePeriods(uint32_t task, int64_t end_ns) {
   for (; state.next_ns < end_ns; state.next_ns += tasks_.all()[task].interval_ns) due_.push_back({state.next_ns, task});
 }
 
-// What becomes due in a row. Triggers and host events are sampled at its begin.
+// Finds the activations that become due in a row. Triggers and host events are sampled at its begin.
 void Schedule::release(int64_t begin_ns, int64_t end_ns) {
   due_.clear();
   for (uint32_t i = 0; i < states_.size(); ++i) {

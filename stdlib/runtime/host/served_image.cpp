@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t kFunction = 7;  // in a frame over TCP
 
-// Whether a request with this function code may write.
+// Tells whether a request with this function code may write.
 bool mayWrite(uint8_t function) { return function >= 5; }
 
 }  // namespace

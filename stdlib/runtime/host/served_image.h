@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Modbus masters see of the process image: a copy that is exchanged with the image at the borders of activations,
+// Modbus masters see this of the process image: a copy that is exchanged with the image at the borders of activations,
 // so that a master never sees, or changes, the values of a cycle that runs. In: the areas at a border, requests of
 // masters from another thread. Out: replies; what masters wrote enters the image at the next border. Addresses that the
 // program does not have keep what masters wrote (AX manual, tables 3-1 and 3-3: the areas have a fixed size).

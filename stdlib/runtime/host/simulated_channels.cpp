@@ -160,7 +160,7 @@ void SimulatedChannels::accept(Channel& channel) {
                    1;
 }
 
-// What has been decided until now.
+// Opens or fails the channels whose time has come.
 void SimulatedChannels::settle() {
   for (size_t i = 0; i < channels_.size(); ++i) {
     Channel& channel = channels_[i];

@@ -14,7 +14,7 @@ class Stopper {
  public:
   // Called in a signal handler when the code has not ended a second after it was asked to, or on a second SIGINT.
   using Hung = void (*)(const rung_context* context, uint8_t reason);
-  // What SIGINT ends: the activation at once, or when 200 ms later it has not ended by itself. The caller then looks at
+  // SIGINT ends the activation at once, or when 200 ms later it has not ended by itself. The caller then looks at
   // `reason` between two cycles.
   enum class Interrupt : uint8_t { AtOnce, AfterTheCycle };
 

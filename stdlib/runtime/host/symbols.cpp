@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstring>
 
+#include "src/text.h"
+
 namespace rung::host {
 namespace {
 
@@ -23,17 +25,6 @@ bool isNameCharacter(char c) {
   return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          static_cast<unsigned char>(c) >= 0x80 || c == '%';
 }
-bool equalNames(std::string_view a, const char* b) {
-  for (const char c : a) {
-    if (*b == 0) return false;
-    const char d = *b++;
-    const char x = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    const char y = d >= 'A' && d <= 'Z' ? static_cast<char>(d + 32) : d;
-    if (x != y) return false;
-  }
-  return *b == 0;
-}
-
 // `9056` and `9056.17`, words and bits of the NCT ladder's memory, as addresses: %ND9056, %NX36226.1. Empty: neither.
 std::string addressOfNct(std::string_view path) {
   const auto digits = [&](size_t at, size_t count) {
@@ -55,8 +46,7 @@ std::string backquoted(std::string_view text) { return "`" + std::string(text) +
 
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  for (char& c : lower) c = rung_lower(c);
   return lower;
 }
 
@@ -212,7 +202,7 @@ bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::
       continue;
     }
     names.push_back(text(field.name));
-    if (!equalNames(name, text(field.name))) continue;
+    if (!rung_equal_names(name.data(), name.size(), text(field.name))) continue;
     variable.path += '.';
     variable.path += text(field.name);
     variable.type = &module_.types[field.type];
@@ -362,7 +352,7 @@ uint64_t addCounts(uint64_t a, uint64_t b) { return a > UINT64_MAX - b ? UINT64_
 
 }  // namespace
 
-// Whether what lists the variables of `type` lists this one.
+// Tells whether what lists the variables of `type` lists this one.
 bool Symbols::isListed(const rung_type& type, const rung_field& field, Detail detail) const {
   const char* const name = text(field.name);
   if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 || strncmp(name, "__", 2) == 0)

@@ -92,8 +92,8 @@ void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, c
   test.fail(TestResult::Failed, message);
 }
 
-// What is running, for signal handlers. They allocate, but the interrupted code runs no more: at worst the process dies
-// without the note.
+// The running test, for signal handlers. They allocate, but the interrupted code runs no more: at worst the process
+// dies without the note.
 char* where_of_test = nullptr;
 const ShownPaths* paths_of_test = nullptr;
 const TestResult* result_of_test = nullptr;
@@ -147,8 +147,8 @@ class TestRunner {
 
   bool interrupted() const { return interrupted_; }
 
-  // What --trace and --plot show of a test: its own variables, or those of --watch. Returns an error message, or an
-  // empty string.
+  // Chooses what --trace and --plot show of a test: its own variables, or those of --watch. Returns an error message,
+  // or an empty string.
   std::string chooseVariables(uint32_t number) {
     std::string error, test = module_.strings + module_.tests[number].name;
     test.resize(std::min(test.find('('), test.size()));  // without the values of a case

@@ -19,7 +19,7 @@ struct TestProcess {
   std::function<bool()> interrupted;
   // In the child, in a handler of SIGABRT and the like: notes in `where` what crashed.
   void (*crashed)(const char* signal);
-  // What is known of a test that has no result.
+  // Describes a test that has no result.
   std::function<TestResult(uint32_t test)> describe;
   // In this process, in the order of the tests.
   std::function<void(TestResult)> report;

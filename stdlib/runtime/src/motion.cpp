@@ -4,16 +4,9 @@
 
 #include <string.h>
 
-namespace {
+#include "text.h"
 
-bool equalNames(const char* a, const char* b) {
-  for (; *a != 0 && *b != 0; ++a, ++b) {
-    const char x = *a >= 'a' && *a <= 'z' ? static_cast<char>(*a - 32) : *a;
-    const char y = *b >= 'a' && *b <= 'z' ? static_cast<char>(*b - 32) : *b;
-    if (x != y) return false;
-  }
-  return *a == *b;
-}
+namespace {
 
 // The path so far, cut where it gets too long.
 struct Path {
@@ -60,7 +53,7 @@ class Walk {
   void visit(const rung_type& type, uint32_t offset, const Path& path, const Path& holder) {
     if (type.kind == RUNG_ARRAY) return visitElements(type, offset, path);
     if (type.kind != RUNG_RECORD) return;
-    if (equalNames(module_.strings + type.name, "RUNG_DRIVE")) return found(offset, holder);
+    if (rung_equal_names("RUNG_DRIVE", strlen("RUNG_DRIVE"), module_.strings + type.name)) return found(offset, holder);
     for (uint32_t i = 0; i < type.count; ++i) {
       const rung_field& field = module_.fields[type.first + i];
       const rung_type& of = module_.types[field.type];

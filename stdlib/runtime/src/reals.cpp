@@ -379,7 +379,7 @@ bool roundToValue(const Wide& number, int exponent, bool is_single, bool approxi
   if (drop > 128) return true;  // less than half of the lowest value
   const int part = drop - 64;   // the width leaves 74 bits at least
   uint64_t kept = part == 64 ? 0 : number.high >> part;
-  // What is dropped, its first bit in the highest of `cut`.
+  // The bits that are dropped; the first is the highest of `cut`.
   const Wide cut = {part == 64 ? number.high : number.high << (64 - part) | number.low >> part,
                     part == 64 ? number.low : number.low << (64 - part)};
   const uint64_t half = uint64_t{1} << 63;

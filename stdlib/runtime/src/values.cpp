@@ -7,6 +7,7 @@
 
 #include "rung/code.h"
 #include "rung/reals.h"
+#include "text.h"
 
 namespace {
 
@@ -181,14 +182,9 @@ void formatString(Writer& to, const unsigned char* text) {
 }
 
 void putUtf8(Writer& to, uint32_t code) {
-  if (code >= 0x10000) {
-    to.put(static_cast<char>(0xf0 | code >> 18));
-    to.put(static_cast<char>(0x80 | (code >> 12 & 0x3f)));
-  } else if (code >= 0x800) {
-    to.put(static_cast<char>(0xe0 | code >> 12));
-  }
-  to.put(static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6));
-  to.put(static_cast<char>(0x80 | (code & 0x3f)));
+  char bytes[4];
+  const uint32_t count = rung_utf8(code, bytes);
+  for (uint32_t i = 0; i < count; ++i) to.put(bytes[i]);
 }
 
 void formatWString(Writer& to, const char16_t* text) {
@@ -212,15 +208,13 @@ void formatWString(Writer& to, const char16_t* text) {
 
 // ---- parsing
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-
 struct Reader {
   const char* at;
   const char* end;
   bool done() const { return at == end; }
   char peek() const { return at == end ? '\0' : *at; }
   bool take(char c) {
-    if (lower(peek()) != c || at == end) return false;
+    if (rung_lower(peek()) != c || at == end) return false;
     ++at;
     return true;
   }
@@ -228,7 +222,7 @@ struct Reader {
   bool take(const char* word) {
     const char* p = at;
     for (; *word != 0; ++word, ++p)
-      if (p == end || lower(*p) != *word) return false;
+      if (p == end || rung_lower(*p) != *word) return false;
     at = p;
     return true;
   }
@@ -236,11 +230,8 @@ struct Reader {
     value = 0;
     int n = 0;
     for (; at != end; ++at) {
-      const char c = lower(*at);
-      if (c == '_' && n > 0) continue;
-      const uint32_t digit = c >= '0' && c <= '9'   ? static_cast<uint32_t>(c - '0')
-                             : c >= 'a' && c <= 'f' ? static_cast<uint32_t>(c - 'a' + 10)
-                                                    : 99u;
+      if (*at == '_' && n > 0) continue;
+      const uint32_t digit = rung_digit(*at);
       if (digit >= base) break;
       if (value > (UINT64_MAX - digit) / base) return false;
       value = value * base + digit;
@@ -451,7 +442,7 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
     return true;
   }
   ++from.at;
-  const char c = lower(from.peek());
+  const char c = rung_lower(from.peek());
   static const char kNames[] = "lnrpt$'\"";
   static const char kCodes[] = "\n\n\r\f\t$'\"";
   if (c != 0) {
@@ -464,15 +455,9 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
   code = 0;
   const bool is_point = from.take('{');
   for (int i = 0; is_point ? from.peek() != '}' || i == 0 : i < hex_digits; ++i) {
-    const char digit = lower(from.peek());
-    if (digit >= '0' && digit <= '9')
-      code = code * 16 + static_cast<uint32_t>(digit - '0');
-    else if (digit >= 'a' && digit <= 'f')
-      code = code * 16 + static_cast<uint32_t>(digit - 'a' + 10);
-    else {
-      bad = true;
-      return false;
-    }
+    const uint32_t digit = rung_digit(from.peek());
+    if (digit > 15) return bad = true, false;
+    code = code * 16 + digit;
     if (code >= 0x110000) return bad = true, false;
     ++from.at;
   }

@@ -4,7 +4,7 @@
 
 namespace {
 
-// What the host's function returns; without files `otherwise`.
+// Returns the value of the host's function; without files `otherwise`.
 template <class... Given, class... Wanted>
 int64_t ask(const rung_context* ctx, int64_t otherwise, int64_t (*rung_files::*function)(void*, Wanted...),
             Given... given) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions of generated programs: each has a type, and a depth that it does not exceed.
 #include "frontend/source/dialect.h"
+#include "frontend/source/text.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {
@@ -49,7 +50,7 @@ std::string Generator::literal(int type) {
 
 std::string lowered(const char* name) {
   std::string text = name;
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  for (char& c : text) c = foldedCharacter(c);
   return text;
 }
 

@@ -62,7 +62,8 @@ std::string Printer::outputOf(int action, const std::string& pin) const {
   return "o" + std::to_string(action) + "_" + pin;
 }
 
-// What is FALSE while a variable at an output of a block keeps its value, because the block does not run; else empty.
+// A condition that is FALSE while a variable at an output of a block keeps its value, because the block does not run;
+// else empty.
 std::string Printer::enableOf(const Action& a) const {
   if (a.kind != ActionKind::Assign && a.kind != ActionKind::Set && a.kind != ActionKind::Reset &&
       a.kind != ActionKind::Pulse)

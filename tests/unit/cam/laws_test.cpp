@@ -18,7 +18,7 @@ Curve curveOf(Law law, const Ends& ends = {}) {
   return made.curve;
 }
 
-// What a law gets in tests of boundary values: whatever it takes.
+// A law gets whatever it takes in tests of boundary values.
 Ends someEnds(const LawRow& row) {
   Ends ends;
   ends.given = row.takes;

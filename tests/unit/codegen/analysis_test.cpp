@@ -67,7 +67,7 @@ TEST(Locals, AcrossCallsOnlyLoopsCount) {
   EXPECT_EQ(calls.of->fields.toString(calls.variables()), "");
 }
 
-// What may have been written since the last call of what may fault, or in an earlier turn of the loop.
+// Variables that may have been written since the last call that may fault, or in an earlier iteration.
 TEST(WriteBacks, FieldsWrittenBeforeACallThatMayFault) {
   const std::string faulting = "function @Risk faults { in x: int; result int }\nbody @Risk { fault div }\n";
   const Analysed b{faulting +

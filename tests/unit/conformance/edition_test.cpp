@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is of an edition and what is not: a text in, the first foreign thing out.
+// Tests which text is of an edition: a text in, the first foreign thing out.
 #include "tools/conformance/edition.h"
 
 #include <gtest/gtest.h>

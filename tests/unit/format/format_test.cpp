@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formatter: a source in, the same source in one style out, and the same again from that.
 #include "frontend/format/format.h"
+#include "frontend/source/text.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +24,7 @@ std::string format(const std::string& source, const Style& style = {}, const Bod
 std::string tokens(std::string text) {
   text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) != 0; }),
              text.end());
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
+  return upper(text);
 }
 
 TEST(Format, KeywordsBlanksAndLevels) {

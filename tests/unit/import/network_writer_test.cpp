@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of networks and charts write, and the locations that its parts lead to.
+// The writers of networks and charts write this text, and its parts lead to these locations.
 #include "frontend/import/network_writer.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every profile must hold: phases that last, limits, continuity, exact arrival. In: a profile and its request;
+// Every profile must hold this: phases that last, limits, continuity, exact arrival. In: a profile and its request;
 // out: the first violation in words, empty when there is none. Called by the property tests of profiles.
 #pragma once
 

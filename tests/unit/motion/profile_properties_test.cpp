@@ -72,7 +72,7 @@ Request randomRequest(Random& random, double spread) {
   return r;
 }
 
-// Whether the start is beyond a limit of the velocity, or will be.
+// Tells whether the start is beyond a limit of the velocity, or will be.
 bool isBeyond(const Request& r) {
   const double a = r.start.acceleration;
   const double rest = r.start.velocity + (r.isJerkLimited() ? a * std::fabs(a) / (2 * r.limits.jerk) : 0);

@@ -31,7 +31,7 @@ std::vector<std::string> pathsBelow(const std::string& folder, std::string_view 
   return paths;
 }
 
-// What the generated programs use, kept for all runs.
+// The generated programs use these, kept for all runs.
 const std::vector<sema::LibraryFile>& libraryFiles() {
   static std::vector<std::unique_ptr<std::string>> texts;
   static const std::vector<sema::LibraryFile> files = [] {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frontend/source/text.h"
 #include "tests/unit/parse/parse_helper.h"
 
 namespace rung::text {
@@ -33,7 +34,7 @@ TEST(Lexer, EveryWordIsFoundInAnyCase) {
   for (uint32_t k = static_cast<uint32_t>(Tok::And); k < kTokCount; ++k) {
     std::string word = spelling(static_cast<Tok>(k));
     EXPECT_EQ(Lexed(word).stream.tokens[0].kind, static_cast<Tok>(k)) << word;
-    for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    for (char& c : word) c = foldedCharacter(c);
     EXPECT_EQ(Lexed(word).stream.tokens[0].kind, static_cast<Tok>(k)) << word;
     EXPECT_EQ(Lexed(word + "x").stream.tokens[0].kind, Tok::Ident) << word;
   }

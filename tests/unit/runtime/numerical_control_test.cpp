@@ -24,7 +24,7 @@ class Asked : public ::testing::Test {
   Asked() { control_.serve(host_); }
 
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(random_() % count); }
-  // What a program may have there by mistake: small numbers, addresses, halves of doubles, anything.
+  // A program may have these there by mistake: small numbers, addresses, halves of doubles, anything.
   uint32_t word() {
     switch (below(8)) {
       case 0:

@@ -60,7 +60,8 @@ class AnalogOutput final : public SimulatedModule {
     }
   }
 
-  // What bits 5 and 6 of each channel say; cleared, it has the safe value, which is 0 where the project has none.
+  // Bits 5 and 6 of each channel say what it gives; cleared, it has the safe value, which is 0 where the project has
+  // none.
   void driveSafeSignals(const uint8_t* safe_outputs, int64_t) override {
     for (uint32_t i = 0; i < kOutputCount; ++i) {
       switch (word(i) >> kAfterStopShift & kAfterStopMask) {

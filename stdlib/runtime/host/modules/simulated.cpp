@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What simulated modules have in common: see simulated.h.
+// The common part of simulated modules: see simulated.h.
 #include "simulated.h"
 
 #include <algorithm>

@@ -95,8 +95,8 @@ std::unique_ptr<SimulatedModule> simulateTemperature(const ModuleType& type, uin
 std::unique_ptr<SimulatedModule> simulateHighSpeed(const ModuleType& type, uint32_t inputs, uint32_t outputs,
                                                    Hsio& hsio);
 
-// Whether a digital input of that many volts is on: above 15 it is, below 5 it is not, in between it stays what it was
-// (table 6-1).
+// Tells whether a digital input of that many volts is on: above 15 it is, below 5 it is not, in between it stays what
+// it was (table 6-1).
 constexpr bool levelOf(double volts, bool before) { return before ? volts >= 5 : volts > 15; }
 
 // Versions of the simulated modules, 1.1.0, to be read as an octal number: 8#110.

@@ -15,7 +15,7 @@ enum class ChannelType : uint8_t { Bool, Byte, USInt, Word, UInt, Int, DWord, Re
 const char* spelling(ChannelType type);
 uint32_t bytesOf(ChannelType type);
 
-// What a simulated module does with its channels and terminals.
+// A simulated module acts on its channels and terminals.
 enum class Simulation : uint8_t {
   Coupler,  // has none
   DigitalInput,

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records of the module and whether they begin with zeros: see records.h.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+RecordLowering::RecordLowering(ModuleLowering& of) : ModulePart(of) {
+  pou_of_.resize(types.count());
+  list_of_.resize(types.count());
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].record) pou_of_[project.pous[i].record.index] = {i};
+  for (uint32_t i = 1; i < project.global_lists.size(); ++i)
+    if (project.global_lists[i].record) list_of_[project.global_lists[i].record.index] = {i};
+}
+
+void RecordLowering::readMarks() {
+  for (const sema::Var& var : project.vars) {
+    if ((!var.start.constructor.index && !var.pragmas.no_exit) || var.storage == sema::Storage::Local) continue;
+    const TypeId record = var.list  ? project.global_lists[var.list.index].record
+                          : var.pou ? project.pou(var.pou).record
+                                    : var.record;
+    marked_[uint64_t{record.index} << 32 | var.field] = &var;
+  }
+}
+
+void RecordLowering::declare(TypeId type) {
+  to_declare_.push_back(type);
+  if (is_declaring_) return;  // asked for by a record that is being declared
+  is_declaring_ = true;
+  while (!to_declare_.empty()) {
+    const TypeId next = to_declare_.back();
+    to_declare_.pop_back();
+    declareOne(next);
+  }
+  is_declaring_ = false;
+}
+
+// The records that a record holds come before it, those that it only points to after it: they may hold it.
+void RecordLowering::declareOne(TypeId type) {
+  type = types.resolve(type);
+  const TypeInfo& info = types.info(type);
+  if (info.kind == TypeKind::Array) return declareOne(info.base);
+  if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference) return to_declare_.push_back(info.base);
+  if (info.kind != TypeKind::Record) return;
+  if (!seen_.insert(type.index).second) return;
+  for (const types::Field& f : info.fields) {
+    if (f.by_reference)
+      to_declare_.push_back(f.type);
+    else
+      declareOne(f.type);
+  }
+  add(type);
+}
+
+void RecordLowering::add(TypeId type) {
+  const TypeInfo& info = types.info(type);
+  Record record;
+  record.type = type;
+  record.name = info.name;
+  if (sema::PouId pou = pou_of_[type.index]) {
+    takeHeader(record, project.pou(pou));
+  }
+  record_of_[type.index] = static_cast<uint32_t>(module.records.size());
+  module.records.push_back(record);
+  if (info.record_kind == types::RecordKind::Interface) return;
+  if (sema::PouId pou = pou_of_[type.index]) {
+    BodyId body = all.bodyOf(pou);  // may add records
+    find(type)->body = body;
+  }
+}
+
+Record* RecordLowering::find(TypeId type) {
+  const auto found = record_of_.find(type.index);
+  return found == record_of_.end() ? nullptr : &module.records[found->second];
+}
+
+bool RecordLowering::isZero(TypeId declared) {
+  auto known = zero_.find(declared.index);
+  if (known != zero_.end()) return known->second;
+  zero_[declared.index] = false;  // ends the recursion for a record with a pointer to itself
+  const bool result = beginsWithZeros(declared, types.info(declared));
+  zero_[declared.index] = result;
+  return result;
+}
+
+bool RecordLowering::beginsWithZeros(TypeId declared, const TypeInfo& info) {
+  if (declared.index < project.type_inits.size() && project.type_inits[declared.index]) return false;
+  switch (info.kind) {
+    case TypeKind::Alias:
+    case TypeKind::Array: return isZero(info.base);
+    case TypeKind::Enum:
+    case TypeKind::Subrange: return types::defaultValue(types, module.names, declared).bits == 0;
+    case TypeKind::Record: {
+      if (sema::PouId pou = pou_of_[declared.index]) {
+        if (project.pou(pou).kind == PouKind::Interface) return true;
+        if (project.pou(pou).object.dispatched || !all.lifeMethodsOf(pou, "FB_Init").empty()) return false;
+        if (!all.calledAfterInit(pou).empty()) return false;
+        for (sema::VarId id : project.pou(pou).vars) {
+          const sema::Var& var = project.var(id);
+          if (var.storage == sema::Storage::Image && var.init) return false;
+          if (var.storage == sema::Storage::Field &&
+              (var.init || (var.section != SectionKind::InOut && !isZero(var.type))))
+            return false;
+        }
+        return true;
+      }
+      if (sema::ListId list = list_of_[declared.index]) {
+        for (sema::VarId id : project.global_lists[list.index].vars) {
+          const sema::Var& var = project.var(id);
+          if (var.init || (var.storage == sema::Storage::Global && !isZero(var.type))) return false;
+        }
+        return true;
+      }
+      bool has_inits = declared.index < project.field_inits.size();
+      for (size_t i = 0; i < info.fields.size(); ++i) {
+        if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
+          return false;
+        if (!isZero(info.fields[i].type)) return false;
+        if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
+      }
+      return true;
+    }
+    case TypeKind::None:
+    case TypeKind::Error:
+    case TypeKind::Bool:
+    case TypeKind::Byte:
+    case TypeKind::Word:
+    case TypeKind::DWord:
+    case TypeKind::LWord:
+    case TypeKind::SInt:
+    case TypeKind::Int:
+    case TypeKind::DInt:
+    case TypeKind::LInt:
+    case TypeKind::USInt:
+    case TypeKind::UInt:
+    case TypeKind::UDInt:
+    case TypeKind::ULInt:
+    case TypeKind::Real:
+    case TypeKind::LReal:
+    case TypeKind::Time:
+    case TypeKind::LTime:
+    case TypeKind::Date:
+    case TypeKind::LDate:
+    case TypeKind::TimeOfDay:
+    case TypeKind::LTimeOfDay:
+    case TypeKind::DateTime:
+    case TypeKind::LDateTime:
+    case TypeKind::Char:
+    case TypeKind::WChar:
+    case TypeKind::UChar:
+    case TypeKind::String:
+    case TypeKind::WString:
+    case TypeKind::UString:
+    case TypeKind::IntegerLiteral:
+    case TypeKind::RealLiteral:
+    case TypeKind::NullLiteral:
+    case TypeKind::Any:
+    case TypeKind::AnyElementary:
+    case TypeKind::AnyMagnitude:
+    case TypeKind::AnyNum:
+    case TypeKind::AnyReal:
+    case TypeKind::AnyInt:
+    case TypeKind::AnyUnsigned:
+    case TypeKind::AnySigned:
+    case TypeKind::AnyDuration:
+    case TypeKind::AnyBit:
+    case TypeKind::AnyChars:
+    case TypeKind::AnyString:
+    case TypeKind::AnyChar:
+    case TypeKind::AnyDate:
+    case TypeKind::AnyDerived:
+    case TypeKind::Pointer:
+    case TypeKind::Reference:
+    case TypeKind::Count_: return true;
+  }
+  return true;
+}
+
+const sema::Var* RecordLowering::constructedVar(TypeId record, uint32_t field) const {
+  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
+  if (found == marked_.end()) return nullptr;
+  const sema::Var* var = found->second;
+  if (var->holds) var = &project.var(var->holds);
+  if (var->copy_of) var = &project.var(var->copy_of);
+  return var->start.constructor.index != 0 ? var : nullptr;
+}
+
+bool RecordLowering::isKeptFromExit(TypeId record, uint32_t field) const {
+  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
+  return found != marked_.end() && found->second->pragmas.no_exit;
+}
+
+}  // namespace rung::ir
