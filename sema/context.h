@@ -56,4 +56,8 @@ struct Context {
   bool isWide() const { return !library && symbols.dialect == Dialect::Codesys; }
 };
 
+// The same project seen from another location; from file level and from within a POU.
+Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {});
+Context atPou(Context& context, PouId pou);
+
 }  // namespace rung::sema
