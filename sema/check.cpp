@@ -21,7 +21,6 @@
 #include "sema/declarations/signatures.h"
 #include "sema/declarations/test_cases.h"
 #include "sema/scopes.h"
-#include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {

@@ -57,4 +57,8 @@ struct Context {
   bool isWide() const { return profile().narrow_integers_widen; }
 };
 
+// The same project seen from another location; from file level and from within a POU.
+Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {});
+Context atPou(Context& context, PouId pou);
+
 }  // namespace rung::sema

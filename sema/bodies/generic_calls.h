@@ -37,8 +37,4 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId pou,
 
 TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 
-// Turns a call with EN or ENO that means a plain value, a conversion or a sum of times into
-// MOVE(EN := …, value, ENO => …): the value has no pins of its own.
-TypeId guardValue(Context& context, ExprId& expr, ExprId value);
-
 }  // namespace rung::sema

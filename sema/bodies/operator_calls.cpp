@@ -7,6 +7,7 @@
 
 #include "sema/bodies/access.h"
 #include "sema/bodies/calls.h"
+#include "sema/bodies/conversion_calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/division_by_zero.h"
 #include "sema/bodies/expressions.h"

@@ -53,10 +53,8 @@ std::optional<Label> labelOf(Context& context, ExprId label, bool is_signed) {
 
 }  // namespace
 
-void checkCaseLabels(Context& context, StmtId statement) {
+void checkCaseLabels(Context& context, const CaseStmt& node) {
   const Tree& tree = context.tree();
-  if (tree.kind(statement) != StmtKind::Case) return;
-  const CaseStmt& node = tree.as<CaseStmt>(statement);
   const TypeId selector = tree.expr(node.selector).type;
   const types::TypeKind kind = context.types().plainKind(selector);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return;

@@ -7,7 +7,6 @@
 // An arithmetic expression has more values than its type in codesys, so variables and results of calls alone are looked
 // at. Called for each comparison, infix or in call form.
 #include "sema/bodies/expressions.h"
-#include "sema/checks/operation.h"
 #include "sema/checks/rules.h"
 #include "sema/shorthands.h"
 
@@ -68,12 +67,10 @@ std::optional<bool> decided(Op op, __int128 low, __int128 high, __int128 number)
 
 }  // namespace
 
-void checkComparisonRange(Context& context, ExprId expr) {
-  if (context.library) return;
-  const std::optional<Operation> operation = operationOf(context, expr);
-  if (!operation || operation->op < Op::Eq || operation->op > Op::Ge) return;
-  Op op = operation->op;
-  ExprId variable = withoutConversion(context, operation->left), number = withoutConversion(context, operation->right);
+void checkComparisonRange(Context& context, const Operation& operation) {
+  Op op = operation.op;
+  if (context.library || op < Op::Eq || op > Op::Ge) return;
+  ExprId variable = withoutConversion(context, operation.left), number = withoutConversion(context, operation.right);
   if (isLiteral(context, variable)) {
     std::swap(variable, number);
     op = mirrored(op);
@@ -98,7 +95,7 @@ void checkComparisonRange(Context& context, ExprId expr) {
   const auto text = [](__int128 n) {
     return n < 0 ? std::to_string(static_cast<int64_t>(n)) : std::to_string(static_cast<uint64_t>(n));
   };
-  context.report(diag::ComparisonDecided, context.tree().expr(expr).loc,
+  context.report(diag::ComparisonDecided, operation.loc,
                  {*always ? "TRUE" : "FALSE", context.types().toString(type), text(low), text(high)});
 }
 

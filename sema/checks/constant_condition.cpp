@@ -7,10 +7,9 @@
 
 namespace rung::sema {
 
-void checkConstantCondition(Context& context, StmtId statement) {
+void checkConstantCondition(Context& context, const IfStmt& node) {
   const Tree& tree = context.tree();
-  if (tree.kind(statement) != StmtKind::If) return;
-  for (const IfBranch& branch : tree.list(tree.as<IfStmt>(statement).branches)) {
+  for (const IfBranch& branch : tree.list(node.branches)) {
     const ExprId condition = branch.condition;
     if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) continue;
     const bool value = tree.as<LiteralExpr>(condition).value() != 0;

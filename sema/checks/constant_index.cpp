@@ -24,10 +24,8 @@ std::optional<types::Dimension> boundsOf(const Context& context, const IndexExpr
 
 }  // namespace
 
-void checkConstantIndex(Context& context, ExprId expr) {
+void checkConstantIndex(Context& context, const IndexExpr& node) {
   const Tree& tree = context.tree();
-  if (tree.kind(expr) != ExprKind::Index) return;
-  const IndexExpr& node = tree.as<IndexExpr>(expr);
   for (uint32_t i = 0; i < node.indices.count; ++i) {
     const ExprId index = tree.list(node.indices)[i];
     if (tree.expr(index).type == types::kError) return;

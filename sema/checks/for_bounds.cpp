@@ -29,9 +29,7 @@ static void checkLastValue(Context& context, const ForStmt& node, int64_t from, 
   context.report(diag::LoopToTypeEnd, context.tree().begin(node.to), {context.types().toString(type)});
 }
 
-void checkForBounds(Context& context, StmtId statement) {
-  if (context.tree().kind(statement) != StmtKind::For) return;
-  const ForStmt& node = context.tree().as<ForStmt>(statement);
+void checkForBounds(Context& context, const ForStmt& node) {
   if (context.tree().expr(node.control).type == types::kError) return;
   const bool is_signed = context.types().isSigned(context.types().plainKind(context.tree().expr(node.control).type));
   const std::optional<int64_t> from = constantInteger(context, node.from), to = constantInteger(context, node.to);

@@ -12,6 +12,8 @@ namespace rung::sema {
 struct Operation {
   types::Op op;
   ExprId left, right;
+  Loc loc;
+  bool is_infix;
 };
 
 // None: something else, or an operand was left open.

@@ -8,16 +8,15 @@
 
 namespace rung::sema {
 
-void checkRealEquality(Context& context, ExprId expr) {
+void checkRealEquality(Context& context, const Operation& operation) {
+  if (context.library || !operation.is_infix) return;
+  if (operation.op != types::Op::Eq && operation.op != types::Op::Ne) return;
   const Tree& tree = context.tree();
-  if (context.library || tree.kind(expr) != ExprKind::Binary) return;
-  const BinaryExpr& node = tree.as<BinaryExpr>(expr);
-  if (node.op() != BinaryOp::Equal && node.op() != BinaryOp::NotEqual) return;
-  if (!types::TypeTable::isReal(context.types().plainKind(tree.expr(node.left).type))) return;
-  for (const ExprId side : {node.left, node.right}) {
+  if (!types::TypeTable::isReal(context.types().plainKind(tree.expr(operation.left).type))) return;
+  for (const ExprId side : {operation.left, operation.right}) {
     if (tree.kind(side) == ExprKind::Literal && tree.as<LiteralExpr>(side).value() == 0) return;
   }
-  context.report(diag::RealEquality, node.h.loc, {spelling(node.op())});
+  context.report(diag::RealEquality, operation.loc, {operation.op == types::Op::Eq ? "=" : "<>"});
 }
 
 }  // namespace rung::sema

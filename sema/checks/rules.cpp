@@ -13,7 +13,21 @@
 namespace rung::sema {
 namespace {
 
-enum class Hook : uint8_t { Use, Assignment, Conversion, Expression, Call, Statement, Pou, Declarations, Project };
+enum class Hook : uint8_t {
+  Use,
+  Assignment,
+  Conversion,
+  Index,
+  Operation,
+  Call,
+  Assign,
+  If,
+  Case,
+  For,
+  Pou,
+  Declarations,
+  Project,
+};
 
 template <Hook kHook, class... Found>
 void run(Context& context, const Found&... found) {
@@ -32,11 +46,23 @@ class AllRules final : public Rules {
   void conversion(Context& context, ExprId value, TypeId to) const override {
     run<Hook::Conversion>(context, value, to);
   }
-  void expression(Context& context, ExprId expr) const override { run<Hook::Expression>(context, expr); }
+  void expression(Context& context, ExprId expr) const override {
+    const Tree& tree = context.tree();
+    if (tree.kind(expr) == ExprKind::Index) return run<Hook::Index>(context, tree.as<IndexExpr>(expr));
+    if (const std::optional<Operation> operation = operationOf(context, expr))
+      run<Hook::Operation>(context, *operation);
+  }
   void call(Context& context, const CallExpr& node, const Call& call) const override {
     run<Hook::Call>(context, node, call);
   }
-  void statement(Context& context, StmtId statement) const override { run<Hook::Statement>(context, statement); }
+  void statement(Context& context, StmtId id) const override {
+    const Tree& tree = context.tree();
+    const StmtKind kind = tree.kind(id);
+    if (kind == StmtKind::Assign) return run<Hook::Assign>(context, tree.as<AssignStmt>(id));
+    if (kind == StmtKind::If) return run<Hook::If>(context, tree.as<IfStmt>(id));
+    if (kind == StmtKind::Case) return run<Hook::Case>(context, tree.as<CaseStmt>(id));
+    if (kind == StmtKind::For) return run<Hook::For>(context, tree.as<ForStmt>(id));
+  }
   void pou(Context& context) const override { run<Hook::Pou>(context); }
   void declarations(Context& context) const override { run<Hook::Declarations>(context); }
   void project(Context& context) const override { run<Hook::Project>(context); }

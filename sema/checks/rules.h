@@ -5,16 +5,22 @@
 #pragma once
 
 #include "frontend/source/diagnostics.h"
+#include "sema/checks/operation.h"
 #include "sema/hooks.h"
 
 namespace rung::sema {
 
+// What a rule of each hook is given; an expression and a statement by their kind.
 using UseRule = void(Context& context, const UsedName& used);
 using AssignmentRule = void(Context& context, ExprId target, ExprId value);
 using ConversionRule = void(Context& context, ExprId value, TypeId to);
-using ExpressionRule = void(Context& context, ExprId expr);
+using IndexRule = void(Context& context, const IndexExpr& node);
+using OperationRule = void(Context& context, const Operation& operation);
 using CallRule = void(Context& context, const CallExpr& node, const Call& call);
-using StatementRule = void(Context& context, StmtId statement);
+using AssignRule = void(Context& context, const AssignStmt& node);
+using IfRule = void(Context& context, const IfStmt& node);
+using CaseRule = void(Context& context, const CaseStmt& node);
+using ForRule = void(Context& context, const ForStmt& node);
 using PouRule = void(Context& context);
 using DeclarationsRule = void(Context& context);
 using ProjectRule = void(Context& context);

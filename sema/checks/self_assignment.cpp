@@ -33,14 +33,12 @@ bool isSame(const Context& context, ExprId left, ExprId right) {
 
 }  // namespace
 
-void checkSelfAssignment(Context& context, StmtId statement) {
-  const Tree& tree = context.tree();
-  if (context.library || tree.kind(statement) != StmtKind::Assign) return;
-  const AssignStmt& node = tree.as<AssignStmt>(statement);
-  if (node.op() != AssignOp::Assign || !isSame(context, node.target, node.value)) return;
+void checkSelfAssignment(Context& context, const AssignStmt& node) {
+  if (context.library || node.op() != AssignOp::Assign || !isSame(context, node.target, node.value)) return;
   const VarId variable = variableOf(context, node.target);
   if (!variable || context.symbols.var(variable).temporary != 0) return;  // of a diagram
-  context.report(diag::SelfAssignment, tree.begin(node.target), {string(context, context.symbols.var(variable).name)});
+  context.report(diag::SelfAssignment, context.tree().begin(node.target),
+                 {string(context, context.symbols.var(variable).name)});
 }
 
 }  // namespace rung::sema

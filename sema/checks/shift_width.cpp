@@ -6,18 +6,15 @@
 // Called for each call of these operators.
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/literals.h"
-#include "sema/checks/operation.h"
 #include "sema/checks/rules.h"
 #include "sema/shorthands.h"
 
 namespace rung::sema {
 
-void checkShiftWidth(Context& context, ExprId expr) {
+void checkShiftWidth(Context& context, const Operation& operation) {
   using types::Op;
-  if (context.library) return;
-  const std::optional<Operation> operation = operationOf(context, expr);
-  if (!operation || (operation->op != Op::Shl && operation->op != Op::Shr && operation->op != Op::Sar)) return;
-  const ExprId value = operation->left, count = operation->right;
+  if (context.library || (operation.op != Op::Shl && operation.op != Op::Shr && operation.op != Op::Sar)) return;
+  const ExprId value = operation.left, count = operation.right;
   const TypeId type = context.tree().expr(value).type;
   if (!type || type == types::kError || isUntyped(context, type)) return;
   const TypeKind kind = context.types().plainKind(type);

@@ -29,16 +29,14 @@ bool isConstantTime(const Context& context, ExprId expr) {
 
 }  // namespace
 
-void checkTimeEquality(Context& context, ExprId expr) {
-  if (context.tree().kind(expr) != ExprKind::Binary) return;
-  const BinaryExpr& node = context.tree().as<BinaryExpr>(expr);
-  if (node.op() != BinaryOp::Equal && node.op() != BinaryOp::NotEqual) return;
+void checkTimeEquality(Context& context, const Operation& operation) {
+  if (!operation.is_infix || (operation.op != types::Op::Eq && operation.op != types::Op::Ne)) return;
   if (context.library || (context.pou && context.symbols.pou(context.pou).pragmas.test)) return;
-  const types::TypeKind kind = context.types().plainKind(context.tree().expr(node.left).type);
+  const types::TypeKind kind = context.types().plainKind(context.tree().expr(operation.left).type);
   if (kind != types::TypeKind::Time && kind != types::TypeKind::LTime) return;
-  if ((isOutputOfBlock(context, node.left) && isConstantTime(context, node.right)) ||
-      (isOutputOfBlock(context, node.right) && isConstantTime(context, node.left)))
-    context.report(diag::TimeEquality, node.h.loc, {spelling(node.op())});
+  if ((isOutputOfBlock(context, operation.left) && isConstantTime(context, operation.right)) ||
+      (isOutputOfBlock(context, operation.right) && isConstantTime(context, operation.left)))
+    context.report(diag::TimeEquality, operation.loc, {operation.op == types::Op::Eq ? "=" : "<>"});
 }
 
 }  // namespace rung::sema
