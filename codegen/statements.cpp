@@ -250,8 +250,7 @@ void StatementWriter::leave() {
 bool StatementWriter::endsInJump(StmtId first) const {
   StmtKind last = StmtKind::None;
   for (StmtId id = first; id; id = body_->stmt(id).next) last = body_->stmt(id).kind;
-  return last == StmtKind::Break || last == StmtKind::Continue || last == StmtKind::Return || last == StmtKind::Jump ||
-         last == StmtKind::Fault;
+  return ir::flowOf(last) == ir::StmtFlow::Leaves;
 }
 
 // Without braces: every variable is declared at the top, so jumps cross no initialisation.
