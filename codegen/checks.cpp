@@ -70,43 +70,19 @@ void CheckWriter::prepare(ExprId id) {
 }
 
 void CheckWriter::checkNode(ExprId id, const Expr& e) {
-  switch (e.kind) {
-    case ExprKind::Field:
-    case ExprKind::Deref:
-      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) != 0) nullCheck(e);
-      return;
-    case ExprKind::Binary:
-      if ((e.checks & ir::kCheckDiv) != 0) divisionCheck(e);
-      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
-      return;
-    case ExprKind::Unary:
-      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
-      return;
-    case ExprKind::Convert: {
-      const TypeKind target = types_.plainKind(e.type);
-      if (isString(expr(e.as<ir::ConvertExpr>().operand).type) || TypeTable::isString(target)) return;
-      const bool is_integer = !TypeTable::isReal(target) && widthOf(target) > 0;
-      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) convertCheck(e);
-      const bool is_subrange = types_.info(types_.resolve(e.type)).kind == TypeKind::Subrange;
-      if ((e.checks & ir::kCheckSubrange) != 0 && is_subrange) subrangeCheck(e);
-      return;
-    }
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Index:
-    case ExprKind::Bits:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: break;
+  if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) != 0) nullCheck(e);
+  if ((e.checks & ir::kCheckDiv) != 0) divisionCheck(e);
+  const auto* convert = e.tryAs<ir::ConvertExpr>();
+  if (convert == nullptr) {
+    if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(id);
+    return;
   }
+  const TypeKind target = types_.plainKind(e.type);
+  if (isString(expr(convert->operand).type) || TypeTable::isString(target)) return;
+  const bool is_integer = !TypeTable::isReal(target) && widthOf(target) > 0;
+  if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) convertCheck(e);
+  const bool is_subrange = types_.info(types_.resolve(e.type)).kind == TypeKind::Subrange;
+  if ((e.checks & ir::kCheckSubrange) != 0 && is_subrange) subrangeCheck(e);
 }
 
 void CheckWriter::nullCheck(const Expr& e) {

@@ -161,8 +161,7 @@ void StatementWriter::addLabel(std::string_view label) { add(tree_.textual(cxx::
 bool StatementWriter::endsInJump(StmtId first) const {
   StmtKind last = StmtKind::None;
   for (StmtId id = first; id; id = body_->stmt(id).next) last = body_->stmt(id).kind;
-  return last == StmtKind::Break || last == StmtKind::Continue || last == StmtKind::Return || last == StmtKind::Jump ||
-         last == StmtKind::Fault;
+  return ir::flowOf(last) == ir::StmtFlow::Leaves;
 }
 
 // Without braces: every variable is declared at the top, so jumps cross no initialisation.

@@ -60,29 +60,9 @@ bool StringWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
   if (isSlice(id) || (ir::isPlace(e.kind) && ir::mayLackEnd(types_, *body_, id))) return false;
-  switch (e.kind) {
-    case ExprKind::Local: return !body_->locals[e.as<ir::LocalExpr>().local].by_reference;
-    case ExprKind::Field: return !fieldOf(e.as<ir::FieldExpr>()).by_reference;
-    case ExprKind::Index: return true;
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return false;
-  }
-  return false;
+  if (const uint32_t* local = ir::localOf(e)) return !body_->locals[*local].by_reference;
+  if (const auto* field = e.tryAs<ir::FieldExpr>()) return !fieldOf(*field).by_reference;
+  return e.kind == ExprKind::Index;
 }
 
 void StringWriter::prepareString(ExprId from) {

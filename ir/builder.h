@@ -151,9 +151,9 @@ class Builder {
 #define RUNG_BLOCK(name)
 #define RUNG_CASES(name)
 #define RUNG_VALUE(type, name)
-#define RUNG_EXPR(kind, word, fields) \
+#define RUNG_EXPR(kind, word, role, checks, fields) \
   void attachOperands([[maybe_unused]] const kind##Expr& node) { fields }
-#define RUNG_STMT(kind, word, fields) \
+#define RUNG_STMT(kind, word, effect, flow, fields) \
   void attachOperands([[maybe_unused]] const kind##Stmt& node) { fields }
 #include "ir/instructions.def"
 #undef RUNG_OPERAND
@@ -176,6 +176,5 @@ class Builder {
 bool isPassedByReference(const types::TypeTable& types, LocalKind kind, TypeId type);
 // Arrays, records and strings: copied whole, passed by reference.
 bool isAggregate(const types::TypeTable& types, TypeId type);
-bool isPlace(ExprKind kind);
 
 }  // namespace rung::ir

@@ -15,29 +15,8 @@ namespace {
 // True when an lvalue may be reached by other means than the own instance or a plain local.
 bool isForeign(const Body& body, ExprId place) {
   const Expr& root = body.expr(rootOf(body, place));
-  switch (root.kind) {
-    case ExprKind::Self: return false;
-    case ExprKind::Local: return body.locals[root.as<LocalExpr>().local].by_reference;
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Deref: return true;
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return false;
-  }
-  return false;
+  if (const uint32_t* local = localOf(root)) return body.locals[*local].by_reference;
+  return root.kind == ExprKind::Global || root.kind == ExprKind::Program || root.kind == ExprKind::Deref;
 }
 
 }  // namespace

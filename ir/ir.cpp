@@ -30,15 +30,6 @@ bool isPassedByReference(const TypeTable& types, LocalKind kind, TypeId type) {
   return false;
 }
 
-bool isPlace(ExprKind kind) {
-  constexpr bool kIsPlace[] = {
-#define RUNG_EXPR(kind, word, fields) false,
-#define RUNG_PLACE(kind, word, fields) true,
-#include "ir/instructions.def"
-  };
-  return kIsPlace[static_cast<size_t>(kind)];
-}
-
 // ---- variables
 
 uint32_t Builder::local(NameId name, TypeId type, LocalKind kind) {
@@ -169,9 +160,9 @@ ExprId Builder::copy(ExprId original) {
     forEachOperand(body, expr, [&](ExprId& operand) { operand = copy(operand); });
   }
   switch (expr.kind) {
-#define RUNG_EXPR(kind, word, fields)      \
-  case ExprKind::kind:                     \
-    attachOperands(expr.as<kind##Expr>()); \
+#define RUNG_EXPR(kind, word, role, checks, fields) \
+  case ExprKind::kind:                              \
+    attachOperands(expr.as<kind##Expr>());          \
     break;
 #include "ir/instructions.def"
   }

@@ -81,13 +81,52 @@ struct Case {
 };
 
 enum class ExprKind : uint8_t {
-#define RUNG_EXPR(kind, word, fields) kind,
+#define RUNG_EXPR(kind, word, role, checks, fields) kind,
 #include "ir/instructions.def"
 };
 enum class StmtKind : uint8_t {
-#define RUNG_STMT(kind, word, fields) kind,
+#define RUNG_STMT(kind, word, effect, flow, fields) kind,
 #include "ir/instructions.def"
 };
+
+// The columns of instructions.def.
+enum class ExprRole : uint8_t { Constant, Variable, Part, Target, Value };
+enum class StmtEffect : uint8_t { None, Stores, Acts };
+enum class StmtFlow : uint8_t { Falls, Blocks, Leaves };
+
+constexpr ExprRole roleOf(ExprKind kind) {
+  constexpr ExprRole kRoles[] = {
+#define RUNG_EXPR(kind, word, role, checks, fields) ExprRole::role,
+#include "ir/instructions.def"
+  };
+  return kRoles[static_cast<uint8_t>(kind)];
+}
+constexpr bool isPlace(ExprKind kind) {
+  const ExprRole role = roleOf(kind);
+  return role == ExprRole::Variable || role == ExprRole::Part || role == ExprRole::Target;
+}
+// The checks that an expression of this kind may have.
+constexpr uint8_t checksOf(ExprKind kind) {
+  constexpr uint8_t kChecks[] = {
+#define RUNG_EXPR(kind, word, role, checks, fields) checks,
+#include "ir/instructions.def"
+  };
+  return kChecks[static_cast<uint8_t>(kind)];
+}
+constexpr StmtEffect effectOf(StmtKind kind) {
+  constexpr StmtEffect kEffects[] = {
+#define RUNG_STMT(kind, word, effect, flow, fields) StmtEffect::effect,
+#include "ir/instructions.def"
+  };
+  return kEffects[static_cast<uint8_t>(kind)];
+}
+constexpr StmtFlow flowOf(StmtKind kind) {
+  constexpr StmtFlow kFlows[] = {
+#define RUNG_STMT(kind, word, effect, flow, fields) StmtFlow::flow,
+#include "ir/instructions.def"
+  };
+  return kFlows[static_cast<uint8_t>(kind)];
+}
 
 // The fields of each kind, such as
 //   struct FieldExpr { static constexpr ExprKind kKind = ExprKind::Field; ExprId base; uint32_t field; };
@@ -100,12 +139,12 @@ enum class StmtKind : uint8_t {
 #define RUNG_BLOCK(name) StmtId name = {};
 #define RUNG_CASES(name) Slice<Case> name = {};
 #define RUNG_VALUE(type, name) type name = {};
-#define RUNG_EXPR(kind, word, fields)                 \
+#define RUNG_EXPR(kind, word, role, checks, fields)   \
   struct kind##Expr {                                 \
     static constexpr ExprKind kKind = ExprKind::kind; \
     fields                                            \
   };
-#define RUNG_STMT(kind, word, fields)                 \
+#define RUNG_STMT(kind, word, effect, flow, fields)   \
   struct kind##Stmt {                                 \
     static constexpr StmtKind kKind = StmtKind::kind; \
     fields                                            \

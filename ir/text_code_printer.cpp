@@ -311,32 +311,11 @@ void Printer::real(const types::Value& value, TypeKind kind) {
 
 // As operand of a prefix keyword or base of a postfix: in parentheses unless it is one token.
 void Printer::operand(ExprId id, TypeId expected) {
-  switch (body_->expr(id).kind) {
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Address:
-      put("(");
-      expr(id, expected);
-      put(")");
-      return;
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Call: expr(id, expected); return;
-  }
+  const ExprKind kind = body_->expr(id).kind;
+  const bool is_token = roleOf(kind) != ExprRole::Value || kind == ExprKind::Call;
+  if (!is_token) put("(");
+  expr(id, expected);
+  if (!is_token) put(")");
 }
 
 void Printer::localName(const Local& local) {

@@ -28,11 +28,11 @@ constexpr const char* kReserved[] = {
     "string",     "symbol_none", "symbol_read", "symbol_write", "temp",   "text",   "to",    "true",
     "ustring",    "value",       "var",         "wstring"};
 constexpr const char* kExprWords[] = {
-#define RUNG_EXPR(kind, word, fields) word,
+#define RUNG_EXPR(kind, word, role, checks, fields) word,
 #include "ir/instructions.def"
 };
 constexpr const char* kStmtWords[] = {
-#define RUNG_STMT(kind, word, fields) word,
+#define RUNG_STMT(kind, word, effect, flow, fields) word,
 #include "ir/instructions.def"
 };
 constexpr CheckKeyword kCheckKeywords[] = {
@@ -81,29 +81,11 @@ bool isReserved(std::string_view name) {
 uint8_t naturalCheck(Op op) { return op == Op::Div || op == Op::Mod ? kCheckDiv : kCheckOverflow; }
 
 uint8_t naturalCheck(const TypeTable& types, const Expr& expr) {
-  switch (expr.kind) {
-    case ExprKind::Binary:
-    case ExprKind::Unary: return naturalCheck(expr.op());
-    case ExprKind::Index: return kCheckIndex;
-    case ExprKind::Deref:
-    case ExprKind::Field: return kCheckNull;
-    case ExprKind::Convert: return types.kind(expr.type) == TypeKind::Subrange ? kCheckSubrange : kCheckConvert;
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Bits:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return 0;
-  }
-  return 0;
+  if (checksOf(expr.kind) == 0) return 0;
+  if (expr.kind == ExprKind::Index) return kCheckIndex;
+  if (isPlace(expr.kind)) return kCheckNull;
+  if (expr.kind != ExprKind::Convert) return naturalCheck(expr.op());
+  return types.kind(expr.type) == TypeKind::Subrange ? kCheckSubrange : kCheckConvert;
 }
 
 }  // namespace rung::ir::text_form

@@ -127,6 +127,7 @@ class Verifier {
     require(e.type == types_.resolve(type), rule,
             [&] { return "the node is " + toString(e.type) + ", but it refers to " + toString(types_.resolve(type)); });
   }
+  void allowChecks(const Expr& e, int rule) { allowChecks(e, checksOf(e.kind), rule); }
   void allowChecks(const Expr& e, unsigned allowed, int rule) {
     require((e.checks & ~allowed) == 0, rule, "a check that this node cannot have");
   }
@@ -624,23 +625,23 @@ void Verifier::placeNode(const Expr& e) {
     case ExprKind::Local: {
       const uint32_t local = e.as<LocalExpr>().local;
       if (names(local, body_->locals, "a local that does not exist")) wantType(e, body_->locals[local].type, 10);
-      return allowChecks(e, 0, 10);
+      return allowChecks(e, 10);
     }
     case ExprKind::Self:
       if (require(static_cast<bool>(body_->self), 8, "self in a body that has none")) wantType(e, body_->self, 8);
-      return allowChecks(e, 0, 10);
+      return allowChecks(e, 10);
     case ExprKind::Global: {
       const uint32_t list = e.as<GlobalExpr>().list;
       if (names(list, module_.lists, "a list that does not exist")) wantType(e, module_.lists[list].record, 10);
-      return allowChecks(e, 0, 10);
+      return allowChecks(e, 10);
     }
     case ExprKind::Program: {
       const uint32_t program = e.as<ProgramExpr>().program;
       if (names(program, module_.programs, "a program that does not exist"))
         wantType(e, module_.programs[program].record, 10);
-      return allowChecks(e, 0, 10);
+      return allowChecks(e, 10);
     }
-    case ExprKind::Image: image(e); return allowChecks(e, 0, 10);
+    case ExprKind::Image: image(e); return allowChecks(e, 10);
     case ExprKind::Field: {
       const FieldExpr& node = e.as<FieldExpr>();
       const TypeInfo& info = types_.info(typeOf(node.base));
@@ -648,7 +649,7 @@ void Verifier::placeNode(const Expr& e) {
                                              "a field of something other than a record"))
         return;
       wantType(e, info.fields[node.field].type, 11);
-      return allowChecks(e, info.fields[node.field].by_reference ? unsigned{kCheckNull} : 0u, 11);
+      return allowChecks(e, info.fields[node.field].by_reference ? checksOf(e.kind) : 0u, 11);
     }
     case ExprKind::Index: {
       const IndexExpr& node = e.as<IndexExpr>();
@@ -664,17 +665,17 @@ void Verifier::placeNode(const Expr& e) {
       const bool has_check = (e.checks & kCheckIndex) != 0;
       require(e.proven == 0 || (has_check && e.proven >> std::min(node.indices.count, kMostProven) == 0), 12,
               "a dimension without check is marked as proven");
-      return allowChecks(e, kCheckIndex, 12);
+      return allowChecks(e, 12);
     }
     case ExprKind::Deref: {
       const TypeInfo& info = types_.info(typeOf(e.as<DerefExpr>().pointer));
       if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
       wantType(e, info.base, 13);
-      return allowChecks(e, kCheckNull | kCheckCast, 13);
+      return allowChecks(e, 13);
     }
     case ExprKind::Bits:
       if (isBase(e.as<BitsExpr>().base, 14)) bits(e);
-      return allowChecks(e, 0, 15);
+      return allowChecks(e, 15);
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::String:
@@ -700,7 +701,7 @@ void Verifier::conversion(const Expr& e) {
               (TypeTable::isReal(from) && TypeTable::isScalar(to) && !TypeTable::isReal(to) && to != TypeKind::Bool),
           16, [&] { return "a rounding of " + toString(typeOf(operand)) + " to " + toString(e.type); });
   require(e.proven == 0 || (isIntegral(from) && isIntegral(to)), 16, "a conversion of other than integers has `=`");
-  allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
+  allowChecks(e, 16);
 }
 
 void Verifier::pureCall(const Expr& e) {
@@ -720,18 +721,18 @@ void Verifier::pureCall(const Expr& e) {
 void Verifier::node(const Expr& e) {
   switch (e.kind) {
     case ExprKind::None: require(false, 5, "an expression without kind"); return;
-    case ExprKind::Const: constant(e); return allowChecks(e, 0, 9);
+    case ExprKind::Const: constant(e); return allowChecks(e, 9);
     case ExprKind::String:
       require(TypeTable::isString(types_.kind(e.type)), 9, [&] { return "a string constant of " + toString(e.type); });
-      return allowChecks(e, 0, 9);
+      return allowChecks(e, 9);
     case ExprKind::Data: {
       const uint32_t index = e.as<DataExpr>().index;
       if (require(index < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[index].type, 9);
-      return allowChecks(e, 0, 9);
+      return allowChecks(e, 9);
     }
     case ExprKind::Zero:
       require(isAggregate(types_, e.type), 9, [&] { return "zero of " + toString(e.type); });
-      return allowChecks(e, 0, 9);
+      return allowChecks(e, 9);
     case ExprKind::Unary: {
       const UnaryExpr& node = e.as<UnaryExpr>();
       return operatorNode(e, node.op, node.operand, {});
@@ -746,15 +747,15 @@ void Verifier::node(const Expr& e) {
       require(types_.kind(typeOf(node.condition)) == TypeKind::Bool, 17, "the condition of a select is not a BOOL");
       require(fits(e.type, typeOf(node.when_true)) && fits(e.type, typeOf(node.when_false)), 17,
               "a select does not have the type of its operands");
-      return allowChecks(e, 0, 15);
+      return allowChecks(e, 15);
     }
-    case ExprKind::Call: pureCall(e); return allowChecks(e, 0, 15);
+    case ExprKind::Call: pureCall(e); return allowChecks(e, 15);
     case ExprKind::Address: {
       const Expr& target = body_->expr(e.as<AddressExpr>().place);
       require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + toString(e.type); });
       require(isPlace(target.kind) && target.kind != ExprKind::Bits && !isImageBit(target), 19,
               "the address of something that has none");
-      return allowChecks(e, 0, 15);
+      return allowChecks(e, 15);
     }
     case ExprKind::Local:
     case ExprKind::Self:

@@ -28,7 +28,7 @@ void forEachOperand(BodyT& body, ExprT& expr, F&& f) {
 #define RUNG_OPERAND(name) f(node.name);
 #define RUNG_OPERANDS(name) \
   for (auto& operand : body.list(node.name)) f(operand);
-#define RUNG_EXPR(kind, word, fields)                             \
+#define RUNG_EXPR(kind, word, role, checks, fields)               \
   case ExprKind::kind: {                                          \
     [[maybe_unused]] auto& node = expr.template as<kind##Expr>(); \
     fields return;                                                \
@@ -77,7 +77,7 @@ void forEachRoot(const Module& module, BodyT& body, StmtT& stmt, F&& f) {
 #define RUNG_WRITE(name) visit(node.name, Use::Write);
 #define RUNG_REFERENCE(name) visit(node.name, Use::Reference);
 #define RUNG_ARGUMENTS(name) visitArguments(module.body(node.callee), body.list(node.name));
-#define RUNG_STMT(kind, word, fields)                             \
+#define RUNG_STMT(kind, word, effect, flow, fields)               \
   case StmtKind::kind: {                                          \
     [[maybe_unused]] auto& node = stmt.template as<kind##Stmt>(); \
     fields return;                                                \
@@ -103,7 +103,7 @@ void forEachBlock(BodyT& body, StmtT& stmt, F&& f) {
 #define RUNG_BLOCK(name) f(node.name);
 #define RUNG_CASES(name) \
   for (auto& one : body.list(node.name)) f(one.block);
-#define RUNG_STMT(kind, word, fields)                             \
+#define RUNG_STMT(kind, word, effect, flow, fields)               \
   case StmtKind::kind: {                                          \
     [[maybe_unused]] auto& node = stmt.template as<kind##Stmt>(); \
     fields return;                                                \

@@ -14,29 +14,10 @@ uint32_t BodyPart::effects() {
 
 bool BodyPart::isStable(ExprId id) const {
   const Expr& expr = body_.expr(id);
-  switch (expr.kind) {
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program: return true;
-    case ExprKind::Local: return body_.locals[expr.as<LocalExpr>().local].kind == LocalKind::Temp;
-    case ExprKind::Convert: return expr.checks == 0 && isStable(expr.as<ConvertExpr>().operand);
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return false;
-  }
-  return false;
+  if (const uint32_t* local = localOf(expr)) return body_.locals[*local].kind == LocalKind::Temp;
+  if (const auto* convert = expr.tryAs<ConvertExpr>()) return expr.checks == 0 && isStable(convert->operand);
+  const ExprRole role = roleOf(expr.kind);
+  return role == ExprRole::Constant || (role == ExprRole::Variable && expr.kind != ExprKind::Image);
 }
 
 // An index or pointer of a place goes to a temporary unless it is one.
@@ -48,41 +29,20 @@ void BodyPart::makeStable(ExprId& operand, Loc loc) {
 
 ExprId BodyPart::stable(ExprId place) {
   const Loc loc = body_.expr(place).loc;
-  switch (body_.expr(place).kind) {
-    case ExprKind::Field:
-    case ExprKind::Bits: stable(baseOf(body_.expr(place))); return place;
-    case ExprKind::Index: {
-      stable(baseOf(body_.expr(place)));
-      const Slice<ExprId> indices = body_.expr(place).as<IndexExpr>().indices;
-      for (uint32_t i = 0; i < indices.count; ++i) {
-        ExprId index = body_.list(indices)[i];
-        makeStable(index, loc);
-        body_.list(indices)[i] = index;
-      }
-      break;
+  if (const ExprId base = baseOf(body_.expr(place))) stable(base);
+  if (const auto* index = body_.expr(place).tryAs<IndexExpr>()) {
+    const Slice<ExprId> indices = index->indices;
+    for (uint32_t i = 0; i < indices.count; ++i) {
+      ExprId operand = body_.list(indices)[i];
+      makeStable(operand, loc);
+      body_.list(indices)[i] = operand;
     }
-    case ExprKind::Deref: {
-      ExprId pointer = body_.expr(place).as<DerefExpr>().pointer;
-      makeStable(pointer, loc);
-      body_.expr(place).as<DerefExpr>().pointer = pointer;
-      break;
-    }
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return place;
+  } else if (const auto* deref = body_.expr(place).tryAs<DerefExpr>()) {
+    ExprId pointer = deref->pointer;
+    makeStable(pointer, loc);
+    body_.expr(place).as<DerefExpr>().pointer = pointer;
+  } else {
+    return place;
   }
   if (body_.expr(place).checks != 0) {  // checked once, here
     append(loc, EvaluateStmt{copy(place)});
@@ -97,29 +57,11 @@ bool BodyPart::isTemp(ExprId place) const {
 }
 
 bool BodyPart::hasEffect(const Stmt& stmt) const {
-  switch (stmt.kind) {
-    case StmtKind::Assign: return !isTemp(stmt.as<AssignStmt>().place);
-    case StmtKind::For: return !isTemp(stmt.as<ForStmt>().control);
-    case StmtKind::Call: {
-      const CallStmt& call = stmt.as<CallStmt>();
-      return !in_.module.body(call.callee).pure || (call.result && !isTemp(call.result));
-    }
-    case StmtKind::None:
-    case StmtKind::If:
-    case StmtKind::Switch:
-    case StmtKind::Loop:
-    case StmtKind::Break:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Jump:
-    case StmtKind::Label:
-    case StmtKind::Try:
-    case StmtKind::Evaluate: return false;
-    case StmtKind::Bind:
-    case StmtKind::Fault:
-    case StmtKind::Assert: return true;
-  }
-  return true;
+  if (effectOf(stmt.kind) != StmtEffect::Stores) return effectOf(stmt.kind) == StmtEffect::Acts;
+  if (const auto* assign = stmt.tryAs<AssignStmt>()) return !isTemp(assign->place);
+  if (const auto* loop = stmt.tryAs<ForStmt>()) return !isTemp(loop->control);
+  const CallStmt& call = stmt.as<CallStmt>();
+  return !in_.module.body(call.callee).pure || (call.result && !isTemp(call.result));
 }
 
 bool BodyPart::mustSpill(InsertionPoint point, ExprId value) {

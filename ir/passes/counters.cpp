@@ -182,33 +182,22 @@ void Counters::addStmt(const Stmt& stmt, const std::vector<uint32_t>& variables,
     const bool is_counted = target == variables[i] ? count(*assign, to[i]) : !mayWrite(stmt, variables[i]);
     to[i].is_counted = is_counted;
   }
-  switch (stmt.kind) {
-    case StmtKind::None:
-    case StmtKind::Assign:
-    case StmtKind::Bind:
-    case StmtKind::Call:
-    case StmtKind::Assert:
-    case StmtKind::Evaluate:
-    case StmtKind::Break:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Fault: return;
-    case StmtKind::If: return addBranches({stmt.as<IfStmt>().then_block, stmt.as<IfStmt>().else_block}, variables, to);
-    case StmtKind::Switch: {
-      std::vector<StmtId> blocks{stmt.as<SwitchStmt>().else_block};
-      for (const Case& one : body_.list(stmt.as<SwitchStmt>().cases)) blocks.push_back(one.block);
-      return addBranches(blocks, variables, to);
-    }
-    case StmtKind::For: return addLoop(stmt.as<ForStmt>().body_block, &stmt.as<ForStmt>(), variables, to);
-    case StmtKind::Loop:
-      addLoop(stmt.as<LoopStmt>().body_block, nullptr, variables, to);
-      return addLoop(stmt.as<LoopStmt>().next_block, nullptr, variables, to);
-    case StmtKind::Label:
-    case StmtKind::Jump:
-    case StmtKind::Try:
-      for (Growth& growth : to) growth.is_counted = false;
-      return;
+  if (const auto* branch = stmt.tryAs<IfStmt>())
+    return addBranches({branch->then_block, branch->else_block}, variables, to);
+  if (const auto* branch = stmt.tryAs<SwitchStmt>()) {
+    std::vector<StmtId> blocks{branch->else_block};
+    for (const Case& one : body_.list(branch->cases)) blocks.push_back(one.block);
+    return addBranches(blocks, variables, to);
   }
+  if (const auto* loop = stmt.tryAs<ForStmt>()) return addLoop(loop->body_block, loop, variables, to);
+  if (const auto* loop = stmt.tryAs<LoopStmt>()) {
+    addLoop(loop->body_block, nullptr, variables, to);
+    return addLoop(loop->next_block, nullptr, variables, to);
+  }
+  const bool is_entered_elsewhere =
+      stmt.kind == StmtKind::Label || stmt.kind == StmtKind::Jump || stmt.kind == StmtKind::Try;
+  if (!is_entered_elsewhere) return;
+  for (Growth& growth : to) growth.is_counted = false;
 }
 
 void Counters::add(StmtId block, const std::vector<uint32_t>& variables, Growths& to) const {

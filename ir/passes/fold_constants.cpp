@@ -20,28 +20,16 @@ class Folder {
   bool run() {
     for (uint32_t i = 1; i < body_.exprs.size(); ++i) {
       Expr& e = body_.exprs[i];
-      switch (e.kind) {
-        case ExprKind::Unary: unary(e); break;
-        case ExprKind::Binary: binary(e); break;
-        case ExprKind::Convert: convert(e); break;
-        case ExprKind::Select: select(e); break;
-        case ExprKind::Index: index(e); break;
-        case ExprKind::None:
-        case ExprKind::Const:
-        case ExprKind::String:
-        case ExprKind::Data:
-        case ExprKind::Zero:
-        case ExprKind::Local:
-        case ExprKind::Self:
-        case ExprKind::Global:
-        case ExprKind::Program:
-        case ExprKind::Image:
-        case ExprKind::Field:
-        case ExprKind::Deref:
-        case ExprKind::Bits:
-        case ExprKind::Call:
-        case ExprKind::Address: break;
-      }
+      if (e.kind == ExprKind::Index) index(e);
+      if (roleOf(e.kind) != ExprRole::Value) continue;
+      if (e.kind == ExprKind::Unary)
+        unary(e);
+      else if (e.kind == ExprKind::Binary)
+        binary(e);
+      else if (e.kind == ExprKind::Convert)
+        convert(e);
+      else if (e.kind == ExprKind::Select)
+        select(e);
     }
     return changed_;
   }

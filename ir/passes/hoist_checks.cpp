@@ -82,38 +82,17 @@ class Hoister {
   // The memory that a place names is the same in each iteration.
   bool isFixedPlace(ExprId id) const {
     const Expr& e = body_.expr(id);
-    switch (e.kind) {
-      case ExprKind::Local:
-      case ExprKind::Self:
-      case ExprKind::Global:
-      case ExprKind::Program:
-      case ExprKind::Image: return true;
-      case ExprKind::Field:
-        if (isReference(module_, body_, e) &&
-            (written_.all_fields || body_.expr(e.as<FieldExpr>().base).kind != ExprKind::Self))
-          return false;
-        return isFixedPlace(e.as<FieldExpr>().base);
-      case ExprKind::Deref: return isFixedValue(e.as<DerefExpr>().pointer);
-      case ExprKind::Index: {
-        const IndexExpr& node = e.as<IndexExpr>();
-        for (const ExprId index : body_.list(node.indices))
-          if (!isFixedValue(index)) return false;
-        return isFixedPlace(node.base);
-      }
-      case ExprKind::None:
-      case ExprKind::Const:
-      case ExprKind::String:
-      case ExprKind::Data:
-      case ExprKind::Zero:
-      case ExprKind::Bits:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Convert:
-      case ExprKind::Select:
-      case ExprKind::Call:
-      case ExprKind::Address: return false;
+    if (roleOf(e.kind) == ExprRole::Variable) return true;
+    if (const auto* field = e.tryAs<FieldExpr>()) {
+      const bool may_refer = written_.all_fields || body_.expr(field->base).kind != ExprKind::Self;
+      return !(isReference(module_, body_, e) && may_refer) && isFixedPlace(field->base);
     }
-    return false;
+    if (const auto* deref = e.tryAs<DerefExpr>()) return isFixedValue(deref->pointer);
+    const auto* index = e.tryAs<IndexExpr>();
+    if (index == nullptr) return false;
+    for (const ExprId one : body_.list(index->indices))
+      if (!isFixedValue(one)) return false;
+    return isFixedPlace(index->base);
   }
   // The value is the same in each iteration: constants, variables that the loop does not write, and what they give.
   bool isFixedValue(ExprId id) const {

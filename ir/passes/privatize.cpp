@@ -113,33 +113,13 @@ class Privatizer {
   }
   bool isOwn(const Expr& e) const {
     if (e.checks != 0) return false;
-    switch (e.kind) {
-      case ExprKind::None:
-      case ExprKind::Const:
-      case ExprKind::String:
-      case ExprKind::Data:
-      case ExprKind::Zero:
-      case ExprKind::Self:
-      case ExprKind::Index:
-      case ExprKind::Bits:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Convert:
-      case ExprKind::Select:
-      case ExprKind::Call: return true;
-      case ExprKind::Local: return !body_.locals[e.as<LocalExpr>().local].by_reference;
-      case ExprKind::Field: {
-        const FieldExpr& node = e.as<FieldExpr>();
-        const types::TypeInfo& record = types_.info(types_.resolve(body_.expr(node.base).type));
-        return record.record_kind != types::RecordKind::Union && !record.fields[node.field].by_reference;
-      }
-      case ExprKind::Global:
-      case ExprKind::Program:
-      case ExprKind::Image:
-      case ExprKind::Deref:
-      case ExprKind::Address: return false;
+    if (const uint32_t* local = localOf(e)) return !body_.locals[*local].by_reference;
+    if (const auto* field = e.tryAs<FieldExpr>()) {
+      const types::TypeInfo& record = types_.info(types_.resolve(body_.expr(field->base).type));
+      return record.record_kind != types::RecordKind::Union && !record.fields[field->field].by_reference;
     }
-    return false;
+    const bool is_shared = roleOf(e.kind) == ExprRole::Variable && e.kind != ExprKind::Self;
+    return !is_shared && e.kind != ExprKind::Deref && e.kind != ExprKind::Address;
   }
 
   bool isWritten(StmtId first, const Scalar& of) const {

@@ -99,45 +99,27 @@ class Remover {
   }
 
   bool isDead(Stmt& s) {
-    switch (s.kind) {
-      case StmtKind::Evaluate: return !mayFault(body_, s.as<EvaluateStmt>().value);
-      case StmtKind::Assign: {
-        const auto [place, value] = s.as<AssignStmt>();
-        if (!isUnread(place) || mayFault(body_, place)) return false;
-        if (!mayFault(body_, value)) return true;
-        s.set(EvaluateStmt{value});
-        changed_ = true;
-        return false;
-      }
-      case StmtKind::Call: {
-        CallStmt& call = s.as<CallStmt>();
-        if (call.result && isUnread(call.result) && !mayFault(body_, call.result)) {
-          call.result = {};
-          changed_ = true;
-        }
-        const Body& callee = module_.body(call.callee);
-        if (!callee.pure || call.result) return false;
-        bool needed = callee.may_fault;
-        forEachRoot(module_, body_, s,
-                    [&](ExprId root, Use use) { needed = needed || use != Use::Read || mayFault(body_, root); });
-        return !needed;
-      }
-      case StmtKind::None:
-      case StmtKind::Bind:
-      case StmtKind::If:
-      case StmtKind::Switch:
-      case StmtKind::Loop:
-      case StmtKind::For:
-      case StmtKind::Break:
-      case StmtKind::Continue:
-      case StmtKind::Return:
-      case StmtKind::Jump:
-      case StmtKind::Label:
-      case StmtKind::Try:
-      case StmtKind::Fault:
-      case StmtKind::Assert: return false;
+    if (const auto* evaluate = s.tryAs<EvaluateStmt>()) return !mayFault(body_, evaluate->value);
+    if (const auto* assign = s.tryAs<AssignStmt>()) {
+      const auto [place, value] = *assign;
+      if (!isUnread(place) || mayFault(body_, place)) return false;
+      if (!mayFault(body_, value)) return true;
+      s.set(EvaluateStmt{value});
+      changed_ = true;
+      return false;
     }
-    return false;
+    if (s.kind != StmtKind::Call) return false;
+    CallStmt& call = s.as<CallStmt>();
+    if (call.result && isUnread(call.result) && !mayFault(body_, call.result)) {
+      call.result = {};
+      changed_ = true;
+    }
+    const Body& callee = module_.body(call.callee);
+    if (!callee.pure || call.result) return false;
+    bool needed = callee.may_fault;
+    forEachRoot(module_, body_, s,
+                [&](ExprId root, Use use) { needed = needed || use != Use::Read || mayFault(body_, root); });
+    return !needed;
   }
 
   Module& module_;

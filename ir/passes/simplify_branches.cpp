@@ -2,6 +2,8 @@
 // Branch and CASE simplification: see simplify_branches.h.
 #include "ir/passes/simplify_branches.h"
 
+#include <utility>
+
 #include "ir/passes/support.h"
 
 namespace rung::ir {
@@ -91,47 +93,21 @@ class Simplifier {
 
   // Tells whether control can reach what follows the statement.
   bool stmt(Stmt& s) {
-    switch (s.kind) {
-      case StmtKind::None:
-      case StmtKind::Assign:
-      case StmtKind::Bind:
-      case StmtKind::Call:
-      case StmtKind::Label:
-      case StmtKind::Assert:
-      case StmtKind::Evaluate: return true;
-      case StmtKind::Break: breaks_ = true; return false;
-      case StmtKind::Continue:
-      case StmtKind::Return:
-      case StmtKind::Jump:
-      case StmtKind::Fault: return false;
-      case StmtKind::If:
-      case StmtKind::Switch: {
-        bool falls = false;
-        forEachBlock(body_, s, [&](StmtId& first) { falls = block(first) || falls; });
-        return falls;
-      }
-      case StmtKind::Loop: {
-        const bool outer = breaks_;
-        breaks_ = false;
-        forEachBlock(body_, s, [&](StmtId& first) { block(first); });
-        const bool leaves = breaks_;
-        breaks_ = outer;
-        return leaves;
-      }
-      case StmtKind::For: {
-        const bool outer = breaks_;
-        block(s.as<ForStmt>().body_block);
-        breaks_ = outer;
-        return true;
-      }
-      case StmtKind::Try: {
-        TryStmt& node = s.as<TryStmt>();
-        const bool tried = block(node.body_block);
-        const bool caught = block(node.catch_block);
-        return block(node.finally_block) && (tried || caught);
-      }
+    if (s.kind == StmtKind::Break) breaks_ = true;
+    if (flowOf(s.kind) != StmtFlow::Blocks) return flowOf(s.kind) == StmtFlow::Falls;
+    if (s.kind == StmtKind::Try) {
+      TryStmt& node = s.as<TryStmt>();
+      const bool tried = block(node.body_block);
+      const bool caught = block(node.catch_block);
+      return block(node.finally_block) && (tried || caught);
     }
-    return true;
+    const bool outer = breaks_, is_loop = s.kind == StmtKind::Loop || s.kind == StmtKind::For;
+    if (is_loop) breaks_ = false;
+    bool falls = false;
+    forEachBlock(body_, s, [&](StmtId& first) { falls = block(first) || falls; });
+    if (!is_loop) return falls;
+    const bool leaves = std::exchange(breaks_, outer);
+    return leaves || s.kind == StmtKind::For;  // a Loop is left by `break` alone
   }
 
   // The jumps of a removed statement no longer keep their labels.
