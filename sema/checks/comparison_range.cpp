@@ -69,7 +69,7 @@ std::optional<bool> decided(Op op, __int128 low, __int128 high, __int128 number)
 
 void checkComparisonRange(Context& context, const Operation& operation) {
   Op op = operation.op;
-  if (context.library || op < Op::Eq || op > Op::Ge) return;
+  if (context.library) return;
   ExprId variable = withoutConversion(context, operation.left), number = withoutConversion(context, operation.right);
   if (isLiteral(context, variable)) {
     std::swap(variable, number);

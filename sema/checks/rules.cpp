@@ -18,6 +18,7 @@ enum class Hook : uint8_t {
   Assignment,
   Conversion,
   Index,
+  Comparison,
   Operation,
   Call,
   Assign,
@@ -49,8 +50,11 @@ class AllRules final : public Rules {
   void expression(Context& context, ExprId expr) const override {
     const Tree& tree = context.tree();
     if (tree.kind(expr) == ExprKind::Index) return run<Hook::Index>(context, tree.as<IndexExpr>(expr));
-    if (const std::optional<Operation> operation = operationOf(context, expr))
-      run<Hook::Operation>(context, *operation);
+    const std::optional<Operation> operation = operationOf(context, expr);
+    if (!operation) return;
+    const bool is_comparison = operation->op >= types::Op::Eq && operation->op <= types::Op::Ge;
+    if (is_comparison) return run<Hook::Comparison>(context, *operation);
+    run<Hook::Operation>(context, *operation);
   }
   void call(Context& context, const CallExpr& node, const Call& call) const override {
     run<Hook::Call>(context, node, call);
