@@ -123,66 +123,11 @@ const char* scalarType(const TypeTable& types, TypeId type) { return kPlainNames
 const char* scalarAliasType(const TypeTable& types, TypeId type) { return kAliasNames[representationOf(types, type)]; }
 
 const char* typeKindName(const TypeTable& types, TypeId type) {
-  switch (types.plainKind(type)) {
-    case TypeKind::Bool: return "RUNG_BOOL";
-    case TypeKind::Byte: return "RUNG_BYTE";
-    case TypeKind::Word: return "RUNG_WORD";
-    case TypeKind::DWord: return "RUNG_DWORD";
-    case TypeKind::LWord: return "RUNG_LWORD";
-    case TypeKind::SInt: return "RUNG_SINT";
-    case TypeKind::Int: return "RUNG_INT";
-    case TypeKind::DInt: return "RUNG_DINT";
-    case TypeKind::LInt: return "RUNG_LINT";
-    case TypeKind::USInt: return "RUNG_USINT";
-    case TypeKind::UInt: return "RUNG_UINT";
-    case TypeKind::UDInt: return "RUNG_UDINT";
-    case TypeKind::ULInt: return "RUNG_ULINT";
-    case TypeKind::Real: return "RUNG_REAL";
-    case TypeKind::LReal: return "RUNG_LREAL";
-    case TypeKind::Time: return "RUNG_TIME";
-    case TypeKind::LTime: return "RUNG_LTIME";
-    case TypeKind::Date: return "RUNG_DATE";
-    case TypeKind::LDate: return "RUNG_LDATE";
-    case TypeKind::TimeOfDay: return "RUNG_TOD";
-    case TypeKind::LTimeOfDay: return "RUNG_LTOD";
-    case TypeKind::DateTime: return "RUNG_DT";
-    case TypeKind::LDateTime: return "RUNG_LDT";
-    case TypeKind::Char: return "RUNG_CHAR";
-    case TypeKind::WChar: return "RUNG_WCHAR";
-    case TypeKind::UChar: return "RUNG_UCHAR";
-    case TypeKind::String: return "RUNG_STRING";
-    case TypeKind::WString: return "RUNG_WSTRING";
-    case TypeKind::UString: return "RUNG_USTRING";
-    case TypeKind::Array: return "RUNG_ARRAY";
-    case TypeKind::Record: return "RUNG_RECORD";
-    case TypeKind::None:
-    case TypeKind::Error:
-    case TypeKind::IntegerLiteral:
-    case TypeKind::RealLiteral:
-    case TypeKind::NullLiteral:
-    case TypeKind::Any:
-    case TypeKind::AnyElementary:
-    case TypeKind::AnyMagnitude:
-    case TypeKind::AnyNum:
-    case TypeKind::AnyReal:
-    case TypeKind::AnyInt:
-    case TypeKind::AnyUnsigned:
-    case TypeKind::AnySigned:
-    case TypeKind::AnyDuration:
-    case TypeKind::AnyBit:
-    case TypeKind::AnyChars:
-    case TypeKind::AnyString:
-    case TypeKind::AnyChar:
-    case TypeKind::AnyDate:
-    case TypeKind::AnyDerived:
-    case TypeKind::Enum:
-    case TypeKind::Subrange:
-    case TypeKind::Alias:
-    case TypeKind::Count_:
-    case TypeKind::Pointer:
-    case TypeKind::Reference: return "RUNG_POINTER";
-  }
-  return "RUNG_POINTER";
+  static constexpr const char* kHostKinds[] = {
+#define RUNG_KIND(kind, category, bits, class_number, host) host,
+#include "sema/types/kinds.def"
+  };
+  return kHostKinds[static_cast<uint8_t>(types.plainKind(type))];
 }
 
 TypeId elementOf(const TypeTable& types, TypeId type) {

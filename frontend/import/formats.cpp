@@ -29,20 +29,28 @@ bool isXml(std::string_view text) { return withoutBlanks(text).starts_with("<");
 
 // Rows with the same content are in the order in which they are tried.
 constexpr Format kFormats[] = {
-    {FileKind::TwinCat, "", ".tcpou .tcdut .tcgvl .tcio .tctleo .tctto", twincat::isTwinCat, twincat::readProgram},
-    {FileKind::PlcProject, "", ".plcproj", twincat::isProject, nullptr},
-    {FileKind::Multiprog, "", "", multiprog::isMultiprog, multiprog::readProgram, multiprog::programParts},
-    {FileKind::Codesys2, "", ".exp", codesys2::isCodesys2, codesys2::readProgram, codesys2::programParts},
-    {FileKind::Plcopen, "", "", plcopen::isPlcopen, plcopen::readProgram},
-    {FileKind::Iec10, "", "", iec10::isIec10, iec10::readProgram},
-    {FileKind::BeremizProject, "", "", beremiz::isProject, nullptr},
-    {FileKind::Beremiz, "", "", beremiz::isExtension, beremiz::readProgram},
-    {FileKind::Xml, "XML other than PLCopen's or that of IEC 61131-10", ".xml .cfc", isXml, nullptr},
-    {FileKind::St, "", ".st .iecst .pou .decl .impl", nullptr, nullptr},
-    {FileKind::Il, "", ".il", nullptr, nullptr},
-    {FileKind::Nct, "", ".nct", nullptr, nct::readProgram},
-    {FileKind::Messages, "", ".mes", nullptr, nullptr},
-    {FileKind::Cam, "", ".cam", nullptr, cams::readProgram},
+    {FileKind::TwinCat, FileRole::Program, Formatting::Xml, "", ".tcpou .tcdut .tcgvl .tcio .tctleo .tctto",
+     twincat::isTwinCat, twincat::readProgram},
+    {FileKind::PlcProject, FileRole::ListingProject, Formatting::None, "", ".plcproj", twincat::isProject, nullptr},
+    {FileKind::Multiprog, FileRole::Program, Formatting::Parts, "", "", multiprog::isMultiprog, multiprog::readProgram,
+     multiprog::programParts, kHoldsProject},
+    {FileKind::Codesys2, FileRole::Program, Formatting::Parts, "", ".exp", codesys2::isCodesys2, codesys2::readProgram,
+     codesys2::programParts, kHoldsProject},
+    {FileKind::Plcopen, FileRole::Program, Formatting::Xml, "", "", plcopen::isPlcopen, plcopen::readProgram, nullptr,
+     kHoldsProject},
+    {FileKind::Iec10, FileRole::Program, Formatting::Xml, "", "", iec10::isIec10, iec10::readProgram, nullptr,
+     kHoldsProject},
+    {FileKind::BeremizProject, FileRole::FolderProject, Formatting::None, "", "", beremiz::isProject, nullptr},
+    {FileKind::Beremiz, FileRole::Program, Formatting::None, "", "", beremiz::isExtension, beremiz::readProgram},
+    {FileKind::Xml, FileRole::Program, Formatting::None, "XML other than PLCopen's or that of IEC 61131-10",
+     ".xml .cfc", isXml, nullptr},
+    {FileKind::St, FileRole::Program, Formatting::Text, "", ".st .iecst .pou .decl .impl", nullptr, nullptr, nullptr,
+     kHasHalves},
+    {FileKind::Il, FileRole::Program, Formatting::Text, "", ".il", nullptr, nullptr},
+    {FileKind::Nct, FileRole::Program, Formatting::Ladder, "", ".nct", nullptr, nct::readProgram, nullptr, kHasControl},
+    {FileKind::Messages, FileRole::Messages, Formatting::Messages, "", ".mes", nullptr, nullptr},
+    {FileKind::Cam, FileRole::Program, Formatting::None, "", ".cam", nullptr, cams::readProgram},
+    {FileKind::Project, FileRole::RungProject, Formatting::None, "", "", nullptr, nullptr},
 };
 
 bool hasOneOf(std::string_view path, std::string_view extensions) {
@@ -57,7 +65,8 @@ bool hasOneOf(std::string_view path, std::string_view extensions) {
 }  // namespace
 
 const Format& formatOf(FileKind kind) {
-  static constexpr Format kOther = {FileKind::Unknown, "a file of another kind", "", nullptr, nullptr};
+  static constexpr Format kOther = {
+      FileKind::Unknown, FileRole::Program, Formatting::None, "a file of another kind", "", nullptr, nullptr};
   for (const Format& row : kFormats)
     if (row.kind == kind) return row;
   return kOther;
@@ -113,9 +122,7 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   return by_name;
 }
 
-bool isProject(FileKind kind) {
-  return kind == FileKind::Project || kind == FileKind::PlcProject || kind == FileKind::BeremizProject;
-}
+bool isProject(FileKind kind) { return roleOf(kind) != FileRole::Program && roleOf(kind) != FileRole::Messages; }
 
 bool holdsProgram(FileKind kind) {
   return kind == FileKind::St || kind == FileKind::Il || formatOf(kind).read != nullptr;

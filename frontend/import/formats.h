@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of file formats: how the kind of a file is recognised, and how its program is read. In: the path and text
 // of a file. Out: its kind; its program as source-mapped text (frontend/import/source_mapped_text.h) that the parser
-// reads, with locations in that file. A new format is a row of formats.cpp. Called by the driver for each input file.
+// reads, with locations in that file. A new format is a row of formats.cpp, which also answers what the driver, `rung
+// fmt` and `rung convert` ask of a file. Called by the driver for each input file.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +69,28 @@ struct TextPart {
   uint32_t begin, end;
 };
 
+// What a file is for.
+enum class FileRole : uint8_t {
+  Program,        // source, if something reads it
+  Messages,       // texts that a ladder shows
+  RungProject,    // rung.project
+  FolderProject,  // its folder is a project of another tool
+  ListingProject  // it lists the files of a project of another tool
+};
+
+enum : uint8_t {
+  kHoldsProject = 1,  // a tool keeps a whole project in such a file: `rung convert` makes a folder of it
+  kHasHalves = 2,     // it may be one of two files that belong together (pairs.h)
+  kHasControl = 4     // its programs need the memory and the messages of an NCT control
+};
+
+// How `rung fmt` formats it.
+enum class Formatting : uint8_t { None, Text, Ladder, Messages, Xml, Parts };
+
 struct Format {
   FileKind kind;
+  FileRole role;
+  Formatting formatting;
   std::string_view name;                  // in messages, for kinds that are not read
   std::string_view extensions;            // separated by blanks; those of several rows belong to the first
   bool (*detect)(std::string_view text);  // by content; null: by extension only
@@ -79,9 +100,12 @@ struct Format {
   // The declarations and bodies in it, for the formatter; reports what `read` reports. Null: all of the text, or
   // nothing.
   std::vector<TextPart> (*parts)(Sources& sources, FileId file, Diagnostics& diagnostics) = nullptr;
+  uint8_t traits = 0;
+  bool has(uint8_t trait) const { return (traits & trait) != 0; }
 };
 
 const Format& formatOf(FileKind kind);
+inline FileRole roleOf(FileKind kind) { return formatOf(kind).role; }
 
 // By content, then extension. `text` may be only the beginning.
 FileKind kindOf(std::string_view path, std::string_view text);

@@ -85,93 +85,35 @@ bool RecordLowering::isZero(TypeId declared) {
 
 bool RecordLowering::beginsWithZeros(TypeId declared, const TypeInfo& info) {
   if (declared.index < project.type_inits.size() && project.type_inits[declared.index]) return false;
-  switch (info.kind) {
-    case TypeKind::Alias:
-    case TypeKind::Array: return isZero(info.base);
-    case TypeKind::Enum:
-    case TypeKind::Subrange: return types::defaultValue(types, module.names, declared).bits == 0;
-    case TypeKind::Record: {
-      if (sema::PouId pou = pou_of_[declared.index]) {
-        if (project.pou(pou).kind == PouKind::Interface) return true;
-        if (project.pou(pou).object.dispatched || !all.lifeMethodsOf(pou, "FB_Init").empty()) return false;
-        if (!all.calledAfterInit(pou).empty()) return false;
-        for (sema::VarId id : project.pou(pou).vars) {
-          const sema::Var& var = project.var(id);
-          if (var.storage == sema::Storage::Image && var.init) return false;
-          if (var.storage == sema::Storage::Field &&
-              (var.init || (var.section != SectionKind::InOut && !isZero(var.type))))
-            return false;
-        }
-        return true;
-      }
-      if (sema::ListId list = list_of_[declared.index]) {
-        for (sema::VarId id : project.global_lists[list.index].vars) {
-          const sema::Var& var = project.var(id);
-          if (var.init || (var.storage == sema::Storage::Global && !isZero(var.type))) return false;
-        }
-        return true;
-      }
-      bool has_inits = declared.index < project.field_inits.size();
-      for (size_t i = 0; i < info.fields.size(); ++i) {
-        if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
-          return false;
-        if (!isZero(info.fields[i].type)) return false;
-        if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
-      }
-      return true;
+  if (info.kind == TypeKind::Alias || info.kind == TypeKind::Array) return isZero(info.base);
+  if (info.kind == TypeKind::Enum || info.kind == TypeKind::Subrange)
+    return types::defaultValue(types, module.names, declared).bits == 0;
+  if (info.kind != TypeKind::Record) return true;
+  if (sema::PouId pou = pou_of_[declared.index]) {
+    if (project.pou(pou).kind == PouKind::Interface) return true;
+    if (project.pou(pou).object.dispatched || !all.lifeMethodsOf(pou, "FB_Init").empty()) return false;
+    if (!all.calledAfterInit(pou).empty()) return false;
+    for (sema::VarId id : project.pou(pou).vars) {
+      const sema::Var& var = project.var(id);
+      if (var.storage == sema::Storage::Image && var.init) return false;
+      if (var.storage == sema::Storage::Field && (var.init || (var.section != SectionKind::InOut && !isZero(var.type))))
+        return false;
     }
-    case TypeKind::None:
-    case TypeKind::Error:
-    case TypeKind::Bool:
-    case TypeKind::Byte:
-    case TypeKind::Word:
-    case TypeKind::DWord:
-    case TypeKind::LWord:
-    case TypeKind::SInt:
-    case TypeKind::Int:
-    case TypeKind::DInt:
-    case TypeKind::LInt:
-    case TypeKind::USInt:
-    case TypeKind::UInt:
-    case TypeKind::UDInt:
-    case TypeKind::ULInt:
-    case TypeKind::Real:
-    case TypeKind::LReal:
-    case TypeKind::Time:
-    case TypeKind::LTime:
-    case TypeKind::Date:
-    case TypeKind::LDate:
-    case TypeKind::TimeOfDay:
-    case TypeKind::LTimeOfDay:
-    case TypeKind::DateTime:
-    case TypeKind::LDateTime:
-    case TypeKind::Char:
-    case TypeKind::WChar:
-    case TypeKind::UChar:
-    case TypeKind::String:
-    case TypeKind::WString:
-    case TypeKind::UString:
-    case TypeKind::IntegerLiteral:
-    case TypeKind::RealLiteral:
-    case TypeKind::NullLiteral:
-    case TypeKind::Any:
-    case TypeKind::AnyElementary:
-    case TypeKind::AnyMagnitude:
-    case TypeKind::AnyNum:
-    case TypeKind::AnyReal:
-    case TypeKind::AnyInt:
-    case TypeKind::AnyUnsigned:
-    case TypeKind::AnySigned:
-    case TypeKind::AnyDuration:
-    case TypeKind::AnyBit:
-    case TypeKind::AnyChars:
-    case TypeKind::AnyString:
-    case TypeKind::AnyChar:
-    case TypeKind::AnyDate:
-    case TypeKind::AnyDerived:
-    case TypeKind::Pointer:
-    case TypeKind::Reference:
-    case TypeKind::Count_: return true;
+    return true;
+  }
+  if (sema::ListId list = list_of_[declared.index]) {
+    for (sema::VarId id : project.global_lists[list.index].vars) {
+      const sema::Var& var = project.var(id);
+      if (var.init || (var.storage == sema::Storage::Global && !isZero(var.type))) return false;
+    }
+    return true;
+  }
+  bool has_inits = declared.index < project.field_inits.size();
+  for (size_t i = 0; i < info.fields.size(); ++i) {
+    if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
+      return false;
+    if (!isZero(info.fields[i].type)) return false;
+    if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
   }
   return true;
 }

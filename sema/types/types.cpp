@@ -222,69 +222,6 @@ TypeId TypeTable::addRecord(RecordKind kind, NameId name) {
   return types_.add(std::move(info));
 }
 
-uint32_t TypeTable::bitWidth(TypeKind k) {
-  switch (k) {
-    case TypeKind::Bool: return 1;
-    case TypeKind::Byte:
-    case TypeKind::SInt:
-    case TypeKind::USInt:
-    case TypeKind::Char: return 8;
-    case TypeKind::Word:
-    case TypeKind::Int:
-    case TypeKind::UInt:
-    case TypeKind::WChar: return 16;
-    case TypeKind::DWord:
-    case TypeKind::DInt:
-    case TypeKind::UDInt:
-    case TypeKind::UChar:
-    case TypeKind::Real:
-    case TypeKind::Time:
-    case TypeKind::Date:
-    case TypeKind::TimeOfDay:
-    case TypeKind::DateTime: return 32;
-    case TypeKind::LWord:
-    case TypeKind::LInt:
-    case TypeKind::ULInt:
-    case TypeKind::LReal:
-    case TypeKind::LTime:
-    case TypeKind::LDate:
-    case TypeKind::LTimeOfDay:
-    case TypeKind::LDateTime: return 64;
-    case TypeKind::None:
-    case TypeKind::Error:
-    case TypeKind::String:
-    case TypeKind::WString:
-    case TypeKind::UString:
-    case TypeKind::IntegerLiteral:
-    case TypeKind::RealLiteral:
-    case TypeKind::NullLiteral:
-    case TypeKind::Any:
-    case TypeKind::AnyElementary:
-    case TypeKind::AnyMagnitude:
-    case TypeKind::AnyNum:
-    case TypeKind::AnyReal:
-    case TypeKind::AnyInt:
-    case TypeKind::AnyUnsigned:
-    case TypeKind::AnySigned:
-    case TypeKind::AnyDuration:
-    case TypeKind::AnyBit:
-    case TypeKind::AnyChars:
-    case TypeKind::AnyString:
-    case TypeKind::AnyChar:
-    case TypeKind::AnyDate:
-    case TypeKind::AnyDerived:
-    case TypeKind::Enum:
-    case TypeKind::Subrange:
-    case TypeKind::Alias:
-    case TypeKind::Array:
-    case TypeKind::Record:
-    case TypeKind::Pointer:
-    case TypeKind::Reference:
-    case TypeKind::Count_: return 0;
-  }
-  return 0;
-}
-
 bool TypeTable::isSigned(TypeKind k) const {
   return isSignedInteger(k) || isReal(k) || (k == TypeKind::Time && time_is_signed) ||
          (k == TypeKind::LTime && long_time_is_signed);

@@ -19,66 +19,39 @@
 namespace rung::types {
 
 enum class TypeKind : uint8_t {
-  None,
-  Error,
-  Bool,
-  Byte,
-  Word,
-  DWord,
-  LWord,
-  SInt,
-  Int,
-  DInt,
-  LInt,
-  USInt,
-  UInt,
-  UDInt,
-  ULInt,
-  Real,
-  LReal,
-  Time,
-  LTime,
-  Date,
-  LDate,
-  TimeOfDay,
-  LTimeOfDay,
-  DateTime,
-  LDateTime,
-  Char,
-  WChar,
-  UChar,  // one code point
-  String,
-  WString,
-  UString,  // UTF-8, edition 4
-  // Untyped literals, before their context gives them a type. Never in IR.
-  IntegerLiteral,
-  RealLiteral,
-  NullLiteral,
-  // Generic pin types of library declarations. Never in IR.
-  Any,
-  AnyElementary,
-  AnyMagnitude,
-  AnyNum,
-  AnyReal,
-  AnyInt,
-  AnyUnsigned,
-  AnySigned,
-  AnyDuration,
-  AnyBit,
-  AnyChars,
-  AnyString,
-  AnyChar,
-  AnyDate,
-  AnyDerived,
-  Enum,
-  Subrange,
-  Alias,
-  Array,
-  Record,
-  Pointer,
-  Reference,
+#define RUNG_KIND(kind, category, bits, class_number, host) kind,
+#include "sema/types/kinds.def"
   Count_,
 };
+
+enum class TypeCategory : uint8_t {
+  None,
+  Bool,
+  Bits,
+  Signed,
+  Unsigned,
+  Real,
+  Duration,
+  Date,
+  Character,
+  String,
+  Literal,
+  Generic,
+  Derived,
+  Pointer
+};
+
+// The columns of kinds.def.
+struct KindRow {
+  TypeCategory category;
+  uint8_t bits, class_number;
+};
+inline constexpr KindRow kKindRows[] = {
+#define RUNG_KIND(kind, category, bits, class_number, host) {TypeCategory::category, bits, class_number},
+#include "sema/types/kinds.def"
+    {TypeCategory::None, 0, 29}};
+constexpr const KindRow& rowOf(TypeKind kind) { return kKindRows[static_cast<uint8_t>(kind)]; }
+constexpr TypeCategory categoryOf(TypeKind kind) { return rowOf(kind).category; }
 
 // Ids of elementary types are their kinds: TypeId{(uint32_t)TypeKind::Int} is INT.
 constexpr TypeId idOf(TypeKind kind) { return TypeId{static_cast<uint32_t>(kind)}; }
@@ -219,24 +192,24 @@ class TypeTable {
   std::string toString(TypeId id) const;
 
   // ---- classes of elementary kinds
-  static bool isSignedInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::LInt; }
-  static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
-  static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
-  static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
+  static bool isSignedInteger(TypeKind k) { return categoryOf(k) == TypeCategory::Signed; }
+  static bool isUnsignedInteger(TypeKind k) { return categoryOf(k) == TypeCategory::Unsigned; }
+  static bool isInteger(TypeKind k) { return isSignedInteger(k) || isUnsignedInteger(k); }
+  static bool isBits(TypeKind k) { return categoryOf(k) == TypeCategory::Bits; }  // without BOOL
   // UINT and WORD: a number without sign and a bit string of one width. All pointers.
   static bool haveSameBits(TypeKind a, TypeKind b) {
     if (a == TypeKind::Pointer && b == TypeKind::Pointer) return true;
     return ((isUnsignedInteger(a) && isBits(b)) || (isBits(a) && isUnsignedInteger(b))) && bitWidth(a) == bitWidth(b);
   }
   static bool isNumber(TypeKind k) { return isInteger(k) || isBits(k) || isReal(k); }
-  static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }
-  static bool isDuration(TypeKind k) { return k == TypeKind::Time || k == TypeKind::LTime; }
+  static bool isReal(TypeKind k) { return categoryOf(k) == TypeCategory::Real; }
+  static bool isDuration(TypeKind k) { return categoryOf(k) == TypeCategory::Duration; }
   static bool isTimeOfDay(TypeKind k) { return k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay; }
   static bool isDateTime(TypeKind k) { return k == TypeKind::DateTime || k == TypeKind::LDateTime; }
   static bool isDay(TypeKind k) { return k == TypeKind::Date || k == TypeKind::LDate; }
-  static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
-  static bool isString(TypeKind k) { return k >= TypeKind::String && k <= TypeKind::UString; }
-  static bool isCharacter(TypeKind k) { return k >= TypeKind::Char && k <= TypeKind::UChar; }
+  static bool isDate(TypeKind k) { return categoryOf(k) == TypeCategory::Date; }
+  static bool isString(TypeKind k) { return categoryOf(k) == TypeCategory::String; }
+  static bool isCharacter(TypeKind k) { return categoryOf(k) == TypeCategory::Character; }
   // The character type of a string type, the string type of a character type.
   static TypeKind characterOf(TypeKind string) {
     return string == TypeKind::WString   ? TypeKind::WChar
@@ -254,9 +227,10 @@ class TypeTable {
     return info.kind == TypeKind::Array && info.dimensions.empty();
   }
   static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UString; }
-  static bool isGeneric(TypeKind k) { return k >= TypeKind::Any && k <= TypeKind::AnyDerived; }
+  static bool isGeneric(TypeKind k) { return categoryOf(k) == TypeCategory::Generic; }
   static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UChar; }  // elementary, not a string
-  static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for types that are not scalar
+  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for types that are not scalar.
+  static uint32_t bitWidth(TypeKind k) { return rowOf(k).bits; }
   // The representation of an elementary kind: signed or unsigned integer of bitWidth, or floating point.
   bool isSigned(TypeKind k) const;
   // Of the dialect (docs/dialects.md).

@@ -430,26 +430,7 @@ std::string projectContent(std::string_view text) {
 
 // Tells whether a file becomes a folder: that of a tool which keeps a project in one file, or any other on request.
 bool Converter::becomesFolder(const InputFile& input) const {
-  switch (input.kind) {
-    case FileKind::Plcopen:
-    case FileKind::Iec10:
-    case FileKind::Codesys2:
-    case FileKind::Multiprog: return true;
-    case FileKind::Unknown:
-    case FileKind::St:
-    case FileKind::Il:
-    case FileKind::Xml:
-    case FileKind::Nct:
-    case FileKind::Messages:
-    case FileKind::Cam:
-    case FileKind::TwinCat:
-    case FileKind::PlcProject:
-    case FileKind::BeremizProject:
-    case FileKind::Beremiz:
-    case FileKind::Project:
-    case FileKind::Binary: return compilation_.options.splits;
-  }
-  return false;
+  return importer::formatOf(input.kind).has(importer::kHoldsProject) || compilation_.options.splits;
 }
 
 // One file for each declaration, below `folder`; false: the file stays whole.
@@ -507,8 +488,9 @@ std::string settingsOf(const Compilation& compilation) {
   std::string settings;
   if (project.file) settings = projectContent(compilation.sources.original(project.file));
   const std::vector<InputFile>& files = compilation.inputs.files;
-  const bool has_ladder =
-      std::any_of(files.begin(), files.end(), [](const InputFile& input) { return input.kind == FileKind::Nct; });
+  const bool has_ladder = std::any_of(files.begin(), files.end(), [](const InputFile& input) {
+    return importer::formatOf(input.kind).has(importer::kHasControl);
+  });
   const bool has_section = std::any_of(project.sections.begin(), project.sections.end(),
                                        [](const ProjectSection& section) { return section.kind == "nct"; });
   if (has_ladder && !has_section) settings += "\n[nct]\n";
@@ -558,8 +540,9 @@ std::optional<TextFile> messageFile(const Inputs& inputs) {
   std::sort(messages.begin(), messages.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
   std::string text;
   for (const importer::Message& message : messages) text += std::to_string(message.number) + '\t' + message.text + '\n';
-  const auto ladder = std::find_if(inputs.files.begin(), inputs.files.end(),
-                                   [](const InputFile& input) { return input.kind == FileKind::Nct; });
+  const auto ladder = std::find_if(inputs.files.begin(), inputs.files.end(), [](const InputFile& input) {
+    return importer::formatOf(input.kind).has(importer::kHasControl);
+  });
   return TextFile{fs::path(ladder->below).stem().generic_string() + ".mes", std::move(text)};
 }
 

@@ -24,7 +24,7 @@ namespace rung::driver {
 namespace {
 
 namespace fs = std::filesystem;
-using importer::FileKind;
+using importer::Formatting;
 
 constexpr const char* kStandardInput = "stdin.st";
 constexpr std::string_view kMark = "\xef\xbb\xbf";
@@ -142,34 +142,23 @@ class FileFormatter {
   std::string text(const InputFile& input, std::string_view source) {
     const Options& options = compilation_.options;
     const format::Style& style = compilation_.inputs.project.style;
-    switch (input.kind) {
-      case FileKind::St:
-      case FileKind::Il: {
+    switch (importer::formatOf(input.kind).formatting) {
+      case Formatting::Text: {
         // The halves of a pair of files were joined: what the parser saw is not this file.
         const bool is_parsed = compilation_.sources.original(input.file) == source;
         static const format::Bodies kNone;
         return format::formatted(source, is_parsed ? bodies_.of(input.file) : kNone, style, options.dialect,
                                  options.lines);
       }
-      case FileKind::Nct: return format::formattedLadder(source, style, options.lines);
-      case FileKind::Messages: return format::formattedMessages(source, style, options.lines);
-      case FileKind::TwinCat:
-      case FileKind::Plcopen:
-      case FileKind::Iec10: return format::formattedXml(source, style, options.dialect);
-      case FileKind::Codesys2:
-      case FileKind::Multiprog: {
+      case Formatting::Ladder: return format::formattedLadder(source, style, options.lines);
+      case Formatting::Messages: return format::formattedMessages(source, style, options.lines);
+      case Formatting::Xml: return format::formattedXml(source, style, options.dialect);
+      case Formatting::Parts: {
         std::vector<format::Span> parts;
         for (const importer::TextPart& part : partsOf(input.kind, source)) parts.push_back({part.begin, part.end});
         return format::formattedParts(source, parts, bodies_.of(input.file), style, options.dialect);
       }
-      case FileKind::Unknown:
-      case FileKind::Xml:
-      case FileKind::Cam:
-      case FileKind::PlcProject:
-      case FileKind::BeremizProject:
-      case FileKind::Beremiz:
-      case FileKind::Project:
-      case FileKind::Binary: return std::string(source);
+      case Formatting::None: return std::string(source);
     }
     return std::string(source);
   }
@@ -177,8 +166,9 @@ class FileFormatter {
  private:
   // False: an error has been printed.
   bool format(const InputFile& input) {
-    const bool is_text = input.kind == FileKind::St || input.kind == FileKind::Il || input.kind == FileKind::Nct ||
-                         input.kind == FileKind::Messages;
+    const Formatting formatting = importer::formatOf(input.kind).formatting;
+    const bool is_text =
+        formatting == Formatting::Text || formatting == Formatting::Ladder || formatting == Formatting::Messages;
     if (!is_text && compilation_.options.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);

@@ -41,11 +41,12 @@ void leaveGenerated(Folder& folder) {
 
 void add(std::string path, Folder& folder) {
   const FileKind kind = importer::kindOfExtension(path);
-  if (kind == FileKind::PlcProject)
+  const importer::FileRole role = importer::roleOf(kind);
+  if (role == importer::FileRole::ListingProject)
     folder.plc_projects.push_back(std::move(path));
-  else if (kind == FileKind::BeremizProject)
+  else if (role == importer::FileRole::FolderProject)
     folder.is_beremiz = true;
-  else if (kind != FileKind::Unknown && kind != FileKind::Project)
+  else if (kind != FileKind::Unknown && role != importer::FileRole::RungProject)
     folder.files.push_back(std::move(path));
 }
 

@@ -47,7 +47,7 @@ class Collector {
       return a.below != b.below ? a.below < b.below : a.named > b.named;
     });
     has_ladder_ = std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& candidate) {
-      return importer::kindOfExtension(candidate.path) == FileKind::Nct;
+      return importer::formatOf(importer::kindOfExtension(candidate.path)).has(importer::kHasControl);
     });
     const Candidate* last = nullptr;
     for (const Candidate& candidate : candidates_) {
@@ -98,8 +98,8 @@ class Collector {
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
       fail(diag::CannotRead, word, {word, "not a file or folder"});
-    } else if (const FileKind kind = importer::kindOfExtension(word);
-               kind == FileKind::Project || kind == FileKind::BeremizProject) {
+    } else if (const FileRole role = importer::roleOf(importer::kindOfExtension(word));
+               role == FileRole::RungProject || role == FileRole::FolderProject) {
       const std::string folder = folderOf(word);
       bases_.push_back(absolutePath(folder));
       addProjectFolder(folder);
@@ -110,7 +110,7 @@ class Collector {
   }
 
   void addNamedFile(const std::string& path) {
-    if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path);
+    if (importer::roleOf(importer::kindOfExtension(path)) == FileRole::ListingProject) return addPlcProject(path);
     candidates_.push_back({absolutePath(path), path, {}, true});
   }
 
@@ -193,7 +193,7 @@ class Collector {
     const std::string& path = library.path;
     struct stat info;
     if (stat(path.c_str(), &info) != 0) return;  // libraries.cpp reports it
-    if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path, true);
+    if (importer::roleOf(importer::kindOfExtension(path)) == FileRole::ListingProject) return addPlcProject(path, true);
     if (S_ISREG(info.st_mode)) return addLibraryFile(path, library.name(), true);
     Folder folder;
     setScannedRoot(path);
@@ -206,7 +206,7 @@ class Collector {
   }
 
   void addLibraryFile(const std::string& path, const std::string& library, bool named) {
-    if (isLibraryInSt(path) || importer::kindOfExtension(path) == FileKind::Messages) return;
+    if (isLibraryInSt(path) || importer::roleOf(importer::kindOfExtension(path)) == FileRole::Messages) return;
     SourceFile source;
     if (!read(path, path, named, source)) return;
     inputs_.library_files.push_back({path, library, source.kind, source.file});
@@ -354,7 +354,7 @@ class Collector {
     if (source.kind == FileKind::Binary) return failed(diag::BinaryFile, {path});
     if (source.kind == FileKind::Unknown) return failed(diag::UnknownFileKind, {path});
     if (importer::isProject(source.kind)) return false;
-    if (!importer::holdsProgram(source.kind) && source.kind != FileKind::Messages) {
+    if (!importer::holdsProgram(source.kind) && importer::roleOf(source.kind) != FileRole::Messages) {
       const std::string_view name = importer::formatOf(source.kind).name;
       if (named) return failed(diag::KindNotRead, {path, name});
       diagnostics_.report(diag::KindIgnored, {}, {path, name}).path(path);
@@ -368,10 +368,11 @@ class Collector {
 
   void addFile(const Candidate& candidate) {
     SourceFile source;
-    const bool holds_messages = importer::kindOfExtension(candidate.path) == FileKind::Messages;
+    const bool holds_messages = importer::roleOf(importer::kindOfExtension(candidate.path)) == FileRole::Messages;
     if (holds_messages && !candidate.named && !has_ladder_) return;  // such a file may be anything
     if (!read(candidate.path, candidate.below, candidate.named, source)) return;
-    std::vector<InputFile>& files = source.kind == FileKind::Messages ? inputs_.message_files : inputs_.files;
+    std::vector<InputFile>& files =
+        importer::roleOf(source.kind) == FileRole::Messages ? inputs_.message_files : inputs_.files;
     files.push_back({candidate.path, candidate.path, candidate.below, source.kind, source.file, candidate.is_library,
                      candidate.library});
   }
@@ -404,17 +405,17 @@ static void addNctAreas(types::MemoryAreas& areas) {
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bool for_pictures) {
   std::vector<importer::PairCandidate> halves;
   for (const InputFile& input : inputs.files)
-    if (input.kind == FileKind::St) halves.push_back({input.below, input.file});
+    if (importer::formatOf(input.kind).has(importer::kHasHalves)) halves.push_back({input.below, input.file});
   importer::joinPairs(sources, halves);
   if (!importer::joinMembers(sources, halves, diagnostics)) inputs.unread = true;
   auto half = halves.begin();
   for (InputFile& input : inputs.files)
-    if (input.kind == FileKind::St) input.file = (half++)->file;
+    if (importer::formatOf(input.kind).has(importer::kHasHalves)) input.file = (half++)->file;
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 
   importer::ReadContext context{sources, diagnostics, inputs.libraries, inputs.project.ladder, for_pictures};
   for (const InputFile& input : inputs.message_files) context.message_files.push_back(input.file);
-  const auto is_nct = [](const InputFile& input) { return input.kind == FileKind::Nct; };
+  const auto is_nct = [](const InputFile& input) { return importer::formatOf(input.kind).has(importer::kHasControl); };
   const std::vector<ProjectSection>& sections = inputs.project.sections;
   const auto is_about_control = [](const ProjectSection& section) { return section.kind == "nct"; };
   if (std::any_of(inputs.files.begin(), inputs.files.end(), is_nct) ||

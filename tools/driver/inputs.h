@@ -17,6 +17,7 @@
 namespace rung::driver {
 
 using importer::FileKind;
+using importer::FileRole;
 
 struct InputFile {
   std::string path;   // to open it

@@ -44,7 +44,8 @@ bool holdsSource(const std::string& path) {
   file.read(text.data(), kBeginning);
   text.resize(static_cast<size_t>(file.gcount()));
   const importer::FileKind kind = importer::kindOf(path, text);
-  return importer::holdsProgram(kind) || importer::isProject(kind) || kind == importer::FileKind::Messages;
+  return importer::holdsProgram(kind) || importer::isProject(kind) ||
+         importer::roleOf(kind) == importer::FileRole::Messages;
 }
 
 }  // namespace

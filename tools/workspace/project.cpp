@@ -26,7 +26,7 @@ FoundProject projectIn(const fs::path& folder, const std::string& shown) {
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().generic_string();
-    if (importer::kindOfExtension(name) == importer::FileKind::PlcProject && isFile(it->path()))
+    if (importer::roleOf(importer::kindOfExtension(name)) == importer::FileRole::ListingProject && isFile(it->path()))
       found.push_back(named(name));
   }
   std::sort(found.begin(), found.end());
