@@ -3,7 +3,8 @@
 // GCC and Clang have it as -Wself-assign.
 //   passes  level := level + 1;   THIS^.level := level;   list[i] := list[j];
 //   warns   level := level;   pump.speed := pump.speed;   target^.speed := target^.speed;         W0885
-// Elements of arrays are not compared: an index may be a call with an effect. Called for each statement.
+// Elements of arrays are not compared: an index may be a call with an effect. Nor are sides on two lines: such a line
+// of ST is half-written (W0242), and IL has a line for each. Called for each statement.
 #include "sema/bodies/names.h"
 #include "sema/checks/rules.h"
 #include "sema/shorthands.h"
@@ -35,6 +36,8 @@ bool isSame(const Context& context, ExprId left, ExprId right) {
 
 void checkSelfAssignment(Context& context, const AssignStmt& node) {
   if (context.library || node.op() != AssignOp::Assign || !isSame(context, node.target, node.value)) return;
+  const auto lineOf = [&](ExprId expr) { return context.symbols.sources.lineNumber(context.tree().loc(expr)); };
+  if (lineOf(node.value) != lineOf(node.target)) return;
   const VarId variable = variableOf(context, node.target);
   if (!variable || context.symbols.var(variable).temporary != 0) return;  // of a diagram
   context.report(diag::SelfAssignment, context.tree().begin(node.target),

@@ -24,7 +24,7 @@ class Export : public testing::Test {
     root_.write("tests/conformance/features.tsv", "feature\teditions\tname\n1\t\tTable\n1/1\t3+4\tFeature\n");
     root_.write("CHANGELOG.md", "# Changes\n\n## 1.2.3 (2026-01-02)\n");
   }
-  void add(const std::string& text) const { root_.write("tests/conformance/x/one.st", text); }
+  void add(const std::string& text) const { root_.write("tests/conformance/language/x/one.st", text); }
   void run(const char* profile) {
     ExportOptions options;
     options.root = root_.path();
@@ -114,7 +114,8 @@ TEST_F(Export, ImplicitConversionsAreOfEdition3) {
 
 TEST_F(Export, AChoiceOfRungIsLeftOut) {
   root_.write("tools/conformance/kept.tsv",
-              "program\treason\ntests/conformance/x/one.st:open:0 = n\tleft open\ntests/conformance/x/one.st:all\tleft "
+              "program\treason\ntests/conformance/language/x/one.st:open:0 = n\tleft "
+              "open\ntests/conformance/language/x/one.st:all\tleft "
               "open, too\n");
   add("// Open.\n// features: 1/1\n{test}\nPROGRAM open\nVAR n : INT; END_VAR\nASSERT_EQ(0, n);\nASSERT(n < "
       "1);\nEND_PROGRAM\n"

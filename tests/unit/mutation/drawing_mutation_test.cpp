@@ -92,8 +92,9 @@ uint32_t numberFrom(const char* variable, uint32_t otherwise) {
 // The drawn conformance programs, as ST and as XML.
 std::vector<std::string> programs() {
   std::vector<std::string> all;
-  for (const char* folder : {"table54", "table56", "table58", "table61", "table73", "table74", "table75", "table76",
-                             "tm_tp_5_3", "tm_tp_5_5", "tm_tp_5_6", "plcopen"}) {
+  for (const char* folder : {"standard/table54", "standard/table56", "standard/table58", "standard/table61",
+                             "standard/table73", "standard/table74", "standard/table75", "standard/table76",
+                             "manuals/tm_tp_5_3", "manuals/tm_tp_5_5", "manuals/tm_tp_5_6", "language/plcopen"}) {
     std::vector<std::string> paths;
     for (const auto& entry : fs::directory_iterator(std::string(RUNG_SOURCE_ROOT "/tests/conformance/") + folder))
       paths.push_back(entry.path().string());

@@ -64,7 +64,8 @@ uint32_t numberFrom(const char* variable, uint32_t otherwise) {
 // The networks of the conformance programs.
 std::vector<std::string> programs() {
   std::vector<std::string> all;
-  for (const char* folder : {"table73", "table74", "table75", "table76", "tm_tp_5_3", "tm_tp_5_6"}) {
+  for (const char* folder : {"standard/table73", "standard/table74", "standard/table75", "standard/table76",
+                             "manuals/tm_tp_5_3", "manuals/tm_tp_5_6"}) {
     std::vector<std::string> paths;
     for (const auto& entry : fs::directory_iterator(std::string(RUNG_SOURCE_ROOT "/tests/conformance/") + folder))
       if (entry.path().extension() == ".st") paths.push_back(entry.path().string());
