@@ -86,9 +86,9 @@ TEST_F(Cxx, BracesCloseWhereTheSourceHasRoom) {
 TEST_F(Cxx, ATreeIsUsedAgain) {
   for (int round = 0; round < 3; ++round) {
     tree.clear();
-    Ex sum = tree.name("x");
-    for (int i = 0; i < 4000; ++i) sum = tree.infix(Op::Add, sum, tree.number(1));
-    EXPECT_EQ(toString(sum).size(), 1 + 4000u * 4);
+    std::vector<Ex> arguments;
+    for (int i = 0; i < 4000; ++i) arguments.push_back(tree.infix(Op::Add, tree.name("x"), tree.number(1)));
+    EXPECT_EQ(toString(tree.call("f", arguments)).size(), 3 + 4000u * 7 - 2);
   }
 }
 
