@@ -294,20 +294,14 @@ class StatementPrinter {
       case StmtKind::Label:
         out_ += stmt.text;
         out_ += ':';
-        if (stmt.a != nullptr) {
-          out_ += ' ';
-          expression(stmt.a);
-        }
+        optional(stmt.a);
         out_ += ';';
         return;
       case StmtKind::Break: out_ += "break;"; return;
       case StmtKind::Continue: out_ += "continue;"; return;
       case StmtKind::Return:
         out_ += "return";
-        if (stmt.a != nullptr) {
-          out_ += ' ';
-          expression(stmt.a);
-        }
+        optional(stmt.a);
         out_ += ';';
         return;
       case StmtKind::Block: out_ += '{'; return block(stmt.first);
@@ -344,6 +338,11 @@ class StatementPrinter {
   }
 
   void expression(Ex e) { ExpressionPrinter(out_).print(*e); }
+  void optional(Ex e) {
+    if (e == nullptr) return;
+    out_ += ' ';
+    expression(e);
+  }
   void word(std::string_view before, std::string_view text) {
     out_ += before;
     out_ += text;
@@ -386,15 +385,9 @@ class StatementPrinter {
     out_ += "for (";
     if (stmt.a != nullptr) expression(stmt.a);
     out_ += ';';
-    if (stmt.b != nullptr) {
-      out_ += ' ';
-      expression(stmt.b);
-    }
+    optional(stmt.b);
     out_ += ';';
-    if (stmt.c != nullptr) {
-      out_ += ' ';
-      expression(stmt.c);
-    }
+    optional(stmt.c);
     out_ += ')';
     braced(stmt.first);
   }
