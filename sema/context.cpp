@@ -25,4 +25,11 @@ Context atPou(Context& context, PouId pou) {
   return there;
 }
 
+ExprId& codeOf(Context& context, ExprId written) {
+  const auto [slot, is_new] = context.scopes.code.try_emplace(written.word);
+  if (!written) return slot->second = {};
+  if (is_new) slot->second = context.code().copy(written);
+  return slot->second;
+}
+
 }  // namespace rung::sema

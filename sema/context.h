@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "frontend/source/dialect.h"
-#include "frontend/syntax/tree_builder.h"
+#include "sema/code.h"
 #include "sema/entities.h"
 
 namespace rung::sema {
@@ -42,12 +42,16 @@ struct Context {
   const Rules* rules = nullptr;  // hooks.h: what looks at each use, statement, body … that is checked
   const Expressions* expressions = nullptr;  // declarations/expressions.h: how declarations check their expressions
 
-  Tree& tree() const { return symbols.tree; }
+  // What was written, and the code that is made of it.
+  const Tree& tree() const { return symbols.tree; }
+  Code code() const { return Code(symbols.arena); }
+  Meaning& meaning(ExprId expr) const { return sema::meaning(symbols.tree, expr); }
+  TypeId& type(ExprId expr) const { return meaning(expr).type; }
   types::TypeTable& types() const { return symbols.types; }
   Names& names() const { return symbols.names; }
-  // Nodes that make explicit what the source leaves implicit; replace() puts one into the slot of what was written.
-  TreeBuilder build() const { return TreeBuilder(tree(), TreeBuilder::Origin::Inserted); }
-  void replace(ExprId& slot, ExprId by) const { tree().replace(slot, by); }
+  // Nodes that make explicit what the source leaves implicit; replace() puts one into the slot of another.
+  TreeBuilder build() const { return code().build(); }
+  void replace(ExprId& slot, ExprId by) const { code().replace(slot, by); }
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
     return symbols.diagnostics.report(diag, loc, args);
   }
@@ -56,6 +60,10 @@ struct Context {
   // Integers compute in the native width: sema/intermediate.h.
   bool isWide() const { return profile().narrow_integers_widen; }
 };
+
+// The code of an expression of a declaration, made when it is first asked for: what is written in one place is checked
+// once. The slot takes what replaces it; none: no expression, or none that can be used.
+ExprId& codeOf(Context& context, ExprId written);
 
 // The same project seen from another location; from file level and from within a POU.
 Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {});

@@ -58,7 +58,7 @@ uint64_t characterOf(std::string_view text, TypeKind kind) {
 
 Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
   const TypeTable& table = symbols.types;
-  const TypeId type = table.resolve(literal.h.type);
+  const TypeId type = table.resolve(meaning(literal.h).type);
   const TypeKind kind = table.plainKind(type);
   const bool negative = (literal.h.bits & kLiteralNegative) != 0;
   switch (literal.literal()) {

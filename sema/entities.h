@@ -13,6 +13,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
+#include "sema/code.h"
 #include "sema/ids.h"
 #include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
@@ -46,7 +47,8 @@ struct Var {
   bool constant = false, retain = false, persistent = false;
   bool non_retain = false;  // NON_RETAIN, which also holds inside of a retained instance
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
-  bool has_value = false;     // constant scalar or string with a known value: see `value`
+  bool generic = false;    // VAR_GENERIC CONSTANT; in the block itself its value only serves the check, so any will do
+  bool has_value = false;  // constant scalar or string with a known value: see `value`
   bool hierarchical = false;  // AT %QW0.1.2: placed after all others when these are known
   bool open_address = false;  // AT %I*: the number comes from VAR_CONFIG or from the system
   PouId pou;                  // owner, or none
@@ -141,6 +143,10 @@ struct Pou {
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
   std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among `vars`; filled by bodies/ at the first call
+  // ---- the body: its statements as written or as a scheduler made them, and the code that is made of them
+  Slice<StmtId> statements, code;
+  bool scheduled = false;
+  FileId chart_sections, chart_body;  // of a chart: the ST made of it
   bool library = false;
   bool excluded = false;           // a test, or only for tests, and not part of this program: checked, not lowered
   bool cpp = false;                // its body is in C++
@@ -259,6 +265,7 @@ struct Call {
   ExprId eno;                     // ENO => …
   VarId eno_memory;               // Instance whose ENO is read: the variable that holds it, beside the instance
   bool eno_is_pin = false;        // … and one of `bindings`: the callee has an output of that name
+  CallId constructor;             // of __SYSTEM.Allocate for __NEW: the arguments of FB_Init
   Assertion assertion = Assertion::Assert;
 };
 
@@ -266,7 +273,8 @@ struct Symbols {
   Sources& sources;
   Names& names;
   Diagnostics& diagnostics;
-  Tree& tree;
+  const Tree& tree;                // what was written, and code
+  Tree& arena;                     // the same, for who adds to it: code.h
   const LanguageProfile& profile;  // of the project's own sources; Context::profile() is that of the current code
   uint32_t native_width;           // 32 or 64: intermediate.h
   types::TypeTable types;

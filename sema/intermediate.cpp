@@ -21,14 +21,11 @@ TypeId nativeType(const Symbols& symbols, TypeId type) {
 }
 
 TypeId uncutType(const Symbols& symbols, ExprId expr) {
-  const ExprHeader& node = symbols.tree.expr(expr);
-  if (node.kind == ExprKind::Convert) {
-    const bool is_operand = (node.bits & kIntermediate) != 0;
-    if (!is_operand || !uncutType(symbols, symbols.tree.as<ConvertExpr>(expr).operand)) return {};
-    return nativeType(symbols, node.type);
-  }
-  const bool computes = node.kind == ExprKind::Binary || node.kind == ExprKind::Unary || node.kind == ExprKind::Call;
-  return computes && (node.bits & kIntermediate) != 0 ? nativeType(symbols, node.type) : TypeId{};
+  const Meaning& known = meaning(symbols.tree, expr);
+  if (!known.is_intermediate) return {};
+  if (symbols.tree.kind(expr) == ExprKind::Convert && !uncutType(symbols, symbols.tree.as<ConvertExpr>(expr).operand))
+    return {};
+  return nativeType(symbols, known.type);
 }
 
 TypeId comparedType(const Symbols& symbols, ExprId left, ExprId right) {
@@ -36,20 +33,20 @@ TypeId comparedType(const Symbols& symbols, ExprId left, ExprId right) {
   return type ? type : uncutType(symbols, right);
 }
 
-void markIntermediate(const Symbols& symbols, ExprHeader& node, TypeId type, bool is_wide) {
-  const bool marked = is_wide && nativeType(symbols, type);
-  node.bits = static_cast<uint8_t>(marked ? node.bits | kIntermediate : node.bits & ~kIntermediate);
+void markIntermediate(const Symbols& symbols, ExprId expr, TypeId type, bool is_wide) {
+  meaning(symbols.tree, expr).is_intermediate = is_wide && nativeType(symbols, type);
 }
 
-void markRounding(const Symbols& symbols, ExprHeader& node, TypeId from, bool is_wide) {
-  const TypeKind source = symbols.types.plainKind(from), target = symbols.types.plainKind(node.type);
+void markRounding(const Symbols& symbols, ExprId expr, TypeId from, bool is_wide) {
+  Meaning& known = meaning(symbols.tree, expr);
+  const TypeKind source = symbols.types.plainKind(from), target = symbols.types.plainKind(known.type);
   const bool is_real = TypeTable::isReal(source) || source == TypeKind::RealLiteral;
   const bool is_whole = TypeTable::isScalar(target) && !TypeTable::isReal(target) && target != TypeKind::Bool;
-  if (is_wide && is_real && is_whole) node.bits |= kAwayFromZero;
+  if (is_wide && is_real && is_whole) known.rounds_from_zero = true;
 }
 
-types::Rounding roundingOf(const ExprHeader& node) {
-  return (node.bits & kAwayFromZero) != 0 ? types::Rounding::AwayFromZero : types::Rounding::ToEven;
+types::Rounding roundingOf(const Meaning& known) {
+  return known.rounds_from_zero ? types::Rounding::AwayFromZero : types::Rounding::ToEven;
 }
 
 bool isRingOperation(const Symbols& symbols, ExprId expr) {
@@ -59,7 +56,7 @@ bool isRingOperation(const Symbols& symbols, ExprId expr) {
   if (tree.kind(expr) == ExprKind::Binary) {
     op = operatorOf(tree.as<BinaryExpr>(expr).op());
   } else if (tree.kind(expr) == ExprKind::Call) {
-    op = symbols.pou(symbols.call(tree.as<CallExpr>(expr).call).pou).pragmas.op;
+    op = symbols.pou(symbols.call(meaning(tree, expr).call).pou).pragmas.op;
   } else {
     return false;
   }

@@ -20,12 +20,12 @@ TypeId uncutType(const Symbols& symbols, ExprId expr);
 // The type in which two values are compared when one of them is wider than its type says; none: their own.
 TypeId comparedType(const Symbols& symbols, ExprId left, ExprId right);
 
-// The operation is one of those above, on values of the type: marks the node, or takes the mark away.
-void markIntermediate(const Symbols& symbols, ExprHeader& node, TypeId type, bool is_wide);
+// The operation is one of those above, on values of the type: marks the expression, or takes the mark away.
+void markIntermediate(const Symbols& symbols, ExprId expr, TypeId type, bool is_wide);
 
 // How a conversion of a REAL rounds: in codesys away from zero (ABB's CODESYS help, "REAL_TO_"), else to even.
-void markRounding(const Symbols& symbols, ExprHeader& node, TypeId from, bool is_wide);
-types::Rounding roundingOf(const ExprHeader& node);
+void markRounding(const Symbols& symbols, ExprId expr, TypeId from, bool is_wide);
+types::Rounding roundingOf(const Meaning& known);
 
 // A sum, difference or product: its last bits do not depend on the first ones of its operands.
 bool isRingOperation(const Symbols& symbols, ExprId expr);

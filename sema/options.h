@@ -12,6 +12,7 @@
 
 #include "frontend/schedule/edge_coils.h"
 #include "frontend/source/dialect.h"
+#include "frontend/source/files.h"
 #include "frontend/source/function_ref.h"
 #include "sema/ids.h"
 #include "sema/types/areas.h"

@@ -11,6 +11,7 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
               the_names,
               the_diagnostics,
               the_tree,
+              the_tree,
               profileOf(the_options.dialect),
               the_options.native_width,
               types::TypeTable(the_names, the_options.pointer_size)},
@@ -18,6 +19,11 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
   for (const types::MemoryArea& area : options.areas) area_bytes.push_back(area.bytes);
   types.time_is_signed = !profile.unsigned_time;
   types.long_time_is_signed = profile.signed_long_time;
+}
+
+std::span<const DeclId> Project::madeSections(const PouDecl& pou) const {
+  const auto found = made_sections.find(&pou);
+  return found == made_sections.end() ? std::span<const DeclId>() : std::span<const DeclId>(found->second);
 }
 
 VarId ResourceGlobals::of(NameId resource) const {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "sema/entities.h"
@@ -99,6 +101,9 @@ struct Project : Symbols {
   std::vector<AccessPath> access_paths;
   std::vector<BlockTask> block_tasks;
   std::vector<ResourceGlobals> resource_globals;
+  // The sections that schedulers made for a POU, beside those that it declares.
+  std::unordered_map<const PouDecl*, std::vector<DeclId>> made_sections;
+  std::span<const DeclId> madeSections(const PouDecl& pou) const;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the location of the call: for the recursion rule.

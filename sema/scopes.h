@@ -44,6 +44,43 @@ class NameMap {
 
 enum class State : uint8_t { New, Busy, Done };
 
+// What is known of nodes of one kind, by their id. As NameMap; references are valid until the next insertion.
+template <class Id, class T>
+class NodeMap {
+ public:
+  T& operator[](Id id) {
+    if (2 * count_ >= slots_.size()) grow();
+    Slot& slot = slotOf(id);
+    if (!slot.id) {
+      slot.id = id;
+      ++count_;
+    }
+    return slot.value;
+  }
+  // As it is when nothing is known.
+  T find(Id id) const { return slots_.empty() ? T{} : const_cast<NodeMap*>(this)->slotOf(id).value; }
+
+ private:
+  struct Slot {
+    Id id;
+    T value{};
+  };
+  Slot& slotOf(Id id) {
+    for (uint32_t i = (id.word * 0x9e3779b1u) >> 7;; ++i) {
+      Slot& slot = slots_[i & (slots_.size() - 1)];
+      if (slot.id == id || !slot.id) return slot;
+    }
+  }
+  void grow() {
+    std::vector<Slot> old(slots_.empty() ? 64 : 2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.id) slotOf(slot.id) = slot;
+  }
+  std::vector<Slot> slots_;
+  uint32_t count_ = 0;
+};
+
 // A named type, or the record of a POU or global list.
 struct NamedType {
   DeclId decl;      // TypeDecl; none for records of POUs and lists, and for types written in place
@@ -132,8 +169,17 @@ struct Libraries {
   uint32_t project = ~0u;  // the index of the Namespace of the project itself
 };
 
+// The type of a written type expression.
+struct WrittenType {
+  TypeId type;        // none: not known yet
+  bool busy = false;  // being resolved
+};
+
 struct Scopes {
-  std::vector<uint64_t> reported;  // unknown names: the POU or type, and the name
+  NodeMap<TypeExprId, WrittenType> written_types;
+  NodeMap<DeclId, State> initial_values;      // of declarations
+  std::unordered_map<uint32_t, ExprId> code;  // of expressions of declarations, by what is written
+  std::vector<uint64_t> reported;             // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
   NameMap items;             // enumeration items by their bare name: the first that was declared

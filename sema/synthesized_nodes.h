@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes that sema adds to the tree, complete with their types: known values become literals, implicit operations
-// expressions; see synthesized_nodes.cpp.
+// Nodes that sema adds to code, complete with their types: known values become literals, implicit operations
+// expressions. In: operands that were checked. Out: a node that need not be checked again.
 #pragma once
 
 #include <string_view>
@@ -9,12 +9,15 @@
 
 namespace rung::sema {
 
-// Gives a new node its type (synthesized_nodes.cpp).
+// Gives a new node its type.
 ExprId typed(Context& context, ExprId created, TypeId type);
 // A literal of a known type.
 ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
-// A string that lives in the tree, of the type STRING(its length).
+// A string of the type STRING(its length).
 ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc);
+// The name of something that is known, and of a member.
+ExprId makeName(Context& context, NameId name, Entity entity, Loc loc);
+ExprId makeMember(Context& context, ExprId base, NameId name, Entity entity, Loc loc);
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
 ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);

@@ -2,11 +2,11 @@
 // The result type of a box, found without sema: from the name of the operator or function, from the types of the
 // sources wired to the box, or from the variables that receive its value.
 #include <algorithm>
-#include <initializer_list>
 #include <string>
 
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
 #include "frontend/syntax/tree_builder.h"
@@ -207,9 +207,11 @@ TypeExprId BoxTypes::ofMember(TypeExprId type, NameId member, uint32_t depth) {
 }
 
 TypeExprId BoxTypes::ofVariable(const PouDecl& pou, NameId name, uint32_t depth) {
-  for (const Slice<DeclId>& sections : {pou.sections, pou.hidden})
-    for (const DeclId section : tree_.list(sections))
-      if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(section).vars, name)) return type;
+  TypeExprId own;
+  forEachSection(tree_, pou, signatures_.madeSections(pou), [&](const SectionDecl& section) {
+    if (!own) own = ofVariable(section.vars, name);
+  });
+  if (own) return own;
   for (uint32_t b = 0; b < pou.bases.count && depth < kMaxDepth; ++b) {
     const TypeExprId base = tree_.list(pou.bases)[b];
     if (!base || tree_.kind(base) != TypeExprKind::Named) continue;

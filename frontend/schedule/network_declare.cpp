@@ -18,7 +18,7 @@ class Declarer {
  public:
   Declarer(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, std::string_view prefix)
       : tree_(tree), names_(names), signatures_(signatures), prefix_(prefix) {
-    forEachSection(tree_, pou, [&](const SectionDecl& section) {
+    forEachSection(tree_, pou, signatures_.madeSections(pou), [&](const SectionDecl& section) {
       for (const DeclId var : tree_.list(section.vars))
         for (const Ident& name : tree_.list(tree_.as<VarDecl>(var).names))
           taken_.push_back(names_.key(name.name).index);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result of scheduling IL and networks. Called by sema, which checks it.
+// The result of scheduling a body in IL, SFC or networks: a fragment of the tree of its own. Called by sema, which
+// checks it.
 #pragma once
 
 #include <span>

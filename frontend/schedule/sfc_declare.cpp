@@ -55,13 +55,13 @@ void writeSections(const Chart& chart, Writer& out) {
 
 }  // namespace
 
-void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context) {
+ChartSections declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context) {
   const Chart chart(charts, pou, context);
   Writer out(charts, pou.body_begin);
   writeSections(chart, out);
-  pou.chart_sections = out.finish();
-  pou.hidden = parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.profile.dialect,
-                             charts.diagnostics);
+  const FileId text = out.finish();
+  return {parseSections(charts.tree, charts.names, charts.sources, text, charts.profile.dialect, charts.diagnostics),
+          text};
 }
 
 }  // namespace rung::text

@@ -307,9 +307,9 @@ void SfcScheduler::run() {
 }
 
 // False: a duplicate name, which was reported.
-static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
+static bool namesDiffer(const Charts& charts, const PouDecl& pou, std::span<const DeclId> made) {
   std::vector<uint32_t> keys;
-  forEachSection(charts.tree, pou, [&](const SectionDecl& section) {
+  forEachSection(charts.tree, pou, made, [&](const SectionDecl& section) {
     for (const DeclId var : charts.tree.list(section.vars))
       for (const Ident& name : charts.tree.list(charts.tree.as<VarDecl>(var).names))
         keys.push_back(charts.names.key(name.name).index);
@@ -321,18 +321,19 @@ static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
   return std::adjacent_find(keys.begin(), keys.end()) == keys.end();
 }
 
-bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context) {
+std::optional<ScheduledChart> scheduleSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou,
+                                          std::span<const DeclId> made, const ChartContext& context) {
   const ChartCheck check = checkSfc(charts, signatures, pou, context);
-  if (!check.ok || !namesDiffer(charts, pou)) return false;
+  if (!check.ok || !namesDiffer(charts, pou, made)) return std::nullopt;
   Chart chart(charts, pou, context);
   chart.findFlags(signatures);
   Writer out(charts, pou.body_begin);
   SfcScheduler(chart, signatures, out, check.crossed).run();
   out.at(pou.body_begin);
-  pou.chart_body = out.finish();
-  pou.body = parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.profile.dialect,
-                             charts.diagnostics);
-  return true;
+  const FileId text = out.finish();
+  return ScheduledChart{
+      parseStatements(charts.tree, charts.names, charts.sources, text, charts.profile.dialect, charts.diagnostics),
+      text};
 }
 
 }  // namespace rung::text

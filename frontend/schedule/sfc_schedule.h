@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scheduler of Sequential Function Charts: a chart becomes declarations and statements, written as source-mapped
 // ST, so that conditions and times are quoted with their locations in the chart and `rung convert` prints exactly the
-// ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements in its PouDecl,
-// and the ST of both. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is about to check the
+// ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements, and the ST of
+// both. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is about to check the
 // body and knows which actions are variables. The behaviour of qualifiers is in the library (stdlib/iecsfc/sfc.st), not
 // here.
 //
@@ -38,13 +38,23 @@ struct ChartContext {
   std::vector<const PouDecl*> around;
 };
 
-// Appends the sections of the chart's variables to those of the POU; of a POU without a chart those of its conditions,
-// which charts of its actions use.
-void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context);
+// The sections of the chart's variables; of a POU without a chart those of its conditions, which charts of its actions
+// use. `text`: the ST made of them.
+struct ChartSections {
+  Slice<DeclId> sections;
+  FileId text;
+};
+ChartSections declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context);
 // The name of a variable with which a chart is controlled, such as SFCInit.
 bool isSfcFlag(std::string_view name);
-// Fills the POU's statements. False: the chart has errors, which were reported.
-bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
+// The statements of the chart, and the ST made of it; none: the chart has errors, which were reported. `made`: its
+// sections.
+struct ScheduledChart {
+  Slice<StmtId> body;
+  FileId text;
+};
+std::optional<ScheduledChart> scheduleSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou,
+                                          std::span<const DeclId> made, const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).
 struct ChartCheck {
   bool ok;       // false: errors were reported

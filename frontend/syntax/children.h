@@ -2,7 +2,6 @@
 // Walks over the nodes below a node, made from the columns of nodes.def that list the fields with other nodes.
 // forEachField: the ids and lists of a node itself, as clone.cpp copies them. forEachChild: every id in them, in source
 // order, also those in branches, arguments and items. forEachOperand: the expressions among the children.
-// An inserted node (Tree::insert) is a child like any other.
 #pragma once
 
 #include "frontend/syntax/diagram.h"
@@ -138,11 +137,11 @@ void forEachOperand(T& tree, ExprId id, Visit&& visit) {
   });
 }
 
-// The sections of a POU, as written and hidden.
+// The sections of a POU, as written and as schedulers made them.
 template <class Visit>
-void forEachSection(const Tree& tree, const PouDecl& pou, Visit&& visit) {
+void forEachSection(const Tree& tree, const PouDecl& pou, std::span<const DeclId> made, Visit&& visit) {
   for (const DeclId section : tree.list(pou.sections)) visit(tree.as<SectionDecl>(section));
-  for (const DeclId section : tree.list(pou.hidden)) visit(tree.as<SectionDecl>(section));
+  for (const DeclId section : made) visit(tree.as<SectionDecl>(section));
 }
 
 // Tells whether `test` is true of an operand.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies of expressions as the parser creates them: for expressions that a diagram or a list uses several times, so
-// that each copy has its own annotations.
+// Copies of expressions, and what their form tells: for schedulers that use an expression several times.
 #pragma once
 
 #include "frontend/syntax/tree.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nodes of the syntax tree: trivial structs, one for each row of nodes.def, and the small structs in their lists.
-// Fields marked "annotation" are empty until a check of the program fills them. Stored and read by tree.h.
+// A node holds what was written, and nothing of what it means. Stored and read by tree.h.
 #pragma once
 
 #include <cstdint>
@@ -99,18 +99,15 @@ enum class LiteralKind : uint8_t {
 
 struct ExprHeader {
   ExprKind kind;
-  uint8_t in_parens : 1;    // written in parentheses (needed by the printer and for `-2**2`)
-  uint8_t synthesized : 1;  // inserted by a check of the program: see Tree::written()
-  uint8_t is_constant : 1;  // annotation: value known at compile time
-  uint8_t writable : 1;     // annotation: an lvalue that may be assigned
-  uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;             // LiteralExpr, CallExpr: flags below; of other kinds an annotation
-  Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
-  Loc end;                  // one past the last token, without parentheses around it; none: not written
-  TypeId type;              // annotation
+  uint8_t in_parens : 1;  // written in parentheses (needed by the printer and for `-2**2`)
+  uint8_t has_room : 1;   // Tree::add() left room in front of it
+  uint8_t op;             // UnaryOp, BinaryOp or LiteralKind
+  uint8_t bits;           // LiteralExpr, CallExpr, NewExpr: flags below
+  Loc loc;                // first token; for Binary the operator, for Member the member name, for Call the callee
+  Loc end;                // one past the last token, without parentheses around it; none: not written
 };
 constexpr ExprHeader header(ExprKind kind, Loc loc, uint8_t op = 0, uint8_t bits = 0) {
-  return {kind, 0, 0, 0, 0, op, bits, loc, {}, {}};
+  return {kind, 0, 0, op, bits, loc, {}};
 }
 
 struct ErrorExpr {
@@ -135,32 +132,22 @@ constexpr uint8_t kGlobalName = 1;  // NameExpr: `.name`, which no local variabl
 struct NameExpr {
   ExprHeader h;  // op: 0 or kGlobalName
   NameId name;
-  Entity entity;  // annotation
 };
 struct TypedNameExpr {
   ExprHeader h;
   Ident type_name;
   Ident item;
-  Entity entity;  // annotation
 };
 struct MemberExpr {  // h.loc is the member's name
   ExprHeader h;
   ExprId base;
   NameId member;
-  Entity entity;  // annotation: Var for a field or pin (base is the record), else the entity that `base.member` as a
-                  // whole denotes
 };
-struct IndexExpr {  // base[i, j]; h.bits of a character of a string: kWritesCharacter
+struct IndexExpr {  // base[i, j]
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
 };
-constexpr uint8_t kWritesCharacter = 1;    // annotation
-constexpr uint8_t kBitMember = 1;          // annotation
-constexpr uint8_t kMustLeadSomewhere = 1;  // annotation
-constexpr uint8_t kAwayFromZero = 4;       // annotation of conversions: types::Rounding::AwayFromZero
-constexpr uint8_t kOnlyType = 1;
-constexpr uint8_t kIntermediate = 2;  // annotation of operations and of conversions of operands: sema/intermediate.h
 struct ThisExpr {
   ExprHeader h;
 };
@@ -171,8 +158,7 @@ struct DerefExpr {
   ExprHeader h;
   ExprId base;
 };
-// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: inserted;
-// `base` names a member of type BIT and denotes the byte that contains it.
+// width 1: bit, 8, 16, 32: part of a bit string; position in units of width.
 struct BitAccessExpr {
   ExprHeader h;
   ExprId base;
@@ -220,8 +206,7 @@ struct CallExpr {
   ExprHeader h;
   ExprId callee;
   Slice<Argument> arguments;
-  Loc end;      // the closing parenthesis
-  CallId call;  // annotation
+  Loc end;  // the closing parenthesis
 };
 struct RangeExpr {
   ExprHeader h;
@@ -253,22 +238,19 @@ struct BoundExpr {
   ExprId array;
   uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
 };
-struct AnyValueExpr {  // h.type: __SYSTEM.AnyType, or with `facts` __SYSTEM.VAR_INFO
+struct AnyValueExpr {  // its type: __SYSTEM.AnyType, or with `facts` __SYSTEM.VAR_INFO
   ExprHeader h;
   ExprId value;
   ExprId facts;         // a StructInit: all members but the address
   uint32_t type_class;  // __SYSTEM.TYPE_CLASS
 };
+constexpr uint8_t kOnlyType = 1;
 struct NewExpr {  // __NEW(what), __NEW(what, count); with kOnlyType `what` alone, as in SIZEOF(POINTER TO INT)
   ExprHeader h;
   TypeExprId allocated;
-  ExprId count;        // none: one
-  CallId constructor;  // annotation: the arguments of FB_Init
-  CallId memory;       // annotation: a call of __SYSTEM.Allocate, without its arguments
+  ExprId count;  // none: one
 };
-// h.type: a pointer or reference to the type of the lvalue. h.bits: kMustLeadSomewhere: of p^ for p[i], where a null p
-// is a fault although nothing is read there.
-struct AddressOfExpr {
+struct AddressOfExpr {  // its type: a pointer or reference to that of the lvalue
   ExprHeader h;
   ExprId lvalue;
 };
@@ -278,12 +260,10 @@ struct AddressOfExpr {
 struct StmtHeader {
   StmtKind kind;
   uint8_t op;
-  uint8_t effect;  // annotation of AssignStmt
-  bool checked;    // annotation of an AssignStmt to a temporary: its value has a type
   Loc loc;
   Loc end;  // one past the last token, with its `;`; none: made by a scheduler
 };
-constexpr StmtHeader header(StmtKind kind, Loc loc, uint8_t op = 0) { return {kind, op, op, false, loc, {}}; }
+constexpr StmtHeader header(StmtKind kind, Loc loc, uint8_t op = 0) { return {kind, op, loc, {}}; }
 // := S= R= REF= += -= *= /= ?=
 enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide, Attempt };
 const char* spelling(AssignOp op);
@@ -297,9 +277,7 @@ struct AssignStmt {
   StmtHeader h;  // op: AssignOp; loc: the operator
   ExprId target, value;
   AssignOp op() const { return static_cast<AssignOp>(h.op); }
-  // Annotation: what remains to be done with the checked operands, for example Assign where a sum was made explicit.
-  AssignOp effect() const { return static_cast<AssignOp>(h.effect); }
-  void setEffect(AssignOp op) { h.effect = static_cast<uint8_t>(op); }
+  void setOp(AssignOp op) { h.op = static_cast<uint8_t>(op); }
 };
 struct CallStmt {
   StmtHeader h;
@@ -373,10 +351,9 @@ struct TypeExprHeader {
   uint8_t bits;
   uint16_t spare;
   Loc loc;
-  Loc end;      // one past the last token
-  TypeId type;  // annotation
+  Loc end;  // one past the last token
 };
-constexpr TypeExprHeader header(TypeExprKind kind, Loc loc) { return {kind, 0, 0, loc, {}, {}}; }
+constexpr TypeExprHeader header(TypeExprKind kind, Loc loc) { return {kind, 0, 0, loc, {}}; }
 struct ErrorTypeExpr {
   TypeExprHeader h;
 };
@@ -438,14 +415,13 @@ struct PointerTypeExpr {
 struct DeclHeader {
   DeclKind kind;
   uint8_t bits;
-  uint16_t progress;  // annotation: how far a declaration has been checked
-  Loc loc;            // of the name where there is one, else the keyword
-  Loc doc;            // first `///` line above; none: no doc comment
+  Loc loc;  // of the name where there is one, else the keyword
+  Loc doc;  // first `///` line above; none: no doc comment
   Slice<Pragma> pragmas;
   Loc begin, end;  // of the whole declaration; of a POU begin is the first pragma before it
 };
 constexpr DeclHeader header(DeclKind kind, Loc loc, Loc doc = {}, Slice<Pragma> pragmas = {}) {
-  return {kind, 0, 0, loc, doc, pragmas, loc, {}};
+  return {kind, 0, loc, doc, pragmas, loc, {}};
 }
 // DeclHeader::bits of a POU and of a TYPE entry: syntax errors removed declarations from it, so a name that is missing
 // in it is not reported again.
@@ -486,18 +462,15 @@ struct PouDecl {
   NameId name;
   PouKind pou_kind;
   BodyKind body_kind;
-  bool scheduled;     // annotation: the statements of a body in IL, SFC or networks have been made: see `body`
   bool closed;        // has its END_…
   bool uses_eno;      // ENO is an operand in its body
   TypeExprId result;  // functions; none: no result
   Slice<DeclId> sections;
-  Slice<DeclId> hidden;  // annotation: sections that a chart or networks need and the source does not declare
-  Slice<StmtId> body;    // of a body in ST as written; of a scheduled body an annotation
+  Slice<StmtId> body;  // of a body in ST
   Slice<IlInstruction> il;
-  Diagram diagram;                    // of a body of networks
-  Slice<SfcStep> steps;               // the chart of a body in SFC
-  Slice<SfcTransition> transitions;   // in other bodies: conditions used by the charts of their actions
-  FileId chart_sections, chart_body;  // annotation: the ST made from the chart
+  Diagram diagram;                   // of a body of networks
+  Slice<SfcStep> steps;              // the chart of a body in SFC
+  Slice<SfcTransition> transitions;  // in other bodies: conditions used by the charts of their actions
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE

@@ -47,6 +47,8 @@ struct Signature {
   }
 };
 
+struct PouDecl;  // nodes.h
+
 class Signatures {
  public:
   virtual Signature of(NameId name) = 0;  // points separate the names of members
@@ -54,6 +56,8 @@ class Signatures {
   virtual Signature of(ExprId path) = 0;
   // False: `instance` is of a function block, and not of `block` or one derived from it.
   virtual bool fits(ExprId instance, ExprId block) = 0;
+  // The sections that schedulers made for a POU, beside those that it declares.
+  virtual std::span<const DeclId> madeSections(const PouDecl& pou) = 0;
   // The name of the type of a variable that is certainly not BOOL; else empty.
   virtual std::string typeUnlessBool(ExprId path) = 0;
 

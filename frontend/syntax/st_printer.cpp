@@ -361,7 +361,6 @@ void StPrinter::structInit(const StructInitExpr& e) {
 }
 
 void StPrinter::expr(ExprId id, int least) {
-  id = tree_.written(id);
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
     case ExprKind::Name:

@@ -87,26 +87,6 @@ StringId Tree::addString(std::string_view text) {
   return {word, static_cast<uint32_t>(text.size())};
 }
 
-// ---- what was written
-
-ExprId Tree::insertCopy(ExprId original) {
-  // clang-format off
-  switch (kind(original)) {
-#define RUNG_EXPR(kind, word, shape, ...) \
-  case ExprKind::kind: return insert(as<kind##Expr>(original));
-#include "frontend/syntax/nodes.def"
-  }
-  // clang-format on
-  return {};
-}
-
-void Tree::replace(ExprId& slot, ExprId by) {
-  const bool is_new = expr(by).synthesized != 0 && !at<ExprId>(by.word - 1);
-  if (!is_new) by = insertCopy(by);
-  at<ExprId>(by.word - 1) = slot;
-  slot = by;
-}
-
 void Tree::parenthesize(ExprId id, Loc open, Loc close_end) {
   expr(id).in_parens = 1;
   // The node was made last, so that it is at the end, or there already from a pair of parentheses inside these.
@@ -173,8 +153,6 @@ ExprId Tree::base(ExprId step) const {
 }
 
 Range Tree::range(ExprId id) const {
-  id = written(id);
-  if (!id) return {};
   Range range{{}, expr(id).end};
   for (ExprId at = id; !range.begin;) {
     if (expr(at).in_parens != 0) {
@@ -186,7 +164,7 @@ Range Tree::range(ExprId id) const {
         break;
       }
     }
-    const ExprId first = written(firstOperand(*this, at));
+    const ExprId first = firstOperand(*this, at);
     if (!first) range.begin = beginOfLeaf(*this, at);
     at = first;
   }

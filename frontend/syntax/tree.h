@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The syntax tree of all languages. In: nodes from the parsers (and from the schedulers of diagrams, IL and NCT), made
-// by tree_builder.h. Out: what was written, with its source ranges, and the annotations of a checked program.
-// Nodes and lists are trivial structs in one arena of fixed chunks, addressed by typed 32-bit ids; references to nodes,
-// lists and strings never become invalid. nodes.def lists the kinds.
-//
-// Who checks a program writes only the fields marked "annotation", and makes explicit what the source leaves implicit
-// (a conversion, a dereference, a known value) by inserting nodes: replace() puts one into the slot of another, which
-// written() finds again. So the tree as written can be read before and after.
+// by tree_builder.h. Out: what was written, with its source ranges. A tree knows nothing of meaning: who checks a
+// program makes a copy of each body (sema/code.h). Nodes and lists are trivial structs in one arena of fixed chunks,
+// addressed by typed 32-bit ids; references to nodes, lists and strings never become invalid. nodes.def lists the
+// kinds.
 #pragma once
 
 #include <cstdint>
@@ -97,27 +94,18 @@ class Tree {
     std::memcpy(address(word), &node, sizeof(Node));
     return Id{word};
   }
+  // An expression with zeroed words in front of it, for what its owner keeps beside it: see roomOf().
+  template <class Node>
+  ExprId add(Node node, uint32_t room) {
+    static_assert(std::is_trivially_copyable_v<Node> && sizeof(Node) % 4 == 0);
+    node.h.has_room = room != 0;
+    const uint32_t word = allocate(room + sizeof(Node) / 4);
+    std::memset(address(word), 0, size_t{room} * 4);
+    std::memcpy(address(word + room), &node, sizeof(Node));
+    return {word + room};
+  }
   // Notes the parentheses around an expression.
   void parenthesize(ExprId expr, Loc open, Loc close_end);
-
-  // Nodes that a check of the program inserts know what they replace.
-  template <class Node>
-  ExprId insert(Node node) {
-    node.h.synthesized = 1;
-    const uint32_t word = allocate(1 + sizeof(Node) / 4);
-    at<ExprId>(word) = {};  // what it replaces
-    std::memcpy(address(word + 1), &node, sizeof(Node));
-    return {word + 1};
-  }
-  // A node of the same kind and with the same fields, which may be changed where the original may not.
-  ExprId insertCopy(ExprId original);
-  // Puts `by`, or a copy of it if it is used elsewhere, into the slot.
-  void replace(ExprId& slot, ExprId by);
-  // What was written where `id` is now: the node itself unless it is inserted. None: nothing.
-  ExprId written(ExprId id) const {
-    while (id && expr(id).synthesized != 0) id = at<ExprId>(id.word - 1);
-    return id;
-  }
 
   // Lists of ids and of small structs.
   template <class T>
@@ -190,7 +178,6 @@ class Tree {
 };
 
 // The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
-// As written: without what a check of the program inserted.
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
 std::string printExpression(const Tree& tree, const Names& names, ExprId expr);
 

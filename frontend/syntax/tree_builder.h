@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the nodes of the tree: for the parsers, for the schedulers of IL, charts and networks, and for checks of a
-// program, whose nodes replace what was written (Tree::replace). In: the parts of a node and its location. Out: its id.
-// The parser notes afterwards where a node ends.
+// Makes the nodes of the tree: for the parsers, for the schedulers of IL, charts and networks, and for checked code
+// (sema/code.h). In: the parts of a node and its location. Out: its id. The parser notes afterwards where a node ends.
 #pragma once
 
 #include <span>
@@ -13,8 +12,8 @@ namespace rung {
 
 class TreeBuilder {
  public:
-  enum class Origin : uint8_t { Written, Inserted };
-  explicit TreeBuilder(Tree& tree, Origin origin = Origin::Written) : tree_(tree), origin_(origin) {}
+  // `room`: words to leave in front of each expression, for what its owner keeps beside it.
+  explicit TreeBuilder(Tree& tree, uint32_t room = 0) : tree_(tree), room_(room) {}
 
   // ---- expressions
   ExprId error(Loc loc) { return add(ErrorExpr{header(ExprKind::Error, loc)}); }
@@ -31,15 +30,13 @@ class TreeBuilder {
   ExprId boolean(bool value, Loc loc, NameId prefix = {}) {
     return literal(LiteralKind::Bool, value ? 1u : 0u, loc, prefix);
   }
-  ExprId name(NameId name, Loc loc, Entity entity = {}) {
-    return add(NameExpr{header(ExprKind::Name, loc), name, entity});
-  }
+  ExprId name(NameId name, Loc loc) { return add(NameExpr{header(ExprKind::Name, loc), name}); }
   ExprId name(const Ident& ident) { return name(ident.name, ident.loc); }
   ExprId typedName(const Ident& type, const Ident& item) {
-    return add(TypedNameExpr{header(ExprKind::TypedName, type.loc), type, item, {}});
+    return add(TypedNameExpr{header(ExprKind::TypedName, type.loc), type, item});
   }
-  ExprId member(ExprId base, NameId member, Loc loc, Entity entity = {}) {
-    return add(MemberExpr{header(ExprKind::Member, loc), base, member, entity});
+  ExprId member(ExprId base, NameId member, Loc loc) {
+    return add(MemberExpr{header(ExprKind::Member, loc), base, member});
   }
   ExprId index(ExprId base, Slice<ExprId> indices, Loc loc) {
     return add(IndexExpr{header(ExprKind::Index, loc), base, indices});
@@ -60,7 +57,7 @@ class TreeBuilder {
     return add(BinaryExpr{header(ExprKind::Binary, loc, static_cast<uint8_t>(op)), left, right});
   }
   ExprId call(ExprId callee, Slice<Argument> arguments, Loc loc, Loc end, uint8_t bits = 0) {
-    return add(CallExpr{header(ExprKind::Call, loc, 0, bits), callee, arguments, end, {}});
+    return add(CallExpr{header(ExprKind::Call, loc, 0, bits), callee, arguments, end});
   }
   ExprId call(ExprId callee, std::span<const Argument> arguments, Loc loc) {
     return call(callee, tree_.addList<Argument>(arguments), loc, loc);
@@ -76,14 +73,14 @@ class TreeBuilder {
     return add(StructInitExpr{header(ExprKind::StructInit, loc), tree_.addList<FieldInit>(fields)});
   }
   ExprId newObject(TypeExprId allocated, ExprId count, Loc loc) {
-    return add(NewExpr{header(ExprKind::New, loc), allocated, count, {}, {}});
+    return add(NewExpr{header(ExprKind::New, loc), allocated, count});
   }
   ExprId assignment(ExprId target, ExprId value, Loc loc) {
     return add(AssignExpr{header(ExprKind::Assign, loc), target, value});
   }
   // The type in SIZEOF(POINTER TO INT).
   ExprId typeOperand(TypeExprId type, Loc loc) {
-    return add(NewExpr{header(ExprKind::New, loc, 0, kOnlyType), type, {}, {}, {}});
+    return add(NewExpr{header(ExprKind::New, loc, 0, kOnlyType), type, {}});
   }
   // ---- expressions of checked programs
   ExprId convert(ExprId operand, Loc loc) { return add(ConvertExpr{header(ExprKind::Convert, loc), operand}); }
@@ -138,11 +135,11 @@ class TreeBuilder {
  private:
   template <class Node>
   ExprId add(const Node& node) {
-    return origin_ == Origin::Inserted ? tree_.insert(node) : tree_.add<ExprId>(node);
+    return room_ != 0 ? tree_.add(node, room_) : tree_.add<ExprId>(node);
   }
 
   Tree& tree_;
-  Origin origin_;
+  uint32_t room_;
 };
 
 }  // namespace rung

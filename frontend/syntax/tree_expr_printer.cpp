@@ -93,7 +93,6 @@ void TreeExprPrinter::arguments(Slice<Argument> list, int depth) {
 }
 
 void TreeExprPrinter::expr(ExprId id, int depth) {
-  id = tree_.written(id);
   if (!id) {
     out += "none";
     return;

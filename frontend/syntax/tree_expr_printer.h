@@ -45,7 +45,7 @@ class TreeExprPrinter {
   }
   // Nothing where no expression is written.
   void optional(const char* before, ExprId id) {
-    if (!id || !tree_.written(id)) return;
+    if (!id) return;
     out += before;
     expr(id);
   }

@@ -347,7 +347,7 @@ void Printer::print(const PouDecl& d, int depth) {
     line(depth + 1, kLanguages[static_cast<size_t>(d.diagram.language)]);
     for (const DiagramElement& e : tree_.list(d.diagram.elements)) element(d.diagram, e, depth + 2);
   }
-  if (!d.body.empty() && !d.scheduled) {
+  if (!d.body.empty()) {
     line(depth + 1, "body");
     stmts(d.body, depth + 2);
   }

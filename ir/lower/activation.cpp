@@ -164,7 +164,7 @@ void StatementLowering::lowerActivation(uint32_t program, BodyId code, rung::Exp
   }
   if (call) {
     const rung::CallExpr& node = tree_.as<rung::CallExpr>(call);
-    calls().lowerBlockCall(project_.call(node.call), node, places().programPlace(program, loc));
+    calls().lowerBlockCall(project_.call(sema::meaning(node.h).call), node, places().programPlace(program, loc));
   } else {
     append(loc, CallStmt{.callee = code, .self = places().programPlace(program, loc)});
   }

@@ -10,14 +10,14 @@ bool PlaceLowering::isPlainPlace(rung::ExprId id) const { return static_cast<boo
 sema::VarId PlaceLowering::rootVar(rung::ExprId id) const {
   while (true) {
     if (tree_.kind(id) == rung::ExprKind::Name) {
-      Entity entity = tree_.as<NameExpr>(id).entity;
-      return entity.entityKind() == EntityKind::Var ? sema::VarId{entity.index} : sema::VarId{};
+      sema::Entity entity = sema::meaning(tree_, id).entity;
+      return entity.entityKind() == sema::EntityKind::Var ? sema::VarId{entity.index} : sema::VarId{};
     }
     if (tree_.kind(id) != rung::ExprKind::Member) return {};
     const MemberExpr& node = tree_.as<MemberExpr>(id);
-    if (node.entity.entityKind() != EntityKind::Var) return {};
-    TypeId base = strip(tree_.expr(node.base).type);
-    if (!base || types_.kind(base) != TypeKind::Record) return sema::VarId{node.entity.index};
+    if (sema::meaning(node.h).entity.entityKind() != sema::EntityKind::Var) return {};
+    TypeId base = strip(sema::typeOf(tree_, node.base));
+    if (!base || types_.kind(base) != TypeKind::Record) return sema::VarId{sema::meaning(node.h).entity.index};
     id = node.base;
   }
 }
@@ -76,7 +76,7 @@ bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     }
     case rung::ExprKind::Call: {
       if (!calls().isPlainCall(id)) return false;
-      const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
+      const sema::Call& call = project_.call(sema::meaning(tree_, id).call);
       if (call.kind != sema::CallKind::Function) return false;
       const sema::Pou& pou = project_.pou(call.pou);
       if (!pou.pragmas.pure || !pou.pragmas.native) return false;

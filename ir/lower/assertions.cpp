@@ -43,7 +43,7 @@ NameId CallLowering::comparedOperands(const rung::CallExpr& node, const rung::Bi
                     right = collapseBlanks(source.substr(at + op_size, end - at - op_size));
   const auto name = [&](rung::ExprId side, const std::string& text) {
     while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<rung::ConvertExpr>(side).operand;
-    const TypeKind kind = types_.info(strip(tree_.expr(side).type)).kind;
+    const TypeKind kind = types_.info(strip(sema::typeOf(tree_, side))).kind;
     const bool is_self_explanatory =
         tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && constantOf(project_, side));
     return is_self_explanatory ? std::string() : text;
@@ -62,7 +62,7 @@ void CallLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& 
   if (operands == 1 && tree_.kind(condition) == rung::ExprKind::Binary) {
     const rung::BinaryExpr& node_of = tree_.as<rung::BinaryExpr>(condition);
     const BinaryOp op = node_of.op();
-    const TypeId type = strip(tree_.expr(node_of.left).type);
+    const TypeId type = strip(sema::typeOf(tree_, node_of.left));
     const bool compares = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
     if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.shown = comparedOperands(node, node_of);
   }

@@ -54,7 +54,7 @@ struct BodyState {
   // value matters. Its checks count only then.
   ExprId guard;
   uint32_t element = 0;  // the current element of an array whose elements have arguments of their own for FB_Init
-  CallId given;          // the arguments of FB_Init for an object that __NEW creates
+  sema::CallId given;    // the arguments of FB_Init for an object that __NEW creates
   ExprId logical;        // the temporary of the last AND or OR that needed one
   uint32_t effects = 0, effects_counted = 1;  // of the statements up to that one
 };

@@ -19,7 +19,7 @@ ExprId CallLowering::placeOf(Target& target) {
 
 ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
   const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
-  const sema::Call& call = project_.call(node.call);
+  const sema::Call& call = project_.call(sema::meaning(node.h).call);
   Loc loc = node.h.loc;
   PlaceLowering::Instance instance;
 
@@ -46,7 +46,7 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
   ExprId eno = temp(types::kBool, loc);
   assign(copy(eno), en, loc);
   ExprId result;
-  TypeId result_type = node.h.type ? strip(node.h.type) : TypeId{};
+  TypeId result_type = sema::meaning(node.h).type ? strip(sema::meaning(node.h).type) : TypeId{};
   bool has_result = result_type && types_.kind(result_type) != TypeKind::None &&
                     call.kind != sema::CallKind::Instance && call.kind != sema::CallKind::Program &&
                     call.kind != sema::CallKind::Assertion;
@@ -92,7 +92,7 @@ void CallLowering::storeOutput(rung::ExprId target, ExprId value, bool negated, 
 // An unconditional call: without EN and with an ENO that nothing reads.
 bool CallLowering::isPlainCall(rung::ExprId expr) const {
   if (tree_.kind(expr) != rung::ExprKind::Call) return false;
-  const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(expr).call);
+  const sema::Call& call = project_.call(sema::meaning(tree_, expr).call);
   return !call.en && !call.eno && !call.eno_memory;
 }
 

@@ -13,9 +13,11 @@ ExprId ValueLowering::callPool(sema::PouId function, std::initializer_list<ExprI
 }
 
 ExprId ValueLowering::lowerNew(rung::ExprId id) {
-  const NewExpr node = tree_.as<NewExpr>(id);
+  const NewExpr& node = tree_.as<NewExpr>(id);
+  const sema::Call& allocate = project_.call(sema::meaning(node.h).call);
   const Loc loc = node.h.loc;
-  const TypeId pointer_type = strip(node.h.type), declared = types_.info(pointer_type).base, type = strip(declared);
+  const TypeId pointer_type = strip(sema::meaning(node.h).type), declared = types_.info(pointer_type).base,
+               type = strip(declared);
   in_.records.declare(type);
   ExprId count = constant(types::kLInt, 1, loc);
   if (node.count) {
@@ -23,13 +25,13 @@ ExprId ValueLowering::lowerNew(rung::ExprId id) {
     assign(copy(count), lowerValue(node.count), loc);
   }
   const ExprId size = constant(types::kLInt, types_.info(type).size, loc);
-  const ExprId memory = callPool(project_.call(node.memory).pou, {count, size}, loc);
+  const ExprId memory = callPool(allocate.pou, {count, size}, loc);
   const ExprId pointer = temp(pointer_type, loc);
   assign(copy(pointer), convertValue(memory, pointer_type, loc), loc);
   if (in_.records.isZero(declared)) return pointer;
   const ExprId is_there = binary(Op::Ne, types::kBool, copy(pointer), constant(pointer_type, 0, loc), loc);
-  const CallId outer = state_.given;
-  state_.given = node.constructor;
+  const sema::CallId outer = state_.given;
+  state_.given = allocate.constructor;
   const StmtId then = block([&] {
     if (!node.count) {
       const ExprId place = add(loc, type, DerefExpr{.pointer = copy(pointer)});

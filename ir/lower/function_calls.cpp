@@ -80,7 +80,7 @@ CallLowering::FunctionCall CallLowering::planFunctionCall(const sema::Call& call
   if (pou.result) plan.result_type = strip(pou.result);
   plan.makes_string = plan.result_type && pou.pragmas.native && TypeTable::isString(types_.kind(plan.result_type));
   if (target != nullptr && plan.makes_string) {
-    const TypeId type = target->place ? typeOf(target->place) : strip(tree_.expr(target->expr).type);
+    const TypeId type = target->place ? typeOf(target->place) : strip(sema::typeOf(tree_, target->expr));
     if (types_.kind(type) == types_.kind(plan.result_type)) plan.wanted = target;
   }
   planPins(plan);

@@ -246,7 +246,7 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
   ExprId whole = place;
   while (const auto* index = body_.expr(whole).tryAs<IndexExpr>()) whole = index->base;
   const Expr at = body_.expr(whole);
-  CallId given;
+  sema::CallId given;
   if (at.kind == ExprKind::Deref) {
     given = state_.given;
   } else if (const sema::Var* var = constructedVar(place)) {

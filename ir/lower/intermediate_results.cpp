@@ -11,7 +11,7 @@ ExprId ValueLowering::lowerUncut(rung::ExprId id) { return lowerOperand(id, sema
 
 // A conversion of an intermediate result: to at most its own width, where it is cut first, or of the uncut value.
 ExprId ValueLowering::convertUncut(const rung::ConvertExpr& node) {
-  const TypeId to = strip(node.h.type), own = strip(tree_.expr(node.operand).type);
+  const TypeId to = strip(sema::meaning(node.h).type), own = strip(sema::typeOf(tree_, node.operand));
   const TypeKind kind = types_.kind(to);
   const uint32_t width = TypeTable::isInteger(kind) || TypeTable::isBits(kind) ? TypeTable::bitWidth(kind) : 0;
   // A conversion cuts on purpose: what it cuts does not count as overflow.
@@ -26,7 +26,8 @@ ExprId ValueLowering::lowerIn(rung::ExprId id, TypeId type) {
   const Loc loc = tree_.loc(id);
   if (!native) return convertValue(lowerValue(id), type, loc);
   if (tree_.kind(id) == rung::ExprKind::Convert) return lowerIn(tree_.as<rung::ConvertExpr>(id).operand, type);
-  const bool last_bits = sema::isRingOperation(project_, id) || (type == strip(tree_.expr(id).type) && !hasUncut(id));
+  const bool last_bits =
+      sema::isRingOperation(project_, id) || (type == strip(sema::typeOf(tree_, id)) && !hasUncut(id));
   return last_bits ? operate(id, type) : convertValue(operate(id, native), type, loc);
 }
 
@@ -38,7 +39,7 @@ bool ValueLowering::hasUncut(rung::ExprId id) const {
     const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
     return static_cast<bool>(sema::comparedType(project_, node.left, node.right));
   }
-  for (const sema::Binding& binding : project_.call(tree_.as<rung::CallExpr>(id).call).bindings)
+  for (const sema::Binding& binding : project_.call(sema::meaning(tree_, id).call).bindings)
     if (binding.value && sema::uncutType(project_, binding.value)) return true;
   return false;
 }
@@ -59,7 +60,7 @@ ExprId ValueLowering::operate(rung::ExprId id, TypeId type) {
     return arithmetic(binary(sema::operatorOf(node.op()), type, left, right, loc));
   }
   const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
-  return calls().lowerArithmeticOperator(project_.call(node.call), node, type);
+  return calls().lowerArithmeticOperator(project_.call(sema::meaning(node.h).call), node, type);
 }
 
 }  // namespace rung::ir

@@ -33,7 +33,7 @@ ExprId PlaceLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc
 
 ExprId PlaceLowering::openArrayElement(const rung::IndexExpr& node) {
   const Loc loc = node.h.loc;
-  const TypeId element = strip(node.h.type);
+  const TypeId element = strip(sema::meaning(node.h).type);
   const TypeId number = types::kLInt;
   ExprId offset;  // of the element, counted in elements
   std::vector<ExprId> indices;
@@ -87,7 +87,7 @@ OpenArray PlaceLowering::noOpenArray(TypeId pin_type, Loc loc) {
 
 OpenArray PlaceLowering::passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies) {
   const Loc loc = tree_.loc(argument);
-  const TypeInfo& given = types_.info(strip(tree_.expr(argument).type));
+  const TypeInfo& given = types_.info(strip(sema::typeOf(tree_, argument)));
   const uint32_t count = 2 * types_.info(strip(pin_type)).length;
   OpenArray passed;
   if (given.dimensions.empty()) {  // passed on

@@ -22,8 +22,8 @@ ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr&
     case sema::OperatorKind::Move:
     case sema::OperatorKind::Convert:
     case sema::OperatorKind::None:
-      return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc,
-                          sema::roundingOf(node.h));
+      return convertValue(operandOr0(call.bindings.front(), strip(sema::meaning(node.h).type), node.h.loc),
+                          sema::meaning(node.h).type, node.h.loc, sema::roundingOf(sema::meaning(node.h)));
   }
   return {};
 }
@@ -32,12 +32,12 @@ ExprId CallLowering::lowerOperator(const sema::Call& call, const rung::CallExpr&
 ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native) {
   Op op = project_.pou(call.pou).pragmas.op;
   Loc loc = node.h.loc;
-  TypeId type = native ? native : strip(node.h.type);
+  TypeId type = native ? native : strip(sema::meaning(node.h).type);
   TypeId operand_type = native;
   for (const sema::Binding& binding : call.bindings)
     if (types::isComparison(op) && binding.value && !native) native = sema::uncutType(project_, binding.value);
   for (const sema::Binding& binding : call.bindings)
-    if (binding.value && !operand_type) operand_type = native ? native : strip(tree_.expr(binding.value).type);
+    if (binding.value && !operand_type) operand_type = native ? native : strip(sema::typeOf(tree_, binding.value));
   if (!operand_type) operand_type = type;
   std::vector<uint32_t> order(call.bindings.size());
   std::iota(order.begin(), order.end(), 0);
@@ -71,7 +71,7 @@ ExprId CallLowering::lowerArithmeticOperator(const sema::Call& call, const rung:
 // SEL(G, IN0, IN1): only the chosen input is evaluated, if evaluating the other could be observed.
 ExprId CallLowering::lowerSelect(const sema::Call& call, const rung::CallExpr& node) {
   Loc loc = node.h.loc;
-  TypeId type = strip(node.h.type);
+  TypeId type = strip(sema::meaning(node.h).type);
   RUNG_INVARIANT(call.bindings.size() == 3, "SEL has a selector and two inputs");
   ExprId selector = operandOr0(call.bindings[0], types::kBool, loc);
   if (state_.guard && mayFault(selector)) selector = toTemp(selector, loc);
@@ -104,7 +104,7 @@ ExprId CallLowering::lowerSelect(const sema::Call& call, const rung::CallExpr& n
 // MUX(K, IN0, IN1, …): any K outside 0..n-1 chooses the last input (syntax manual 5.4.1.3.4, TM/TP 6.2.2).
 ExprId CallLowering::lowerMux(const sema::Call& call, const rung::CallExpr& node) {
   Loc loc = node.h.loc;
-  TypeId type = strip(node.h.type);
+  TypeId type = strip(sema::meaning(node.h).type);
   RUNG_INVARIANT(call.bindings.size() >= 2, "MUX has a selector and inputs");
   ExprId selector = values().lowerValue(call.bindings[0].value);
   if (state_.guard && mayFault(selector)) selector = toTemp(selector, loc);

@@ -58,11 +58,11 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
 // Tells whether a member is a field of what is before it; else that only says where its name is declared.
 bool PlaceLowering::isField(const MemberExpr& node, const sema::Var& var) const {
   if (var.storage != sema::Storage::Field) return false;
-  const TypeId base = strip(tree_.expr(node.base).type);
+  const TypeId base = strip(sema::typeOf(tree_, node.base));
   if (base && types_.kind(base) == TypeKind::Record) return true;
   if (tree_.kind(node.base) != rung::ExprKind::Name) return false;
   // `two.limit` of a program's second instance
-  return tree_.as<NameExpr>(node.base).entity.entityKind() == EntityKind::Program;
+  return sema::meaning(tree_, node.base).entity.entityKind() == sema::EntityKind::Program;
 }
 
 ExprId PlaceLowering::fieldOf(ExprId record, const sema::Var& var, Loc loc) {
@@ -72,8 +72,8 @@ ExprId PlaceLowering::fieldOf(ExprId record, const sema::Var& var, Loc loc) {
 
 ExprId PlaceLowering::memberPlace(rung::ExprId id) {
   const MemberExpr& node = tree_.as<MemberExpr>(id);
-  if (node.entity.entityKind() != EntityKind::Var) return values().lowerValue(id);
-  const sema::VarId var{node.entity.index};
+  if (sema::meaning(node.h).entity.entityKind() != sema::EntityKind::Var) return values().lowerValue(id);
+  const sema::VarId var{sema::meaning(node.h).entity.index};
   if (!isField(node, project_.var(var))) return varPlace(var, node.h.loc);
   return fieldOf(lowerPlace(node.base), project_.var(var), node.h.loc);
 }
@@ -82,7 +82,7 @@ PlaceLowering::Instance PlaceLowering::lowerInstance(rung::ExprId id, sema::VarI
   const Loc loc = tree_.loc(id);
   if (tree_.kind(id) == rung::ExprKind::Member) {
     const MemberExpr& node = tree_.as<MemberExpr>(id);
-    const sema::Var& var = project_.var({node.entity.index});
+    const sema::Var& var = project_.var({sema::meaning(node.h).entity.index});
     if (isField(node, var)) {
       const ExprId owner = stable(lowerPlace(node.base));
       return {fieldOf(copy(owner), var, loc), fieldOf(owner, project_.var(memory), loc)};
@@ -130,33 +130,33 @@ ExprId PlaceLowering::characters(ExprId string, TypeId unit, bool writes) {
 
 ExprId PlaceLowering::named(rung::ExprId id) {
   const Loc loc = tree_.loc(id);
-  const Entity entity = tree_.as<NameExpr>(id).entity;
+  const sema::Entity entity = sema::meaning(tree_, id).entity;
   switch (entity.entityKind()) {
-    case EntityKind::Var: {
+    case sema::EntityKind::Var: {
       const sema::VarId var{entity.index};
       if (state_.result_local != kNoBit && var == project_.pou(pou_).result_var) return local(state_.result_local, loc);
       const ExprId place = varPlace(var, loc);
       in_.noteGlobal(body_, place, var);
       return place;
     }
-    case EntityKind::Pou: return programPlace(in_.instances.instanceOf({entity.index}), loc);
-    case EntityKind::Program: return programPlace(in_.instances.programOf(entity.index), loc);
-    case EntityKind::None:
-    case EntityKind::Error:
-    case EntityKind::Type:
-    case EntityKind::EnumValue:
-    case EntityKind::GlobalList:
-    case EntityKind::Property:
-    case EntityKind::Namespace: return values().lowerValue(id);
+    case sema::EntityKind::Pou: return programPlace(in_.instances.instanceOf({entity.index}), loc);
+    case sema::EntityKind::Program: return programPlace(in_.instances.programOf(entity.index), loc);
+    case sema::EntityKind::None:
+    case sema::EntityKind::Error:
+    case sema::EntityKind::Type:
+    case sema::EntityKind::EnumValue:
+    case sema::EntityKind::GlobalList:
+    case sema::EntityKind::Property:
+    case sema::EntityKind::Namespace: return values().lowerValue(id);
   }
   return {};
 }
 
 ExprId PlaceLowering::indexed(const rung::IndexExpr& node) {
-  if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
+  if (isOpenArray(types_, sema::typeOf(tree_, node.base))) return openArrayElement(node);
   ExprId base = lowerPlace(node.base);
   if (TypeTable::isString(types_.kind(body_.expr(base).type)))
-    base = characters(base, strip(node.h.type), (node.h.bits & kWritesCharacter) != 0);
+    base = characters(base, strip(sema::meaning(node.h).type), sema::meaning(node.h).writes_character);
   std::vector<ExprId> indices;
   for (rung::ExprId index : tree_.list(node.indices)) {
     InsertionPoint point = here();
@@ -165,7 +165,7 @@ ExprId PlaceLowering::indexed(const rung::IndexExpr& node) {
     for (ExprId& earlier : indices) spill(point, {&earlier});
     indices.push_back(value);
   }
-  return add(node.h.loc, strip(node.h.type), IndexExpr{.base = base, .indices = list(indices)},
+  return add(node.h.loc, strip(sema::meaning(node.h).type), IndexExpr{.base = base, .indices = list(indices)},
              static_cast<uint8_t>(in_.options.checks & kCheckIndex));
 }
 
@@ -175,14 +175,14 @@ ExprId PlaceLowering::dereferenced(rung::ExprId id) {
   if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
   if (tree_.kind(target) == rung::ExprKind::Super) return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
   const ExprId pointer = values().lowerValue(target);
-  return add(loc, strip(tree_.expr(id).type), DerefExpr{.pointer = pointer},
+  return add(loc, strip(sema::typeOf(tree_, id)), DerefExpr{.pointer = pointer},
              static_cast<uint8_t>(in_.options.checks & kCheckNull));
 }
 
 ExprId PlaceLowering::directAddress(rung::ExprId id) {
   const DirectAddress& address = tree_.as<rung::AddressExpr>(id).address;
   auto path = tree_.list(address.path);
-  TypeId type = strip(tree_.expr(id).type);
+  TypeId type = strip(sema::typeOf(tree_, id));
   uint32_t width = TypeTable::bitWidth(types_.kind(type));
   uint32_t byte = path.empty() ? 0 : path[0];
   uint32_t bit = kNoBit;
@@ -208,7 +208,7 @@ ExprId PlaceLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::BitAccess: {
       const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
       const ExprId base = lowerPlace(node.base);
-      return add(node.h.loc, strip(node.h.type), BitsExpr{.base = base, .position = node.position});
+      return add(node.h.loc, strip(sema::meaning(node.h).type), BitsExpr{.base = base, .position = node.position});
     }
     case rung::ExprKind::Address: return directAddress(id);
     case rung::ExprKind::This:

@@ -39,7 +39,7 @@ void StatementLowering::lowerPou() {
     objects().storeInitial(local(state_.result_local, result.loc), result.type, {}, false);
   }
   detectEdges();
-  lowerStatements(tree_.as<PouDecl>(pou.decl).body);
+  lowerStatements(pou.code);
   leaveBody(pou.loc);
   body_.first = build_.block().first;
 }
@@ -114,7 +114,7 @@ uint32_t StatementLowering::labelNumber(NameId label) {
 
 void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
-  switch (stmt.effect()) {
+  switch (stmt.op()) {
     case AssignOp::Assign: {
       if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
         calls().lowerCall(stmt.target);
@@ -124,12 +124,12 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
       // A call may write its result directly into the target, and EN guards the whole assignment.
       if (tree_.kind(source) == rung::ExprKind::Convert) {
         rung::ExprId operand = tree_.as<rung::ConvertExpr>(source).operand;
-        bool same = strip(tree_.expr(source).type) == strip(tree_.expr(stmt.target).type);
-        bool string = TypeTable::isString(types_.kind(tree_.expr(operand).type));  // the assignment itself cuts it
+        bool same = strip(sema::typeOf(tree_, source)) == strip(sema::typeOf(tree_, stmt.target));
+        bool string = TypeTable::isString(types_.kind(sema::typeOf(tree_, operand)));  // the assignment itself cuts it
         if (tree_.kind(operand) == rung::ExprKind::Call && (same || string)) source = operand;
       }
       if (tree_.kind(source) == rung::ExprKind::Call) {
-        bool string = TypeTable::isString(types_.kind(tree_.expr(source).type));
+        bool string = TypeTable::isString(types_.kind(sema::typeOf(tree_, source)));
         if (string || !calls().isPlainCall(source)) {
           Target target{.expr = stmt.target, .early = places().isPlainPlace(stmt.target)};
           ExprId value = calls().lowerCall(source, &target);
@@ -147,8 +147,8 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       ExprId condition = values().lowerValue(stmt.value);
-      StmtId then = block(
-          [&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
+      StmtId then =
+          block([&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.op() == AssignOp::Set, loc), loc); });
       append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
@@ -156,10 +156,10 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
     case AssignOp::Subtract:
     case AssignOp::Multiply:
     case AssignOp::Divide: {
-      Op op = stmt.effect() == AssignOp::Add        ? Op::Add
-              : stmt.effect() == AssignOp::Subtract ? Op::Sub
-              : stmt.effect() == AssignOp::Multiply ? Op::Mul
-                                                    : Op::Div;
+      Op op = stmt.op() == AssignOp::Add        ? Op::Add
+              : stmt.op() == AssignOp::Subtract ? Op::Sub
+              : stmt.op() == AssignOp::Multiply ? Op::Mul
+                                                : Op::Div;
       const TypeId wide = op == Op::Div ? sema::uncutType(project_, stmt.value) : TypeId{};
       ExprId value = values().lowerOperand(stmt.value, wide);
       ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
@@ -260,7 +260,8 @@ void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   }
   // An unsigned variable that counts down by a constant (codesys) needs the test of the direction, like an unknown
   // step: the step keeps its sign, and the loop stops before the variable wraps.
-  if (stmt.step && types_.isSigned(types_.plainKind(tree_.expr(stmt.step).type)) != types_.isSigned(types_.kind(plain)))
+  if (stmt.step &&
+      types_.isSigned(types_.plainKind(sema::typeOf(tree_, stmt.step))) != types_.isSigned(types_.kind(plain)))
     step.reset();
   if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, limit.value, step, body);
   if (!step) return lowerForWithVariableStep(stmt, control, from, limit, [&] { link(body); });

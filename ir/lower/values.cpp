@@ -23,14 +23,14 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
     case rung::ExprKind::Name:
     case rung::ExprKind::Member:
     case rung::ExprKind::TypedName: {
-      Entity entity = tree.kind(id) == rung::ExprKind::Name     ? tree.as<NameExpr>(id).entity
-                      : tree.kind(id) == rung::ExprKind::Member ? tree.as<MemberExpr>(id).entity
-                                                                : tree.as<TypedNameExpr>(id).entity;
-      if (entity.entityKind() == EntityKind::EnumValue) {
+      sema::Entity entity = tree.kind(id) == rung::ExprKind::Name     ? sema::meaning(tree, id).entity
+                            : tree.kind(id) == rung::ExprKind::Member ? sema::meaning(tree, id).entity
+                                                                      : sema::meaning(tree, id).entity;
+      if (entity.entityKind() == sema::EntityKind::EnumValue) {
         const sema::EnumValue& value = project.enum_values[entity.index];
         return Value{types.resolve(value.type), static_cast<uint64_t>(value.value)};
       }
-      if (entity.entityKind() != EntityKind::Var) return std::nullopt;
+      if (entity.entityKind() != sema::EntityKind::Var) return std::nullopt;
       const sema::Var* var = &project.vars[entity.index];
       if (var->external) var = &project.var(var->external);
       if (!var->constant || !var->has_value) return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
       auto operand = uncutConstant(project, tree.as<rung::ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
       if (native) return types::convert(types, *operand, native).value;
-      TypeId to = types.resolve(tree.expr(id).type);
+      TypeId to = types.resolve(sema::typeOf(tree, id));
       bool from_string = TypeTable::isString(types.plainKind(operand->type));
       if (from_string) {
         if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
         return Value{to, operand->bits};
       }
       if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
-      return types::convert(types, *operand, to, sema::roundingOf(tree.expr(id))).value;
+      return types::convert(types, *operand, to, sema::roundingOf(sema::meaning(tree, id))).value;
     }
     case rung::ExprKind::Unary: {
       const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
@@ -97,7 +97,7 @@ std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
   const auto value = uncutConstant(project, id);
   if (!value || !sema::uncutType(project, id)) return value;
-  return types::convert(project.types, *value, project.types.resolve(project.tree.expr(id).type)).value;
+  return types::convert(project.types, *value, project.types.resolve(sema::typeOf(project.tree, id))).value;
 }
 
 ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
@@ -114,7 +114,8 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       if (tree_.kind(id) == rung::ExprKind::Member) {
         // lowerPlace returns here only for an expression that is not an lvalue.
         const MemberExpr& node = tree_.as<MemberExpr>(id);
-        RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
+        RUNG_INVARIANT(sema::meaning(node.h).entity.entityKind() == sema::EntityKind::Var,
+                       "a member is a variable or a constant");
       }
       return closed(places().lowerPlace(id));
     }
@@ -123,7 +124,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       ExprId object = self(tree_.loc(id));
       if (tree_.kind(id) == rung::ExprKind::Super)
         object = asBase(object, project_.pou(in_.objectOf(pou_)).base, tree_.loc(id));
-      return add(tree_.loc(id), strip(tree_.expr(id).type), AddressExpr{.place = object});
+      return add(tree_.loc(id), strip(sema::typeOf(tree_, id)), AddressExpr{.place = object});
     }
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
@@ -141,7 +142,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
       return places().openArrayBound(node.array, node.index, node.h.loc);
     }
     case rung::ExprKind::Call:
-      return sema::uncutType(project_, id) ? lowerIn(id, strip(tree_.expr(id).type)) : calls().lowerCall(id);
+      return sema::uncutType(project_, id) ? lowerIn(id, strip(sema::typeOf(tree_, id))) : calls().lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -161,9 +162,9 @@ ExprId ValueLowering::closed(ExprId place) {
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
-  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(sema::meaning(node.h).type));
   ExprId operand = lowerValue(node.operand);
-  TypeId type = strip(node.h.type);
+  TypeId type = strip(sema::meaning(node.h).type);
   switch (node.op()) {
     case UnaryOp::Plus: return operand;
     case UnaryOp::Not: return unary(Op::Not, type, operand, node.h.loc);
@@ -176,24 +177,24 @@ ExprId ValueLowering::lowerBinary(rung::ExprId id) {
   const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
   BinaryOp op = node.op();
   bool logical = op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::AndThen || op == BinaryOp::OrElse;
-  if (logical && types_.plainKind(strip(node.h.type)) == TypeKind::Bool) {
+  if (logical && types_.plainKind(strip(sema::meaning(node.h).type)) == TypeKind::Bool) {
     bool is_and = op == BinaryOp::And || op == BinaryOp::AndThen;
     bool short_circuit = op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.profile.short_circuit;
     return lowerLogical(id, is_and, short_circuit);
   }
-  if (sema::uncutType(project_, id)) return lowerIn(id, strip(node.h.type));
+  if (sema::uncutType(project_, id)) return lowerIn(id, strip(sema::meaning(node.h).type));
   const TypeId compared =
       types::isComparison(sema::operatorOf(op)) ? sema::comparedType(project_, node.left, node.right) : TypeId{};
   ExprId left = lowerOperand(node.left, compared);
   ExprId right = lowerAfter({&left}, [&] { return lowerOperand(node.right, compared); });
-  return arithmetic(binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc));
+  return arithmetic(binary(sema::operatorOf(op), strip(sema::meaning(node.h).type), left, right, node.h.loc));
 }
 
 // The value that the target takes is kept in a temporary: an operand to the right may change the target again.
 ExprId ValueLowering::lowerAssignment(const AssignExpr& node) {
   const Loc loc = node.h.loc;
   ExprId value = lowerValue(node.value);
-  const ExprId kept = temp(strip(node.h.type), loc);
+  const ExprId kept = temp(strip(sema::meaning(node.h).type), loc);
   assign(kept, convertValue(value, typeOf(kept), loc), loc);
   assign(places().lowerPlace(node.target), copy(kept), loc);
   return copy(kept);
@@ -218,10 +219,11 @@ bool ValueLowering::callsFunction(rung::ExprId id) const {
       const rung::IndexExpr& node = tree_.as<rung::IndexExpr>(id);
       for (rung::ExprId index : tree_.list(node.indices))
         if (callsFunction(index)) return true;
-      return isOpenArray(types_, tree_.expr(node.base).type) || callsFunction(node.base);  // its check is a statement
+      return isOpenArray(types_, sema::typeOf(tree_, node.base)) ||
+             callsFunction(node.base);  // its check is a statement
     }
     case rung::ExprKind::Call: {
-      const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
+      const sema::Call& call = project_.call(sema::meaning(tree_, id).call);
       if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pragmas.pure) return true;
       for (const sema::Binding& binding : call.bindings)
         if (binding.value && callsFunction(binding.value)) return true;
@@ -292,18 +294,19 @@ ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circ
 ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
-  const TypeKind kind = types_.kind(strip(node.h.type));
+  const TypeKind kind = types_.kind(strip(sema::meaning(node.h).type));
   if (kind == TypeKind::Record || kind == TypeKind::Array) return lowerPart(node);
   if (ExprId object = lowerObjectConversion(node)) return object;
   if (sema::uncutType(project_, node.operand)) return convertUncut(node);
-  return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc, sema::roundingOf(node.h));
+  return convertValue(lowerValue(node.operand), strip(sema::meaning(node.h).type), node.h.loc,
+                      sema::roundingOf(sema::meaning(node.h)));
 }
 
 // The value of an object or structure as one of what it extends: a copy, which is an object of that kind. An array as
 // one with other bounds.
 ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
   const Loc loc = node.h.loc;
-  const TypeId type = strip(node.h.type);
+  const TypeId type = strip(sema::meaning(node.h).type);
   const sema::PouId base = in_.records.pouOf(type);
   ExprId place = places().lowerPlace(node.operand);
   place = base ? asBase(place, base, loc) : places().seenAs(place, type, loc);
@@ -322,11 +325,11 @@ ExprId ValueLowering::lowerPart(const rung::ConvertExpr& node) {
 // The address of the target of a pointer or reference is its value: nothing is read.
 ExprId ValueLowering::lowerAddressOf(rung::ExprId id) {
   const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
-  const TypeId type = strip(node.h.type);
-  if (isOpenArray(types_, tree_.expr(node.lvalue).type))
+  const TypeId type = strip(sema::meaning(node.h).type);
+  if (isOpenArray(types_, sema::typeOf(tree_, node.lvalue)))
     return convertValue(places().openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
   // ADR(p^) is p, even if p points nowhere; for p[i] the base is a place that will be used.
-  if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
+  if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && !sema::meaning(node.h).leads_somewhere)
     return convertValue(lowerValue(tree_.as<rung::DerefExpr>(node.lvalue).base), type, node.h.loc);
   const ExprId place = places().lowerPlace(node.lvalue);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null
@@ -341,11 +344,11 @@ ExprId ValueLowering::lowerAnyValue(rung::ExprId id) {
   const Expr& expr = body_.expr(value);
   const bool is_bit = expr.kind == ExprKind::Bits || isImageBit(expr);
   if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
-  ExprId descriptor = temp(node.h.type, loc);
-  const TypeInfo& record = types_.info(strip(node.h.type));
+  ExprId descriptor = temp(sema::meaning(node.h).type, loc);
+  const TypeInfo& record = types_.info(strip(sema::meaning(node.h).type));
   auto part = [&](uint32_t index) { return field(copy(descriptor), index, record.fields[index].type, loc); };
   if (node.facts) {  // __VARINFO: the address is the first member
-    objects().storeInitial(copy(descriptor), node.h.type, node.facts, false);
+    objects().storeInitial(copy(descriptor), sema::meaning(node.h).type, node.facts, false);
     const TypeId to = types_.pointer(typeOf(value));
     types_.layout(to);
     const ExprId address = add(loc, to, AddressExpr{.place = value});
@@ -362,7 +365,7 @@ ExprId ValueLowering::lowerAnyValue(rung::ExprId id) {
 
 // An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
 ExprId ValueLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
-  const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
+  const TypeId to = strip(sema::meaning(node.h).type), from = strip(sema::typeOf(tree_, node.operand));
   if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
   const sema::PouId wanted = in_.records.pouOf(strip(types_.info(to).base));
   if (!wanted) return {};

@@ -34,7 +34,7 @@ const char* whyNotAddressable(const Context& context, ExprId lvalue) {
     if (kind == ExprKind::BitAccess)
       return tree.as<BitAccessExpr>(lvalue).width == 1 ? "one bit" : "a part of a number";
     if (kind == ExprKind::Address)
-      return tree.expr(lvalue).type == types::kBool ? "one bit of the process image" : nullptr;
+      return typeOf(tree, lvalue) == types::kBool ? "one bit of the process image" : nullptr;
     if (kind == ExprKind::Name || kind == ExprKind::Member) {
       const Entity entity = entityOf(context, lvalue);
       if (entity.entityKind() == EntityKind::EnumValue) return "a constant";

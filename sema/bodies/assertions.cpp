@@ -16,7 +16,7 @@
 namespace rung::sema {
 
 static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const uint32_t needed = assertion == Assertion::Assert ? 1 : assertion == Assertion::AssertEq ? 2 : 3;
   const std::string_view name = string(context, context.tree().as<NameExpr>(node.callee).name);
   std::vector<ExprId> operands;
@@ -28,7 +28,7 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
         diag::WrongArgumentCount, node.h.loc,
         {name, std::to_string(needed) + " or " + std::to_string(needed + 1), std::to_string(operands.size())});
     checkLooseArguments(context, node);
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   bool ok = true;
   if (assertion == Assertion::Assert) {
@@ -45,11 +45,11 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
     if (assertion == Assertion::AssertNear) {
       check(context, operands[2], first, Access::Read);
       for (uint32_t i = 0; i < 3; ++i) {
-        ok = ok && context.tree().expr(operands[i]).type != types::kError;
+        ok = ok && context.type(operands[i]) != types::kError;
       }
       TypeId common = types::kReal;
       for (uint32_t i = 0; ok && i < 3; ++i) {
-        const TypeId type = context.tree().expr(operands[i]).type;
+        const TypeId type = context.type(operands[i]);
         if (isUntyped(context, type)) continue;
         const TypeId with = commonNumber(context, common, type);
         if (!with) {
@@ -76,8 +76,8 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
       ok = false;
     }
   }
-  for (uint32_t i = 0; i < node.arguments.count; ++i) context.tree().list(node.arguments)[i].value = operands[i];
-  if (!ok) return node.h.type = types::kError;
+  for (uint32_t i = 0; i < node.arguments.count; ++i) context.code().list(node.arguments)[i].value = operands[i];
+  if (!ok) return meaning(node.h).type = types::kError;
   Call call;
   call.kind = CallKind::Assertion;
   call.assertion = assertion;
@@ -86,8 +86,8 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
     binding.value = operand;
     call.bindings.push_back(binding);
   }
-  node.call = addCall(context, std::move(call));
-  return node.h.type = {};
+  meaning(node.h).call = addCall(context, std::move(call));
+  return meaning(node.h).type = {};
 }
 
 TypeId checkAssert(Context& context, ExprId& expr, const PseudoCall&) {

@@ -51,10 +51,9 @@ TypeId checkTaker(Context& context, ExprId& target) {
   if (!type || type == types::kError) return types::kError;
   if (context.tree().kind(target) == ExprKind::Deref) {
     const ExprId reference = context.tree().as<DerefExpr>(target).base;
-    if (context.types().kind(context.tree().expr(reference).type) == TypeKind::Reference) target = reference;
+    if (context.types().kind(context.type(reference)) == TypeKind::Reference) target = reference;
   }
-  return checkWritable(context, target, Purpose{Use::Assigned, {}, {}}) ? context.tree().expr(target).type
-                                                                        : types::kError;
+  return checkWritable(context, target, Purpose{Use::Assigned, {}, {}}) ? context.type(target) : types::kError;
 }
 
 void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view word, std::string_view wanted) {
@@ -65,7 +64,7 @@ void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view 
 
 // `wanted`: the required type of the object; none: any.
 ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, PouId wanted, Loc loc) {
-  const TypeId type = context.tree().expr(target).type;
+  const TypeId type = context.type(target);
   Call call;
   call.kind = CallKind::Attempt;
   call.pou = wanted;
@@ -78,7 +77,7 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
   call.bindings[0].value = source;
   call.bindings[1].value = target;
   const ExprId created = context.build().call(target, Slice<Argument>{}, loc, loc);
-  context.tree().as<CallExpr>(created).call = addCall(context, std::move(call));
+  context.meaning(created).call = addCall(context, std::move(call));
   return typed(context, created, types::kBool);
 }
 
@@ -92,7 +91,7 @@ void checkAttempt(Context& context, AssignStmt& node) {
     const TypeKind kind = context.types().kind(type);
     const bool is_reference = kind == TypeKind::Pointer || kind == TypeKind::Reference;
     if (is_reference && source && sameType(context, source, type))
-      node.setEffect(AssignOp::Assign);
+      node.setOp(AssignOp::Assign);
     else if (source != types::kError)
       refuseTaker(context, node.target, type, "?=", kObjectKinds);
     return;
@@ -100,7 +99,7 @@ void checkAttempt(Context& context, AssignStmt& node) {
   const PouId given = checkSource(context, node.value, "?=");
   if (!wanted || !given) return;
   const ExprId call = makeAttempt(context, node.value, given, node.target, wanted, node.h.loc);
-  node.setEffect(AssignOp::Assign);
+  node.setOp(AssignOp::Assign);
   context.replace(node.target, call);
 }
 

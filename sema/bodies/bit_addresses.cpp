@@ -95,17 +95,17 @@ struct BitNumber {
   }
 
   bool addMember(ExprId expr, const MemberExpr& member) {
-    const Var& var = context.symbols.vars[member.entity.index];
+    const Var& var = context.symbols.vars[meaning(member.h).entity.index];
     if (var.section == SectionKind::InOut) return fail(expr, "an in-out");
     if (var.open_address) return fail(expr, "a variable with another address in each instance");
-    const TypeId record = context.types().resolve(context.tree().expr(member.base).type);
+    const TypeId record = context.types().resolve(context.type(member.base));
     if (!var.pou) return addField(record, var);
     return addInherited(pouOf(context, record), var);
   }
 
   //   fails   BITADR(list[i])                                   E0539
   bool addElement(ExprId expr, const IndexExpr& index) {
-    const TypeId array = context.types().resolve(context.tree().expr(index.base).type);
+    const TypeId array = context.types().resolve(context.type(index.base));
     const types::TypeInfo& info = context.types().info(array);
     if (info.kind != TypeKind::Array || info.dimensions.size() != index.indices.count)
       return fail(expr, "a part of another variable");
@@ -151,7 +151,7 @@ struct BitNumber {
         continue;
       }
       if (kind == ExprKind::Member && !isWhole(context, tree.as<MemberExpr>(expr))) {
-        if (tree.as<MemberExpr>(expr).entity.entityKind() != EntityKind::Var) return fail(expr, "a value");
+        if (meaning(tree, expr).entity.entityKind() != EntityKind::Var) return fail(expr, "a value");
         if (!addMember(expr, tree.as<MemberExpr>(expr))) return false;
         continue;
       }

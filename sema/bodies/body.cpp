@@ -22,16 +22,17 @@
 namespace rung::sema {
 
 // Turns a body in IL or SFC into statements, once the declarations of all files are known.
-static void schedule(Context& context, PouDecl& decl) {
+static void schedule(Context& context, const PouDecl& decl) {
+  Pou& pou = context.symbols.pou(context.pou);
   const BodyKind kind = decl.body_kind;
-  if (decl.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
+  if (pou.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
   ProjectSignatures signatures(context);
-  Tree& tree = context.tree();
+  Tree& tree = context.symbols.arena;
   Diagnostics& diagnostics = context.symbols.diagnostics;
-  decl.scheduled = true;
-  const auto take = [&](const auto& created) {
-    decl.body = created.body;
-    declareTemporaries(context, created.temporaries);
+  pou.scheduled = true;
+  const auto take = [&](const ScheduledBody& made) {
+    pou.statements = made.body;
+    declareTemporaries(context, made.temporaries);
   };
   if (kind == BodyKind::Network) {
     take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
@@ -40,7 +41,11 @@ static void schedule(Context& context, PouDecl& decl) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
-    if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;
+    const auto made = text::scheduleSfc(chartsOf(context), signatures, decl, context.project.madeSections(decl),
+                                        chartContextOf(context, context.pou));
+    if (!made) return;
+    pou.statements = made->body;
+    pou.chart_body = made->text;
   }
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }
@@ -49,7 +54,7 @@ void checkBody(Context& context, PouId id) {
   Pou& pou = context.symbols.pou(id);
   if (!pou.decl) return;
   resolvePou(context, id);
-  PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   if (decl.body_kind == BodyKind::Native || pou.generic) return;
   const std::string_view name = string(context, pou.name);
   setPhaseSubject(name.data(), name.size());
@@ -66,9 +71,11 @@ void checkBody(Context& context, PouId id) {
                 .rules = context.rules,
                 .expressions = context.expressions};
   if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
+  pou.statements = decl.body;
   schedule(inner, decl);
-  body.statements = decl.body;
-  checkStatements(inner, decl.body);
+  pou.code = inner.code().copy(pou.statements);
+  body.statements = pou.code;
+  checkStatements(inner, pou.code);
   finalizeTemporaries(inner);
   context.rules->pou(inner);
 }

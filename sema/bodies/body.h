@@ -2,6 +2,7 @@
 // The body of a POU in any language; see body.cpp.
 #pragma once
 
+#include <unordered_set>
 #include <vector>
 
 #include "sema/context.h"
@@ -39,7 +40,8 @@ struct BodyState {
     VarId instance, pin, object;
   };
   std::vector<Served> served;
-  std::vector<Temporary> temporaries;  // all declared before the first statement is checked
+  std::unordered_set<const AssignStmt*> with_value;  // assignments to temporaries whose value has a type
+  std::vector<Temporary> temporaries;                // all declared before the first statement is checked
   Slice<StmtId> statements;
   bool assigns_known = false;
   uint32_t looking_ahead = 0;

@@ -149,7 +149,7 @@ void checkLoose(Context& context, const CallExpr& node, uint32_t index) {
   if (isUntyped(context, check(context, value, {}, argument.is_output ? Access::Write : Access::Read))) {
     finalizeUntyped(context, value);
   }
-  context.tree().list(node.arguments)[index].value = value;
+  context.code().list(node.arguments)[index].value = value;
 }
 
 bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
@@ -184,7 +184,7 @@ void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId ac
 // The type of an argument, which the choice of an overload may have checked already; a literal depends on the pin.
 TypeId checkArgument(Context& context, ExprId& value, TypeId expected, Access access, bool checked) {
   const bool is_done = checked && context.tree().kind(value) != ExprKind::Literal;
-  return is_done ? context.tree().expr(value).type : check(context, value, expected, access);
+  return is_done ? context.type(value) : check(context, value, expected, access);
 }
 
 void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument,
@@ -220,7 +220,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   }
   if (context.types().kind(pin.type) == TypeKind::Reference && context.tree().kind(binding.value) == ExprKind::Deref) {
     const ExprId reference = context.tree().as<DerefExpr>(binding.value).base;  // the reference itself is passed
-    if (sameType(context, context.tree().expr(reference).type, pin.type)) {
+    if (sameType(context, context.type(reference), pin.type)) {
       binding.value = reference;
       return;
     }
@@ -265,7 +265,7 @@ TypeId checkRefused(Context& context, CallExpr& node, const Arguments& arguments
     ExprId value = context.tree().list(node.arguments)[index - 1].value;
     if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
   }
-  return node.h.type = types::kError;
+  return meaning(node.h).type = types::kError;
 }
 
 PouId calledOf(Context& context, const CallExpr& node, PouId named, bool& checked) {
@@ -277,9 +277,9 @@ PouId calledOf(Context& context, const CallExpr& node, PouId named, bool& checke
 }
 
 TypeId resultOf(Context& context, CallExpr& node, const Pou& callee, bool as_statement) {
-  if (callee.result || as_statement) return node.h.type = callee.result;
+  if (callee.result || as_statement) return meaning(node.h).type = callee.result;
   context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
-  return node.h.type = types::kError;
+  return meaning(node.h).type = types::kError;
 }
 
 namespace {
@@ -292,30 +292,30 @@ TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type
       (!wide && !isNamed(context, callee.name, "TO_STRING")))
     return type;
   if (type == types::kError || context.tree().kind(expr) != ExprKind::Call) return type;
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  if (!node.call || context.symbols.call(node.call).bindings.size() != 1) return type;
-  ExprId value = context.symbols.call(node.call).bindings[0].value;
+  CallExpr& node = context.code().as<CallExpr>(expr);
+  if (!meaning(node.h).call || context.symbols.call(meaning(node.h).call).bindings.size() != 1) return type;
+  ExprId value = context.symbols.call(meaning(node.h).call).bindings[0].value;
   while (value && context.tree().kind(value) == ExprKind::Convert)
     value = context.tree().as<ConvertExpr>(value).operand;
-  const PouId names = value ? itemNamesOf(context, context.tree().expr(value).type) : PouId{};
+  const PouId names = value ? itemNamesOf(context, context.type(value)) : PouId{};
   if (!names) return type;
   wrapConvert(context, value, types::kLInt);
   const VarId pin = pinsOf(context, names)[0];
   noteCall(context, names, node.h.loc);
-  Call& call = context.symbols.call(node.call);
+  Call& call = context.symbols.call(meaning(node.h).call);
   call.pou = names;
   call.bindings[0].pin = pin;
   call.bindings[0].value = value;
-  node.h.type = types::idOf(TypeKind::String);
+  meaning(node.h).type = types::idOf(TypeKind::String);
   if (wide) wrapConvert(context, expr, types::idOf(TypeKind::WString));
-  return context.tree().expr(expr).type;
+  return context.type(expr);
 }
 
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   bool checked = false;
   pou = calledOf(context, node, pou, checked);
-  if (!pou) return node.h.type = types::kError;
+  if (!pou) return meaning(node.h).type = types::kError;
   const Pou& callee = context.symbols.pou(pou);
   if (callee.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible)
@@ -334,12 +334,12 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
     call.eno_is_pin = true;
   }
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
-  node.call = addCall(context, std::move(call));
+  meaning(node.h).call = addCall(context, std::move(call));
   return resultOf(context, node, callee, as_statement);
 }
 
 TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   resolvePou(context, pou);
   noteCall(context, pou, node.h.loc);
   const Arguments arguments = matchArguments(context, node, pou);
@@ -357,21 +357,21 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   bindArguments(context, node, pou, arguments, call);
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   context.rules->call(context, node, call);
-  node.call = addCall(context, std::move(call));
+  meaning(node.h).call = addCall(context, std::move(call));
   if (!as_statement) {
     context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  return node.h.type = {};
+  return meaning(node.h).type = {};
 }
 
 TypeId refuse(Context& context, CallExpr& node) {
   checkLooseArguments(context, node);
-  return node.h.type = types::kError;
+  return meaning(node.h).type = types::kError;
 }
 
 TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const Pou& callee = context.symbols.pou(pou);
   switch (callee.kind) {
     case PouKind::Function: return callFunction(context, expr, pou, expected, as_statement);
@@ -401,15 +401,15 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
 NameId calledProperty(const Context& context, ExprId callee) {
   const Tree& tree = context.tree();
   while (tree.kind(callee) == ExprKind::Deref) callee = tree.as<DerefExpr>(callee).base;
-  if (tree.kind(callee) != ExprKind::Call || tree.as<CallExpr>(callee).call.index == 0) return {};
-  const PouId called = context.symbols.call(tree.as<CallExpr>(callee).call).pou;
+  if (tree.kind(callee) != ExprKind::Call || meaning(tree, callee).call.index == 0) return {};
+  const PouId called = context.symbols.call(meaning(tree, callee).call).pou;
   return called && context.symbols.pou(called).object.accessor != AccessorKind::None ? context.symbols.pou(called).name
                                                                                      : NameId{};
 }
 
 // The callee is a value: an instance, or a value that cannot be called.
 TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   if (type == types::kError) return refuse(context, node);
   const PouId pou = pouOf(context, type);
   if (pou && context.symbols.pou(pou).kind == PouKind::FunctionBlock) {
@@ -429,7 +429,7 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
 }
 
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   if (const auto type = checkPseudoCall(context, expr, name, as_statement)) return *type;
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (isFirstReport(context, name)) {
@@ -437,7 +437,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
     if (near.empty()) near = nearestPseudoFunction(context, name);
     context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(near);
   }
-  context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
+  context.meaning(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
 
@@ -469,7 +469,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
       case SectionKind::Access:
       case SectionKind::Config: bindInput(context, pou, pin, binding, arguments.checked); break;
     }
-    context.tree().list(node.arguments)[index].value = binding.value;
+    context.code().list(node.arguments)[index].value = binding.value;
     call.bindings.push_back(binding);
   }
 }
@@ -616,7 +616,7 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
   if (arguments.en != 0) {
     ExprId en = context.tree().list(node.arguments)[arguments.en - 1].value;
     if (en) checkAs(context, en, types::kBool, Purpose{Use::PassedToEn, {}, {}});
-    context.tree().list(node.arguments)[arguments.en - 1].value = en;
+    context.code().list(node.arguments)[arguments.en - 1].value = en;
     call.en = en;
   }
   if (arguments.eno != 0) {
@@ -629,7 +629,7 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
                   Purpose{Use::CopiedFromEno, {}, {}});
       }
     }
-    context.tree().list(node.arguments)[arguments.eno - 1].value = eno;
+    context.code().list(node.arguments)[arguments.eno - 1].value = eno;
     call.eno = eno;
   }
 }
@@ -653,7 +653,7 @@ ExprId propertyCallIn(Context& context, ExprId value) {
 void readProperty(Context& context, ExprId& expr, ExprId value) {
   value = propertyCallIn(context, value);
   if (!value) return;  // reported
-  const CallId get = context.tree().as<CallExpr>(value).call;
+  const CallId get = context.meaning(value).call;
   NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
   for (const Property& property : context.symbols.properties)
     if (get && property.get && property.get == context.symbols.call(get).pou) name = property.name;
@@ -694,9 +694,8 @@ bool isBareCall(Context& context, ExprId& expr) {
   const std::string_view source = context.symbols.sources.sourceText(context.symbols.sources.fileOf(begin));
   const uint32_t from = begin.offset - context.symbols.sources.begin(context.symbols.sources.fileOf(begin)).offset;
   const std::string shown(source.substr(from, node.end.offset - begin.offset));
-  if (found.entityKind() == EntityKind::Var && !context.tree().expr(node.callee).type)
-    check(context, callee, {}, Access::Read);
-  const TypeId type = context.tree().expr(node.callee).type;
+  if (found.entityKind() == EntityKind::Var && !context.type(node.callee)) check(context, callee, {}, Access::Read);
+  const TypeId type = context.type(node.callee);
   const bool is_value = found.entityKind() == EntityKind::Var || found.entityKind() == EntityKind::None;
   if (!type || type == types::kError || !is_value || isInstance(context, type)) {
     if (type != types::kError) context.report(diag::NoEffect, begin, {shown});
@@ -711,15 +710,15 @@ bool isBareCall(Context& context, ExprId& expr) {
 }  // namespace
 
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return node.h.type = types::kError;
+  CallExpr& node = context.code().as<CallExpr>(expr);
+  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return meaning(node.h).type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
-    NameExpr& callee = context.tree().as<NameExpr>(node.callee);
-    callee.entity = lookUp(context, callee, callee.h.loc);
-    switch (callee.entity.entityKind()) {
+    NameExpr& callee = context.code().as<NameExpr>(node.callee);
+    meaning(callee.h).entity = lookUp(context, callee, callee.h.loc);
+    switch (meaning(callee.h).entity.entityKind()) {
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: {
-        const PouId pou{callee.entity.index};
+        const PouId pou{meaning(callee.h).entity.index};
         const PouId owner = context.symbols.pou(pou).owner;
         if (owner && !mayAccess(context, context.symbols.pou(pou).access, owner, callee.name, callee.h.loc))
           return refuse(context, node);
@@ -727,7 +726,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       }
       case EntityKind::Error: return refuse(context, node);
       case EntityKind::Var:
-        if (VarId{callee.entity.index} == context.symbols.pou(context.pou).result_var) {
+        if (VarId{meaning(callee.h).entity.index} == context.symbols.pou(context.pou).result_var) {
           return callPou(context, expr, context.pou, expected, as_statement);  // recursion
         }
         [[fallthrough]];

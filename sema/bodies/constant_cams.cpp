@@ -47,7 +47,7 @@ VarId addressed(Context& context, ExprId value) {
   ExprId lvalue = tree.as<AddressOfExpr>(value).lvalue;
   if (tree.kind(lvalue) == ExprKind::Index) {
     const IndexExpr& node = tree.as<IndexExpr>(lvalue);
-    const TypeInfo& array = infoOf(context, tree.expr(node.base).type);
+    const TypeInfo& array = infoOf(context, typeOf(tree, node.base));
     if (array.dimensions.size() != node.indices.count) return {};
     for (uint32_t i = 0; i < node.indices.count; ++i)
       if (constantInteger(context, tree.list(node.indices)[i]) != array.dimensions[i].low) return {};
@@ -67,8 +67,7 @@ class Changes {
     for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
       const Pou& pou = context.symbols.pous[i];
       if (pou.library || !pou.decl || pou.generic || !pou.progress.checked()) continue;
-      const PouDecl& decl = tree_.as<PouDecl>(pou.decl);
-      for (const StmtId id : tree_.list(decl.body)) statement(id);
+      for (const StmtId id : tree_.list(pou.code)) statement(id);
       all_ = all_ || pou.cpp;
     }
     // Initial values of instances set their members.
@@ -103,10 +102,10 @@ class Changes {
     if (tree_.kind(node.target) != ExprKind::Member) return false;
     const MemberExpr& member = tree_.as<MemberExpr>(node.target);
     const Entity base = entityOf(context_, member.base);
-    if (base.entityKind() != EntityKind::Var || !isCam(context_, tree_.expr(member.base).type)) return false;
+    if (base.entityKind() != EntityKind::Var || !isCam(context_, typeOf(tree_, member.base))) return false;
     if (tree_.kind(member.base) == ExprKind::Member && !isWhole(context_, tree_.as<MemberExpr>(member.base)))
       return false;
-    const TypeInfo& record = infoOf(context_, tree_.expr(member.base).type);
+    const TypeInfo& record = infoOf(context_, typeOf(tree_, member.base));
     const size_t field = fieldNamed(context_, record, context_.names().string(member.member));
     const VarId cam = declared(context_, {base.index});
     assigned_[{cam.index, field}].push_back(node.value);
@@ -157,11 +156,11 @@ class Changes {
 
   // Members of an instance: `block : Mover := (cam := (…))`. The address of an array in a cam is not a change.
   void members(const StructInitExpr& node) {
-    const bool of_cam = isCam(context_, node.h.type);
+    const bool of_cam = isCam(context_, meaning(node.h).type);
     for (const FieldInit& field : tree_.list(node.fields)) {
       if (of_cam && addressed(context_, field.value)) continue;
       expression(field.value, false);
-      if (of_cam || !isCam(context_, tree_.expr(field.value).type)) continue;
+      if (of_cam || !isCam(context_, typeOf(tree_, field.value))) continue;
       for (uint32_t i = 1; i < context_.symbols.vars.size(); ++i)
         if (context_.names().key(context_.symbols.vars[i].name) == context_.names().key(field.field.name))
           changed_[i] = true;
@@ -170,11 +169,11 @@ class Changes {
 
   void call(const CallExpr& node) {
     expression(node.callee, false);
-    if (!node.call) {
+    if (!meaning(node.h).call) {
       for (const Argument& argument : tree_.list(node.arguments)) expression(argument.value, true);
       return;
     }
-    const Call& resolved = context_.symbols.call(node.call);
+    const Call& resolved = context_.symbols.call(meaning(node.h).call);
     if (resolved.instance) expression(resolved.instance, false);
     for (const Binding& binding : resolved.bindings) {
       const Var* const pin = binding.pin ? &context_.symbols.var(binding.pin) : nullptr;

@@ -104,11 +104,11 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
 
 // Calls a library function instead: the callee becomes its name.
 TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, TypeId expected, NameId written) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const NameId name = context.names().intern(function);
   if (lookUp(context, name).entityKind() != EntityKind::Pou) {
     context.report(diag::UnknownName, node.h.loc, {string(context, written)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   context.replace(node.callee, context.build().name(name, context.tree().loc(node.callee)));
   return checkCall(context, expr, expected, false);
@@ -117,7 +117,7 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
 // The operand as a value of `type`; a typed operand is not typed again.
 bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
   if (!checkAs(context, value, type, Purpose{Use::PassedToInput, function, {}})) return false;
-  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
+  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.type(value));
   return true;
 }
 
@@ -134,16 +134,17 @@ std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
 }
 
 TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const OneInput input = oneInput(context, node, name);
   if (!input.ok) {
     checkLooseArguments(context, node);
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   ExprId value = input.value;
   TypeId from;
   if (rule.from) {
-    if (!checkAs(context, value, rule.from, Purpose{Use::PassedToInput, name, {}})) return node.h.type = types::kError;
+    if (!checkAs(context, value, rule.from, Purpose{Use::PassedToInput, name, {}}))
+      return meaning(node.h).type = types::kError;
     from = rule.from;
   } else {
     from = check(context, value, {}, Access::Read);
@@ -151,7 +152,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
       const bool direct = untypedFits(context, value, rule.to) && rule.kind == Rule::Kind::Convert;
       from = finalizeUntyped(context, value, direct ? rule.to : TypeId{});
     }
-    if (from == types::kError) return node.h.type = types::kError;
+    if (from == types::kError) return meaning(node.h).type = types::kError;
   }
   if (context.profile().pointers_as_numbers &&
       context.types().kind(from) == TypeKind::Pointer) {  // the number of its first byte
@@ -164,16 +165,16 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   if (!TypeTable::isElementary(source)) {
     context.report(diag::NotOfGeneric, context.tree().loc(value),
                    {context.types().toString(from), string(context, name), "ANY_ELEMENTARY"});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const auto replaceArgument = [&] {
-    if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
-    context.tree().list(node.arguments)[input.index].value = value;
+    if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.type(value));
+    context.code().list(node.arguments)[input.index].value = value;
   };
   if (target_is_string && rule.kind == Rule::Kind::Convert) {
     if (source == target) {
       context.replace(expr, value);
-      return context.tree().expr(expr).type;
+      return context.type(expr);
     }
     replaceArgument();
     return callLibrary(
@@ -193,7 +194,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     if (!TypeTable::isReal(source) || !(TypeTable::isInteger(target) || TypeTable::isBits(target))) {
       context.report(diag::NotOfGeneric, context.tree().loc(value),
                      {context.types().toString(from), string(context, name), "ANY_REAL"});
-      return node.h.type = types::kError;
+      return meaning(node.h).type = types::kError;
     }
     if (trunc.entityKind() != EntityKind::Pou) return {};
     replaceArgument();
@@ -211,7 +212,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
   }
   wrapConvert(context, value, rule.to);
-  context.tree().expr(value).loc = node.h.loc;
+  context.code().expr(value).loc = node.h.loc;
   if (input.en || input.eno) return guardValue(context, expr, value);
   context.replace(expr, value);
   return rule.to;
@@ -219,7 +220,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
 
 // MUX_INT, ADD_TIME, SUB_DATE_DATE: a generic function and the types of its inputs.
 TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, TypeId expected) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const size_t cut = name.find('_');
   if (cut == std::string_view::npos || cut == 0) return {};
   const NameId function = context.names().find(name.substr(0, cut));
@@ -245,7 +246,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
   if (pou.kind != PouKind::Function || (pou.pragmas.operator_kind == OperatorKind::None && !pou.generic)) return {};
   pinsOf(context, id);
   noteCall(context, id, node.h.loc);
-  context.tree().as<NameExpr>(node.callee).entity = entity;
+  context.meaning(node.callee).entity = entity;
   TypeId forced = operand_types[0];
   if (operand_types.size() > 1) {
     forced = {};
@@ -253,8 +254,8 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
       ExprId value = context.tree().list(node.arguments)[i].value;
       if (!value) continue;
       const bool ok = operandAs(context, value, operand_types[i], function);
-      context.tree().list(node.arguments)[i].value = value;
-      if (!ok) return node.h.type = types::kError;
+      context.code().list(node.arguments)[i].value = value;
+      if (!ok) return meaning(node.h).type = types::kError;
     }
   }
   if (pou.pragmas.operator_kind != OperatorKind::None) return checkOperatorCall(context, expr, id, expected, forced);
@@ -265,18 +266,18 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
 
 TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
   const CallExpr& node = context.tree().as<CallExpr>(expr);
-  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
+  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.type(value));
   std::vector<Argument> arguments;
   for (const Argument& argument : context.tree().list(node.arguments)) {
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
     if (sameIdentifier(pin, argument.is_output ? kEnableOutput : kEnable)) arguments.push_back(argument);
   }
   arguments.push_back(Argument{{}, value, false, false, node.h.loc});
-  const ExprId guarded = context.tree().insertCopy(expr);
-  context.tree().as<CallExpr>(guarded).arguments = context.tree().addList<Argument>(arguments);
+  const ExprId guarded = context.code().duplicate(expr);
+  context.code().as<CallExpr>(guarded).arguments = context.code().addList<Argument>(arguments);
   context.replace(expr, guarded);
   const NameId name = context.tree().as<NameExpr>(node.callee).name;
-  return callLibrary(context, expr, kMove, context.tree().expr(value).type, name);
+  return callLibrary(context, expr, kMove, context.type(value), name);
 }
 
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {
@@ -286,7 +287,7 @@ TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expecte
   const Rule rule = ruleOf(context, spelling);
   if (rule.kind != Rule::Kind::None) {
     const TypeId type = checkConversion(context, expr, name, rule, expected);
-    if (type) context.tree().expr(expr).type = type;
+    if (type) context.type(expr) = type;
     return type;
   }
   return checkTypedCall(context, expr, spelling, expected);

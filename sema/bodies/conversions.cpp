@@ -13,6 +13,7 @@
 #include "sema/declarations/constants.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
 #include "sema/declarations/uncopied.h"
 #include "sema/hooks.h"
 #include "sema/intermediate.h"
@@ -163,7 +164,7 @@ bool extendsStructure(const Context& context, TypeId derived, TypeId base) {
     if (named == nullptr || !named->type || context.tree().kind(named->type) != TypeExprKind::Struct) return false;
     const TypeExprId extended = context.tree().as<StructTypeExpr>(named->type).base;
     if (!extended) return false;
-    derived = context.tree().typeExpr(extended).type;
+    derived = typeAsWritten(context, extended);
     if (!derived || derived == types::kError) return false;
     if (context.types().resolve(derived) == base) return true;
   }
@@ -295,10 +296,10 @@ TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
 
 void wrapConvert(Context& context, ExprId& expr, TypeId to) {
   const ExprId created = context.build().convert(expr, context.tree().loc(expr));
-  context.tree().expr(created).is_constant = context.tree().expr(expr).is_constant;
-  const TypeId from = context.tree().expr(expr).type;
+  context.meaning(created).is_constant = context.meaning(expr).is_constant;
+  const TypeId from = context.type(expr);
   context.replace(expr, typed(context, created, to));
-  markRounding(context.symbols, context.tree().expr(created), from, context.isWide());
+  markRounding(context.symbols, created, from, context.isWide());
 }
 
 namespace {
@@ -315,14 +316,16 @@ bool isOfPlainLiterals(const Tree& tree, ExprId expr) {
 // Names a number as it is written: the type that it was given is none of the user's. False: it is not such a number.
 bool reportNumberForBool(Context& context, ExprId expr, TypeId to, const Purpose& purpose) {
   if (!isOfPlainLiterals(context.tree(), expr)) return false;
-  const Range range = context.tree().range(expr);
+  const ExprId written = context.meaning(expr).written;
+  if (!written) return false;
+  const Range range = context.tree().range(written);
   const Sources& sources = context.symbols.sources;
   const FileId file = sources.fileOf(range.begin);
-  const std::string_view written = sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
-                                                                   range.end.offset - range.begin.offset);
-  if (written.find('\n') != std::string_view::npos) return false;
-  context.report(diag::WrongType, range.begin, {written, purpose.toString(context), context.types().toString(to)})
-      .length(static_cast<uint32_t>(written.size()))
+  const std::string_view spelling = sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
+                                                                    range.end.offset - range.begin.offset);
+  if (spelling.find('\n') != std::string_view::npos) return false;
+  context.report(diag::WrongType, range.begin, {spelling, purpose.toString(context), context.types().toString(to)})
+      .length(static_cast<uint32_t>(spelling.size()))
       .note({}, Note{"a BOOL is TRUE or FALSE"});
   return true;
 }
@@ -389,7 +392,7 @@ namespace {
 
 // A constant is checked by its value: `VAR CONSTANT k : INT := 3` fits a SINT.
 bool constantFits(Context& context, ExprId expr, TypeId to) {
-  if (!context.profile().fitting_constants || !context.tree().expr(expr).is_constant) return false;
+  if (!context.profile().fitting_constants || !context.meaning(expr).is_constant) return false;
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
   const std::optional<types::Value> value = evaluate(context, expr);
   return value && target.kind != TypeKind::Enum && TypeTable::isScalar(context.types().plainKind(value->type)) &&
@@ -405,12 +408,12 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
 bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
   if (!context.profile().enums_as_numbers) return false;
   const TypeId target = context.types().resolve(to);
-  const TypeId from = context.tree().expr(expr).type;
+  const TypeId from = context.type(expr);
   const types::TypeInfo& info = context.types().info(target);
   if (info.kind != TypeKind::Enum || context.types().kind(from) == TypeKind::Enum) return false;
   __int128 number = 0;
   if (!isUntyped(context, from)) {
-    if (!isWholeKind(context.types().plainKind(from)) || !context.tree().expr(expr).is_constant) return false;
+    if (!isWholeKind(context.types().plainKind(from)) || !context.meaning(expr).is_constant) return false;
     const std::optional<types::Value> value = evaluate(context, expr);
     if (!value) return false;
     number =
@@ -429,7 +432,7 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
                                             : std::to_string(static_cast<uint64_t>(number));
     context.report(info.strict ? diag::NoItemOfStrict : diag::NoItem, loc, {spelling, context.types().toString(to)});
     if (info.strict) {
-      context.tree().expr(expr).type = types::kError;
+      context.type(expr) = types::kError;
       ok = false;
       return true;
     }
@@ -443,8 +446,8 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
 
 // False: a constant that the subrange must not take, which was reported.
 bool checkSubrange(Context& context, ExprId expr, TypeId to) {
-  if (context.types().kind(to) != TypeKind::Subrange || !context.tree().expr(expr).is_constant) return true;
-  const TypeKind from = context.types().plainKind(context.tree().expr(expr).type);
+  if (context.types().kind(to) != TypeKind::Subrange || !context.meaning(expr).is_constant) return true;
+  const TypeKind from = context.types().plainKind(context.type(expr));
   const std::optional<types::Value> value = isWholeKind(from) ? evaluate(context, expr) : std::nullopt;
   if (!value) return true;
   const __int128 number = context.types().isSigned(from) ? __int128{value->asSigned()} : __int128{value->bits};
@@ -478,7 +481,7 @@ bool isFirstElement(const Context& context, TypeId from, TypeId to) {
 }  // namespace
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
-  const TypeId from = context.tree().expr(expr).type;
+  const TypeId from = context.type(expr);
   if (from == to) return from != types::kError && checkCopied(context, expr, to);
   if (!from || from == types::kError || to == types::kError) return false;
   __int128 number = 1;
@@ -493,17 +496,17 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
   // A strict enumeration accepts an item of another one, but not a variable.
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(to));
-  if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.tree().expr(expr).is_constant)
+  if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.meaning(expr).is_constant)
     fitness = Fit::No;
   const bool is_memory = fitness == Fit::Pointer &&
                          (isMemory(context, to) || isMemory(context, from) || isFirstElement(context, from, to));
   if (!is_memory && !reportFit(context, fitness, expr, from, to, purpose)) {
-    context.tree().expr(expr).type = types::kError;
+    context.type(expr) = types::kError;
     return false;
   }
   if (fitness == Fit::Same) {
     if (!checkCopied(context, expr, to)) return false;
-    if (context.types().info(from).kind == TypeKind::NullLiteral) context.tree().expr(expr).type = to;
+    if (context.types().info(from).kind == TypeKind::NullLiteral) context.type(expr) = to;
     const types::TypeInfo& info = context.types().info(context.types().resolve(to));
     if (TypeTable::isString(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
         context.types().info(context.types().resolve(from)).length > info.length) {
@@ -515,7 +518,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   }
   if (fitness == Fit::Lossless) context.rules->conversion(context, expr, to);
   if (!checkSubrange(context, expr, to)) {
-    context.tree().expr(expr).type = types::kError;
+    context.type(expr) = types::kError;
     return false;
   }
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it

@@ -38,7 +38,7 @@ const char* whyNot(Context& context, const Var& var) {
       var.section == SectionKind::Input || var.section == SectionKind::Output || var.section == SectionKind::InOut;
   if (var.storage != Storage::Local || is_pin) return nullptr;
   if (is_record) return "a structure that lives for one call";
-  if (var.init && (types.kind(type) == TypeKind::Array || !context.tree().expr(var.init).is_constant))
+  if (var.init && (types.kind(type) == TypeKind::Array || !context.meaning(var.init).is_constant))
     return "a variable of one call whose initial value is not a single constant";
   return nullptr;
 }

@@ -18,21 +18,21 @@ namespace rung::sema {
 bool checkDivisor(Context& context, ExprId divisor, BinaryOp op) {
   const ExprHeader& header = context.tree().expr(divisor);
   bool zero = false;
-  if (isUntyped(context, header.type)) {
+  if (isUntyped(context, meaning(header).type)) {
     __int128 value;
-    if (header.type == types::idOf(TypeKind::IntegerLiteral)) {
+    if (meaning(header).type == types::idOf(TypeKind::IntegerLiteral)) {
       zero = untypedValue(context, divisor, value) && value == 0;
     } else if (context.tree().kind(divisor) == ExprKind::Literal) {
       zero = context.tree().as<LiteralExpr>(divisor).value() == 0;
     }
-  } else if (types::TypeTable::isReal(context.types().plainKind(header.type))) {
+  } else if (types::TypeTable::isReal(context.types().plainKind(meaning(header).type))) {
     zero = context.tree().kind(divisor) == ExprKind::Literal && context.tree().as<LiteralExpr>(divisor).value() == 0;
   } else {
     zero = constantInteger(context, divisor) == 0;
   }
   if (!zero) return true;
-  const bool is_real = header.type == types::idOf(types::TypeKind::RealLiteral) ||
-                       types::TypeTable::isReal(context.types().plainKind(header.type));
+  const bool is_real = meaning(header).type == types::idOf(types::TypeKind::RealLiteral) ||
+                       types::TypeTable::isReal(context.types().plainKind(meaning(header).type));
   const bool is_defined = is_real || (op == BinaryOp::Modulo && context.profile().modulo_by_zero_is_zero);
   if (is_defined) {
     if (!context.library)

@@ -38,7 +38,7 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
     const ExprId init = var.init;
     if (init && context.tree().kind(init) == ExprKind::Literal) {
       const uint64_t units = (uint64_t{options.pool_bytes} + 7) / 8;
-      var.init = makeLiteral(context, LiteralKind::Integer, context.tree().expr(init).type, static_cast<int64_t>(units),
+      var.init = makeLiteral(context, LiteralKind::Integer, context.type(init), static_cast<int64_t>(units),
                              context.tree().loc(init));
       var.value.bits = units;
     }
@@ -74,30 +74,35 @@ bool mayBeAllocated(Context& context, TypeId type, TypeExprId what) {
 //   passes  p := __NEW(Motor);  p := __NEW(INT, 10);
 //   fails   p := __NEW(Main);                                       E0592
 TypeId checkNew(Context& context, ExprId& expr) {
-  NewExpr& node = context.tree().as<NewExpr>(expr);
-  if (node.h.type) return node.h.type;                                        // checked before
-  if (!context.profile().dynamic_memory) return node.h.type = types::kError;  // reported by the lexer
+  NewExpr& node = context.code().as<NewExpr>(expr);
+  if (meaning(node.h).type) return meaning(node.h).type;                               // checked before
+  if (!context.profile().dynamic_memory) return meaning(node.h).type = types::kError;  // reported by the lexer
   TypeId type = resolveType(context, node.allocated);
   if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
-  if (type == types::kError || !mayBeAllocated(context, type, node.allocated)) return node.h.type = types::kError;
+  if (type == types::kError || !mayBeAllocated(context, type, node.allocated))
+    return meaning(node.h).type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!ensureLayout(context, type)) {
     context.report(diag::TypeTooLarge, context.tree().loc(node.allocated), {context.types().toString(type)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   uint32_t elements = 0;
-  node.constructor = checkConstructor(context, node.allocated, elements);
-  node.memory = poolCall(context, "Allocate", node.h.loc);
-  node.h.type = node.memory.index != 0 ? context.types().pointer(type) : types::kError;
-  context.types().layout(node.h.type);
-  return node.h.type;
+  const CallId constructor = checkConstructor(context, node.allocated, elements);
+  const CallId memory = poolCall(context, "Allocate", node.h.loc);
+  if (!memory) return meaning(node.h).type = types::kError;
+  context.symbols.call(memory).constructor = constructor;
+  Meaning& known = meaning(node.h);
+  known.call = memory;
+  known.type = context.types().pointer(type);
+  context.types().layout(known.type);
+  return known.type;
 }
 
 // Forbids __DELETE of anything but a pointer, and of a pointer that cannot be set to 0.
 //   fails   __DELETE(count) where count : INT                       E0593
 TypeId checkDelete(Context& context, ExprId& expr, const PseudoCall& pseudo) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
+  CallExpr& node = context.code().as<CallExpr>(expr);
+  const auto fail = [&] { return context.type(expr) = types::kError; };
   if (!context.profile().dynamic_memory) return fail();  // reported by the lexer
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
     context.report(diag::WrongArgumentCount, node.h.loc,
@@ -129,9 +134,9 @@ TypeId checkDelete(Context& context, ExprId& expr, const PseudoCall& pseudo) {
   call.pou = context.symbols.call(release).pou;
   call.owns = context.symbols.call(owns).pou;
   call.instance = pointer;
-  node.call = addCall(context, std::move(call));
+  meaning(node.h).call = addCall(context, std::move(call));
   // A statement without a value: TRUE serves as the type that a call must have.
-  return node.h.type = types::kBool;
+  return meaning(node.h).type = types::kBool;
 }
 
 }  // namespace rung::sema

@@ -51,31 +51,31 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
 TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Access access) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(string_type));
   if (info.kind == TypeKind::UString) {
-    checkIndexValue(context, context.tree().list(node.indices)[0]);
+    checkIndexValue(context, context.code().list(node.indices)[0]);
     context.report(diag::CharacterOfUtf8, context.tree().begin(context.tree().list(node.indices)[0]));
     return types::kError;
   }
   const bool reads = access == Access::Read || access == Access::Qualifier;
-  ExprId& index = context.tree().list(node.indices)[0];
+  ExprId& index = context.code().list(node.indices)[0];
   const TypeId type = checkIndexValue(context, index);
   if (type == types::kError) return type;
-  if (!reads) node.h.bits |= kWritesCharacter;
-  node.h.writable = context.tree().expr(node.base).writable;
+  if (!reads) meaning(node.h).writes_character = true;
+  meaning(node.h).is_writable = context.meaning(node.base).is_writable;
   if (context.profile().characters_from_one)
     return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
   return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
 }
 
 TypeId checkIndex(Context& context, ExprId& expr, Access access) {
-  IndexExpr& node = context.tree().as<IndexExpr>(expr);
+  IndexExpr& node = context.code().as<IndexExpr>(expr);
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
   if (TypeTable::isString(info->kind) && count == 1 && context.profile().indexed_strings) {
-    node.h.type = checkCharacter(context, node, base, access);
-    if (node.h.type != types::kError) context.rules->expression(context, expr);
-    return node.h.type;
+    meaning(node.h).type = checkCharacter(context, node, base, access);
+    if (meaning(node.h).type != types::kError) context.rules->expression(context, expr);
+    return meaning(node.h).type;
   }
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
@@ -89,59 +89,59 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   }
   bool ok = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
-    ExprId& index = context.tree().list(node.indices)[i];
+    ExprId& index = context.code().list(node.indices)[i];
     if (checkIndexValue(context, index) == types::kError) {
       ok = false;
     }
   }
-  if (!ok) return node.h.type = types::kError;
-  node.h.writable = context.tree().expr(node.base).writable;
-  node.h.type = info->base;
+  if (!ok) return meaning(node.h).type = types::kError;
+  meaning(node.h).is_writable = context.meaning(node.base).is_writable;
+  meaning(node.h).type = info->base;
   context.rules->expression(context, expr);
   for (uint32_t i = 0; i < info->dimensions.size(); ++i)
-    callBoundsCheck(context, context.tree().list(node.indices)[i], info->dimensions[i]);
-  return node.h.type;
+    callBoundsCheck(context, context.code().list(node.indices)[i], info->dimensions[i]);
+  return meaning(node.h).type;
 }
 
 TypeId checkDeref(Context& context, ExprId& expr, Access access) {
-  DerefExpr& node = context.tree().as<DerefExpr>(expr);
-  if (node.h.type) return node.h.type;  // of a reference that was checked before
+  DerefExpr& node = context.code().as<DerefExpr>(expr);
+  if (meaning(node.h).type) return meaning(node.h).type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
-  if (base == types::kError) return node.h.type = types::kError;
+  if (base == types::kError) return meaning(node.h).type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
   if (info.kind != TypeKind::Pointer) {
     context.report(diag::NotAPointer, node.h.loc, {context.types().toString(base)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  node.h.writable = 1;
+  meaning(node.h).is_writable = 1;
   callPointerCheck(context, node.base, info.base, access);
-  return node.h.type = info.base;
+  return meaning(node.h).type = info.base;
 }
 
 TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
-  BitAccessExpr& node = context.tree().as<BitAccessExpr>(expr);
-  if (node.h.bits == kBitMember) return node.h.type;  // checked before
+  BitAccessExpr& node = context.code().as<BitAccessExpr>(expr);
+  if (meaning(node.h).is_bit_member) return meaning(node.h).type;  // checked before
   check(context, node.base, {}, access == Access::Write ? Access::ReadWrite : access);
   return checkBitOf(context, expr);
 }
 
 // %IX0.3, %QW5: a view of the image without a declaration.
 TypeId checkAddress(Context& context, ExprId& expr) {
-  AddressExpr& node = context.tree().as<AddressExpr>(expr);
-  node.h.writable = 1;
+  AddressExpr& node = context.code().as<AddressExpr>(expr);
+  meaning(node.h).is_writable = 1;
   if (isHierarchical(context, node.address)) {
     const VarId named = hierarchicalVar(context, node.address, node.h.loc, {});
-    if (!named) return node.h.type = types::kError;
+    if (!named) return meaning(node.h).type = types::kError;
     const Var& var = context.symbols.var(named);
-    const ExprId name = context.build().name(var.name, node.h.loc, Entity::of(EntityKind::Var, named.index));
-    context.tree().expr(name).in_parens = node.h.in_parens;
-    context.tree().expr(name).writable = 1;
+    const ExprId name = makeName(context, var.name, entity(named), node.h.loc);
+    context.code().expr(name).in_parens = node.h.in_parens;
+    context.meaning(name).is_writable = 1;
     context.replace(expr, typed(context, name, var.type));
     return var.type;
   }
-  if (!resolveAddress(context, node.address, node.h.loc, {})) return node.h.type = types::kError;
+  if (!resolveAddress(context, node.address, node.h.loc, {})) return meaning(node.h).type = types::kError;
   const TypeId declared = declaredAddressType(context, node.address);
-  return node.h.type = declared ? declared : addressType(node.address);
+  return meaning(node.h).type = declared ? declared : addressType(node.address);
 }
 
 // A REFERENCE is used like its target.
@@ -154,9 +154,9 @@ TypeId throughReference(Context& context, ExprId& expr, TypeId type, Access acce
 }
 
 TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   switch (tree.kind(expr)) {
-    case ExprKind::Error: return tree.expr(expr).type = types::kError;
+    case ExprKind::Error: return typeOf(tree, expr) = types::kError;
     case ExprKind::Literal: return checkLiteral(context, expr, expected);
     case ExprKind::Name: return checkName(context, expr, expected, access);
     case ExprKind::TypedName: return checkTypedName(context, expr);
@@ -175,7 +175,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:
-    case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
+    case ExprKind::AddressOf: return typeOf(tree, expr);  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:
     case ExprKind::Range:
@@ -187,14 +187,14 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
 }  // namespace
 
 TypeId checkBitOf(Context& context, ExprId expr) {
-  BitAccessExpr& node = context.tree().as<BitAccessExpr>(expr);
-  const TypeId base = context.tree().expr(node.base).type;
-  if (!base || base == types::kError) return node.h.type = types::kError;
+  BitAccessExpr& node = context.code().as<BitAccessExpr>(expr);
+  const TypeId base = context.type(node.base);
+  if (!base || base == types::kError) return meaning(node.h).type = types::kError;
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
   if ((!TypeTable::isBits(kind) && !integer) || (integer && !context.profile().bits_of_integers)) {
     context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const uint32_t count = TypeTable::bitWidth(kind) / node.width;
   if (node.position >= count) {
@@ -204,14 +204,14 @@ TypeId checkBitOf(Context& context, ExprId expr) {
       context.report(diag::BitOutOfRange, node.h.loc,
                      {std::to_string(node.position), context.types().toString(base), std::to_string(count - 1)});
     }
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  node.h.writable = context.tree().expr(node.base).writable;
+  meaning(node.h).is_writable = context.meaning(node.base).is_writable;
   switch (node.width) {
-    case 8: return node.h.type = types::kByte;
-    case 16: return node.h.type = types::kWord;
-    case 32: return node.h.type = types::kDWord;
-    default: return node.h.type = types::kBool;
+    case 8: return meaning(node.h).type = types::kByte;
+    case 16: return meaning(node.h).type = types::kWord;
+    case 32: return meaning(node.h).type = types::kDWord;
+    default: return meaning(node.h).type = types::kBool;
   }
 }
 
@@ -219,7 +219,7 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
   if (!expr) return types::kError;
   if (context.depth >= kMaxExprDepth) {
     context.report(diag::ExpressionTooDeep, context.tree().loc(expr), {std::to_string(kMaxExprDepth)});
-    return context.tree().expr(expr).type = types::kError;
+    return context.type(expr) = types::kError;
   }
   ++context.depth;
   TypeId type = dispatch(context, expr, expected, access);
@@ -235,7 +235,7 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected) {
 
 std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
   const Tree& tree = context.tree();
-  if (!tree.expr(expr).is_constant) return std::nullopt;
+  if (!meaning(tree, expr).is_constant) return std::nullopt;
   if (tree.kind(expr) == ExprKind::Literal) {
     const LiteralExpr& node = tree.as<LiteralExpr>(expr);
     if (node.literal() != LiteralKind::Integer && node.literal() != LiteralKind::Bool) return std::nullopt;

@@ -45,7 +45,7 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
                                                                                      : types::kReal;
     bool typed_real = false;
     for (const ExprId operand : operands) {
-      const TypeId type = context.tree().expr(operand).type;
+      const TypeId type = context.type(operand);
       if (isUntyped(context, type) || type == types::kError) continue;
       const TypeId plain = context.types().plain(type);
       const TypeKind kind = context.types().info(plain).kind;
@@ -78,7 +78,7 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
 
 // f(a, b, c) of a function with two inputs, the second extensible: f(f(a, b), c).
 TypeId foldCall(Context& context, ExprId& expr, PouId pou, const Arguments& arguments, TypeId expected) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const size_t declared = pinsOf(context, pou).size();
   std::vector<Argument> values;
   for (const uint32_t index : arguments.slots) {
@@ -92,13 +92,13 @@ TypeId foldCall(Context& context, ExprId& expr, PouId pou, const Arguments& argu
     std::vector<Argument> some;
     if (inner) some.push_back(Argument{{}, inner, false, false, node.h.loc});
     while (some.size() < declared && from < values.size()) some.push_back(values[from++]);
-    const ExprId link = context.tree().insertCopy(expr);
+    const ExprId link = context.code().duplicate(expr);
     if (from == values.size()) {  // EN and ENO belong to the whole
       for (const uint32_t control : {arguments.en, arguments.eno}) {
         if (control != 0) some.push_back(context.tree().list(node.arguments)[control - 1]);
       }
     }
-    context.tree().as<CallExpr>(link).arguments = context.tree().addList<Argument>(some);
+    context.code().as<CallExpr>(link).arguments = context.code().addList<Argument>(some);
     inner = link;
   }
   context.replace(expr, inner);
@@ -171,7 +171,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
         wrapConvert(context, value,
                     types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt));
     }
-    context.tree().list(node.arguments)[index].value = value;
+    context.code().list(node.arguments)[index].value = value;
     out.values[i] = value;
   }
   if (!out.ok) return out;
@@ -198,14 +198,14 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
     for (size_t k = i; k < out.values.size(); ++k) {
       if (out.pin_types[k] != generic || !out.values[k]) continue;
       out.values[k] = operands[at++];
-      context.tree().list(node.arguments)[arguments.slots[k] - 1].value = out.values[k];
+      context.code().list(node.arguments)[arguments.slots[k] - 1].value = out.values[k];
     }
   }
   return out;
 }
 
 TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   Arguments arguments = matchArguments(context, node, pou);
   const size_t declared = pinsOf(context, pou).size();
   if (arguments.slots.size() > declared) return foldCall(context, expr, pou, arguments, expected);
@@ -215,9 +215,9 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   Call call;
   call.kind = CallKind::Function;
   bindControlPins(context, node, arguments, call);
-  if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
+  if (!checkRequiredPins(context, node, pou, arguments)) return meaning(node.h).type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
-  if (!operands.ok) return node.h.type = types::kError;
+  if (!operands.ok) return meaning(node.h).type = types::kError;
   // A string has the largest capacity inside: one instance serves every length. C functions know no named types.
   const bool native = context.symbols.pou(pou).pragmas.native;
   const auto normal = [&](TypeId type) {
@@ -233,7 +233,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     types_by_pin.push_back(type ? normal(type) : types::kInt);
   }
   if (generic.pragmas.bytes && !checkBytes(context, node, generic, types_by_pin, expected))
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   TypeId result = generic.result ? operands.typeFor(context, generic.result) : TypeId{};
   if (generic.result && !result) {  // TRUNC: the result is any integer that is wanted
     result = forced ? forced : types::kDInt;
@@ -243,13 +243,13 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   }
   if (result) result = normal(result);
   call.pou = generic.generic ? instantiate(context, pou, types_by_pin, result) : pou;
-  if (!call.pou) return node.h.type = types::kError;
+  if (!call.pou) return meaning(node.h).type = types::kError;
   context.symbols.pou(call.pou).progress.used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
-  node.h.is_constant = generic.library && generic.pragmas.pure && !native && !call.en && !call.eno;
+  meaning(node.h).is_constant = generic.library && generic.pragmas.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
     if (!operands.values[i]) continue;
-    node.h.is_constant = node.h.is_constant && context.tree().expr(operands.values[i]).is_constant;
+    meaning(node.h).is_constant = meaning(node.h).is_constant && context.meaning(operands.values[i]).is_constant;
     Binding binding;
     binding.pin = pins[i];
     binding.value = operands.values[i];
@@ -257,8 +257,8 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     call.bindings.push_back(binding);
   }
   const TypeId type = context.symbols.pou(call.pou).result;
-  node.call = addCall(context, std::move(call));
-  return node.h.type = type;
+  meaning(node.h).call = addCall(context, std::move(call));
+  return meaning(node.h).type = type;
 }
 
 }  // namespace rung::sema

@@ -127,7 +127,7 @@ PouId functionFor(Context& context, ImplicitCheck check) {
 // value := function(value, others…), in the type that the value has.
 void wrapInCall(Context& context, PouId function, ExprId& value, TypeId type, std::initializer_list<ExprId> others) {
   const Loc loc = context.tree().loc(value);
-  const TypeId given = context.tree().expr(value).type;
+  const TypeId given = context.type(value);
   ExprId passed = value;
   if (given != type) wrapConvert(context, passed, type);
   Call call;
@@ -141,15 +141,14 @@ void wrapInCall(Context& context, PouId function, ExprId& value, TypeId type, st
     call.bindings.push_back(binding);
   }
   noteCall(context, function, loc);
-  const ExprId name =
-      context.build().name(context.symbols.pou(function).name, loc, Entity::of(EntityKind::Pou, function.index));
+  const ExprId name = makeName(context, context.symbols.pou(function).name, entity(function), loc);
   ExprId created = typed(context, context.build().call(name, Slice<Argument>{}, loc, loc), type);
-  context.tree().as<CallExpr>(created).call = addCall(context, std::move(call));
+  context.meaning(created).call = addCall(context, std::move(call));
   if (given != type) wrapConvert(context, created, given);
   context.replace(value, created);
 }
 
-bool isConstant(const Context& context, ExprId value) { return context.tree().expr(value).is_constant != 0; }
+bool isConstant(const Context& context, ExprId value) { return context.meaning(value).is_constant != 0; }
 
 // The size of the largest scalar or string in a type: iGran of CheckPointer.
 uint64_t granularity(const Context& context, TypeId type) {
@@ -174,7 +173,7 @@ void callBoundsCheck(Context& context, ExprId& index, const types::Dimension& di
 }
 
 void callDivisorCheck(Context& context, ExprId& divisor) {
-  const TypeKind kind = context.types().plainKind(context.tree().expr(divisor).type);
+  const TypeKind kind = context.types().plainKind(context.type(divisor));
   if (isConstant(context, divisor) || !TypeTable::isNumber(kind)) return;
   const bool is_wide = TypeTable::bitWidth(kind) == 64;
   const bool is_real = TypeTable::isReal(kind);

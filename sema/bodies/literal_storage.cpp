@@ -30,7 +30,7 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     var.name = context.names().intern("text" + std::to_string(literal_storage.variables.size()));
     var.loc = loc;
     // Room for access through a pointer to a STRING of the usual length.
-    const uint32_t length = std::max(context.types().info(context.types().resolve(node.h.type)).length, 80u);
+    const uint32_t length = std::max(context.types().info(context.types().resolve(meaning(node.h).type)).length, 80u);
     var.type = wide ? context.types().wstring(length) : context.types().string(length);
     var.section = SectionKind::Global;
     var.storage = Storage::Global;
@@ -40,7 +40,7 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     literal_storage.undeclared.push_back({context.pou, storage});
   }
   const Var& var = symbols.var(storage);
-  return typed(context, context.build().name(var.name, loc, entity(storage)), var.type);
+  return typed(context, makeName(context, var.name, entity(storage), loc), var.type);
 }
 
 void declareLiteralStorage(Context& context, PouId pou) {

@@ -57,7 +57,7 @@ bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || 
 bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
   context.report(diag::ConstantOutOfRange, context.tree().begin(expr),
                  {toString(value), context.types().toString(to), toString(bounds.low), toString(bounds.high)});
-  context.tree().expr(expr).type = types::kError;
+  context.type(expr) = types::kError;
   return false;
 }
 
@@ -136,33 +136,33 @@ bool partsFit(const Context& context, ExprId expr, Bounds bounds, Int128& value)
 }
 
 void setIntegerType(Context& context, ExprId& expr, TypeId to) {
-  Tree& tree = context.tree();
-  tree.expr(expr).type = to;
-  tree.expr(expr).is_constant = 1;
+  const Tree& tree = context.tree();
+  typeOf(tree, expr) = to;
+  meaning(tree, expr).is_constant = 1;
   if (tree.kind(expr) == ExprKind::Unary) {
-    UnaryExpr& node = tree.as<UnaryExpr>(expr);
+    UnaryExpr& node = context.code().as<UnaryExpr>(expr);
     setIntegerType(context, node.operand, to);
     if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
       // -32768 is one value: its magnitude alone does not fit.
-      const ExprId literal = tree.insertCopy(node.operand);
-      tree.expr(literal).bits ^= kLiteralNegative;
+      const ExprId literal = context.code().duplicate(node.operand);
+      context.code().expr(literal).bits ^= kLiteralNegative;
       context.replace(expr, literal);
     }
   } else if (tree.kind(expr) == ExprKind::Binary) {
-    BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    BinaryExpr& node = context.code().as<BinaryExpr>(expr);
     setIntegerType(context, node.left, to);
     setIntegerType(context, node.right, to);
   }
 }
 
 bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   Int128 value;
   if (tree.kind(expr) == ExprKind::Literal) {
-    LiteralExpr& node = tree.as<LiteralExpr>(expr);
+    LiteralExpr& node = context.code().as<LiteralExpr>(expr);
     value = literalValue(node);
     if (value < bounds.low || value > bounds.high) return reportRange(context, expr, value, to, bounds);
-    node.h.type = to;
+    meaning(node.h).type = to;
     return true;
   }
   if (!untypedValue(context, expr, value)) {  // NOT, or too large for any type
@@ -214,31 +214,32 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to);
 
 // `whole`: an integer expression without a quotient, or a part of one.
 bool setRealType(Context& context, ExprId& expr, TypeId to, bool whole) {
-  Tree& tree = context.tree();
-  ExprHeader& header = tree.expr(expr);
-  if (!whole && header.type == types::idOf(TypeKind::IntegerLiteral)) return adaptReal(context, expr, to);
-  header.type = to;
-  if (header.kind == ExprKind::Unary) return setRealType(context, tree.as<UnaryExpr>(expr).operand, to, whole);
+  const Tree& tree = context.tree();
+  ExprHeader& header = context.code().expr(expr);
+  if (!whole && meaning(header).type == types::idOf(TypeKind::IntegerLiteral)) return adaptReal(context, expr, to);
+  meaning(header).type = to;
+  if (header.kind == ExprKind::Unary)
+    return setRealType(context, context.code().as<UnaryExpr>(expr).operand, to, whole);
   if (header.kind == ExprKind::Binary) {
-    BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    BinaryExpr& node = context.code().as<BinaryExpr>(expr);
     if (!setRealType(context, node.left, to, whole)) return false;
-    if (node.op() == BinaryOp::Power && tree.expr(node.right).type == types::idOf(TypeKind::IntegerLiteral)) {
+    if (node.op() == BinaryOp::Power && typeOf(tree, node.right) == types::idOf(TypeKind::IntegerLiteral)) {
       return finalizeUntyped(context, node.right) != types::kError;
     }
     return setRealType(context, node.right, to, whole);
   }
-  header.is_constant = 1;
+  meaning(header).is_constant = 1;
   constexpr double kRoundsToInfinity = 3.4028235677973366e38;  // halfway between the largest REAL and the next
   const double value = std::fabs(realValue(tree.as<LiteralExpr>(expr)));
   if (context.types().plainKind(to) != TypeKind::Real || value < kRoundsToInfinity) return true;
   context.report(diag::RealOutOfRange, header.loc, {"REAL"});
-  header.type = types::kError;
+  meaning(header).type = types::kError;
   return false;
 }
 
 bool adaptReal(Context& context, ExprId& expr, TypeId to) {
-  ExprHeader& header = context.tree().expr(expr);
-  const bool integer = header.type == types::idOf(TypeKind::IntegerLiteral);
+  ExprHeader& header = context.code().expr(expr);
+  const bool integer = meaning(header).type == types::idOf(TypeKind::IntegerLiteral);
   bool divides = false;
   if (integer && needsIntegers(context, expr, divides)) {
     if (divides) context.report(diag::IntegerDivision, header.loc);
@@ -277,10 +278,10 @@ void makeUnicode(Context& context, ExprId& expr) {
     rest.remove_prefix(bad + 1);
   }
   out.append(rest);
-  const StringId characters = context.tree().addString(out);
-  const ExprId created = context.tree().insertCopy(expr);
-  context.tree().as<LiteralExpr>(created).low = characters.first;
-  context.tree().as<LiteralExpr>(created).high = characters.length;
+  const StringId characters = context.code().addString(out);
+  const ExprId created = context.code().duplicate(expr);
+  context.code().as<LiteralExpr>(created).low = characters.first;
+  context.code().as<LiteralExpr>(created).high = characters.length;
   context.replace(expr, created);
 }
 
@@ -302,9 +303,9 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
 }
 
 TypeId checkTypedNumber(Context& context, ExprId& expr) {
-  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
+  LiteralExpr& node = context.code().as<LiteralExpr>(expr);
   const TypeId type = prefixType(context, node);
-  if (type == types::kError) return node.h.type = type;
+  if (type == types::kError) return meaning(node.h).type = type;
   const TypeKind kind = context.types().plainKind(type);
   if (types::TypeTable::isReal(kind) &&
       (node.literal() == LiteralKind::Real || node.literal() == LiteralKind::Integer)) {
@@ -318,25 +319,25 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
       reportRange(context, expr, literalValue(node), type, {0, 1});
       return types::kError;
     }
-    return node.h.type = type;
+    return meaning(node.h).type = type;
   }
-  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return node.h.type = type;
+  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return meaning(node.h).type = type;
   if ((types::TypeTable::isString(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
     if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, expr);
-    LiteralExpr& text = context.tree().as<LiteralExpr>(expr);
+    LiteralExpr& text = context.code().as<LiteralExpr>(expr);
     const uint32_t length = lengthOf(context.tree().string(text.string()), kind);
-    if (types::TypeTable::isString(kind)) return text.h.type = context.types().string(kind, length);
-    if (length == 1) return text.h.type = type;
+    if (types::TypeTable::isString(kind)) return meaning(text.h).type = context.types().string(kind, length);
+    if (length == 1) return meaning(text.h).type = type;
     const uint64_t value = context.names().intern(context.tree().string(text.string())).index;
     context.report(diag::NotOneCharacter, node.h.loc,
                    {types::toString(context.types(), context.names(),
                                     {context.types().string(types::TypeTable::stringOf(kind), 1), value}),
                     context.types().toString(type)});
-    return text.h.type = types::kError;
+    return meaning(text.h).type = types::kError;
   }
   context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
-  return node.h.type = types::kError;
+  return meaning(node.h).type = types::kError;
 }
 
 // T# and similar: the long form where it is written or wanted, else the short one when the value fits.
@@ -359,9 +360,9 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(longer)),
                     types::toString(context.types(), context.names(), {types::kLTime, low}),
                     types::toString(context.types(), context.names(), {types::kLTime, high})});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  if (is_long) return node.h.type = types::idOf(longer);
+  if (is_long) return meaning(node.h).type = types::idOf(longer);
   const int64_t count = static_cast<int64_t>(node.value()) / unit;
   const Bounds bounds = boundsOf(context.types(), shorter);
   const bool negative = static_cast<int64_t>(node.value()) < 0;
@@ -372,7 +373,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(shorter)),
                     types::toString(context.types(), context.names(), low),
                     types::toString(context.types(), context.names(), high)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   if (static_cast<int64_t>(node.value()) % unit != 0) {
     const types::Value stored{types::idOf(shorter), static_cast<uint64_t>(count)};
@@ -381,15 +382,15 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                     types::toString(context.types(), context.names(), stored),
                     unit == 1'000'000 ? "milliseconds" : "seconds", context.types().toString(types::idOf(longer))});
   }
-  return node.h.type = types::idOf(shorter);
+  return meaning(node.h).type = types::idOf(shorter);
 }
 
 TypeId checkString(Context& context, ExprId& expr, TypeId expected) {
-  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
+  LiteralExpr& node = context.code().as<LiteralExpr>(expr);
   const TypeKind own = node.literal() == LiteralKind::WString ? TypeKind::WString : TypeKind::String;
-  node.h.type = context.types().string(own, lengthOf(context.tree().string(node.string()), own));
+  meaning(node.h).type = context.types().string(own, lengthOf(context.tree().string(node.string()), own));
   if (expected) retypeString(context, expr, expected);
-  return context.tree().expr(expr).type;
+  return context.type(expr);
 }
 
 }  // namespace
@@ -408,23 +409,24 @@ void retypeString(Context& context, ExprId& expr, TypeId wanted) {
     if (!is_string && value.size() != 1) return;
     makeUnicode(context, expr);
   }
-  LiteralExpr& text = context.tree().as<LiteralExpr>(expr);
+  LiteralExpr& text = context.code().as<LiteralExpr>(expr);
   const uint32_t length = lengthOf(context.tree().string(text.string()), kind);
   if (is_string)
-    text.h.type = context.types().string(kind, length);
+    meaning(text.h).type = context.types().string(kind, length);
   else if (length == 1)
-    text.h.type = wanted;
+    meaning(text.h).type = wanted;
 }
 
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
-  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
-  node.h.is_constant = 1;
+  LiteralExpr& node = context.code().as<LiteralExpr>(expr);
+  meaning(node.h).is_constant = 1;
   switch (node.literal()) {
-    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::kBool;
+    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::kBool;
     case LiteralKind::Integer:
-      return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::IntegerLiteral);
+      return node.prefix ? checkTypedNumber(context, expr)
+                         : meaning(node.h).type = types::idOf(TypeKind::IntegerLiteral);
     case LiteralKind::Real:
-      return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::RealLiteral);
+      return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::idOf(TypeKind::RealLiteral);
     case LiteralKind::String:
     case LiteralKind::WString:
       return node.prefix ? checkTypedNumber(context, expr) : checkString(context, expr, expected);
@@ -434,9 +436,9 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
       return checkSpan(context, node, expected, TypeKind::TimeOfDay, TypeKind::LTimeOfDay, 1'000'000);
     case LiteralKind::DateTime:
       return checkSpan(context, node, expected, TypeKind::DateTime, TypeKind::LDateTime, 1'000'000'000);
-    case LiteralKind::Null: return node.h.type = types::idOf(TypeKind::NullLiteral);
+    case LiteralKind::Null: return meaning(node.h).type = types::idOf(TypeKind::NullLiteral);
   }
-  return node.h.type = types::kError;
+  return meaning(node.h).type = types::kError;
 }
 
 // Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.
@@ -475,7 +477,7 @@ bool untypedValue(const Context& context, ExprId expr, Int128& value) {
 }
 
 TypeId defaultType(Context& context, ExprId expr) {
-  if (context.tree().expr(expr).type == types::idOf(TypeKind::RealLiteral)) return types::kReal;
+  if (context.type(expr) == types::idOf(TypeKind::RealLiteral)) return types::kReal;
   Int128 value;
   if (!untypedValue(context, expr, value)) return types::kLInt;
   for (const TypeId type : {types::kInt, types::kDInt, types::kLInt}) {
@@ -487,7 +489,7 @@ TypeId defaultType(Context& context, ExprId expr) {
 
 bool untypedFits(Context& context, ExprId expr, TypeId to) {
   const TypeKind kind = context.types().plainKind(to);
-  const bool integer = context.tree().expr(expr).type == types::idOf(TypeKind::IntegerLiteral);
+  const bool integer = context.type(expr) == types::idOf(TypeKind::IntegerLiteral);
   if (types::TypeTable::isReal(kind)) return true;
   if (!integer) return false;
   Int128 value;
@@ -502,12 +504,12 @@ bool untypedFits(Context& context, ExprId expr, TypeId to) {
 }
 
 bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
-  ExprHeader& header = context.tree().expr(expr);
+  ExprHeader& header = context.code().expr(expr);
   const TypeId target = context.types().resolve(to);
   const types::TypeInfo& info = context.types().info(target);
   const TypeKind kind = context.types().plainKind(target);
   if (types::TypeTable::isReal(kind)) return adaptReal(context, expr, to);
-  if (header.type == types::idOf(TypeKind::IntegerLiteral)) {
+  if (meaning(header).type == types::idOf(TypeKind::IntegerLiteral)) {
     if (info.kind == TypeKind::Subrange) {
       const Bounds bounds = boundsOf(context.types(), kind);
       Int128 value;
@@ -529,7 +531,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       Int128 value;
       if (context.tree().kind(expr) == ExprKind::Literal && untypedValue(context, expr, value) && value >= 0 &&
           value <= 1) {
-        header.type = to;
+        meaning(header).type = to;
         return true;
       }
     }
@@ -540,7 +542,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
 }
 
 TypeId finalizeUntyped(Context& context, ExprId& expr, TypeId expected) {
-  const TypeId now = context.tree().expr(expr).type;
+  const TypeId now = context.type(expr);
   if (!isUntyped(context, now)) return now;
   TypeId to = defaultType(context, expr);
   if (expected && untypedFits(context, expr, expected)) to = expected;

@@ -20,6 +20,7 @@
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -61,101 +62,103 @@ TypeId typeOf(const Context& context, VarId id) {
 
 // A member of type BIT becomes a bit of the hidden byte that holds it.
 TypeId useBit(Context& context, ExprId& expr, const Var& var) {
-  ExprHeader& byte = context.tree().expr(expr);
+  const Tree& tree = context.tree();
+  const ExprId bit = context.build().bitAccess(expr, var.bits.bit, 1, tree.loc(expr));
+  context.code().expr(bit).in_parens = tree.expr(expr).in_parens;
+  Meaning& byte = context.meaning(expr);
   byte.type = types::kByte;
-  const ExprId created = context.build().bitAccess(expr, var.bits.bit, 1, byte.loc);
-  ExprHeader& bit = context.tree().expr(created);
-  bit.in_parens = byte.in_parens;
-  bit.is_constant = byte.is_constant;
-  bit.writable = byte.writable;
-  bit.bits = kBitMember;
-  bit.type = types::kBool;
-  context.replace(expr, created);
+  Meaning& known = context.meaning(bit);
+  known.type = types::kBool;
+  known.is_bit_member = true;
+  known.is_constant = byte.is_constant;
+  known.is_writable = byte.is_writable;
+  context.replace(expr, bit);
   return types::kBool;
 }
 
 TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   markAccess(context, id, access);
   const Var& var = context.symbols.var(id);
-  ExprHeader& header = context.tree().expr(expr);
-  header.is_constant = var.constant && var.has_value;
-  header.writable = !var.constant;
+  ExprHeader& header = context.code().expr(expr);
+  meaning(header).is_constant = var.constant && var.has_value;
+  meaning(header).is_writable = !var.constant;
   const TypeId type = typeOf(context, id);
-  if (var.bits.is_bit && !header.is_constant) return useBit(context, expr, var);
-  return header.type = type;
+  if (var.bits.is_bit && !meaning(header).is_constant) return useBit(context, expr, var);
+  return meaning(header).type = type;
 }
 
 TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   const EnumValue& item = context.symbols.enum_values[index];
-  ExprHeader& header = context.tree().expr(expr);
-  header.is_constant = 1;
-  header.type = item.type;
+  ExprHeader& header = context.code().expr(expr);
+  meaning(header).is_constant = 1;
+  meaning(header).type = item.type;
   const types::TypeInfo& info = context.types().info(item.type);
   if (item.type == context.items_of) {  // in its own declaration; a number while items are being numbered
-    if (context.scopes.named(item.type)->resolved == State::Busy) header.type = info.base;
-    return header.type;
+    if (context.scopes.named(item.type)->resolved == State::Busy) meaning(header).type = info.base;
+    return meaning(header).type;
   }
   if (bare && info.name && info.qualified) {
     context.report(diag::QualifiedEnumItem, header.loc,
                    {string(context, item.name), string(context, context.types().info(item.type).name)});
-    return header.type = types::kError;
+    return meaning(header).type = types::kError;
   }
   return item.type;
 }
 
 // An entity as an operand; a qualifier has no type and is not a value.
 TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
-  ExprHeader& header = context.tree().expr(expr);
+  ExprHeader& header = context.code().expr(expr);
   switch (entity.entityKind()) {
     case EntityKind::Var: {
       const Var& var = context.symbols.vars[entity.index];
-      if (bare && !checkUseInMethod(context, var, loc)) return header.type = types::kError;
+      if (bare && !checkUseInMethod(context, var, loc)) return meaning(header).type = types::kError;
       if (bare && var.access == AccessLevel::Private && var.pou && !mayAccess(context, var.access, var.pou, name, loc))
-        return header.type = types::kError;
+        return meaning(header).type = types::kError;
       return useVar(context, expr, VarId{entity.index}, access);
     }
     case EntityKind::EnumValue: return useEnumValue(context, expr, entity.index, bare);
     case EntityKind::None:
-    case EntityKind::Error: return header.type = types::kError;
+    case EntityKind::Error: return meaning(header).type = types::kError;
     case EntityKind::Pou: {
       const Pou& pou = context.symbols.pou(PouId{entity.index});
       if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
-        return header.type = {};
+        return meaning(header).type = {};
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
-      if (access == Access::Qualifier && is_block && context.profile().block_names_qualify) return header.type = {};
-      if (takesAddress(access) && pou.record) return header.type = pou.record;
+      if (access == Access::Qualifier && is_block && context.profile().block_names_qualify)
+        return meaning(header).type = {};
+      if (takesAddress(access) && pou.record) return meaning(header).type = pou.record;
       if (isFirstReport(context, name))
         context.report(diag::NotAValue, loc, {string(context, name), kindName(pou.kind)});
-      return header.type = types::kError;
+      return meaning(header).type = types::kError;
     }
     case EntityKind::Property: return useMember(context, expr, entity, {}, access);
     case EntityKind::Type:
-      if (takesAddress(access)) return header.type = TypeId{entity.index};
+      if (takesAddress(access)) return meaning(header).type = TypeId{entity.index};
       [[fallthrough]];
     case EntityKind::GlobalList:
     case EntityKind::Namespace:
     case EntityKind::Program:
-      if (access == Access::Qualifier) return header.type = {};
+      if (access == Access::Qualifier) return meaning(header).type = {};
       if (isFirstReport(context, name))
         context.report(diag::NotAValue, loc, {string(context, name), kindName(entity.entityKind())});
-      return header.type = types::kError;
+      return meaning(header).type = types::kError;
   }
-  return header.type = types::kError;
+  return meaning(header).type = types::kError;
 }
 
 // The references among the bases of a member, which were checked as qualifiers.
 void callReferenceChecks(Context& context, ExprId base, Access access) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   for (ExprId at = base;;) {
     if (tree.kind(at) == ExprKind::Member) {
       at = tree.as<MemberExpr>(at).base;
       continue;
     }
     if (tree.kind(at) != ExprKind::Deref) return;
-    DerefExpr& node = tree.as<DerefExpr>(at);
+    DerefExpr& node = context.code().as<DerefExpr>(at);
     const ExprId reference = node.base;
-    if (context.types().kind(tree.expr(reference).type) != TypeKind::Reference) return;
-    callPointerCheck(context, node.base, node.h.type, access);
+    if (context.types().kind(context.type(reference)) != TypeKind::Reference) return;
+    callPointerCheck(context, node.base, meaning(node.h).type, access);
     at = reference;
     access = Access::Read;
   }
@@ -173,7 +176,7 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
     const Entity entity = entityOf(context, at);
     if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
     if (context.tree().kind(at) != ExprKind::Member) return type;
-    is_part = is_part && !isInstance(context, context.tree().expr(at).type);
+    is_part = is_part && !isInstance(context, context.type(at));
     if (is_part && entity.entityKind() == EntityKind::Var &&
         !checkOutsideAccess(context, context.tree().as<MemberExpr>(at), VarId{entity.index}, access))
       return types::kError;
@@ -220,7 +223,7 @@ Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
 }
 
 TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access access) {
-  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  MemberExpr& node = context.code().as<MemberExpr>(expr);
   Entity found;
   TypeId record;
   if (qualifier.entityKind() == EntityKind::Pou && isBlockType(context, PouId{qualifier.index})) {
@@ -253,12 +256,12 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
           .report(diag::UnknownMember, node.h.loc,
                   {string(context, nameOf(context, node.base)), string(context, node.member)})
           .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
-    node.entity = Entity::of(EntityKind::Error, 0);
-    return node.h.type = types::kError;
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    return meaning(node.h).type = types::kError;
   }
   if (qualifier.entityKind() == EntityKind::Namespace && !checkVisible(context, found, node.h.loc))
     found = Entity::of(EntityKind::Error, 0);
-  node.entity = found;
+  meaning(node.h).entity = found;
   return useEntity(context, expr, found, node.h.loc, node.member, access, false);
 }
 
@@ -282,9 +285,9 @@ void markAccess(Context& context, VarId id, Access access) {
 Entity entityOf(const Context& context, ExprId expr) {
   const Tree& tree = context.tree();
   const ExprKind kind = tree.kind(expr);
-  if (kind == ExprKind::Name) return tree.as<NameExpr>(expr).entity;
-  if (kind == ExprKind::TypedName) return tree.as<TypedNameExpr>(expr).entity;
-  if (kind == ExprKind::Member) return tree.as<MemberExpr>(expr).entity;
+  if (kind == ExprKind::Name) return meaning(tree, expr).entity;
+  if (kind == ExprKind::TypedName) return meaning(tree, expr).entity;
+  if (kind == ExprKind::Member) return meaning(tree, expr).entity;
   return {};
 }
 
@@ -297,7 +300,7 @@ VarId enoMemoryOf(const Context& context, ExprId instance) {
 }
 
 bool isWhole(const Context& context, const MemberExpr& node) {
-  return !context.tree().expr(node.base).type && entityOf(context, node.base);
+  return !context.type(node.base) && entityOf(context, node.base);
 }
 
 // `state := Start` with a method Start, and in this method, where Start is a result of another type: as a value of an
@@ -358,33 +361,34 @@ static bool isSharedGlobal(const Context& context, Entity entity) {
 }
 
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
-  NameExpr& node = context.tree().as<NameExpr>(expr);
-  node.entity = resolveName(context, node, expected);
-  if (isSharedGlobal(context, node.entity) && differsByResource(context, keyOf(context, node.name))) {
+  NameExpr& node = context.code().as<NameExpr>(expr);
+  meaning(node.h).entity = resolveName(context, node, expected);
+  if (isSharedGlobal(context, meaning(node.h).entity) && differsByResource(context, keyOf(context, node.name))) {
     if (isFirstReport(context, node.name))
       context.report(diag::GlobalDiffers, node.h.loc, {string(context, node.name)});
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
   }
-  if (node.entity.entityKind() == EntityKind::Pou && node.entity.index == context.pou.index) {
+  if (meaning(node.h).entity.entityKind() == EntityKind::Pou && meaning(node.h).entity.index == context.pou.index) {
     // The name of a function is its result inside its body.
     if (const VarId result = context.symbols.pou(context.pou).result_var) {
-      node.entity = Entity::of(EntityKind::Var, result.index);
+      meaning(node.h).entity = Entity::of(EntityKind::Var, result.index);
     }
   }
-  if (node.entity.entityKind() == EntityKind::Var && context.symbols.vars[node.entity.index].temporary != 0)
-    temporaryType(context, VarId{node.entity.index}, expected);
-  return useEntity(context, expr, node.entity, node.h.loc, node.name, access, true);
+  if (meaning(node.h).entity.entityKind() == EntityKind::Var &&
+      context.symbols.vars[meaning(node.h).entity.index].temporary != 0)
+    temporaryType(context, VarId{meaning(node.h).entity.index}, expected);
+  return useEntity(context, expr, meaning(node.h).entity, node.h.loc, node.name, access, true);
 }
 
 TypeId checkTypedName(Context& context, ExprId& expr) {
-  TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
+  TypedNameExpr& node = context.code().as<TypedNameExpr>(expr);
   Entity type = lookUp(context, node.type_name.name, node.type_name.loc);
   if (type.entityKind() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
     if (const TypeId hidden = lookUpType(context, node.type_name.name))
       type = Entity::of(EntityKind::Type, hidden.index);
   }
   if (type.entityKind() != EntityKind::Type) {
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {
       if (isFirstReport(context, node.type_name.name))
         context.report(diag::UnknownName, node.type_name.loc, {string(context, node.type_name.name)})
@@ -392,28 +396,28 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
     } else {
       context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const TypeId enumeration = context.types().resolve(TypeId{type.index});
   if (context.types().info(enumeration).kind != TypeKind::Enum) {
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (enumeration != types::kError) {
       context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  node.entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
-  if (node.entity.entityKind() != EntityKind::EnumValue) {
+  meaning(node.h).entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
+  if (meaning(node.h).entity.entityKind() != EntityKind::EnumValue) {
     if (isFirstReportOfMember(context, enumeration, node.item.name))
       context
           .report(diag::UnknownMember, node.item.loc,
                   {string(context, node.type_name.name), string(context, node.item.name)})
           .didYouMean(nearestField(context, enumeration, node.item.name));
-    node.entity = Entity::of(EntityKind::Error, 0);
-    return node.h.type = types::kError;
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    return meaning(node.h).type = types::kError;
   }
-  node.h.is_constant = 1;
-  return node.h.type = context.symbols.enum_values[node.entity.index].type;
+  meaning(node.h).is_constant = 1;
+  return meaning(node.h).type = context.symbols.enum_values[meaning(node.h).entity.index].type;
 }
 
 // `phase : Phase; … Phase.Idle`: where the variable has no such member, the name means the enumeration that the
@@ -432,7 +436,7 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
 //   passes  VAR CONSTANT kReady : INT := 3; END_VAR  status.kReady := TRUE;
 //   fails   VAR ready : INT := 3; END_VAR            status.ready := TRUE;       E0591
 std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base) {
-  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  MemberExpr& node = context.code().as<MemberExpr>(expr);
   const TypeKind kind = context.types().plainKind(base);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return std::nullopt;
   const Entity found = lookUp(context, node.member);
@@ -441,11 +445,11 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   if (context.symbols.var(id).external) id = context.symbols.var(id).external;
   ensureVarType(context, id);
   const Var& var = context.symbols.var(id);
-  if (var.type == types::kError) return node.h.type = types::kError;
+  if (var.type == types::kError) return meaning(node.h).type = types::kError;
   const TypeKind index = context.types().plainKind(var.type);
   if (!types::TypeTable::isInteger(index) && !types::TypeTable::isBits(index)) return std::nullopt;
-  node.entity = Entity::of(EntityKind::Error, 0);
-  node.h.type = types::kError;
+  meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+  meaning(node.h).type = types::kError;
   if (!context.profile().named_bits) {
     context.report(diag::NamedBitExtension, node.h.loc);
     return types::kError;
@@ -466,60 +470,60 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
 //   passes  t(EN := go, IN := x, PT := T#1s); ok := t.ENO;
 //   fails   timers[i](IN := x, PT := T#1s); ok := timers[i].ENO;       E0272
 TypeId checkEno(Context& context, ExprId& expr, PouId block, Access access) {
-  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  MemberExpr& node = context.code().as<MemberExpr>(expr);
   const std::string_view name = string(context, context.symbols.pou(block).name);
   const bool writes =
       access == Access::Write || access == Access::ReadWrite || access == Access::InOut || access == Access::Bind;
   const VarId memory = enoMemoryOf(context, node.base);
   if (!memory || writes) {
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (writes)
       context.report(diag::OutputWrittenOutside, node.h.loc, {string(context, node.member), name});
     else
       context.report(diag::EnoNotKept, node.h.loc, {name});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const NameId hidden = context.symbols.var(memory).name;
   const Loc loc = node.h.loc;
   const bool is_member = context.tree().kind(node.base) == ExprKind::Member;
   const ExprId owner = is_member ? context.tree().as<MemberExpr>(node.base).base : ExprId{};
-  context.replace(expr, is_member ? context.build().member(owner, hidden, loc, entity(memory))
-                                  : context.build().name(hidden, loc, entity(memory)));
+  context.replace(expr, is_member ? makeMember(context, owner, hidden, entity(memory), loc)
+                                  : makeName(context, hidden, entity(memory), loc));
   return useVar(context, expr, memory, access);
 }
 
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
-  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  MemberExpr& node = context.code().as<MemberExpr>(expr);
   TypeId base = checkBase(context, node.base, access);
   base = throughObject(context, node.base, base);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
-  if (base == types::kError) return node.h.type = types::kError;
+  if (base == types::kError) return meaning(node.h).type = types::kError;
   const Entity hidden = hiddenEnumeration(context, node, base);
   if (hidden && !context.profile().hidden_enumerations) {
     const std::string typed =
         std::string(string(context, nameOf(context, node.base))) + "#" + std::string(string(context, node.member));
     context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})
         .didYouMean(typed);
-    node.entity = Entity::of(EntityKind::Error, 0);
-    return node.h.type = types::kError;
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    return meaning(node.h).type = types::kError;
   }
   if (hidden) {
-    NameExpr& name = context.tree().as<NameExpr>(node.base);
-    name.entity = hidden;
-    name.h.type = {};
+    NameExpr& name = context.code().as<NameExpr>(node.base);
+    meaning(name.h).entity = hidden;
+    meaning(name.h).type = {};
     return checkWhole(context, expr, hidden, access);
   }
   const TypeId record = context.types().resolve(base);
   const types::TypeInfo& info = context.types().info(record);
   if (info.kind != TypeKind::Record) {
     if (const auto type = checkNamedBit(context, expr, record)) return *type;
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (info.kind == TypeKind::Pointer) {
       context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)});
     } else {
       context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)});
     }
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const PouId object = pouOf(context, record);
   const VarId member = findMember(context, record, node.member);
@@ -537,14 +541,14 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!member && is_block && isNamed(context, node.member, kEnableOutput))
     return checkEno(context, expr, object, access);
   if (!member) {
-    node.entity = Entity::of(EntityKind::Error, 0);
+    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (isFirstReportOfMember(context, record, node.member))
       context.report(diag::UnknownMember, node.h.loc, {context.types().toString(base), string(context, node.member)})
           .didYouMean(nearestField(context, record, node.member));
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
-  node.entity = Entity::of(EntityKind::Var, member.index);
-  if (!checkOutsideAccess(context, node, member, access)) return node.h.type = types::kError;
+  meaning(node.h).entity = Entity::of(EntityKind::Var, member.index);
+  if (!checkOutsideAccess(context, node, member, access)) return meaning(node.h).type = types::kError;
   const TypeId type = useVar(context, expr, member, access);
   return type;
 }

@@ -20,6 +20,7 @@
 #include "sema/declarations/call_graph.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
 #include "sema/scopes.h"
@@ -35,9 +36,9 @@ namespace {
 ExprId instanceFor(Context& context, ExprId instance, PouId method) {
   if (!instance) return instance;
   const Pou& owner = context.symbols.pou(context.symbols.pou(method).owner);
-  const types::TypeInfo& info = context.types().info(context.types().resolve(context.tree().expr(instance).type));
+  const types::TypeInfo& info = context.types().info(context.types().resolve(context.type(instance)));
   if (owner.kind != PouKind::Interface || info.kind != TypeKind::Record ||
-      owner.record == context.types().resolve(context.tree().expr(instance).type) ||
+      owner.record == context.types().resolve(context.type(instance)) ||
       context.tree().kind(instance) != ExprKind::Deref)
     return instance;
   ExprId pointer = context.tree().as<DerefExpr>(instance).base;
@@ -95,25 +96,25 @@ PouId wantObject(Context& context, Loc loc, const char* word) {
 }
 
 TypeId checkThis(Context& context, ExprId expr) {
-  ExprHeader& header = context.tree().expr(expr);
-  if (context.record) return header.type = context.types().pointer(context.record);
+  ExprHeader& header = context.code().expr(expr);
+  if (context.record) return meaning(header).type = context.types().pointer(context.record);
   const PouId object = wantObject(context, header.loc, "THIS");
-  if (!object) return header.type = types::kError;
-  return header.type = context.types().pointer(context.symbols.pou(object).record);
+  if (!object) return meaning(header).type = types::kError;
+  return meaning(header).type = context.types().pointer(context.symbols.pou(object).record);
 }
 
 // Forbids SUPER where there is no base.   fails   FUNCTION_BLOCK a … SUPER^.m();       E0551
 TypeId checkSuper(Context& context, ExprId expr) {
-  ExprHeader& header = context.tree().expr(expr);
+  ExprHeader& header = context.code().expr(expr);
   const PouId object = wantObject(context, header.loc, "SUPER");
-  if (!object) return header.type = types::kError;
+  if (!object) return meaning(header).type = types::kError;
   const PouId base = context.symbols.pou(object).base;
   if (!base) {
     if (context.tree().as<PouDecl>(context.symbols.pou(object).decl).bases.empty())
       context.report(diag::SuperWithoutBase, header.loc, {string(context, context.symbols.pou(object).name)});
-    return header.type = types::kError;
+    return meaning(header).type = types::kError;
   }
-  return header.type = context.types().pointer(context.symbols.pou(base).record);
+  return meaning(header).type = context.types().pointer(context.symbols.pou(base).record);
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access 
   if (found.entityKind() != EntityKind::Var || context.symbols.vars[found.index].type == types::kError)
     return is_this ? checkThis(context, expr) : checkSuper(context, expr);
   const ExprId created = context.build().name(name, context.tree().loc(expr));
-  context.tree().expr(created).in_parens = context.tree().expr(expr).in_parens;
+  context.code().expr(created).in_parens = context.code().expr(expr).in_parens;
   context.replace(expr, created);
   return checkName(context, expr, expected, access);
 }
@@ -173,15 +174,15 @@ Property accessorsOf(Context& context, uint32_t index) {
 
 TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access) {
   const Loc loc = context.tree().loc(expr);
-  ExprHeader& header = context.tree().expr(expr);
+  ExprHeader& header = context.code().expr(expr);
   if (member.entityKind() == EntityKind::Pou) {
     const Pou& method = context.symbols.pou(PouId{member.index});
-    if (!mayAccess(context, method.access, method.owner, method.name, loc)) return header.type = types::kError;
-    if (access == Access::Qualifier) return header.type = {};
+    if (!mayAccess(context, method.access, method.owner, method.name, loc)) return meaning(header).type = types::kError;
+    if (access == Access::Qualifier) return meaning(header).type = {};
     context.report(diag::NotAValue, loc,
                    {string(context, method.name), method.kind == PouKind::Action ? "an action; call it with `()`"
                                                                                  : "a method; call it with `(...)`"});
-    return header.type = types::kError;
+    return meaning(header).type = types::kError;
   }
   const Property property = accessorsOf(context, member.index);
   const PouId accessor = property.get ? property.get : property.set;
@@ -189,7 +190,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
     const bool writes_only = writesValue(access) && access != Access::Call;
     context.report(writes_only ? diag::PropertyWithoutSet : diag::PropertyWithoutGet, loc,
                    {string(context, property.name)});
-    return header.type = types::kError;
+    return meaning(header).type = types::kError;
   }
   resolvePou(context, accessor);
   const TypeId declared = property.get ? context.symbols.pou(property.get).result
@@ -198,28 +199,28 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   // writes needs a variable.
   const bool through = context.types().kind(declared) == TypeKind::Reference;
   const bool writes = writesValue(access) && access != Access::Call;
-  if (access == Access::Bind || (writes && !through)) return header.type = declared;
+  if (access == Access::Bind || (writes && !through)) return meaning(header).type = declared;
   if (!property.get) {
     context.report(diag::PropertyWithoutGet, loc, {string(context, property.name)});
-    return header.type = types::kError;
+    return meaning(header).type = types::kError;
   }
   const Pou& getter = context.symbols.pou(property.get);
-  if (!mayAccess(context, getter.access, getter.owner, property.name, loc)) return header.type = types::kError;
+  if (!mayAccess(context, getter.access, getter.owner, property.name, loc)) return meaning(header).type = types::kError;
   noteCall(context, property.get, loc);
   const TypeId type = getter.result ? getter.result : types::kError;
   const ExprId call = context.build().call(expr, Slice<Argument>{}, loc, loc);
-  context.tree().as<CallExpr>(call).call = addMethodCall(context, property.get, instance, {});
-  header.type = {};
+  context.meaning(call).call = addMethodCall(context, property.get, instance, {});
+  meaning(header).type = {};
   context.replace(expr, typed(context, call, type));
   return type;
 }
 
 std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access, PouId method) {
   if (!object) return std::nullopt;
-  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  MemberExpr& node = context.code().as<MemberExpr>(expr);
   const Entity found = method ? entity(method) : findInObject(context, object, node.member);
   if (found.entityKind() != EntityKind::Pou && found.entityKind() != EntityKind::Property) return std::nullopt;
-  node.entity = found;
+  meaning(node.h).entity = found;
   markObject(context, node.base);
   return useMember(context, expr, found, node.base, access);
 }
@@ -244,14 +245,14 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   if (node.op() == AssignOp::Reference) {
     if (context.types().kind(pin_type) != TypeKind::Reference) return false;  // reported as for a variable
     if (!bindReference(context, node.value, pin_type)) return true;
-    node.setEffect(AssignOp::Assign);
+    node.setOp(AssignOp::Assign);
   } else if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first
-    ExprId read = context.tree().insertCopy(node.target);
+    ExprId read = context.code().duplicate(node.target);
     useMember(context, read, found, instance, Access::Read);
     context.replace(node.value, context.build().binary(binaryOf(node.op()), read, node.value, node.h.loc));
-    node.setEffect(AssignOp::Assign);
+    node.setOp(AssignOp::Assign);
     const TypeId type = context.symbols.var(pin).type;
-    check(context, context.tree().as<BinaryExpr>(node.value).right, type, Access::Read);
+    check(context, context.code().as<BinaryExpr>(node.value).right, type, Access::Read);
     if (combine(context, node.value, type) == types::kError) return true;
     convert(context, node.value, type, Purpose{Use::Assigned, property.name, {}});
   } else {
@@ -263,8 +264,8 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   binding.pin = pin;
   binding.value = node.value;
   const ExprId call = context.build().call(node.target, Slice<Argument>{}, loc, loc);
-  context.tree().as<CallExpr>(call).call = addMethodCall(context, property.set, instance, {binding});
-  context.tree().expr(node.target).type = {};
+  context.meaning(call).call = addMethodCall(context, property.set, instance, {binding});
+  context.type(node.target) = {};
   context.replace(node.target, call);
   return true;
 }
@@ -276,15 +277,12 @@ constexpr uint32_t kImplicit = 2;  // bInitRetains, bInCopyCode of FB_Init
 // Forbids FB_Init without the arguments that it needs.
 Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argument> given, Loc loc) {
   const std::span<const VarId> pins = pinsOf(context, method);
-  CallExpr node{};
-  node.h.kind = ExprKind::Call;
-  node.h.loc = node.end = loc;
   std::vector<Argument> arguments;
   for (uint32_t i = 0; i < kImplicit; ++i)
     arguments.push_back({{}, makeLiteral(context, LiteralKind::Bool, types::kBool, 0, loc), false, false, loc});
   const auto isInput = [&](VarId pin) { return context.symbols.var(pin).section != SectionKind::Output; };
   const auto inputs = static_cast<size_t>(std::count_if(pins.begin(), pins.end(), isInput));
-  for (const Argument& argument : context.tree().list(given)) {
+  for (const Argument& argument : context.tree().list(context.code().copy(given))) {
     if (!argument.pin.name && arguments.size() >= inputs) {
       context.report(diag::TooManyArguments, argument.value ? context.tree().begin(argument.value) : argument.loc,
                      {context.types().toString(block), std::to_string(inputs - kImplicit)});
@@ -292,7 +290,7 @@ Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argumen
     }
     arguments.push_back(argument);
   }
-  node.arguments = context.tree().addList<Argument>(arguments);
+  CallExpr& node = context.code().as<CallExpr>(context.build().call({}, arguments, loc));
   const Arguments matched = matchArguments(context, node, method);
   Call call;
   call.kind = CallKind::Method;
@@ -324,12 +322,12 @@ uint64_t elementCount(const Context& context, TypeId type) {
 //   passes  p : Pump(3);    a : ARRAY[0..1] OF Pump[(3), (4)];    FB_Init has an input after its two implicit ones
 //   fails   a : ARRAY[0..2] OF Pump[(3), (4)];                                                        E0362
 CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   const TypeExprId whole = type;
   while (type && tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
   if (!type || tree.kind(type) != TypeExprKind::Named) return {};
   const NamedTypeExpr& written = tree.as<NamedTypeExpr>(type);
-  const TypeId resolved = context.types().resolve(written.h.type);
+  const TypeId resolved = context.types().resolve(typeAsWritten(context, type));
   if (!resolved || resolved == types::kError) return {};
   const PouId object = context.types().info(resolved).kind == TypeKind::Record ? pouOf(context, resolved) : PouId{};
   const PouId method = object ? constructorOf(context, object) : PouId{};
@@ -344,7 +342,7 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
   }
   if (lists.empty())
     return addCall(context, constructorCall(context, resolved, method, written.arguments, written.h.loc));
-  const uint64_t count = elementCount(context, tree.typeExpr(whole).type);
+  const uint64_t count = elementCount(context, typeAsWritten(context, whole));
   if (count != lists.size()) {
     context.report(diag::ElementArguments, tree.loc(lists[0]), {std::to_string(lists.size()), std::to_string(count)});
     return {};
@@ -362,10 +360,10 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
 }
 
 TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   bool checked = false;
   id = calledOf(context, node, id, checked);
-  if (!id) return node.h.type = types::kError;
+  if (!id) return meaning(node.h).type = types::kError;
   // An action has the pins of its block (codesys): they are set before it runs and copied after.
   const bool is_action = context.symbols.pou(id).kind == PouKind::Action;
   const PouId has_pins = is_action ? context.symbols.pou(id).owner : id;
@@ -378,7 +376,7 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   bindArguments(context, node, has_pins, arguments, call);
   if (arguments.ok && !is_action) checkRequiredPins(context, node, id, arguments);
   context.symbols.call(created) = std::move(call);
-  node.call = created;
+  meaning(node.h).call = created;
   const Pou& callee = context.symbols.pou(id);
   return resultOf(context, node, callee, as_statement);
 }

@@ -72,7 +72,7 @@ bool isTime(const Context& context, TypeId type) {
 // when one is left open.
 TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, BinaryOp op, TypeId expected,
                   TypeId forced) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   bool times = false, open = false;
   std::vector<ExprId> operands;
   for (const uint32_t index : arguments.slots) {
@@ -91,7 +91,7 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
       }
     }
     if (!isUntyped(context, type)) times |= isTime(context, type);
-    context.tree().list(node.arguments)[index - 1].value = value;
+    context.code().list(node.arguments)[index - 1].value = value;
     operands.push_back(value);
   }
   if (!times || open || operands.size() < 2) return {};
@@ -101,19 +101,19 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
     if (combine(context, value, expected) == types::kError) return types::kError;
   }
   expr = value;  // of checkOperatorCall, which puts it in place of the call
-  return context.tree().expr(value).type;
+  return context.type(value);
 }
 
 }  // namespace
 
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expected, TypeId forced) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  CallExpr& node = context.code().as<CallExpr>(expr);
   const Pou& pou = context.symbols.pou(id);
   const Arguments arguments = matchArguments(context, node, id);
   if (!arguments.ok) {
     return checkRefused(context, node, arguments);
   }
-  if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
+  if (!checkRequiredPins(context, node, id, arguments)) return meaning(node.h).type = types::kError;
   BinaryOp infix;
   bool checked = false;
   if (pou.pragmas.operator_kind == OperatorKind::Op && infixOf(pou.pragmas.op, infix) && infix != BinaryOp::Power) {
@@ -121,32 +121,32 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
       context.replace(expr, value);
-      return context.tree().expr(expr).type = type;
+      return context.type(expr) = type;
     }
     checked = true;
   }
   GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced, checked);
-  if (!operands.ok) return node.h.type = types::kError;
+  if (!operands.ok) return meaning(node.h).type = types::kError;
   TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
   if (!result) result = expected ? expected : types::kDInt;
   if (pou.pragmas.operator_kind == OperatorKind::Op) {
     if (pou.pragmas.op == types::Op::Power && operands.values.size() == 2 && operands.values[0] && operands.values[1]) {
       result = power(context, operands.values[0], operands.values[1], expected, node.h.loc);
-      if (result == types::kError) return node.h.type = result;
+      if (result == types::kError) return meaning(node.h).type = result;
     }
     if ((pou.pragmas.op == types::Op::Div || pou.pragmas.op == types::Op::Mod) && operands.values.size() > 1 &&
         operands.values[1]) {
       const BinaryOp op = pou.pragmas.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
-      if (!checkDivisor(context, operands.values[1], op)) return node.h.type = types::kError;
+      if (!checkDivisor(context, operands.values[1], op)) return meaning(node.h).type = types::kError;
       callDivisorCheck(context, operands.values[1]);
     }
   }
   if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
-    if (!value) return node.h.type = types::kError;
+    if (!value) return meaning(node.h).type = types::kError;
     wrapConvert(context, value, forced ? forced : result);
     context.replace(expr, value);
-    return context.tree().expr(expr).type;
+    return context.type(expr);
   }
   Call call;
   call.kind = CallKind::Operator;
@@ -158,14 +158,14 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     call.bindings.push_back(binding);
   }
   bool constant = arguments.en == 0 && arguments.eno == 0;
-  for (const ExprId value : operands.values) constant &= !value || context.tree().expr(value).is_constant;
-  node.h.is_constant = constant;
+  for (const ExprId value : operands.values) constant &= !value || context.meaning(value).is_constant;
+  meaning(node.h).is_constant = constant;
   const bool is_conditional = arguments.en != 0 || arguments.eno != 0;
-  markIntermediate(context.symbols, node.h, result, context.isWide() && !is_conditional && isArithmetic(pou.pragmas));
-  node.call = addCall(context, std::move(call));
-  node.h.type = result;
+  markIntermediate(context.symbols, expr, result, context.isWide() && !is_conditional && isArithmetic(pou.pragmas));
+  meaning(node.h).call = addCall(context, std::move(call));
+  meaning(node.h).type = result;
   if (pou.pragmas.operator_kind == OperatorKind::Convert && operands.values[0])
-    markRounding(context.symbols, node.h, context.tree().expr(operands.values[0]).type, context.isWide());
+    markRounding(context.symbols, expr, context.type(operands.values[0]), context.isWide());
   context.rules->expression(context, expr);
   return result;
 }

@@ -82,7 +82,7 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
   const TypeKind kind = table.info(plain).kind;
   if (table.kind(typed) == TypeKind::Enum && !context.profile().enums_as_numbers) return {};
   if (untypedFits(context, literal, plain)) return plain;
-  if (context.tree().expr(literal).type == types::idOf(TypeKind::RealLiteral)) {
+  if (context.type(literal) == types::idOf(TypeKind::RealLiteral)) {
     if (!TypeTable::isNumber(kind) || (!context.profile().bit_arithmetic && TypeTable::isBits(kind))) return {};
     const TypeKind wanted = expected ? table.plainKind(expected) : TypeKind::None;
     if (TypeTable::isReal(wanted)) return types::idOf(wanted);
@@ -131,7 +131,7 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
 // one in single quotes is a string of that kind.
 void typeCharacters(Context& context, std::span<ExprId> operands) {
   for (const ExprId operand : operands) {
-    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    const TypeKind kind = context.types().plainKind(context.type(operand));
     if (!TypeTable::isCharacter(kind) && kind != TypeKind::WString && kind != TypeKind::UString) continue;
     const bool is_literal = context.tree().kind(operand) == ExprKind::Literal;
     if (is_literal && !context.tree().as<LiteralExpr>(operand).prefix) continue;
@@ -173,8 +173,8 @@ bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp:
 
 // Both sides are untyped: the result is, too, except of comparisons. None when the sides must be typed first.
 TypeId combineUntyped(Context& context, BinaryExpr& node) {
-  const bool real = context.tree().expr(node.left).type == types::idOf(TypeKind::RealLiteral) ||
-                    context.tree().expr(node.right).type == types::idOf(TypeKind::RealLiteral);
+  const bool real = context.type(node.left) == types::idOf(TypeKind::RealLiteral) ||
+                    context.type(node.right) == types::idOf(TypeKind::RealLiteral);
   switch (node.op()) {
     case BinaryOp::Add:
     case BinaryOp::Subtract:
@@ -219,7 +219,7 @@ bool areOtherEnums(const Context& context, Operands accepted, TypeId a, TypeId b
 static void typeAddresses(Context& context, std::span<ExprId> operands) {
   bool is_unsigned = false;
   for (const ExprId operand : operands) {
-    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    const TypeKind kind = context.types().plainKind(context.type(operand));
     is_unsigned |= TypeTable::isInteger(kind) && !context.types().isSigned(kind);
   }
   for (ExprId& operand : operands) {
@@ -231,7 +231,7 @@ static void typeAddresses(Context& context, std::span<ExprId> operands) {
                                     {TypeKind::Word, TypeKind::Int, TypeKind::UInt},
                                     {TypeKind::DWord, TypeKind::DInt, TypeKind::UDInt},
                                     {TypeKind::LWord, TypeKind::LInt, TypeKind::ULInt}};
-    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    const TypeKind kind = context.types().plainKind(context.type(operand));
     for (const Row& row : kRows)
       if (row.bits == kind) wrapConvert(context, operand, types::idOf(is_unsigned ? row.if_unsigned : row.if_signed));
   }
@@ -239,14 +239,14 @@ static void typeAddresses(Context& context, std::span<ExprId> operands) {
 
 TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
              Loc loc) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   if (keepsOwnType(accepted)) typeCharacters(context, operands);
   if (context.profile().addresses_as_numbers && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
     typeAddresses(context, operands);
   TypeId common;
   bool untyped = false, real = false, mixed_enums = false;
   for (const ExprId operand : operands) {
-    const TypeId type = tree.expr(operand).type;
+    const TypeId type = typeOf(tree, operand);
     if (!type || type == types::kError) return types::kError;
     if (isUntyped(context, type)) {
       untyped = true;
@@ -275,15 +275,15 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
   if (untyped && common) {
     const TypeId typed = common;
     for (const ExprId operand : operands) {
-      if (!isUntyped(context, tree.expr(operand).type)) continue;
+      if (!isUntyped(context, typeOf(tree, operand))) continue;
       // CODESYS takes a whole number as a pointer: SEL(is_valid, 0, pointer).
       const bool is_address = context.profile().pointers_as_numbers &&
                               context.types().kind(common) == TypeKind::Pointer &&
-                              tree.expr(operand).type == types::idOf(TypeKind::IntegerLiteral);
+                              typeOf(tree, operand) == types::idOf(TypeKind::IntegerLiteral);
       const TypeId joined = accepted == Operands::Anything && (is_address || untypedFits(context, operand, common))
                                 ? common
                                 : joinUntyped(context, common, operand, expected);
-      if (!joined) return reportOperands(context, what, typed, tree.expr(operand).type, loc);
+      if (!joined) return reportOperands(context, what, typed, typeOf(tree, operand), loc);
       common = joined;
     }
     if (!accepts(context, accepted, common)) return reportOperands(context, what, typed, common, loc);
@@ -304,20 +304,20 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
   }
   if (const TypeKind kind = context.types().plainKind(common); TypeTable::isString(kind)) {
     for (ExprId& operand : operands) {
-      const types::TypeInfo& own = context.types().info(context.types().resolve(tree.expr(operand).type));
+      const types::TypeInfo& own = context.types().info(context.types().resolve(typeOf(tree, operand)));
       if (own.kind != kind) wrapConvert(context, operand, context.types().string(kind, own.length));
     }
     return common;
   }
   for (ExprId& operand : operands) {
-    if (mixed_enums && context.types().kind(tree.expr(operand).type) == TypeKind::Enum) {
+    if (mixed_enums && context.types().kind(typeOf(tree, operand)) == TypeKind::Enum) {
       wrapConvert(context, operand, common);
       continue;
     }
     const ExprId given = operand;
     if (!convert(context, operand, common, kOperand)) return types::kError;
     if (operand != given && context.tree().kind(operand) == ExprKind::Convert)
-      context.tree().expr(operand).bits |= kIntermediate;
+      context.meaning(operand).is_intermediate = true;
   }
   return common;
 }
@@ -325,16 +325,16 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
 // x ** n: the base becomes REAL or LREAL; the exponent keeps its type.
 TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId expected, Loc loc) {
   for (ExprId* side : {&base_expr, &exponent_expr}) {
-    const TypeId type = context.tree().expr(*side).type;
+    const TypeId type = context.type(*side);
     if (isUntyped(context, type)) continue;
     const TypeKind kind = context.types().plainKind(type);
     if (!TypeTable::isNumber(kind) || !accepts(context, Operands::Number, type)) {
       return reportOperand(context, "**", type, loc);
     }
   }
-  TypeId base = context.tree().expr(base_expr).type;
+  TypeId base = context.type(base_expr);
   if (!TypeTable::isReal(context.types().plainKind(base))) {
-    const TypeId exponent = context.tree().expr(exponent_expr).type;
+    const TypeId exponent = context.type(exponent_expr);
     const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
     TypeId real = types::kReal;
     if (TypeTable::isReal(wanted)) {
@@ -349,12 +349,12 @@ TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId 
   } else {
     base = context.types().plain(base);
   }
-  if (context.tree().expr(exponent_expr).type == types::idOf(TypeKind::RealLiteral)) {
+  if (context.type(exponent_expr) == types::idOf(TypeKind::RealLiteral)) {
     if (!adapt(context, exponent_expr, base, kOperand)) return types::kError;
   } else if (finalizeUntyped(context, exponent_expr) == types::kError) {
     return types::kError;
   }
-  const TypeId exponent = context.types().plain(context.tree().expr(exponent_expr).type);
+  const TypeId exponent = context.types().plain(context.type(exponent_expr));
   if (TypeTable::isReal(context.types().info(exponent).kind) && exponent != base) {
     if (base == types::kReal) {
       wrapConvert(context, base_expr, types::kLReal);
@@ -362,29 +362,29 @@ TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId 
     } else {
       wrapConvert(context, exponent_expr, types::kLReal);
     }
-  } else if (exponent != context.tree().expr(exponent_expr).type) {
+  } else if (exponent != context.type(exponent_expr)) {
     wrapConvert(context, exponent_expr, exponent);
   }
   return base;
 }
 
 TypeId combine(Context& context, ExprId& self, TypeId expected) {
-  BinaryExpr& node = context.tree().as<BinaryExpr>(self);
-  const TypeId left = context.tree().expr(node.left).type, right = context.tree().expr(node.right).type;
-  if (!left || !right || left == types::kError || right == types::kError) return node.h.type = types::kError;
+  BinaryExpr& node = context.code().as<BinaryExpr>(self);
+  const TypeId left = context.type(node.left), right = context.type(node.right);
+  if (!left || !right || left == types::kError || right == types::kError) return meaning(node.h).type = types::kError;
   const BinaryOp op = node.op();
   const bool comparison = isComparison(op);
   const bool untyped_left = isUntyped(context, left), untyped_right = isUntyped(context, right);
-  node.h.is_constant = context.tree().expr(node.left).is_constant & context.tree().expr(node.right).is_constant;
+  meaning(node.h).is_constant = context.meaning(node.left).is_constant & context.meaning(node.right).is_constant;
   if (untyped_left && untyped_right) {
-    if (const TypeId type = combineUntyped(context, node)) return node.h.type = type;
+    if (const TypeId type = combineUntyped(context, node)) return meaning(node.h).type = type;
   }
   if (op == BinaryOp::Power) {
     const Loc loc = node.h.loc;
-    return node.h.type = power(context, node.left, node.right, expected, loc);
+    return meaning(node.h).type = power(context, node.left, node.right, expected, loc);
   }
   if (context.types().kind(left) == TypeKind::Pointer || context.types().kind(right) == TypeKind::Pointer) {
-    if (const TypeId type = combinePointers(context, self, expected)) return context.tree().expr(self).type = type;
+    if (const TypeId type = combinePointers(context, self, expected)) return context.type(self) = type;
   }
   if (!comparison && operandsOf(op) != Operands::Bits) {
     const TypeKind a = untyped_left ? TypeKind::None : context.types().plainKind(left);
@@ -392,46 +392,46 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
     if (isTimeKind(a) || isTimeKind(b)) {
       const Loc loc = node.h.loc;
       if (const TypeId type = combineTimes(context, self, op, node.left, node.right)) {
-        return context.tree().expr(self).type = type;
+        return context.type(self) = type;
       }
-      return node.h.type = reportOperands(context, spelling(op), left, right, loc);
+      return meaning(node.h).type = reportOperands(context, spelling(op), left, right, loc);
     }
   }
   if (op == BinaryOp::Add && TypeTable::isString(context.types().plainKind(left)) &&
       TypeTable::isString(context.types().plainKind(right))) {
     context.report(diag::StringsAdded, node.h.loc);
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};
   const TypeId common =
       unify(context, operands, operandsOf(op), comparison ? TypeId{} : expected, spelling(op), node.h.loc);
   node.left = operands[0];
   node.right = operands[1];
-  if (common == types::kError) return node.h.type = types::kError;
+  if (common == types::kError) return meaning(node.h).type = types::kError;
   const TypeKind kind = context.types().plainKind(common);
   if (comparison) {
-    node.h.type = types::kBool;
+    meaning(node.h).type = types::kBool;
     context.rules->expression(context, self);
     return types::kBool;
   }
   if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {
-    return node.h.type = reportOperand(context, spelling(op), common, node.h.loc);
+    return meaning(node.h).type = reportOperand(context, spelling(op), common, node.h.loc);
   }
   if (op == BinaryOp::Modulo && TypeTable::isReal(kind)) {
-    return node.h.type = reportOperand(context, "MOD", common, node.h.loc);
+    return meaning(node.h).type = reportOperand(context, "MOD", common, node.h.loc);
   }
   if (op == BinaryOp::Divide || op == BinaryOp::Modulo) {
-    if (!checkDivisor(context, node.right, op)) return node.h.type = types::kError;
+    if (!checkDivisor(context, node.right, op)) return meaning(node.h).type = types::kError;
     callDivisorCheck(context, node.right);
   }
-  markIntermediate(context.symbols, node.h, common, context.isWide() && operandsOf(op) != Operands::Bits);
-  node.h.type = common;
+  markIntermediate(context.symbols, self, common, context.isWide() && operandsOf(op) != Operands::Bits);
+  meaning(node.h).type = common;
   context.rules->expression(context, self);
   return common;
 }
 
 TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
-  BinaryExpr& node = context.tree().as<BinaryExpr>(expr);
+  BinaryExpr& node = context.code().as<BinaryExpr>(expr);
   const bool comparison = isComparison(node.op());
   const TypeId hint = comparison ? TypeId{} : expected;
   if (isOpenTemporary(context, node.left)) {  // the literals in it adapt to the other side
@@ -451,30 +451,30 @@ TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
 }
 
 TypeId checkUnary(Context& context, ExprId& expr, TypeId expected) {
-  UnaryExpr& node = context.tree().as<UnaryExpr>(expr);
+  UnaryExpr& node = context.code().as<UnaryExpr>(expr);
   const TypeId type = check(context, node.operand, expected, Access::Read);
-  node.h.is_constant = context.tree().expr(node.operand).is_constant;
-  if (!type || type == types::kError) return node.h.type = types::kError;
+  meaning(node.h).is_constant = context.meaning(node.operand).is_constant;
+  if (!type || type == types::kError) return meaning(node.h).type = types::kError;
   if (isUntyped(context, type)) {
     if (node.op() == UnaryOp::Not) {
       if (type == types::idOf(TypeKind::RealLiteral)) {
-        return node.h.type = reportOperand(context, "NOT", types::kReal, node.h.loc);
+        return meaning(node.h).type = reportOperand(context, "NOT", types::kReal, node.h.loc);
       }
       if (expected && context.types().plainKind(expected) == TypeKind::Bool &&
           untypedFits(context, node.operand, expected)) {
         adapt(context, node.operand, types::kBool, kOperand);
-        return node.h.type = types::kBool;
+        return meaning(node.h).type = types::kBool;
       }
     }
-    return node.h.type = type;
+    return meaning(node.h).type = type;
   }
   const TypeId plain = context.types().plain(type);
   const bool ok = node.op() == UnaryOp::Not ? accepts(context, Operands::Bits, type)
                                             : accepts(context, Operands::NumberOrTime, type);
-  if (!ok) return node.h.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
+  if (!ok) return meaning(node.h).type = reportOperand(context, spelling(node.op()), type, node.h.loc);
   if (plain != type) convert(context, node.operand, plain, kOperand);
-  markIntermediate(context.symbols, node.h, plain, context.isWide() && node.op() != UnaryOp::Not);
-  return node.h.type = plain;
+  markIntermediate(context.symbols, expr, plain, context.isWide() && node.op() != UnaryOp::Not);
+  return meaning(node.h).type = plain;
 }
 
 }  // namespace rung::sema

@@ -67,7 +67,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   const PouId object = objectOf(context);
   const bool is_own = object && (var.pou == object || isKindOf(context, object, var.pou));
   if (var.section == SectionKind::Temp && is_own) {
-    const bool is_bare = !context.tree().expr(node.base).type;  // `Main.t` in the body or an action of Main
+    const bool is_bare = !context.type(node.base);  // `Main.t` in the body or an action of Main
     return is_bare ? checkUseInMethod(context, var, node.h.loc) : refuseTemporary(context, var, node.h.loc);
   }
   if (access == Access::Address && var.section != SectionKind::Temp) return true;
@@ -80,7 +80,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   const bool sets = access == Access::Write || access == Access::Bind;
   const bool writes = sets || access == Access::ReadWrite || access == Access::InOut;
   const std::string_view pin = string(context, var.name);
-  const TypeId base = context.tree().expr(node.base).type;
+  const TypeId base = context.type(node.base);
   const std::string block = context.types().toString(base ? base : context.symbols.pou(var.pou).record);
   const auto refuse = [&](Diag diag) {
     context.report(diag, node.h.loc, {pin, block}).declaredHere(var.loc);

@@ -94,7 +94,7 @@ bool match(Context& context, const CallExpr& node, Candidate& candidate) {
 }
 
 int rankOf(Context& context, const Var& pin, ExprId value) {
-  const TypeId actual = context.tree().expr(value).type;
+  const TypeId actual = context.type(value);
   const TypeId wanted = context.types().resolve(pin.type);
   const types::TypeInfo& info = context.types().info(wanted);
   if (!actual || actual == types::kError || wanted == types::kError) return kExact;
@@ -133,7 +133,7 @@ void checkArguments(Context& context, const CallExpr& node, std::span<const Cand
     }
     ExprId value = argument.value;
     check(context, value, {}, access);
-    context.tree().list(node.arguments)[i].value = value;
+    context.code().list(node.arguments)[i].value = value;
   }
 }
 
@@ -203,7 +203,7 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
       const ExprId value = context.tree().list(node.arguments)[i].value;
       int rank = kExact;
       if (value && candidate.pin_of[i]) rank = rankOf(context, context.symbols.var(candidate.pin_of[i]), value);
-      broken = broken || (value && context.tree().expr(value).type == types::kError);
+      broken = broken || (value && context.type(value) == types::kError);
       can = can && rank != kNever;
       candidate.ranks.push_back(rank);
     }

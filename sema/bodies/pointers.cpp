@@ -48,7 +48,7 @@ TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
   if (!type || type == types::kError) return types::kError;
   const ExprKind kind = context.tree().kind(lvalue);
   if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, lvalue, type);
-  if (kind == ExprKind::BitAccess && (context.tree().expr(lvalue).bits & kBitMember) != 0) {
+  if (kind == ExprKind::BitAccess && context.meaning(lvalue).is_bit_member) {
     // TwinCAT returns the byte that holds a BIT.
     context.report(diag::AddressOfBitMember, context.tree().begin(lvalue));
     lvalue = context.tree().as<BitAccessExpr>(lvalue).base;
@@ -56,10 +56,10 @@ TypeId checkAdr(Context& context, ExprId& expr, const PseudoCall& call) {
   }
   if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) &&
       context.profile().addresses_of_strings)
-    type = context.tree().expr(lvalue = storageOfLiteral(context, lvalue)).type;
+    type = context.type(lvalue = storageOfLiteral(context, lvalue));
   if (!checkAddressable(context, lvalue) || !checkReferable(context, lvalue, call.name)) return types::kError;
   context.replace(expr, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
-  return context.tree().expr(expr).type;
+  return context.type(expr);
 }
 
 // VAL(p) is p^. IEC syntax manual 5.3.1.3.2.
@@ -75,7 +75,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, const PseudoCall& call) {
   const TypeId type = check(context, operand, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
   if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
-  const TypeId own = context.tree().expr(operand).type;
+  const TypeId own = context.type(operand);
   if (const Entity entity = entityOf(context, operand); entity.entityKind() == EntityKind::Var) {
     // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to a variable.
     const Var& var = context.symbols.vars[entity.index];
@@ -127,7 +127,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
   const TypeId type = check(context, lvalue, {}, Access::Refer);
   if (!type || type == types::kError || wanted == types::kError) return false;
   if (context.types().info(type).kind == TypeKind::NullLiteral) {
-    context.tree().expr(lvalue).type = reference;
+    context.type(lvalue) = reference;
     return true;
   }
   if (!checkAddressable(context, lvalue)) return false;
@@ -147,30 +147,30 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
 }
 
 TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
-  IndexExpr& node = context.tree().as<IndexExpr>(expr);
+  IndexExpr& node = context.code().as<IndexExpr>(expr);
   const Loc loc = node.h.loc;
   if (!context.profile().indexed_pointers) {
     context.report(diag::IndexOfPointer, loc);
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const ExprId pointer = node.base;
-  const TypeId type = context.tree().expr(pointer).type;
+  const TypeId type = context.type(pointer);
   ExprId index = context.tree().list(node.indices)[0];
   const TypeId given = checkExpr(context, index);
-  if (given == types::kError) return node.h.type = types::kError;
+  if (given == types::kError) return meaning(node.h).type = types::kError;
   if (!isWhole(context, given)) {
     context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(given)});
-    return node.h.type = types::kError;
+    return meaning(node.h).type = types::kError;
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;
   if (const PouId pou = pouOf(context, target)) resolvePou(context, pou);
-  if (!ensureLayout(context, target)) return node.h.type = types::kError;
+  if (!ensureLayout(context, target)) return meaning(node.h).type = types::kError;
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
   // The address of the pointer's target: a null pointer is found before the offset hides it.
   ExprId sum = makeAddressOf(context, makeDeref(context, pointer, target, loc), type, loc);
-  context.tree().as<AddressOfExpr>(sum).h.bits = kMustLeadSomewhere;
+  context.meaning(sum).leads_somewhere = true;
   toNumber(context, sum);
   sum = makeBinary(context, BinaryOp::Add, sum,
                    makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);
@@ -182,8 +182,8 @@ TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
 
 // CODESYS counts in bytes: p + 4 is 4 bytes after p, whatever it points to.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
-  BinaryExpr& node = context.tree().as<BinaryExpr>(self);
-  const TypeId left = context.tree().expr(node.left).type, right = context.tree().expr(node.right).type;
+  BinaryExpr& node = context.code().as<BinaryExpr>(self);
+  const TypeId left = context.type(node.left), right = context.type(node.right);
   const bool both = isPointer(context, left) && isPointer(context, right);
   if (!both && !isWhole(context, isPointer(context, left) ? right : left)) return {};
   const BinaryOp op = node.op();
@@ -194,7 +194,7 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   const bool step = !both && (op == BinaryOp::Add || (op == BinaryOp::Subtract && isPointer(context, left)));
   if (!step && !(both && op == BinaryOp::Subtract)) {  // a number like any other: masks, MOD, comparisons
     for (ExprId* side : {&node.left, &node.right}) {
-      if (isPointer(context, context.tree().expr(*side).type))
+      if (isPointer(context, context.type(*side)))
         wrapConvert(context, *side, types::kULInt);
       else if (comparison)
         wrapConvert(context, *side, types::kULInt);
@@ -202,12 +202,12 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
     return combine(context, self, expected);
   }
   for (ExprId* side : {&node.left, &node.right}) {
-    if (context.tree().expr(*side).type != types::kLInt) toNumber(context, *side);
+    if (context.type(*side) != types::kLInt) toNumber(context, *side);
   }
-  node.h.type = types::kLInt;
-  node.h.is_constant = 0;
+  meaning(node.h).type = types::kLInt;
+  meaning(node.h).is_constant = 0;
   if (step) wrapConvert(context, self, isPointer(context, left) ? left : right);
-  return context.tree().expr(self).type;
+  return context.type(self);
 }
 
 }  // namespace rung::sema

@@ -63,10 +63,10 @@ std::optional<TypeId> checkPseudoCall(Context& context, ExprId& expr, NameId nam
     context.report(diag::WrongArgumentCount, node.h.loc,
                    {string(context, name), std::to_string(row->arguments), std::to_string(call.arguments.size())});
     checkLooseArguments(context, node);
-    return context.tree().expr(expr).type = types::kError;
+    return context.type(expr) = types::kError;
   }
   const TypeId type = row->check(context, expr, call);
-  return context.tree().expr(expr).type = type;
+  return context.type(expr) = type;
 }
 
 std::string_view nearestPseudoFunction(Context& context, NameId written) {

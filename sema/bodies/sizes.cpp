@@ -23,8 +23,8 @@ TypeId checkSizeOf(Context& context, ExprId& expr, const PseudoCall& call) {
     type = context.types().elementary(context.tree().as<NameExpr>(operand).name);
   }
   if (!type && context.tree().kind(operand) == ExprKind::New) {  // SIZEOF(POINTER TO INT)
-    NewExpr& node = context.tree().as<NewExpr>(operand);
-    if ((node.h.bits & kOnlyType) != 0) type = node.h.type = resolveType(context, node.allocated);
+    NewExpr& node = context.code().as<NewExpr>(operand);
+    if ((node.h.bits & kOnlyType) != 0) type = meaning(node.h).type = resolveType(context, node.allocated);
   }
   if (!type) type = check(context, operand, {}, Access::Address);
   if (isUntyped(context, type)) type = finalizeUntyped(context, operand);

@@ -60,14 +60,10 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     return;
   }
   if (context.tree().kind(node.target) == ExprKind::Deref) {
-    const ExprId reference = context.tree().as<DerefExpr>(node.target).base;
-    if (context.tree().expr(node.target).synthesized != 0)
-      node.target = reference;
-    else
-      context.replace(node.target, reference);
+    context.replace(node.target, context.tree().as<DerefExpr>(node.target).base);
   }
   if (checkPropertyAssign(context, node)) return;
-  const TypeId own = context.tree().expr(node.target).type;
+  const TypeId own = context.type(node.target);
   if (context.types().kind(own) != TypeKind::Reference) {
     context.report(diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().toString(own)});
     return;
@@ -110,17 +106,17 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
   const TypeId type = checkAssigned(context, node, Access::ReadWrite);
   if (type == types::kError) return;
   ExprId value = context.build().binary(binaryOf(node.op()), node.target, node.value, node.h.loc);
-  check(context, context.tree().as<BinaryExpr>(value).right, type, Access::Read);
+  check(context, context.code().as<BinaryExpr>(value).right, type, Access::Read);
   if (combine(context, value, type) == types::kError) return;
   if (context.tree().kind(value) == ExprKind::Binary) {
     const BinaryExpr& created = context.tree().as<BinaryExpr>(value);
-    if (created.h.type == context.types().resolve(type) && created.left == node.target) {
+    if (meaning(created.h).type == context.types().resolve(type) && created.left == node.target) {
       node.value = created.right;
       return;
     }
   }
   context.replace(node.value, value);
-  node.setEffect(AssignOp::Assign);
+  node.setOp(AssignOp::Assign);
   convert(context, node.value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
 }
 
@@ -157,24 +153,24 @@ void checkAssign(Context& context, AssignStmt& node) {
 // target := value in an expression. CODESYS, "Assignment operator: Assignment as expression".
 //   passes  IF (n := n + 1) = m THEN        fails  IF (motor.speed := 3) > 2 with a property         E0655
 TypeId checkAssignExpr(Context& context, ExprId expr) {
-  AssignExpr& node = context.tree().as<AssignExpr>(expr);
+  AssignExpr& node = context.code().as<AssignExpr>(expr);
   const TypeId type = checkTarget(context, node.target, Access::Write);
   if (type == types::kError || entityOf(context, node.target).entityKind() == EntityKind::Property) {
     if (type != types::kError) context.report(diag::PropertyInExpression, context.tree().loc(node.target));
-    checkExpr(context, context.tree().as<AssignExpr>(expr).value);
-    return context.tree().expr(expr).type = types::kError;
+    checkExpr(context, context.code().as<AssignExpr>(expr).value);
+    return context.type(expr) = types::kError;
   }
   ExprId value = context.tree().as<AssignExpr>(expr).value;
   checkAs(context, value, type, Purpose{Use::Assigned, lvalueName(context, node.target), {}});
-  context.tree().as<AssignExpr>(expr).value = value;
+  context.code().as<AssignExpr>(expr).value = value;
   context.rules->assignment(context, context.tree().as<AssignExpr>(expr).target, value);
-  return context.tree().expr(expr).type = type;
+  return context.type(expr) = type;
 }
 
 namespace {
 
 void checkCallStatement(Context& context, StmtId id) {
-  CallStmt& node = context.tree().as<CallStmt>(id);
+  CallStmt& node = context.code().as<CallStmt>(id);
   if (context.tree().kind(node.call) != ExprKind::Call) {
     check(context, node.call, {}, Access::Read);
     return;
@@ -182,7 +178,7 @@ void checkCallStatement(Context& context, StmtId id) {
   const bool bare = (context.tree().expr(node.call).bits & kBareCall) != 0;  // reported
   checkCall(context, node.call, {}, true);
   if (context.tree().kind(node.call) == ExprKind::Call) return;
-  const TypeId type = context.tree().expr(node.call).type;
+  const TypeId type = context.type(node.call);
   if (isUntyped(context, type)) finalizeUntyped(context, node.call);
   if (type != types::kError && !bare) context.report(diag::ResultUnused, node.h.loc);  // a conversion: nothing happens
 }
@@ -191,7 +187,7 @@ bool checkIf(Context& context, const IfStmt& node) {
   bool falls = false;
   const uint32_t elsifs_around = context.body->elsif_depth;
   for (uint32_t i = 0; i < node.branches.count; ++i) {
-    IfBranch& branch = context.tree().list(node.branches)[i];
+    IfBranch& branch = context.code().list(node.branches)[i];
     if (i > 0 && ++context.body->elsif_depth > kMaxElsifDepth) {
       context.report(diag::StatementsTooDeep, context.tree().begin(branch.condition), {std::to_string(kMaxElsifDepth)});
       break;
@@ -218,7 +214,7 @@ void checkLabel(Context& context, ExprId& label, TypeId selector) {
     wanted = context.types().plain(selector);
   }
   if (!convert(context, label, wanted, Purpose{Use::CaseLabel, {}, {}})) {
-    context.tree().expr(label).type = types::kError;
+    context.type(label) = types::kError;
     return;
   }
   const std::optional<int64_t> known = constantInteger(context, label);
@@ -228,20 +224,20 @@ void checkLabel(Context& context, ExprId& label, TypeId selector) {
   }
   if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return;
   // Lowering need not compute it again.
-  context.replace(label, makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
-                                     context.tree().begin(label)));
+  context.replace(label,
+                  makeLiteral(context, LiteralKind::Integer, context.type(label), *known, context.tree().begin(label)));
 }
 
 void checkLabels(Context& context, const CaseBranch& branch, TypeId selector) {
-  for (ExprId& label : context.tree().list(branch.labels)) {
+  for (ExprId& label : context.code().list(branch.labels)) {
     const bool is_range = context.tree().kind(label) == ExprKind::Range;
     if (selector == types::kError) {
       if (!is_range) checkExpr(context, label);
     } else if (is_range) {
-      RangeExpr& range = context.tree().as<RangeExpr>(label);
+      RangeExpr& range = context.code().as<RangeExpr>(label);
       checkLabel(context, range.low, selector);
       checkLabel(context, range.high, selector);
-      range.h.type = selector;
+      meaning(range.h).type = selector;
     } else {
       checkLabel(context, label, selector);
     }
@@ -271,7 +267,7 @@ TypeId stepType(Context& context, ExprId step, TypeId control) {
   const TypeId plain = context.types().plain(control);  // a step is not a value of the subrange
   const TypeKind kind = context.types().info(plain).kind;
   if (!context.profile().unsigned_loops_count_down || context.types().isSigned(kind)) return plain;
-  const TypeId type = context.tree().expr(step).type;
+  const TypeId type = context.type(step);
   __int128 value = 0;
   const bool negative = isUntyped(context, type) ? untypedValue(context, step, value) && value < 0
                                                  : context.types().isSigned(context.types().plainKind(type));
@@ -324,10 +320,10 @@ void checkFor(Context& context, ForStmt& node) {
   } else {
     bound(node.step, type, Use::LoopStep);
   }
-  if (type == types::kError) context.tree().expr(node.control).type = type;
+  if (type == types::kError) context.type(node.control) = type;
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {
-    const Entity entity = context.tree().as<NameExpr>(node.control).entity;
+    const Entity entity = context.meaning(node.control).entity;
     if (entity.entityKind() == EntityKind::Var) control = VarId{entity.index};
   }
   if (control) context.body->loop_controls.push_back({control, context.tree().loc(node.control)});
@@ -341,7 +337,7 @@ void checkFor(Context& context, ForStmt& node) {
 // not reported as unreachable.
 bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
   const Tree& tree = context.tree();
-  if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
+  if (tree.kind(condition) != ExprKind::Literal || typeOf(tree, condition) != types::kBool) return false;
   if ((tree.as<LiteralExpr>(condition).value() != 0) != goes_on) return false;
   if (context.body->ways_out != ways_out_before) return false;
   context.report(diag::EndlessLoop, loc);
@@ -372,18 +368,18 @@ bool checkTry(Context& context, TryStmt& node) {
 }
 
 bool checkStatement(Context& context, StmtId id) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   BodyState& body = *context.body;
   switch (tree.kind(id)) {
     case StmtKind::Error:
     case StmtKind::Empty: return true;
-    case StmtKind::Assign: checkAssign(context, tree.as<AssignStmt>(id)); return true;
+    case StmtKind::Assign: checkAssign(context, context.code().as<AssignStmt>(id)); return true;
     case StmtKind::Call: checkCallStatement(context, id); return true;
     case StmtKind::If: return checkIf(context, tree.as<IfStmt>(id));
-    case StmtKind::Case: return checkCase(context, tree.as<CaseStmt>(id));
-    case StmtKind::For: checkFor(context, tree.as<ForStmt>(id)); return true;
+    case StmtKind::Case: return checkCase(context, context.code().as<CaseStmt>(id));
+    case StmtKind::For: checkFor(context, context.code().as<ForStmt>(id)); return true;
     case StmtKind::While: {
-      WhileStmt& node = tree.as<WhileStmt>(id);
+      WhileStmt& node = context.code().as<WhileStmt>(id);
       const uint32_t before = body.ways_out;
       checkCondition(context, node.condition, Use::WhileCondition);
       ++context.loop_depth;
@@ -393,7 +389,7 @@ bool checkStatement(Context& context, StmtId id) {
       return true;
     }
     case StmtKind::Repeat: {
-      RepeatStmt& node = tree.as<RepeatStmt>(id);
+      RepeatStmt& node = context.code().as<RepeatStmt>(id);
       const uint32_t before = body.ways_out;
       ++context.loop_depth;
       const bool falls = checkStatements(context, node.body);
@@ -401,7 +397,7 @@ bool checkStatement(Context& context, StmtId id) {
       checkCondition(context, node.until, Use::UntilCondition);
       return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
-    case StmtKind::Try: return checkTry(context, tree.as<TryStmt>(id));
+    case StmtKind::Try: return checkTry(context, context.code().as<TryStmt>(id));
     case StmtKind::Exit:
     case StmtKind::Continue:
       if (context.loop_depth == 0) {

@@ -53,7 +53,7 @@ TypeId roomFor(Context& context, TypeId type) {
 
 bool shares(Context& context, TypeId own, ExprId value) {
   const types::TypeTable& table = context.types();
-  TypeId type = context.tree().expr(value).type;
+  TypeId type = context.type(value);
   if (isUntyped(context, type)) return untypedFits(context, value, own);
   if (isNull(context, type)) return table.kind(own) == TypeKind::Pointer;
   if (types::TypeTable::isString(table.kind(own))) return table.kind(type) == table.kind(own);
@@ -65,10 +65,10 @@ bool shares(Context& context, TypeId own, ExprId value) {
 //   passes  LD a (INT)  JMP m … LD 7  m: ST c
 //   fails   LD a (INT)  JMP m … LD b (BOOL)  m: ST c        E0729
 void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
-  NameExpr& target = context.tree().as<NameExpr>(node.target);
-  target.entity = Entity::of(EntityKind::Var, state.var.index);
-  target.h.type = state.type;
-  const TypeId type = context.tree().expr(node.value).type;
+  NameExpr& target = context.code().as<NameExpr>(node.target);
+  meaning(target.h).entity = Entity::of(EntityKind::Var, state.var.index);
+  meaning(target.h).type = state.type;
+  const TypeId type = context.type(node.value);
   if (!type || type == types::kError || state.type == types::kError) return;
   if (shares(context, state.type, node.value)) {
     convert(context, node.value, state.type, Purpose{Use::Assigned, target.name, {}});
@@ -89,8 +89,7 @@ void finalizeType(Context& context, Temporary& state, TypeId type, Loc first) {
 }
 
 void checkValue(Context& context, Temporary& state, AssignStmt& node) {
-  if (node.h.checked) return;
-  node.h.checked = true;
+  if (!context.body->with_value.insert(&node).second) return;
   TypeId type = check(context, node.value, state.type, Access::Read);
   if (!type) type = types::kError;
   if (state.type) return adaptValue(context, state, node);
@@ -102,7 +101,7 @@ void checkValue(Context& context, Temporary& state, AssignStmt& node) {
 void collectAssigns(Context& context, Slice<StmtId> list) {
   for (const StmtId id : context.tree().list(list)) {
     if (context.tree().kind(id) == StmtKind::Assign) {
-      AssignStmt& node = context.tree().as<AssignStmt>(id);
+      AssignStmt& node = context.code().as<AssignStmt>(id);
       if (const VarId var = temporaryOf(context, node.target)) stateOf(context, var).assigns.push_back(&node);
     } else if (context.tree().kind(id) == StmtKind::If) {
       const IfStmt& node = context.tree().as<IfStmt>(id);
@@ -130,7 +129,7 @@ TypeId typeOfOpen(Context& context, const Temporary& state, TypeId expected) {
   bool fits = expected && !isUntyped(context, expected);
   TypeId widest = types::kInt;
   for (const AssignStmt* open : state.open) {
-    if (isNull(context, context.tree().expr(open->value).type)) return context.types().pointer(types::kByte);
+    if (isNull(context, context.type(open->value))) return context.types().pointer(types::kByte);
     fits = fits && untypedFits(context, open->value, expected);
     widest = commonNumber(context, widest, defaultType(context, open->value));
   }

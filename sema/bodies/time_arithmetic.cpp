@@ -29,7 +29,7 @@ TypeId counter(const Context& context, TypeKind k) {
 }
 
 ExprId converted(Context& context, ExprId expr, TypeId to) {
-  if (context.tree().expr(expr).type != to) wrapConvert(context, expr, to);
+  if (context.type(expr) != to) wrapConvert(context, expr, to);
   return expr;
 }
 
@@ -49,7 +49,7 @@ ExprId spanIn(Context& context, ExprId span, TypeKind kind, Loc loc) {
 // span * number, span / number
 TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId factor, TypeKind kind, Loc loc) {
   const TypeId duration = types::idOf(kind);
-  const TypeKind by = context.types().plainKind(context.tree().expr(factor).type);
+  const TypeKind by = context.types().plainKind(context.type(factor));
   if (TypeTable::isReal(by) || by == TypeKind::RealLiteral) {
     if (by == TypeKind::RealLiteral && !adapt(context, factor, types::kLReal, {})) return types::kError;
     span = converted(context, converted(context, span, counter(context, kind)), types::kLReal);
@@ -81,8 +81,8 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
 }  // namespace
 
 TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, ExprId right) {
-  const TypeKind a = context.types().plainKind(context.tree().expr(left).type);
-  const TypeKind b = context.types().plainKind(context.tree().expr(right).type);
+  const TypeKind a = context.types().plainKind(context.type(left));
+  const TypeKind b = context.types().plainKind(context.type(right));
   const Loc loc = context.tree().loc(self);
   const bool span_left = TypeTable::isDuration(a), span_right = TypeTable::isDuration(b);
   if (op == BinaryOp::Multiply) {
@@ -105,7 +105,7 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (op != BinaryOp::Add && op != BinaryOp::Subtract) return {};
   if (span_left && span_right) {
     const TypeId type = isLong(a) || isLong(b) ? types::kLTime : types::kTime;
-    BinaryExpr& node = context.tree().as<BinaryExpr>(self);
+    BinaryExpr& node = context.code().as<BinaryExpr>(self);
     node.left = converted(context, left, type);
     node.right = converted(context, right, type);
     return type;

@@ -119,7 +119,7 @@ ExprId byteOfImage(Context& context, ExprId lvalue) {
   const Var* var = &context.symbols.vars[entity.index];
   if (var->external) var = &context.symbols.var(var->external);
   if (var->storage != Storage::Image || !var->image.is_bit) return {};
-  const Slice<uint32_t> path = context.tree().addList<uint32_t>({&var->image.byte, 1});
+  const Slice<uint32_t> path = context.code().addList<uint32_t>({&var->image.byte, 1});
   const char letter = context.project.options.areas[var->image.area.index].letter;
   const DirectAddress byte{.area = letter, .size = 'B', .incomplete = false, .size_given = true, .path = path};
   return typed(context, context.build().address(byte, context.tree().loc(lvalue)), types::kByte);
@@ -175,7 +175,7 @@ TypeId checkVarInfo(Context& context, ExprId& expr, const PseudoCall& pseudo) {
 
 static TypeId putText(Context& context, ExprId& expr, std::string_view text) {
   context.replace(expr, makeStringLiteral(context, text, context.tree().loc(expr)));
-  return context.tree().expr(expr).type;
+  return context.type(expr);
 }
 
 TypeId checkPouName(Context& context, ExprId& expr, const PseudoCall&) {

@@ -66,7 +66,7 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
 bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) {
   const Var& var = context.symbols.var(id);
   if (!var.of_chart || !var.type || context.types().kind(var.type) != types::TypeKind::Record) return true;
-  const PouDecl& own = context.tree().as<PouDecl>(context.symbols.pou(context.pou).decl);
+  const Pou& own = context.symbols.pou(context.pou);
   if (own.chart_body && context.symbols.sources.fileOf(loc) == own.chart_body) return true;
   std::string what(string(context, var.name));
   if (!member.empty()) what += "." + std::string(member);
@@ -88,7 +88,7 @@ bool checkMemberWritable(Context& context, const MemberExpr& node, VarId var, bo
         .declaredHere(context.symbols.var(var).loc);
     return false;
   }
-  const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
+  const types::TypeInfo& info = context.types().info(context.types().resolve(typeOf(tree, node.base)));
   decided = info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program;
   return true;  // of an instance: checked by outside_access
 }

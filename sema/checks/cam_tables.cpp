@@ -148,7 +148,7 @@ class Selections {
     for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
       const Pou& pou = context.symbols.pous[i];
       if (pou.library || !pou.decl || pou.generic || !pou.progress.checked()) continue;
-      for (const StmtId id : tree_.list(tree_.as<PouDecl>(pou.decl).body)) walk(id);
+      for (const StmtId id : tree_.list(pou.code)) walk(id);
     }
   }
 
@@ -175,7 +175,7 @@ class Selections {
     forEachChild(tree_, id, [&](auto child) { walk(child); });
   }
   void walk(ExprId id) {
-    if (tree_.kind(id) == ExprKind::Call && tree_.as<CallExpr>(id).call) note(tree_.as<CallExpr>(id));
+    if (tree_.kind(id) == ExprKind::Call && meaning(tree_, id).call) note(tree_.as<CallExpr>(id));
     forEachChild(tree_, id, [&](auto child) { walk(child); });
   }
   void walk(TypeExprId) {}
@@ -210,7 +210,7 @@ class Selections {
 
   void note(const CallExpr& node) {
     ExprId cam, periodic, absolute, slave;
-    for (const Binding& binding : context_.symbols.call(node.call).bindings) {
+    for (const Binding& binding : context_.symbols.call(meaning(node.h).call).bindings) {
       if (!binding.pin || !binding.value) continue;
       const std::string_view pin = string(context_, context_.symbols.var(binding.pin).name);
       if (sameIdentifier(pin, "CamTable")) cam = binding.value;

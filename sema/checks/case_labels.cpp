@@ -31,7 +31,7 @@ std::string toString(Context& context, int64_t low, int64_t high, TypeId selecto
 
 // The value of a label that fits the selector; none after a report.
 std::optional<int64_t> valueOfLabel(Context& context, ExprId label) {
-  if (context.tree().expr(label).type == types::kError) return std::nullopt;
+  if (context.type(label) == types::kError) return std::nullopt;
   return constantInteger(context, label);
 }
 
@@ -55,7 +55,7 @@ std::optional<Label> labelOf(Context& context, ExprId label, bool is_signed) {
 
 void checkCaseLabels(Context& context, const CaseStmt& node) {
   const Tree& tree = context.tree();
-  const TypeId selector = tree.expr(node.selector).type;
+  const TypeId selector = typeOf(tree, node.selector);
   const types::TypeKind kind = context.types().plainKind(selector);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return;
   const bool is_signed = context.types().isSigned(kind);

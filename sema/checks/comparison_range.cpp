@@ -22,8 +22,8 @@ using types::TypeTable;
 ExprId withoutConversion(const Context& context, ExprId expr) {
   while (context.tree().kind(expr) == ExprKind::Convert) {
     const ExprId operand = context.tree().as<ConvertExpr>(expr).operand;
-    const TypeId from = context.tree().expr(operand).type;
-    if (!from || !types::isLossless(context.types(), from, context.tree().expr(expr).type)) break;
+    const TypeId from = context.type(operand);
+    if (!from || !types::isLossless(context.types(), from, context.type(expr))) break;
     expr = operand;
   }
   return expr;
@@ -41,7 +41,7 @@ bool isVariableOrCall(const Context& context, ExprId expr) {
   const ExprKind kind = context.tree().kind(expr);
   const bool has_storage = kind == ExprKind::Name || kind == ExprKind::Member || kind == ExprKind::Index ||
                            kind == ExprKind::Deref || kind == ExprKind::Call;
-  return has_storage && !context.tree().expr(expr).is_constant;
+  return has_storage && !context.meaning(expr).is_constant;
 }
 
 Op mirrored(Op op) {
@@ -76,10 +76,10 @@ void checkComparisonRange(Context& context, const Operation& operation) {
     op = mirrored(op);
   }
   if (!isVariableOrCall(context, variable) || !isLiteral(context, number)) return;
-  const TypeId type = context.tree().expr(variable).type;
+  const TypeId type = context.type(variable);
   if (!type || type == types::kError || context.types().kind(type) == TypeKind::Enum) return;
   const TypeKind kind = context.types().plainKind(type);
-  const TypeKind literal_kind = context.types().plainKind(context.tree().expr(number).type);
+  const TypeKind literal_kind = context.types().plainKind(context.type(number));
   if ((!TypeTable::isInteger(kind) && !TypeTable::isBits(kind)) || kind == TypeKind::Bool) return;
   if (!TypeTable::isInteger(literal_kind) && !TypeTable::isBits(literal_kind)) return;
   const std::optional<int64_t> bits = constantInteger(context, number);

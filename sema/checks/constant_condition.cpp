@@ -11,7 +11,7 @@ void checkConstantCondition(Context& context, const IfStmt& node) {
   const Tree& tree = context.tree();
   for (const IfBranch& branch : tree.list(node.branches)) {
     const ExprId condition = branch.condition;
-    if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) continue;
+    if (tree.kind(condition) != ExprKind::Literal || typeOf(tree, condition) != types::kBool) continue;
     const bool value = tree.as<LiteralExpr>(condition).value() != 0;
     context.report(diag::ConstantCondition, tree.loc(condition), {value ? "TRUE" : "FALSE"});
   }

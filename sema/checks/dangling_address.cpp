@@ -51,7 +51,7 @@ void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   bool of_object = false;  // an object as an interface is its address
   while (tree.kind(address) == ExprKind::Convert) {
     address = tree.as<ConvertExpr>(address).operand;
-    of_object = context.types().kind(tree.expr(address).type) == types::TypeKind::Record;
+    of_object = context.types().kind(typeOf(tree, address)) == types::TypeKind::Record;
   }
   if (tree.kind(address) != ExprKind::AddressOf && !of_object) return;
   const VarId variable = rootOf(context, address);

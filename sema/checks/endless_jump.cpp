@@ -47,7 +47,7 @@ class Flow {
   void mark(Node first, Node Edge::*here, Node Edge::*there, std::vector<bool>& marked) const;
 
   Context& context_;
-  Tree& tree_;
+  const Tree& tree_;
   Node last_ = kEnd;
   uint32_t depth_ = 0;
   std::vector<Edge> edges_;

@@ -15,7 +15,7 @@ namespace rung::sema {
 //   warns   FOR i := 0 TO 127 DO         i : SINT              W0586
 static void checkLastValue(Context& context, const ForStmt& node, int64_t from, int64_t to, int64_t step) {
   if (!context.profile().warns_of_endless_loops) return;
-  const TypeId type = context.tree().expr(node.control).type;
+  const TypeId type = context.type(node.control);
   const TypeKind kind = context.types().plainKind(type);
   const bool is_signed = context.types().isSigned(kind);
   const auto wide = [&](int64_t n) { return is_signed ? __int128{n} : __int128{static_cast<uint64_t>(n)}; };
@@ -30,12 +30,12 @@ static void checkLastValue(Context& context, const ForStmt& node, int64_t from, 
 }
 
 void checkForBounds(Context& context, const ForStmt& node) {
-  if (context.tree().expr(node.control).type == types::kError) return;
-  const bool is_signed = context.types().isSigned(context.types().plainKind(context.tree().expr(node.control).type));
+  if (context.type(node.control) == types::kError) return;
+  const bool is_signed = context.types().isSigned(context.types().plainKind(context.type(node.control)));
   const std::optional<int64_t> from = constantInteger(context, node.from), to = constantInteger(context, node.to);
   std::optional<int64_t> step = 1;
   if (node.step) {
-    step = context.tree().expr(node.step).type == types::kError ? std::nullopt : constantInteger(context, node.step);
+    step = context.type(node.step) == types::kError ? std::nullopt : constantInteger(context, node.step);
     if (step == 0) {
       context.report(diag::StepZero, context.tree().begin(node.step));
       return;
@@ -43,7 +43,7 @@ void checkForBounds(Context& context, const ForStmt& node) {
   }
   if (!from || !to || !step || context.library) return;
   const bool step_is_signed =
-      !node.step || context.types().isSigned(context.types().plainKind(context.tree().expr(node.step).type));
+      !node.step || context.types().isSigned(context.types().plainKind(context.type(node.step)));
   const bool up = !step_is_signed || *step > 0;
   const auto less = [&](int64_t a, int64_t b) {
     return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);

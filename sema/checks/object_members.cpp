@@ -15,6 +15,7 @@
 #include "sema/declarations/collect.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
+#include "sema/declarations/types.h"
 #include "sema/declarations/variables.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -276,8 +277,7 @@ static void checkObject(Context& context, PouId object) {
   for (const PouId member : pou.members) checkMethod(context, object, member);
   for (const TypeExprId written : context.tree().list(decl.implements)) {
     Demands demands{context, object, context.tree().loc(written), {}};
-    if (const PouId interface = interfaceOf(context, context.tree().typeExpr(written).type))
-      demands.interface(interface);
+    if (const PouId interface = interfaceOf(context, typeAsWritten(context, written))) demands.interface(interface);
   }
   if (!pou.base) return;
   const Loc base_loc = context.tree().loc(context.tree().list(decl.bases)[0]);

@@ -11,7 +11,7 @@ std::optional<Operation> operationOf(const Context& context, ExprId expr) {
   }
   if (tree.kind(expr) != ExprKind::Call) return std::nullopt;
   const CallExpr& node = tree.as<CallExpr>(expr);
-  const Call& call = context.symbols.call(node.call);
+  const Call& call = context.symbols.call(meaning(node.h).call);
   if (call.kind != CallKind::Operator || call.bindings.size() != 2) return std::nullopt;
   const Pou::Pragmas& pragmas = context.symbols.pou(call.pou).pragmas;
   const ExprId left = call.bindings[0].value, right = call.bindings[1].value;

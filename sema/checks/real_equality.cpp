@@ -12,7 +12,7 @@ void checkRealEquality(Context& context, const Operation& operation) {
   if (context.library || !operation.is_infix) return;
   if (operation.op != types::Op::Eq && operation.op != types::Op::Ne) return;
   const Tree& tree = context.tree();
-  if (!types::TypeTable::isReal(context.types().plainKind(tree.expr(operation.left).type))) return;
+  if (!types::TypeTable::isReal(context.types().plainKind(typeOf(tree, operation.left)))) return;
   for (const ExprId side : {operation.left, operation.right}) {
     if (tree.kind(side) == ExprKind::Literal && tree.as<LiteralExpr>(side).value() == 0) return;
   }

@@ -65,7 +65,7 @@ class TimerCalls {
     if (tree_.kind(expr) != ExprKind::Call) return;
     const CallExpr& call = tree_.as<CallExpr>(expr);
     if (tree_.kind(call.callee) != ExprKind::Name) return;
-    const Entity entity = tree_.as<NameExpr>(call.callee).entity;
+    const Entity entity = meaning(tree_, call.callee).entity;
     if (entity.entityKind() != EntityKind::Var) return;
     const Var& var = context_.symbols.var({entity.index});
     if (!isTimer(var.type) || resets(call)) return;
@@ -94,7 +94,7 @@ class TimerCalls {
   bool resets(const CallExpr& call) const {
     for (const Argument& argument : tree_.list(call.arguments)) {
       if (!argument.value || tree_.kind(argument.value) != ExprKind::Literal || argument.is_output) continue;
-      if (context_.types().plainKind(tree_.expr(argument.value).type) == TypeKind::Bool &&
+      if (context_.types().plainKind(typeOf(tree_, argument.value)) == TypeKind::Bool &&
           tree_.as<LiteralExpr>(argument.value).value() == 0)
         return true;
     }
@@ -113,7 +113,7 @@ void checkRepeatedTimerCalls(Context& context) {
     const Pou& pou = context.symbols.pous[i];
     if (pou.library || pou.pragmas.test || pou.pragmas.test_only || !pou.decl || !pou.progress.checked()) continue;
     const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-    if (decl.body_kind != BodyKind::Il) TimerCalls(context).walk(decl.body);
+    if (decl.body_kind != BodyKind::Il) TimerCalls(context).walk(pou.code);
   }
 }
 

@@ -14,7 +14,7 @@ void checkServedObject(Context& context, const CallExpr& node, const Call& call)
   if (context.library || context.body == nullptr || !context.symbols.pou(call.pou).library) return;
   const auto variableOf = [&](ExprId expr) {
     const bool is_name = expr && context.tree().kind(expr) == ExprKind::Name;
-    const Entity entity = is_name ? context.tree().as<NameExpr>(expr).entity : Entity();
+    const Entity entity = is_name ? context.meaning(expr).entity : Entity();
     return entity.entityKind() == EntityKind::Var ? VarId{entity.index} : VarId{};
   };
   const VarId instance = variableOf(node.callee);

@@ -15,7 +15,7 @@ void checkShiftWidth(Context& context, const Operation& operation) {
   using types::Op;
   if (context.library || (operation.op != Op::Shl && operation.op != Op::Shr && operation.op != Op::Sar)) return;
   const ExprId value = operation.left, count = operation.right;
-  const TypeId type = context.tree().expr(value).type;
+  const TypeId type = context.type(value);
   if (!type || type == types::kError || isUntyped(context, type)) return;
   const TypeKind kind = context.types().plainKind(type);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return;

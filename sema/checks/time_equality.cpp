@@ -15,7 +15,7 @@ bool isOutputOfBlock(const Context& context, ExprId expr) {
   const Tree& tree = context.tree();
   if (tree.kind(expr) == ExprKind::Convert) expr = tree.as<ConvertExpr>(expr).operand;
   if (tree.kind(expr) != ExprKind::Member) return false;
-  const Entity field = tree.as<MemberExpr>(expr).entity;
+  const Entity field = meaning(tree, expr).entity;
   if (field.entityKind() != EntityKind::Var) return false;
   const Var& var = context.symbols.var({field.index});
   return var.section == SectionKind::Output && var.pou && context.symbols.pou(var.pou).kind == PouKind::FunctionBlock;
@@ -32,7 +32,7 @@ bool isConstantTime(const Context& context, ExprId expr) {
 void checkTimeEquality(Context& context, const Operation& operation) {
   if (!operation.is_infix || (operation.op != types::Op::Eq && operation.op != types::Op::Ne)) return;
   if (context.library || (context.pou && context.symbols.pou(context.pou).pragmas.test)) return;
-  const types::TypeKind kind = context.types().plainKind(context.tree().expr(operation.left).type);
+  const types::TypeKind kind = context.types().plainKind(context.type(operation.left));
   if (kind != types::TypeKind::Time && kind != types::TypeKind::LTime) return;
   if ((isOutputOfBlock(context, operation.left) && isConstantTime(context, operation.right)) ||
       (isOutputOfBlock(context, operation.right) && isConstantTime(context, operation.left)))

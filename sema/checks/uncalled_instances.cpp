@@ -41,9 +41,9 @@ class Uses {
   // instance.OUTPUT
   bool noteRead(const MemberExpr& member) {
     const Entity base = entityOf(context_, member.base);
-    if (base.entityKind() != EntityKind::Var || member.entity.entityKind() != EntityKind::Var) return false;
+    if (base.entityKind() != EntityKind::Var || meaning(member.h).entity.entityKind() != EntityKind::Var) return false;
     if (tree_.kind(member.base) != ExprKind::Name) return false;
-    if (context_.symbols.var({member.entity.index}).section != SectionKind::Output) return false;
+    if (context_.symbols.var({meaning(member.h).entity.index}).section != SectionKind::Output) return false;
     reads_[base.index] = true;
     return true;
   }
@@ -57,7 +57,7 @@ bool hasBody(const Context& context, PouId id) {
   const Pou& pou = context.symbols.pou(id);
   if (pou.kind != PouKind::FunctionBlock || pou.object.extended || !pou.decl) return false;
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  return pou.pragmas.native || pou.cpp || decl.body_kind == BodyKind::Native || !decl.body.empty();
+  return pou.pragmas.native || pou.cpp || decl.body_kind == BodyKind::Native || !pou.code.empty();
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void checkUncalledInstances(Context& context) {
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     const Pou& pou = symbols.pous[i];
     if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp) continue;
-    for (const StmtId id : context.tree().list(context.tree().as<PouDecl>(pou.decl).body)) uses.walk(id);
+    for (const StmtId id : context.tree().list(pou.code)) uses.walk(id);
   }
   for (const BlockTask& task : context.project.block_tasks) uses.note(task.block);
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {

@@ -54,7 +54,7 @@ class TempWalk {
     if (tree_.kind(id) == ExprKind::Call || tree_.kind(id) == ExprKind::AddressOf || tree_.kind(id) == ExprKind::Assign)
       return setAll(id);
     if (tree_.kind(id) == ExprKind::Name) {
-      const Entity entity = tree_.as<NameExpr>(id).entity;
+      const Entity entity = meaning(tree_, id).entity;
       if (entity.entityKind() != EntityKind::Var || !is_unset_[entity.index]) return;
       is_unset_[entity.index] = false;
       const Var& var = context_.symbols.var({entity.index});
@@ -66,7 +66,7 @@ class TempWalk {
 
   void setAll(ExprId id) {
     if (tree_.kind(id) == ExprKind::Name) {
-      const Entity entity = tree_.as<NameExpr>(id).entity;
+      const Entity entity = meaning(tree_, id).entity;
       if (entity.entityKind() == EntityKind::Var) is_unset_[entity.index] = false;
     }
     forEachOperand(tree_, id, [&](ExprId operand) { setAll(operand); });
@@ -103,7 +103,7 @@ void checkUnsetTemporaries(Context& context) {
       is_unset.resize(symbols.vars.size());
       is_unset[id.index] = true;
     }
-    if (!is_unset.empty()) TempWalk(context, std::move(is_unset)).walk(decl.body);
+    if (!is_unset.empty()) TempWalk(context, std::move(is_unset)).walk(pou.code);
   }
 }
 

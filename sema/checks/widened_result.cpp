@@ -15,15 +15,15 @@ using types::TypeTable;
 void checkWidenedResult(Context& context, ExprId value, TypeId to) {
   const Tree& tree = context.tree();
   if (!context.profile().warns_of_widened_results || tree.kind(value) != ExprKind::Binary ||
-      tree.expr(value).is_constant)
+      meaning(tree, value).is_constant)
     return;
   const BinaryExpr& node = tree.as<BinaryExpr>(value);
-  const TypeKind from = context.types().plainKind(node.h.type), target = context.types().plainKind(to);
+  const TypeKind from = context.types().plainKind(meaning(node.h).type), target = context.types().plainKind(to);
   if (!TypeTable::isInteger(from) || TypeTable::bitWidth(target) <= TypeTable::bitWidth(from)) return;
   const bool borrows = node.op() == BinaryOp::Subtract && TypeTable::isUnsignedInteger(from);
   if (node.op() != BinaryOp::Add && node.op() != BinaryOp::Multiply && !borrows) return;
   context.report(diag::WidenedResult, node.h.loc,
-                 {spelling(node.op()), context.types().toString(node.h.type), context.types().toString(to)});
+                 {spelling(node.op()), context.types().toString(meaning(node.h).type), context.types().toString(to)});
 }
 
 }  // namespace rung::sema

@@ -35,7 +35,7 @@ struct AccessPathResolver {
   Project& project;
   NameMap names;  // declared so far, by the whole symbol
 
-  Tree& tree() const { return context.tree(); }
+  const Tree& tree() const { return context.tree(); }
   std::string_view string(NameId name) const { return context.names().string(name); }
 
   // `Cpu.p.list[3].value` from left to right.
@@ -102,8 +102,7 @@ struct AccessPathResolver {
     if (info.kind != TypeKind::Array || info.dimensions.size() != indices.count) return lost(step.name);
     uint64_t element = 0;
     for (uint32_t i = 0; i < indices.count; ++i) {
-      ExprId index = tree().list(indices)[i];
-      const auto value = constantBound(context, index);
+      const auto value = boundAsWritten(context, tree().list(indices)[i]);
       if (!value) return false;
       const types::Dimension& dimension = info.dimensions[i];
       if (*value < dimension.low || *value > dimension.high) return lost(step.name);
@@ -189,7 +188,7 @@ struct AccessPathResolver {
 
   // Forbids a type that differs from the variable's, and two access paths of one name.
   void declare(DeclId id, AccessPath out) {
-    VarDecl& decl = tree().as<VarDecl>(id);
+    const VarDecl& decl = tree().as<VarDecl>(id);
     if (decl.names.empty() || !decl.type || tree().kind(decl.type) == TypeExprKind::Error) return;
     const Ident name = tree().list(decl.names)[0];
     const TypeId declared = resolveType(context, decl.type);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/declarations/charts.h"
 #include "sema/declarations/collect.h"
+#include "sema/project.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
 
 text::Charts chartsOf(const Context& context) {
   const Symbols& symbols = context.symbols;
-  return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, context.profile()};
+  return {symbols.arena, symbols.names, symbols.sources, symbols.diagnostics, context.profile()};
 }
 
 text::ChartContext chartContextOf(const Context& context, PouId pou) {
@@ -21,6 +22,15 @@ text::ChartContext chartContextOf(const Context& context, PouId pou) {
     at = of.chart ? of.chart : of.owner;
   }
   return chart;
+}
+
+void declareChart(Context& context, PouId id) {
+  Pou& pou = context.symbols.pou(id);
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  const text::ChartSections made = text::declareSfc(chartsOf(context), decl, chartContextOf(context, id));
+  const std::span<const DeclId> sections = context.tree().list(made.sections);
+  context.project.made_sections[&decl].assign(sections.begin(), sections.end());
+  pou.chart_sections = made.text;
 }
 
 }  // namespace rung::sema

@@ -213,8 +213,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     named.library = library != kNoLibrary;
     named.region = context.region;
   }
-  if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty())
-    text::declareSfc(chartsOf(context), context.tree().as<PouDecl>(id), chartContextOf(context, pou_id));
+  if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty()) declareChart(context, pou_id);
   if (library == kNoLibrary) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);
@@ -241,7 +240,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
 
 void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   Scopes& scopes = context.scopes;
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   const TypeDecl& decl = tree.as<TypeDecl>(id);
   types::TypeTable& table = context.types();
   NameId name = qualifiedName(context, decl.name);

@@ -19,6 +19,7 @@
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -37,7 +38,7 @@ struct Part {
 
 template <class Visit>
 void forEachMember(Context& context, Visit visit) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   for (const FileUnit& unit : tree.files) {
     for (const DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Configuration) continue;
@@ -58,7 +59,7 @@ void forEachMember(Context& context, Visit visit) {
 
 // The word in a setting that is not a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
 std::string settingOf(Context& context, ExprId expr) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   if (tree.kind(expr) == ExprKind::Name) return std::string(context.names().string(tree.as<NameExpr>(expr).name));
   if (tree.kind(expr) == ExprKind::Literal) {
     const LiteralExpr& literal = tree.as<LiteralExpr>(expr);
@@ -77,7 +78,7 @@ struct TaskReader {
 
   // A time in nanoseconds. A literal keeps digits that TIME would cut: T#500us is a valid interval.
   std::optional<int64_t> time(ExprId& expr, std::string_view setting) {
-    Tree& tree = context.tree();
+    const Tree& tree = context.tree();
     if (tree.kind(expr) == ExprKind::Literal && tree.as<LiteralExpr>(expr).literal() == LiteralKind::Duration) {
       return static_cast<int64_t>(tree.as<LiteralExpr>(expr).value());
     }
@@ -191,9 +192,9 @@ struct TaskReader {
     for (uint32_t pass = 0; pass < 2; ++pass) {  // SINGLE first: it overrides INTERVAL := 0
       for (uint32_t i = 0; i < decl.settings.count; ++i) {
         Argument argument = context.tree().list(decl.settings)[i];
+        argument.value = codeOf(context, argument.value);
         const bool is_single = sameIdentifier(context.names().string(argument.pin.name), "SINGLE");
         if (is_single == (pass == 0)) setting(argument);
-        context.tree().list(decl.settings)[i] = argument;
       }
     }
     if (!has_kind) {
@@ -346,8 +347,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});
   }
   if (!decl.arguments.empty()) {
-    const ExprId callee = context.build().name(type.name, type.loc, found);
-    instance.connections = context.build().call(callee, decl.arguments, type.loc, type.loc);
+    const ExprId callee = makeName(context, type.name, found, type.loc);
+    instance.connections = context.build().call(callee, context.code().copy(decl.arguments), type.loc, type.loc);
     context.expressions->checkConnections(context, instance.connections, instance.program);
   }
   for (const ProgramInstance& other : project.instances) {
@@ -420,7 +421,7 @@ void checkExternals(Context& context, const Part& part, const SectionDecl& secti
 }  // namespace
 
 void collectConfigurations(Context& context) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   std::unordered_map<uint32_t, NameId> resources;  // by the key of a program: the only resource that runs it, or none
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) == DeclKind::ProgramInstance) {
@@ -456,7 +457,7 @@ void collectConfigurations(Context& context) {
 }
 
 void resolveConfigurations(Context& context) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   Project& project = context.project;
   std::vector<DeclaredTask> tasks;
   std::vector<Trigger> triggers;

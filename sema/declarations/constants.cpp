@@ -9,6 +9,7 @@
 #include "sema/declarations/expressions.h"
 #include "sema/intermediate.h"
 #include "sema/project.h"
+#include "sema/synthesized_nodes.h"
 
 namespace rung::sema {
 
@@ -112,14 +113,15 @@ std::optional<Value> callFunction(Context& context, PouId function, std::vector<
 
 std::optional<Value> evaluateCall(Context& context, ExprId id, uint32_t depth) {
   const CallExpr& node = context.tree().as<CallExpr>(id);
-  if (!node.call) return std::nullopt;
+  if (!meaning(node.h).call) return std::nullopt;
   const Symbols& symbols = context.symbols;
-  const Call& call = symbols.call(node.call);
+  const Call& call = symbols.call(meaning(node.h).call);
   if (!call.pou || call.en || call.eno) return std::nullopt;
   if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
   const Pou& pou = symbols.pou(call.pou);
   if (pou.pragmas.operator_kind == OperatorKind::Select || pou.pragmas.operator_kind == OperatorKind::Mux) {
-    return evaluateChoice(context, call, node.h.type, pou.pragmas.operator_kind == OperatorKind::Select, depth);
+    return evaluateChoice(context, call, meaning(node.h).type, pou.pragmas.operator_kind == OperatorKind::Select,
+                          depth);
   }
   TypeId native = uncutType(context.symbols, id);
   const bool compares = pou.pragmas.operator_kind == OperatorKind::Op && types::isComparison(pou.pragmas.op);
@@ -138,10 +140,10 @@ std::optional<Value> evaluateCall(Context& context, ExprId id, uint32_t depth) {
     case OperatorKind::Move: return operands[0];
     case OperatorKind::Convert:
       if (TypeTable::isString(context.types().plainKind(operands[0].type)) ||
-          TypeTable::isString(context.types().plainKind(node.h.type))) {
+          TypeTable::isString(context.types().plainKind(meaning(node.h).type))) {
         return std::nullopt;
       }
-      return types::convert(context.types(), operands[0], node.h.type, roundingOf(node.h)).value;
+      return types::convert(context.types(), operands[0], context.type(id), roundingOf(context.meaning(id))).value;
     case OperatorKind::Op: {
       if (types::operandCount(pou.pragmas.op) == 1)
         return applyChecked(context, pou.pragmas.op, operands[0], operands[0], node.h.loc, {});
@@ -175,23 +177,23 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   const auto value = evaluateUncut(context, id, depth);
   if (!value || !uncutType(context.symbols, id)) return value;
   const ExprHeader& header = context.tree().expr(id);
-  return checked(context, types::convert(context.types(), *value, header.type), header.loc, {});
+  return checked(context, types::convert(context.types(), *value, meaning(header).type), header.loc, {});
 }
 
 // The value of an intermediate result in its own type (intermediate.h), of other expressions in theirs.
 std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   const ExprHeader& header = tree.expr(id);
-  if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
+  if (!meaning(header).type || meaning(header).type == types::kError || depth > kMaxDepth) return std::nullopt;
   const TypeId native = uncutType(context.symbols, id);
   switch (header.kind) {
     case ExprKind::Literal: return valueOf(context.symbols, tree.as<LiteralExpr>(id));
     case ExprKind::Name:
     case ExprKind::TypedName:
     case ExprKind::Member: {
-      const Entity found = header.kind == ExprKind::Name        ? tree.as<NameExpr>(id).entity
-                           : header.kind == ExprKind::TypedName ? tree.as<TypedNameExpr>(id).entity
-                                                                : tree.as<MemberExpr>(id).entity;
+      const Entity found = header.kind == ExprKind::Name        ? meaning(tree, id).entity
+                           : header.kind == ExprKind::TypedName ? meaning(tree, id).entity
+                                                                : meaning(tree, id).entity;
       if (found.entityKind() == EntityKind::EnumValue) {
         const EnumValue& item = context.symbols.enum_values[found.index];
         return Value{item.type, static_cast<uint64_t>(item.value)};
@@ -205,23 +207,24 @@ std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) 
       const auto value = evaluateUncut(context, tree.as<ConvertExpr>(id).operand, depth + 1);
       if (!value) return std::nullopt;
       if (native) return types::convert(context.types(), *value, native).value;
-      const TypeKind from = context.types().plainKind(value->type), to = context.types().plainKind(header.type);
+      const TypeKind from = context.types().plainKind(value->type),
+                     to = context.types().plainKind(meaning(header).type);
       if (TypeTable::isString(from) && from == to) {
         const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
-        const uint32_t capacity = context.types().info(context.types().resolve(header.type)).length;
-        if (to == TypeKind::WString || text.size() <= capacity) return Value{header.type, value->bits};
+        const uint32_t capacity = context.types().info(context.types().resolve(meaning(header).type)).length;
+        if (to == TypeKind::WString || text.size() <= capacity) return Value{meaning(header).type, value->bits};
         size_t taken = capacity;
         while (to == TypeKind::UString && taken > 0 && (static_cast<unsigned char>(text[taken]) & 0xc0) == 0x80)
           --taken;
-        return Value{header.type, context.names().intern(text.substr(0, taken)).index};
+        return Value{meaning(header).type, context.names().intern(text.substr(0, taken)).index};
       }
       if (from == TypeKind::String && to == TypeKind::WString) {
         const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
         if (!isUtf8(text)) return std::nullopt;
-        return Value{header.type, value->bits};
+        return Value{meaning(header).type, value->bits};
       }
       if (TypeTable::isString(from) || !TypeTable::isScalar(to)) return std::nullopt;
-      return types::convert(context.types(), *value, header.type, roundingOf(header)).value;
+      return types::convert(context.types(), *value, meaning(header).type, roundingOf(context.meaning(id))).value;
     }
     case ExprKind::Unary: {
       const UnaryExpr& node = tree.as<UnaryExpr>(id);
@@ -263,19 +266,15 @@ std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) 
 }
 
 // A plain integer, as most bounds are: not checked as an expression.
-std::optional<int64_t> plainInteger(Context& context, ExprId id) {
-  Tree& tree = context.tree();
+std::optional<int64_t> plainInteger(const Tree& tree, ExprId id) {
   bool negate = false;
   if (tree.kind(id) == ExprKind::Unary && tree.as<UnaryExpr>(id).op() == UnaryOp::Negate) {
-    tree.expr(id).type = types::idOf(TypeKind::LInt);
     id = tree.as<UnaryExpr>(id).operand;
     negate = true;
   }
   if (tree.kind(id) != ExprKind::Literal) return std::nullopt;
-  LiteralExpr& literal = tree.as<LiteralExpr>(id);
+  const LiteralExpr& literal = tree.as<LiteralExpr>(id);
   if (literal.literal() != LiteralKind::Integer || literal.prefix || literal.high >> 31 != 0) return std::nullopt;
-  literal.h.type = types::idOf(TypeKind::LInt);
-  literal.h.is_constant = 1;
   const auto value = static_cast<int64_t>(literal.value());
   return negate != ((literal.h.bits & kLiteralNegative) != 0) ? -value : value;
 }
@@ -285,7 +284,7 @@ std::optional<int64_t> plainInteger(Context& context, ExprId id) {
 std::optional<Value> evaluate(Context& context, ExprId expr) { return evaluateAt(context, expr, 0); }
 
 std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type) {
-  if (context.tree().expr(expr).type == types::kError) return std::nullopt;
+  if (context.type(expr) == types::kError) return std::nullopt;
   const uint32_t errors = context.symbols.diagnostics.errorCount();
   const auto value = evaluate(context, expr);
   if (!value) {
@@ -303,7 +302,10 @@ std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type)
 }
 
 std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
-  if (const auto number = plainInteger(context, expr)) return number;
+  if (const auto number = plainInteger(context.tree(), expr)) {
+    context.replace(expr, makeInteger(context, types::idOf(TypeKind::LInt), *number, context.tree().loc(expr)));
+    return number;
+  }
   if (context.tree().kind(expr) == ExprKind::Error) return std::nullopt;
   const TypeId type = context.expressions->check(context, expr, {});
   if (type == types::kError) return std::nullopt;
@@ -321,6 +323,11 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
     }
   }
   return value->asSigned();
+}
+
+std::optional<int64_t> boundAsWritten(Context& context, ExprId written) {
+  if (const auto number = plainInteger(context.tree(), written)) return number;
+  return constantBound(context, codeOf(context, written));
 }
 
 }  // namespace rung::sema

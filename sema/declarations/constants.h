@@ -15,5 +15,7 @@ std::optional<types::Value> evaluate(Context& context, ExprId expr);
 std::optional<types::Value> requireConstant(Context& context, ExprId expr, TypeId type);
 // A constant integer, as in bounds and lengths; reports an expression that is not one.
 std::optional<int64_t> constantBound(Context& context, ExprId& expr);
+// The same of an expression as a declaration has it.
+std::optional<int64_t> boundAsWritten(Context& context, ExprId written);
 
 }  // namespace rung::sema

@@ -63,11 +63,11 @@ struct GenericValue {
 //   passes  a : Ring<20>;  b : Ring<(size := 2 * n)>;      fails  c : Ring;      E0375
 bool readGenerics(Context& context, const Pou& block, const std::vector<Ident>& names, const NamedTypeExpr& written,
                   std::vector<GenericValue>& values) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   const std::string_view name = context.names().string(block.name);
   values.resize(names.size());
   size_t next = 0;
-  for (Argument& given : tree.list(written.generics)) {
+  for (const Argument& given : tree.list(written.generics)) {
     size_t at = next++;
     if (given.pin.name)
       for (at = 0; at < names.size() && !context.names().same(names[at].name, given.pin.name);) ++at;
@@ -79,7 +79,7 @@ bool readGenerics(Context& context, const Pou& block, const std::vector<Ident>& 
         context.report(diag::SurplusGeneric, given.loc, {name, count});
       return false;
     }
-    values[at] = {constantBound(context, given.value), tree.begin(given.value)};
+    values[at] = {boundAsWritten(context, given.value), tree.begin(given.value)};
     if (!values[at].value) return false;
   }
   for (size_t i = 0; i < names.size(); ++i) {
@@ -91,7 +91,7 @@ bool readGenerics(Context& context, const Pou& block, const std::vector<Ident>& 
 }
 
 ExprId literalOf(Context& context, const GenericValue& given) {
-  TreeBuilder build = context.build();
+  TreeBuilder build(context.symbols.arena);
   const uint64_t bits = static_cast<uint64_t>(*given.value);
   if (*given.value >= 0) return build.literal(LiteralKind::Integer, bits, given.loc);
   return build.unary(UnaryOp::Negate, build.literal(LiteralKind::Integer, 0 - bits, given.loc), given.loc);
@@ -99,7 +99,7 @@ ExprId literalOf(Context& context, const GenericValue& given) {
 
 // Each generic constant gets a declaration of its own, with the value of the instance.
 void setGenerics(Context& context, const PouDecl& block, const std::vector<GenericValue>& values) {
-  Tree& tree = context.tree();
+  Tree& tree = context.symbols.arena;
   size_t next = 0;
   for (const DeclId section : tree.list(block.sections)) {
     if (!isGenericSection(tree, section)) continue;
@@ -136,7 +136,7 @@ uint32_t libraryNamed(const Context& context, NameId name) {
 
 PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& written) {
   Symbols& symbols = context.symbols;
-  Tree& tree = context.tree();
+  Tree& tree = context.symbols.arena;
   const Pou& block = symbols.pou(block_id);
   if (!block.decl) return block_id;
   const std::vector<Ident> names = genericsOf(tree, tree.as<PouDecl>(block.decl));
@@ -222,7 +222,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
 
   const PouDecl& written = context.tree().as<PouDecl>(generic.decl);
   const Slice<DeclId> decls =
-      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.h.begin, written.h.end,
+      text::parseDeclarations(symbols.arena, symbols.names, symbols.sources, written.h.begin, written.h.end,
                               generic.library ? Dialect::Library : symbols.profile.dialect, symbols.diagnostics);
   for (const DeclId decl : symbols.tree.list(decls)) {
     if (symbols.tree.kind(decl) != DeclKind::Pou) continue;

@@ -55,9 +55,9 @@ struct InitialOrder {
   void collect(ExprId id, std::vector<VarId>& into) const {
     if (!id) return;
     const ExprKind kind = tree().kind(id);
-    if (kind == ExprKind::Name) return addVar(tree().as<NameExpr>(id).entity, into);
-    if (kind == ExprKind::Member) addVar(tree().as<MemberExpr>(id).entity, into);
-    if (kind == ExprKind::Call) return collectCall(tree().as<CallExpr>(id).call, into);
+    if (kind == ExprKind::Name) return addVar(meaning(tree(), id).entity, into);
+    if (kind == ExprKind::Member) addVar(meaning(tree(), id).entity, into);
+    if (kind == ExprKind::Call) return collectCall(meaning(tree(), id).call, into);
     const bool only_takes_addresses = shape(kind) == ExprShape::Inserted && kind != ExprKind::Convert;
     if (only_takes_addresses || kind == ExprKind::New || kind == ExprKind::Range) return;
     forEachOperand(tree(), id, [&](ExprId operand) { collect(operand, into); });

@@ -35,12 +35,12 @@ struct Initializer {
   bool reads = false;   // variables
   bool broken = false;  // an element could not be parsed: the intended number is unknown
 
-  Tree& tree() const { return context.tree(); }
+  const Tree& tree() const { return context.tree(); }
 
   // The literals of long lists, without a full check.
   bool plainLiteral(ExprId id, TypeId type) const {
     if (tree().kind(id) != ExprKind::Literal) return false;
-    LiteralExpr& literal = tree().as<LiteralExpr>(id);
+    const LiteralExpr& literal = tree().as<LiteralExpr>(id);
     if (literal.prefix || (literal.h.bits & kLiteralNegative) != 0) return false;
     const TypeKind kind = context.types().kind(type);
     bool ok = false;
@@ -57,8 +57,8 @@ struct Initializer {
       ok = kind == TypeKind::LReal;
     }
     if (!ok) return false;
-    literal.h.type = type;
-    literal.h.is_constant = 1;
+    meaning(literal.h).type = type;
+    meaning(literal.h).is_constant = 1;
     return true;
   }
 
@@ -68,7 +68,7 @@ struct Initializer {
     reads = true;
     const ExprKind kind = tree().kind(id);
     if (kind == ExprKind::Name || kind == ExprKind::Member) {
-      const Entity entity = kind == ExprKind::Name ? tree().as<NameExpr>(id).entity : tree().as<MemberExpr>(id).entity;
+      const Entity entity = kind == ExprKind::Name ? meaning(tree(), id).entity : meaning(tree(), id).entity;
       if (entity.entityKind() != EntityKind::Var) return false;
       const Storage storage = context.symbols.vars[entity.index].storage;
       if (storage == Storage::Global || storage == Storage::Image) return true;
@@ -89,7 +89,7 @@ struct Initializer {
   bool isStatic(ExprId id, uint32_t depth) {
     if (depth > 1000) return false;
     const ExprHeader& header = tree().expr(id);
-    if (header.type == types::kError) return true;
+    if (meaning(header).type == types::kError) return true;
     switch (header.kind) {
       case ExprKind::Literal: return true;
       case ExprKind::Convert: return isStatic(tree().as<ConvertExpr>(id).operand, depth + 1);
@@ -100,8 +100,8 @@ struct Initializer {
                isStatic(tree().as<BinaryExpr>(id).right, depth + 1);
       case ExprKind::Call: {
         const CallExpr& node = tree().as<CallExpr>(id);
-        if (!node.call) return true;
-        const Call& call = context.symbols.call(node.call);
+        if (!meaning(node.h).call) return true;
+        const Call& call = context.symbols.call(meaning(node.h).call);
         if (call.kind != CallKind::Function && call.kind != CallKind::Operator) return false;
         for (const Binding& binding : call.bindings) {
           if (binding.is_output || (binding.value && !isStatic(binding.value, depth + 1))) return false;
@@ -185,7 +185,7 @@ struct Initializer {
       if (argument.pin.name) return;
       values.push_back(argument.value);
     }
-    context.replace(id, context.build().repeat(call.callee, tree().addList<ExprId>(values), call.h.loc));
+    context.replace(id, context.build().repeat(call.callee, context.code().addList<ExprId>(values), call.h.loc));
   }
 
   // Checks the elements that fit; returns how many values there are, the surplus included.
@@ -193,7 +193,7 @@ struct Initializer {
     uint64_t count = 0;
     uint32_t kept = slice.count;
     for (uint32_t i = 0; i < slice.count; ++i) {
-      ExprId& id = tree().list(slice)[i];
+      ExprId& id = context.code().list(slice)[i];
       if (tree().kind(id) == ExprKind::Error) broken = true;
       if (tree().kind(id) == ExprKind::Call) findRepetition(id);
       if (count >= room && kept == slice.count) {
@@ -201,7 +201,7 @@ struct Initializer {
         if (!surplus) surplus = tree().begin(id);
       }
       if (tree().kind(id) == ExprKind::Repeat) {
-        RepeatExpr& repeat = tree().as<RepeatExpr>(id);
+        RepeatExpr& repeat = context.code().as<RepeatExpr>(id);
         const auto repetitions = constantBound(context, repeat.count);
         if (!repetitions) {
           count = room;
@@ -245,7 +245,7 @@ struct Initializer {
   // What was written stays below the value of another variable; without one there is no value.
   void takeOver(ExprId& init, ExprId value) const {
     if (value)
-      context.replace(init, tree().insertCopy(value));
+      context.replace(init, context.code().duplicate(value));
     else
       init = {};
   }
@@ -267,8 +267,8 @@ struct Initializer {
       return true;
     }
     const ExprKind kind = tree().kind(init);
-    const Entity entity = kind == ExprKind::Name     ? tree().as<NameExpr>(init).entity
-                          : kind == ExprKind::Member ? tree().as<MemberExpr>(init).entity
+    const Entity entity = kind == ExprKind::Name     ? meaning(tree(), init).entity
+                          : kind == ExprKind::Member ? meaning(tree(), init).entity
                                                      : Entity{};
     if (entity.entityKind() != EntityKind::Var) return true;
     const VarId other{entity.index};
@@ -295,8 +295,8 @@ struct Initializer {
     }
     uint64_t room = 1;
     for (const types::Dimension& dimension : info.dimensions) room *= dimension.count();
-    ArrayInitExpr& node = tree().as<ArrayInitExpr>(init);
-    node.h.type = type;
+    const ArrayInitExpr& node = tree().as<ArrayInitExpr>(init);
+    meaning(node.h).type = type;
     Loc surplus;
     Slice<ExprId> fitting = node.elements;
     const uint64_t count = elements(fitting, info.base, room, surplus);
@@ -320,7 +320,7 @@ struct Initializer {
           init = value;
           return;
         }
-        if (tree().expr(value).type == types::kError) {
+        if (typeOf(tree(), value) == types::kError) {
           init = {};
           return;
         }
@@ -329,12 +329,12 @@ struct Initializer {
       init = {};
       return;
     }
-    StructInitExpr& node = tree().as<StructInitExpr>(init);
-    node.h.type = type;
+    const StructInitExpr& node = tree().as<StructInitExpr>(init);
+    meaning(node.h).type = type;
     std::vector<FieldInit> fields;  // as they are set: by the names of members, with bits together in their bytes
     NameMap seen;
     std::vector<std::pair<VarId, uint8_t>> bytes;  // bytes that hold members of type BIT, with the given values
-    for (FieldInit& written : tree().list(node.fields)) {
+    for (FieldInit& written : context.code().list(node.fields)) {
       FieldInit given = written;
       fields.push_back(given);
       const std::string_view name = context.names().string(given.field.name);
@@ -469,7 +469,7 @@ bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string
   if (bytes > kMostBytes && context.tree().kind(init) == ExprKind::ArrayInit) {
     context.report(diag::InitialValueTooLarge, context.tree().begin(init),
                    {std::to_string(bytes), std::to_string(kMostBytes)});
-    context.tree().expr(init).type = types::kError;
+    context.type(init) = types::kError;
     return false;
   }
   Initializer initializer{.context = context, .what = what, .may = may};

@@ -30,7 +30,7 @@ struct InstancePathResolver {
   std::vector<uint8_t> has_open_;              // by TypeId of a record: 0 unknown, 1 no, 2 yes
   std::vector<std::pair<VarId, bool>> whole_;  // open addresses that are views themselves; completed?
 
-  Tree& tree() const { return context.tree(); }
+  const Tree& tree() const { return context.tree(); }
   std::string_view string(NameId name) const { return context.names().string(name); }
 
   bool inField(const Var& var) const { return var.storage == Storage::Field; }
@@ -245,7 +245,7 @@ struct InstancePathResolver {
 
   // Forbids a line that does not fit the variable: another type, an address where none was left open, another area.
   void configure(DeclId id) {
-    VarDecl& decl = tree().as<VarDecl>(id);
+    const VarDecl& decl = tree().as<VarDecl>(id);
     if (decl.names.empty() || !decl.type) return;
     InstancePath target;
     const std::span<const Ident> names = tree().list(decl.names);
@@ -285,13 +285,12 @@ struct InstancePathResolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    ExprId init = decl.init;
+    ExprId init = codeOf(context, decl.init);
     if (init) {
       checkInitializerAs(context, init, type, "the initial value of `" + toString(context, last.name) + "`");
       for (const PathStep& step : target.path) {  // a configured variable has a value though no body writes it
         if (step.var) context.symbols.var(step.var).use.written = true;
       }
-      if (init) decl.init = init;  // otherwise it was reported
     }
     if (inField(var) || !var.open_address) {
       for (InstancePath& known : targets) {

@@ -50,7 +50,7 @@ PouId itemNamesOf(Context& context, TypeId type) {
   if (!file) return {};
   const Loc begin = symbols.sources.begin(file);
   const Slice<DeclId> decls =
-      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, begin, Loc{begin.offset + length},
+      text::parseDeclarations(symbols.arena, symbols.names, symbols.sources, begin, Loc{begin.offset + length},
                               Dialect::Library, symbols.diagnostics);
   const PouId id{static_cast<uint32_t>(symbols.pous.size())};
   Context there = at(context, {}, file, true);

@@ -334,7 +334,7 @@ void load(Context& context, LibraryBlock& block) {
   const FileId from = source;
   const uint32_t library = libraries.library_of_file[block.file];
   const Slice<DeclId> decls =
-      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, Loc{base + block.begin},
+      text::parseDeclarations(symbols.arena, symbols.names, symbols.sources, Loc{base + block.begin},
                               Loc{base + block.end}, Dialect::Library, symbols.diagnostics);
   Context there = at(context, {}, from, true);
   for (uint32_t i = 0; i < decls.count; ++i) collectDecl(there, symbols.tree.list(decls)[i], from, library);

@@ -81,7 +81,7 @@ struct Collector {
 
   // Forbids declarations that a namespace cannot hold.   fails   NAMESPACE a CONFIGURATION c …            E0305
   void collect(Slice<DeclId> decls, FileId file, RegionId region, bool at_file_level) {
-    Tree& tree = context.tree();
+    const Tree& tree = context.tree();
     std::vector<DeclId> usings;
     for (uint32_t i = 0; i < decls.count; ++i)
       if (const DeclId decl = tree.list(decls)[i]; tree.kind(decl) == DeclKind::Using) usings.push_back(decl);
@@ -196,7 +196,7 @@ bool isInternal(Context& context, Entity found) {
 
 // Forbids USING of a name that is not a namespace.   fails   USING Sytem.Strings;                E0404
 void openUsings(Context& context, RegionId region) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   for (size_t i = 0; i < context.scopes.regions[region.index].usings.size(); ++i) {
     const UsingDecl& decl = tree.as<UsingDecl>(context.scopes.regions[region.index].usings[i]);
     Context there = context;

@@ -131,13 +131,12 @@ void layoutVar(Context& context, VarId id) {
 void checkTypeInit(Context& context, TypeId type) {
   const NamedType& named = *context.scopes.named(type);
   if (!named.decl) return;
-  TypeDecl& decl = context.tree().as<TypeDecl>(named.decl);
+  const TypeDecl& decl = context.tree().as<TypeDecl>(named.decl);
   if (!decl.init) return;
   Context there = at(context, {}, named.file, named.library, named.region);
   if (context.types().kind(type) == TypeKind::Enum) there.items_of = context.types().resolve(type);
-  ExprId init = decl.init;
+  ExprId init = codeOf(context, decl.init);
   checkInitializerAs(there, init, type, "the initial value of `" + toString(context, decl.name) + "`");
-  if (init) decl.init = init;  // otherwise it was reported
   auto& inits = context.project.type_inits;
   if (inits.size() <= type.index) inits.resize(type.index + 1);
   inits[type.index] = init;

@@ -170,6 +170,10 @@ Signature ProjectSignatures::of(NameId name) {
 }
 Signature ProjectSignatures::of(ExprId path) { return signatureOf(resolve(path)); }
 
+std::span<const DeclId> ProjectSignatures::madeSections(const PouDecl& pou) {
+  return context_.project.madeSections(pou);
+}
+
 std::string ProjectSignatures::typeUnlessBool(ExprId path) {
   const TypeId type = resolve(path).type;
   if (!type || type == types::kError || context_.types().plainKind(type) == TypeKind::Bool) return {};

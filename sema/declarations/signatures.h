@@ -20,6 +20,7 @@ class ProjectSignatures final : public Signatures {
   Signature of(ExprId path) override;
   bool fits(ExprId instance, ExprId block) override;
   std::string typeUnlessBool(ExprId path) override;
+  std::span<const DeclId> madeSections(const PouDecl& pou) override;
 
  private:
   // The meaning of a part of a path: a named entity, or a value of a type.

@@ -28,7 +28,7 @@ class TriggerPath {
     if (kind == ExprKind::Index) return appendElement(tree.as<IndexExpr>(expr));
     if (kind == ExprKind::Address) return appendAddress(expr);
     if (kind != ExprKind::Name) return false;
-    const Entity entity = tree.as<NameExpr>(expr).entity;
+    const Entity entity = meaning(tree, expr).entity;
     if (entity.entityKind() == EntityKind::Program) return appendInstance(entity.index);
     if (entity.entityKind() == EntityKind::Pou) return appendProgram(PouId{entity.index});
     return entity.entityKind() == EntityKind::Var && appendGlobal(VarId{entity.index});
@@ -76,9 +76,9 @@ class TriggerPath {
   }
 
   bool appendMember(const MemberExpr& node) {
-    if (node.entity.entityKind() != EntityKind::Var) return false;
-    const Var& var = project_.var(VarId{node.entity.index});
-    if (var.list || var.storage == Storage::Image) return appendGlobal(VarId{node.entity.index});
+    if (meaning(node.h).entity.entityKind() != EntityKind::Var) return false;
+    const Var& var = project_.var(VarId{meaning(node.h).entity.index});
+    if (var.list || var.storage == Storage::Image) return appendGlobal(VarId{meaning(node.h).entity.index});
     if (var.storage != Storage::Field || !append(node.base)) return false;
     path.append(".").append(string(var.name));
     return true;

@@ -88,7 +88,7 @@ struct CaseResolver {
       return;
     }
     const Var& var = context.symbols.var(id);
-    ExprId value = written.value;
+    ExprId value = context.code().copy(written.value);
     checkInitializerAs(context, value, var.type, "the value of `" + toString(context, var.name) + "`");
     to.inputs.push_back({id, value});
   }
@@ -127,7 +127,7 @@ struct CaseResolver {
     }
     const Loc end{begin.offset + static_cast<uint32_t>(content.size())};
     const Slice<FieldInit> written =
-        text::parseFieldInits(context.tree(), context.names(), context.symbols.sources, begin, end,
+        text::parseFieldInits(context.symbols.arena, context.names(), context.symbols.sources, begin, end,
                               context.symbols.profile.dialect, context.symbols.diagnostics);
     for (uint32_t i = 0; i < written.count; ++i) addInput(context.tree().list(written)[i], added);
     context.symbols.pou(test).pragmas.cases.push_back(std::move(added));

@@ -38,7 +38,6 @@ namespace {
 constexpr int64_t kMaxStringLength = 1 << 20;
 
 // Flags in TypeExprHeader::bits.
-constexpr uint8_t kBusy = 1;
 
 std::string toString(int64_t number) { return std::to_string(number); }
 
@@ -187,12 +186,12 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
 }
 
 TypeId resolveString(Context& context, TypeExprId id) {
-  StringTypeExpr& expr = context.tree().as<StringTypeExpr>(id);
+  const StringTypeExpr& expr = context.tree().as<StringTypeExpr>(id);
   const TypeKind kind = expr.code == StringEncoding::Wide   ? TypeKind::WString
                         : expr.code == StringEncoding::Utf8 ? TypeKind::UString
                                                             : TypeKind::String;
   if (!expr.length) return types::idOf(kind);
-  const auto length = constantBound(context, expr.length);
+  const auto length = boundAsWritten(context, expr.length);
   if (!length) return types::kError;
   const int64_t least = context.profile().empty_strings ? 0 : 1;  // CODESYS knows STRING(0), which holds '' alone
   if (*length < least || *length > kMaxStringLength) {
@@ -216,19 +215,18 @@ TypeId closedType(Context& context, TypeExprId written) {
 // Forbids array bounds that are not constant or that are reversed. IEC 61131-3 ed. 3, 6.4.4.5.
 //   passes  ARRAY[1..10] OF INT        fails  ARRAY[10..1] OF INT      E0306
 TypeId resolveArray(Context& context, TypeExprId id) {
-  ArrayTypeExpr& expr = context.tree().as<ArrayTypeExpr>(id);
+  const ArrayTypeExpr& expr = context.tree().as<ArrayTypeExpr>(id);
   std::vector<Dimension> dimensions;
   bool ok = true;
   uint32_t open = 0;
   for (uint32_t i = 0; i < expr.bounds.count; ++i) {
-    ArrayBound bound = context.tree().list(expr.bounds)[i];
+    const ArrayBound& bound = context.tree().list(expr.bounds)[i];
     if (!bound.low) {
       ++open;
       continue;
     }
-    const auto low = constantBound(context, bound.low);
-    const auto high = constantBound(context, bound.high);
-    context.tree().list(expr.bounds)[i] = bound;
+    const auto low = boundAsWritten(context, bound.low);
+    const auto high = boundAsWritten(context, bound.high);
     if (!low || !high) {
       ok = false;
     } else if (*low > *high && (!context.profile().empty_arrays || *low - 1 != *high)) {
@@ -271,10 +269,10 @@ bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
 }
 
 void fillSubrange(Context& context, TypeId type, TypeExprId id) {
-  SubrangeTypeExpr& expr = context.tree().as<SubrangeTypeExpr>(id);
+  const SubrangeTypeExpr& expr = context.tree().as<SubrangeTypeExpr>(id);
   const TypeId base = integerBase(context, expr.base, diag::SubrangeBase);
-  const auto low = constantBound(context, expr.low);
-  const auto high = constantBound(context, expr.high);
+  const auto low = boundAsWritten(context, expr.low);
+  const auto high = boundAsWritten(context, expr.high);
   TypeInfo& info = context.types().edit(type);
   info.base = base;
   bool ok = base != types::kError && low && high;
@@ -303,7 +301,7 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
 
 // Items without a value follow the previous one, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.
 void fillEnum(Context& context, TypeId type, TypeExprId id) {
-  EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(id);
+  const EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(id);
   Symbols& symbols = context.symbols;
   TypeId base = types::kInt;
   if (expr.base) {
@@ -316,11 +314,10 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
   context.items_of = type;
   int64_t next = 0;
   for (uint32_t i = 0; i < expr.items.count; ++i) {
-    EnumItem item = context.tree().list(expr.items)[i];
+    const EnumItem& item = context.tree().list(expr.items)[i];
     bool ok = true;
     if (item.value) {
-      const auto value = constantBound(context, item.value);
-      context.tree().list(expr.items)[i].value = item.value;
+      const auto value = boundAsWritten(context, item.value);
       if (value) {
         next = *value;
       } else {
@@ -432,7 +429,7 @@ NamedType& addAnonymousType(Context& context, TypeId type, TypeExprId written) {
 }
 
 TypeId resolveWritten(Context& context, TypeExprId id) {
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   types::TypeTable& table = context.types();
   switch (tree.kind(id)) {
     case TypeExprKind::Error: return types::kError;
@@ -485,24 +482,29 @@ TypeId lookUpType(Context& context, NameId name, Loc loc) {
 
 TypeId resolveType(Context& context, TypeExprId id) {
   if (!id) return types::kError;  // reported by the parser
-  TypeExprHeader& header = context.tree().typeExpr(id);
-  if (header.type) return header.type;
-  if ((header.bits & kBusy) != 0) {  // an array bound or length that depends on the type itself
-    context.report(diag::TypeOfItself, header.loc);
-    return header.type = types::kError;
+  auto& known = context.scopes.written_types;
+  const WrittenType before = known[id];
+  if (before.type) return before.type;
+  const Loc loc = context.tree().loc(id);
+  if (before.busy) {  // an array bound or length that depends on the type itself
+    context.report(diag::TypeOfItself, loc);
+    return known[id].type = types::kError;
   }
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, header.loc, {context.symbols.sources.tokenAt(header.loc)});
-    return header.type = types::kError;
+    context.report(diag::DeclarationsTooDeep, loc, {context.symbols.sources.tokenAt(loc)});
+    return known[id].type = types::kError;
   }
-  header.bits |= kBusy;
+  known[id].busy = true;
   ++context.scopes.depth;
   const TypeId type = resolveWritten(context, id);
   --context.scopes.depth;
-  header.bits &= static_cast<uint8_t>(~kBusy);
-  if (!header.type) header.type = type;
-  return header.type;
+  WrittenType& now = known[id];
+  now.busy = false;
+  if (!now.type) now.type = type;
+  return now.type;
 }
+
+TypeId typeAsWritten(const Context& context, TypeExprId id) { return context.scopes.written_types.find(id).type; }
 
 void resolveNamed(Context& context, TypeId type) {
   NamedType* named = context.scopes.named(type);

@@ -7,8 +7,10 @@
 
 namespace rung::sema {
 
-// Resolves a type as written; after a report kError. Writes TypeExprHeader::type.
+// Resolves a type as written; after a report kError.
 TypeId resolveType(Context& context, TypeExprId type);
+// What resolveType() found before; none: nothing yet.
+TypeId typeAsWritten(const Context& context, TypeExprId type);
 // The record type of a STRUCT or UNION, without its members. (types.cpp)
 TypeId addStructure(Context& context, TypeExprId written, NameId name);
 // USTRING and UCHAR of edition 4 are not keywords: the project's own type of such a name, or none.

@@ -26,6 +26,7 @@
 #include "sema/declarations/types.h"
 #include "sema/declarations/uncopied.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
 #include "sema/synthesized_nodes.h"
@@ -122,6 +123,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.persistent = (section.h.bits & kPersistent) != 0;
   var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
   var.non_retain = (section.h.bits & kNonRetain) != 0;
+  var.generic = (section.h.bits & kGeneric) != 0;
   var.pou = pou;
   var.list = list;
   if (pou)
@@ -339,7 +341,7 @@ void ensureVarType(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
   if (symbols.var(id).type || !symbols.var(id).decl) return;
   Context there = contextOf(context, id);
-  VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
+  const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (context.scopes.depth > kMaxDeclarationDepth) {
     context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
     symbols.var(id).type = types::kError;
@@ -420,8 +422,10 @@ static void warnOfDefault(Context& context, const Var& var) {
 void ensureInitialValue(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
   if (!symbols.var(id).decl) return;
-  VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
-  if (decl.h.progress == static_cast<uint16_t>(State::Done)) return;
+  const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
+  const DeclId decl_id = symbols.var(id).decl;
+  const State state = context.scopes.initial_values[decl_id];
+  if (state == State::Done) return;
   if (symbols.var(id).section == SectionKind::External && symbols.var(id).external && !decl.init) return;
   Context there = contextOf(context, id);
   const auto setUnknown = [&] {  // silences follow-up errors
@@ -433,7 +437,7 @@ void ensureInitialValue(Context& context, VarId id) {
     if (types::TypeTable::isReal(kind)) var.value = types::Value::ofReal(var.type, 1.0);
     if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
   };
-  if (decl.h.progress == static_cast<uint16_t>(State::Busy)) {
+  if (state == State::Busy) {
     if (symbols.var(id).constant && !symbols.var(id).has_value) {
       context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
       setUnknown();
@@ -445,10 +449,11 @@ void ensureInitialValue(Context& context, VarId id) {
     context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
     return setUnknown();
   }
-  decl.h.progress = static_cast<uint16_t>(State::Busy);
+  context.scopes.initial_values[decl_id] = State::Busy;
   const TypeId type = symbols.var(id).type;
-  ExprId init = decl.init;
+  ExprId init = decl.init ? context.code().copy(decl.init) : ExprId{};
   const Var& var = symbols.var(id);
+  if (!init && var.generic) init = context.build().literal(LiteralKind::Integer, 1, decl.h.loc);
   const bool defaults = !init && var.constant && var.section != SectionKind::External &&
                         var.section != SectionKind::Input && var.section != SectionKind::InOut;
   if (defaults && types::TypeTable::isElementary(context.types().plainKind(type))) warnOfDefault(there, var);
@@ -471,13 +476,12 @@ void ensureInitialValue(Context& context, VarId id) {
     reads = checkInitializerAs(there, init, type, what, may);
     ok = symbols.diagnostics.errorCount() == errors;
     --context.scopes.depth;
-    if (init) decl.init = init;
   }
   const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
   uint32_t elements = 0;
   const CallId constructor =
       decl.type && makes_object ? there.expressions->checkConstructor(there, decl.type, elements) : CallId{};
-  decl.h.progress = static_cast<uint16_t>(State::Done);
+  context.scopes.initial_values[decl_id] = State::Done;
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
   if (var.constant && init && types::TypeTable::isElementary(kind)) {
@@ -520,13 +524,13 @@ static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl
 
 // The variables that schedulers add for networks of the POU and of its actions.
 static void declareHidden(Context& context, PouId id) {
-  Tree& tree = context.tree();
-  PouDecl& decl = tree.as<PouDecl>(context.symbols.pou(id).decl);
+  Tree& tree = context.symbols.arena;
+  const PouDecl& decl = context.tree().as<PouDecl>(context.symbols.pou(id).decl);
   if (decl.pou_kind == PouKind::Action || decl.pou_kind == PouKind::Interface) return;
   std::vector<DeclId> added;
   Context there = atPou(context, id);
   ProjectSignatures signatures(there);
-  const auto declare = [&](PouDecl& of, std::string_view prefix) {
+  const auto declare = [&](const PouDecl& of, std::string_view prefix) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
     const DeclId section =
@@ -536,12 +540,12 @@ static void declareHidden(Context& context, PouId id) {
   declare(decl, {});
   for (const DeclId member : tree.list(decl.members)) {
     if (tree.kind(member) != DeclKind::Pou) continue;
-    PouDecl& action = tree.as<PouDecl>(member);
+    const PouDecl& action = tree.as<PouDecl>(member);
     if (action.pou_kind == PouKind::Action) declare(action, toString(context, action.name) + "_");
   }
   if (added.empty()) return;
-  added.insert(added.begin(), tree.list(decl.hidden).begin(), tree.list(decl.hidden).end());  // of a chart
-  decl.hidden = tree.addList<DeclId>(added);
+  std::vector<DeclId>& made = context.project.made_sections[&decl];  // some of a chart
+  made.insert(made.end(), added.begin(), added.end());
 }
 
 // ENO in the body of a function is an output that need not be declared; TRUE until the body assigns it.
@@ -620,14 +624,6 @@ void checkModifiers(Context& context, const SectionDecl& section) {
     context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "CONSTANT"});
 }
 
-// VAR_GENERIC CONSTANT: the values of the block itself only serve its check, so any value will do.
-static void giveGenericsValues(Context& context, const SectionDecl& section) {
-  for (const DeclId id : context.tree().list(section.vars)) {
-    VarDecl& decl = context.tree().as<VarDecl>(id);
-    if (!decl.init) decl.init = context.build().literal(LiteralKind::Integer, 1, decl.h.loc);
-  }
-}
-
 // The variables of one section of a POU.
 static void declareSection(Context& there, PouId id, const PouDecl& decl, const SectionDecl& section) {
   Symbols& symbols = there.symbols;
@@ -646,8 +642,8 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
   checkModifiers(there, section);
-  if ((section.h.bits & kGeneric) != 0) giveGenericsValues(there, section);
-  const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
+  const bool of_chart =
+      symbols.pou(id).chart_sections && symbols.sources.fileOf(section.h.loc) == symbols.pou(id).chart_sections;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {
@@ -686,7 +682,7 @@ void declarePou(Context& context, PouId id) {
   if (scope.declared) return;
   scope.declared = true;
   Symbols& symbols = context.symbols;
-  Tree& tree = context.tree();
+  const Tree& tree = context.tree();
   declareHidden(context, id);
   const PouDecl& decl = tree.as<PouDecl>(symbols.pou(id).decl);
   Context there = atPou(context, id);
@@ -700,7 +696,8 @@ void declarePou(Context& context, PouId id) {
     symbols.vars.push_back(var);
     symbols.pou(id).result_var = VarId{static_cast<uint32_t>(symbols.vars.size() - 1)};
   }
-  forEachSection(tree, decl, [&](const SectionDecl& section) { declareSection(there, id, decl, section); });
+  forEachSection(tree, decl, context.project.madeSections(decl),
+                 [&](const SectionDecl& section) { declareSection(there, id, decl, section); });
   declareMembers(context, id);
   if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
   if (const VarId result = symbols.pou(id).result_var) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of the language and their layout in memory. In: types that sema resolves from declarations, or the IR reader.
-// Out: TypeIds that syntax annotations, IR, code generation and the interpreter share.
+// Out: TypeIds that sema, IR, code generation and the interpreter share.
 // Structural types (arrays, strings, pointers, references) are interned: equal types have equal ids. Named types
 // (enumerations, subranges, records, aliases) are one id per declaration.
 #pragma once
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "frontend/source/names.h"
-#include "frontend/syntax/ids.h"
+#include "sema/types/type_id.h"
 
 namespace rung::types {
 

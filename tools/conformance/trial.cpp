@@ -93,7 +93,7 @@ bool mayDiffer(const driver::Compilation& compilation, ExprId parent) {
   }
   if (tree.kind(parent) != ExprKind::Binary) return false;
   const auto isTime = [&](ExprId id) {
-    const types::TypeKind kind = table.plainKind(tree.expr(id).type);
+    const types::TypeKind kind = table.plainKind(sema::typeOf(tree, id));
     return types::TypeTable::isDuration(kind) || types::TypeTable::isDate(kind);
   };
   return isTime(tree.as<BinaryExpr>(parent).left) || isTime(tree.as<BinaryExpr>(parent).right);
@@ -107,8 +107,8 @@ void collectConversions(const driver::Compilation& compilation, Id id, std::vect
     const types::TypeTable& table = compilation.project->types;
     const Loc loc = tree.loc(id);
     if (tree.kind(id) == ExprKind::Convert) {
-      const types::TypeKind from = table.plainKind(tree.expr(tree.as<ConvertExpr>(id).operand).type);
-      const types::TypeKind to = table.plainKind(tree.expr(id).type);
+      const types::TypeKind from = table.plainKind(sema::typeOf(tree, tree.as<ConvertExpr>(id).operand));
+      const types::TypeKind to = table.plainKind(sema::typeOf(tree, id));
       const bool is_text = types::TypeTable::isString(from) || types::TypeTable::isString(to);
       const bool is_written = isConversion(compilation.sources.tokenAt(loc));
       if (loc && !is_written && from != to && !is_text && types::TypeTable::isElementary(from) &&
@@ -137,6 +137,18 @@ void collectConversions(const driver::Compilation& compilation, Id id, std::vect
 
 }  // namespace
 
+// Those of a file: in bodies and in initial values.
+void collectConversions(const driver::Compilation& compilation, FileId file, std::vector<uint32_t>& lines) {
+  const sema::Project& project = *compilation.project;
+  for (const sema::Pou& pou : project.pous) {
+    if (pou.file != file) continue;
+    for (const StmtId statement : compilation.tree.list(pou.code)) collectConversions(compilation, statement, lines);
+  }
+  for (const sema::Var& var : project.vars)
+    if (var.init && var.loc && compilation.sources.fileOf(var.loc) == file)
+      collectConversions(compilation, var.init, lines);
+}
+
 Checked check(const std::string& file, Dialect dialect) {
   Listener listener;
   driver::PhaseTimes times;
@@ -153,8 +165,7 @@ Checked check(const std::string& file, Dialect dialect) {
   }
   if (!compilation.project) return checked;
   if (!compilation.tree.files.empty())
-    for (const DeclId id : compilation.tree.list(compilation.tree.files[0].decls))
-      collectConversions(compilation, id, checked.conversions);
+    collectConversions(compilation, compilation.tree.files[0].file, checked.conversions);
   const std::set<std::string> named = namesIn(readFile(file).content);
   for (const sema::Pou& pou : compilation.project->pous) {
     if (!pou.library || pou.owner || !pou.name || pou.generic_of) continue;

@@ -114,7 +114,7 @@ class Converter {
   bool split(const InputFile& input, const std::string& folder, std::vector<TextFile>& out) const;
   void print(sema::PouId pou);
   void printChart(sema::PouId id, const PouDecl& decl);
-  void printConditions(const PouDecl& decl);
+  void printConditions(sema::PouId id);
   std::vector<StComment> chartComments(const PouDecl& decl) const;
   std::string withComments(FileId created, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
@@ -138,9 +138,8 @@ std::map<std::string, std::string_view> Converter::chartVariablesOfBases(sema::P
   std::map<std::string, std::string_view> lines;
   const sema::Project& project = *compilation_.project;
   for (sema::PouId base = project.pou(id).base; base; base = project.pou(base).base) {
-    const PouDecl* decl = project.pou(base).decl ? &compilation_.tree.as<PouDecl>(project.pou(base).decl) : nullptr;
-    if (decl == nullptr || !decl->chart_sections) continue;
-    forEachVariableLine(sources_.original(decl->chart_sections),
+    if (!project.pou(base).chart_sections) continue;
+    forEachVariableLine(sources_.original(project.pou(base).chart_sections),
                         [&](const std::string& name, std::string_view line, bool) { lines[name] = line; });
   }
   return lines;
@@ -171,7 +170,7 @@ void Converter::print(sema::PouId id) {
   if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
   printHidden(pou.kind == PouKind::Action ? pou.owner : id);
-  if (decl.chart_body) return printChart(id, decl);
+  if (pou.chart_body) return printChart(id, decl);
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
   const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
@@ -189,7 +188,7 @@ void Converter::print(sema::PouId id) {
     const size_t at = lineOf(text, compilation_.tree.loc(member).offset - base);
     body.declarations = std::min(body.declarations, Loc{base + static_cast<uint32_t>(at)});
   }
-  body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
+  body.text += printSt(compilation_.tree, compilation_.names, pou.statements, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
   bodies_.push_back(std::move(body));
 }
@@ -206,7 +205,7 @@ void Converter::printHidden(sema::PouId id) {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
   std::string lines;
-  for (const DeclId s : tree.list(decl.hidden)) {
+  for (const DeclId s : compilation_.project->madeSections(decl)) {
     const SectionDecl& section = tree.as<SectionDecl>(s);
     if ((section.h.bits & kHidden) == 0) continue;
     for (const DeclId v : tree.list(section.vars)) {
@@ -276,9 +275,10 @@ std::string Converter::withComments(FileId created, std::span<const StComment> c
 
 // The ST of a chart; its actions go between the variables and the statements.
 void Converter::printChart(sema::PouId id, const PouDecl& decl) {
+  const sema::Pou& pou = compilation_.project->pou(id);
   Body body{
-      id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
-  body.sections = sources_.original(decl.chart_sections);
+      id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(pou.chart_body, chartComments(decl))};
+  body.sections = sources_.original(pou.chart_sections);
   const auto inherited = chartVariablesOfBases(id);
   std::string sections(body.sections);
   forEachVariableLine(body.sections, [&](const std::string& name, std::string_view line, bool temporary) {
@@ -303,12 +303,13 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
     body.declarations = std::min(body.declarations, compilation_.tree.decl(member).begin);
   if (body.text.ends_with('\n')) body.text.pop_back();
   bodies_.push_back(std::move(body));
-  if (const sema::PouId owner = compilation_.project->pou(id).owner)
-    printConditions(compilation_.tree.as<PouDecl>(compilation_.project->pou(owner).decl));
+  if (pou.owner) printConditions(pou.owner);
 }
 
 // Conditions in the actions of a POU without a chart: a variable and an action each.
-void Converter::printConditions(const PouDecl& decl) {
+void Converter::printConditions(sema::PouId id) {
+  const sema::Pou& pou = compilation_.project->pou(id);
+  const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
   if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.h.begin.offset).second) return;
   Body variables{{}, decl.body_begin, {}, {}, true, {}};
   for (const DeclId member : compilation_.tree.list(decl.members))
@@ -321,7 +322,7 @@ void Converter::printConditions(const PouDecl& decl) {
     bodies_.push_back(std::move(body));
   }
   variables.end = variables.declarations = variables.begin;
-  variables.text = sources_.original(decl.chart_sections);
+  variables.text = sources_.original(pou.chart_sections);
   bodies_.push_back(std::move(variables));
 }
 
@@ -333,9 +334,14 @@ std::string Converter::action(DeclId id) const {
   if (decl.h.begin != decl.body_begin) return convert(decl.h.begin, decl.h.end) + "\n";
   std::string text = "ACTION " + std::string(compilation_.names.string(decl.name)) + ":\n";
   std::string body = convert(decl.body_begin, decl.body_end);
-  for (const Body& converted : bodies_)
-    if (compilation_.project->pou(converted.pou).decl == id) body = temporaries(converted) + converted.text;
-  const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
+  Slice<StmtId> statements = decl.body;
+  for (const Body& converted : bodies_) {
+    const sema::Pou& pou = compilation_.project->pou(converted.pou);
+    if (pou.decl != id) continue;
+    body = temporaries(converted) + converted.text;
+    statements = pou.statements;
+  }
+  const StmtId first = statements.empty() ? StmtId{} : tree.list(statements)[0];
   if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
     text += std::string(compilation_.names.string(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
             " := " + body + ";";

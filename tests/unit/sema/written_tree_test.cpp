@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was written can be read after checking: over all programs of the suite, the tree prints as it did before.
+// Checking does not change what was written: over all programs of the suite, the tree prints as it did before.
 #include <gtest/gtest.h>
 
 #include <algorithm>

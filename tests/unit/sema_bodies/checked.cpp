@@ -80,7 +80,7 @@ class Printer {
       const AssignStmt& node = tree_.as<AssignStmt>(id);
       const char* ops[] = {":=", "S=", "R=", "REF=", "+=", "-=", "*=", "/="};
       expr(node.target);
-      out.append(" ").append(ops[node.h.effect]).append(" ");
+      out.append(" ").append(ops[node.h.op]).append(" ");
       expr(node.value);
     } else if (tree_.kind(id) == StmtKind::Call) {
       expr(tree_.as<CallStmt>(id).call);
@@ -101,7 +101,7 @@ class Printer {
   }
 
   void literal(const LiteralExpr& node) {
-    const std::string type = c_.project.types.toString(node.h.type);
+    const std::string type = c_.project.types.toString(sema::meaning(node.h).type);
     if (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString) {
       out.append("'").append(tree_.string(node.string())).append("'");
       return;
@@ -117,11 +117,11 @@ class Printer {
   }
 
   void call(const CallExpr& node) {
-    if (node.call.index == 0) {
+    if (!sema::meaning(node.h).call) {
       out += "unresolved";
       return;
     }
-    const sema::Call& call = c_.project.call(node.call);
+    const sema::Call& call = c_.project.call(sema::meaning(node.h).call);
     switch (call.kind) {
       case sema::CallKind::Method:
       case sema::CallKind::Instance: expr(call.instance); break;
@@ -162,7 +162,7 @@ class Printer {
   }
 
   void expr(ExprId id) {
-    if (!tree_.expr(id).type && tree_.kind(id) != ExprKind::Call) out += "?";
+    if (!sema::typeOf(tree_, id) && tree_.kind(id) != ExprKind::Call) out += "?";
     switch (tree_.kind(id)) {
       case ExprKind::Literal: literal(tree_.as<LiteralExpr>(id)); return;
       case ExprKind::Name: out += c_.names.string(tree_.as<NameExpr>(id).name); return;
@@ -209,7 +209,7 @@ class Printer {
       }
       case ExprKind::Call: call(tree_.as<CallExpr>(id)); return;
       case ExprKind::Convert:
-        out.append(c_.project.types.toString(tree_.expr(id).type)).append("(");
+        out.append(c_.project.types.toString(sema::typeOf(tree_, id))).append("(");
         expr(tree_.as<ConvertExpr>(id).operand);
         out += ")";
         return;
@@ -271,13 +271,8 @@ std::string Checked::messages() const {
 
 std::string Checked::body(const std::string& pou) const {
   Printer printer(*this);
-  for (const FileUnit& unit : tree.files) {
-    for (const DeclId decl : tree.list(unit.decls)) {
-      if (tree.kind(decl) != DeclKind::Pou) continue;
-      const PouDecl& node = tree.as<PouDecl>(decl);
-      if (names.string(node.name) == pou) printer.statements(node.body);
-    }
-  }
+  for (const sema::Pou& checked : project.pous)
+    if (!checked.library && checked.name && names.string(checked.name) == pou) printer.statements(checked.code);
   return printer.out;
 }
 

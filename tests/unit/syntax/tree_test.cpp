@@ -64,25 +64,6 @@ TEST(Tree, BeginIsTheLeftmostToken) {
   EXPECT_EQ(tree.begin(build.unary(UnaryOp::Negate, sum, Loc{9})).offset, 9u);
 }
 
-// A node that is put into the slot of another leads back to what was written there.
-TEST(Tree, WhatWasWrittenStaysBelowInsertedNodes) {
-  Tree tree;
-  TreeBuilder insert(tree, TreeBuilder::Origin::Inserted);
-  const ExprId written = name(tree, 10);
-  ExprId slot = written;
-  tree.replace(slot, insert.convert(slot, Loc{10}));
-  tree.replace(slot, insert.literal(LiteralKind::Integer, 7, Loc{10}));
-  EXPECT_EQ(tree.kind(slot), ExprKind::Literal);
-  EXPECT_EQ(tree.written(slot), written);
-  EXPECT_FALSE(tree.written(insert.name(NameId{1}, Loc{10})));
-  // A node that is in use is copied: its own slot is as it was.
-  const ExprId other = name(tree, 20);
-  tree.replace(slot, other);
-  EXPECT_FALSE(slot == other);
-  EXPECT_EQ(tree.written(slot), written);
-  EXPECT_EQ(tree.written(other), other);
-}
-
 TEST(Tree, ParenthesesBelongToTheRange) {
   Tree tree;
   TreeBuilder build(tree);
