@@ -19,6 +19,7 @@
 #include <algorithm>
 
 #include "codegen/cpp_names.h"
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 #include "codegen/signature.h"
 #include "codegen/types.h"
@@ -318,8 +319,8 @@ class Writer {
           !seen.empty() && !field_name.empty() && mangled(field_name) == std::string(field_name) + "_";
       addGap(placement.members[i].gap, i);
       if (is_plain) {
-        fields += "  " + placement.members[i].before + seen + ' ' + cppIdentifier(field_name) +
-                  placement.members[i].after + ";\n";
+        fields += "  " + (placement.members[i].before.empty() ? "" : placement.members[i].before + ' ') + seen + ' ' +
+                  cppIdentifier(field_name) + placement.members[i].after + ";\n";
       } else {
         fields += "  alignas(";
         appendUnsigned(fields, std::min(types_.fieldAlign(field), of.placed_align));
@@ -579,8 +580,8 @@ class Writer {
 
   // The address of a view, converted to the parameter type of the function.
   std::string pointer(TypeId type, const std::string& address, bool constant) {
-    std::string to;
-    appendPointer(to, types_, type, "", constant);
+    cxx::Tree tree;
+    const std::string to = cxx::toString(pointerType(tree, types_, type, constant), "");
     return "reinterpret_cast<" + to + ">(" + address + ")";
   }
 

@@ -321,7 +321,8 @@ void StatementWriter::guarded(const std::string& frame, const std::string& fault
 void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
   const std::string exit = newName("x"), fault = newName("k");
   const Ex exit_name = tree_.name(exit), fault_name = tree_.name(fault), zero = tree_.number(0);
-  declarations_ += " uint32_t " + exit + " = 0; uint8_t " + fault + " = 0;";
+  declare("uint32_t", exit, zero);
+  declare("uint8_t", fault, zero);
   frames_.push_back({});
   frames_.back().exit = exit;
   assign(exit_name, zero);
@@ -370,9 +371,9 @@ cxx::Stmt* StatementWriter::assertionReport(const Stmt& stmt) {
                                   tree_.number(report.position.column), quotedOrNull(report.source),
                                   node.message ? strings().stringValue(node.message) : quotedOrNull(report.message),
                                   quotedOrNull(report.shown), quotedOrNull(report.items)});
-  return tree_.textual(cxx::StmtKind::Declaration, (node.message ? "const rung_assertion assertion = "
-                                                                 : "static const rung_assertion assertion = ") +
-                                                       cxx::toString(values));
+  cxx::Variable* const assertion = tree_.variable("rung_assertion", "assertion", values);
+  assertion->prefix = node.message ? "const" : "static const";
+  return tree_.declare(assertion);
 }
 
 void StatementWriter::assertStatement(const Stmt& stmt) {
