@@ -66,6 +66,7 @@ enum class StmtKind : uint8_t {
   Continue,
   Return,       // return a; or return;
   Block,        // { first }
+  Lines,        // { first } with a line for each brace
   If,           // if (a) { first } else { second }
   ShortIf,      // if (a) first; on one line
   BracedIf,     // if (a) { first } on one line
@@ -77,6 +78,7 @@ enum class StmtKind : uint8_t {
   Scope,        // { first } on one line
   Exit,         // text: at the beginning of a line, before the exits of a function
   Declaration,  // declares
+  Source,       // [&]() -> void { text }(); where the text is lines of the user
   Frame         // { auto text = [&]() { first return; }; a }: what runs between setjmp and longjmp
 };
 
@@ -144,13 +146,17 @@ struct Type {
   std::span<const uint64_t> extents;  // 0: as many as its value has
 };
 
-struct Variable : Decl {  // prefix type name suffix = value;
-  Variable() : Decl{DeclKind::Variable} {}
+struct Valued : Decl {  // the declaration of something that may have a value
+  explicit Valued(DeclKind of) : Decl{of} {}
+  Ex value = nullptr;      // ` = value`
+  Ex arguments = nullptr;  // `(a, b)` or `{a, b}` after the name
+};
+
+struct Variable : Valued {  // prefix type name suffix = value;
+  Variable() : Valued{DeclKind::Variable} {}
   std::string_view prefix;  // `extern const`, `alignas(8)`
   Type type;
   std::string_view name, suffix;
-  Ex value = nullptr;
-  Ex arguments = nullptr;    // `(a, b)` or `{a, b}` after the name
   Variable* also = nullptr;  // another name of the same type: `int a, b;`
 };
 
@@ -160,21 +166,24 @@ struct Function : Decl {  // prefix result name(parameters) suffix
   std::string_view prefix;
   Type result;  // without a base: a constructor or conversion
   std::string_view name, suffix;
-  Chain<Decl> parameters;           // variables
-  std::span<const Ex> initialises;  // the members that a constructor does: `a(b)`
+  Chain<Decl> parameters;  // variables
+  struct Initialised {
+    std::string_view member;
+    Ex arguments;
+  };
+  std::span<const Initialised> initialises;  // those that a constructor does: `a(b)`
   Form form = Form::Prototype;
   const Stmt* body = nullptr;
   const Stmt* exits = nullptr;  // after the last brace of the body
 };
 
-struct Record : Decl {  // keyword attributes name { members } variable = value;
-  Record() : Decl{DeclKind::Record} {}
+struct Record : Valued {  // keyword attributes name { members } variable = value;
+  Record() : Valued{DeclKind::Record} {}
   std::string_view keyword, attributes, name;
   bool is_line = false;     // all on one line
   bool has_access = false;  // of a class: its members are public
   Declarations members;
   std::string_view variable;
-  Ex value = nullptr;
 };
 
 struct Enumeration : Decl {  // enum name : base { items };

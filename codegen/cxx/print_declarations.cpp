@@ -13,7 +13,7 @@ void printDeclarator(Sink& out, const Type& type, std::string_view name) {
   out += refers_to_array ? std::string_view(" (") : type.reference;
   if (refers_to_array)
     out += type.reference;
-  else
+  else if (!name.empty() || !type.reference.empty())
     out += ' ';
   out += name;
   if (refers_to_array) out += ')';
@@ -83,6 +83,7 @@ void DeclarationPrinter::prefix(std::string_view text) {
 void DeclarationPrinter::variable(const Variable& of) {
   prefix(of.prefix);
   printDeclarator(out_, of.type, of.name);
+  out_ += of.suffix;
   initialiser(of);
   for (const Variable* also = of.also; also != nullptr; also = also->also) {
     out_ += ", ";
@@ -92,8 +93,7 @@ void DeclarationPrinter::variable(const Variable& of) {
   out_ += ';';
 }
 
-void DeclarationPrinter::initialiser(const Variable& of) {
-  out_ += of.suffix;
+void DeclarationPrinter::initialiser(const Valued& of) {
   if (of.arguments != nullptr) expression(of.arguments);
   if (of.value == nullptr) return;
   out_ += " = ";
@@ -119,9 +119,10 @@ void DeclarationPrinter::signature(const Function& of) {
 
 void DeclarationPrinter::body(const Function& of) {
   std::string_view separator = " : ";
-  for (const Ex initialised : of.initialises) {
+  for (const Function::Initialised& initialised : of.initialises) {
     out_ += separator;
-    expression(initialised);
+    out_ += initialised.member;
+    expression(initialised.arguments);
     separator = ", ";
   }
   switch (of.form) {
@@ -169,10 +170,7 @@ void DeclarationPrinter::record(const Record& of) {
   out_ += '}';
   if (!of.variable.empty()) out_ += ' ';
   out_ += of.variable;
-  if (of.value != nullptr) {
-    out_ += " = ";
-    expression(of.value);
-  }
+  initialiser(of);
   out_ += ';';
 }
 

@@ -93,6 +93,18 @@ void StatementPrinter::block(const Stmt* first) {
   ++closes_;
 }
 
+// With a line for each brace.
+void StatementPrinter::lines(const Stmt* first) {
+  out_ += '{';
+  ++depth_;
+  list(first);
+  flushCloses(kAnyLines);
+  --depth_;
+  out_ += '\n';
+  out_.append(indentOf(depth_), ' ');
+  out_ += '}';
+}
+
 // On one line.
 void StatementPrinter::scope(const Stmt* first) {
   out_ += '{';
@@ -129,6 +141,7 @@ void StatementPrinter::print(const Stmt& stmt) {
       out_ += ';';
       return;
     case StmtKind::Block: out_ += '{'; return block(stmt.first);
+    case StmtKind::Lines: return lines(stmt.first);
     case StmtKind::If: return ifStatement(stmt);
     case StmtKind::ShortIf: head("if (", stmt.a); return list(stmt.first);
     case StmtKind::BracedIf:
@@ -152,6 +165,13 @@ void StatementPrinter::print(const Stmt& stmt) {
       out_ += ':';
       return;
     case StmtKind::Declaration: return DeclarationPrinter(out_, tree_).print(*stmt.declares);
+    case StmtKind::Source:
+      out_ += "[&]() -> void {\n";
+      out_ += stmt.text;
+      out_ += '\n';
+      out_.append(indentOf(depth_), ' ');
+      out_ += "}();";
+      return;
     case StmtKind::Frame: return frame(stmt);
   }
 }

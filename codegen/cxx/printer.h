@@ -88,6 +88,7 @@ class StatementPrinter {
   void beginSourceLine(Position at);
   void braced(const Stmt* first);
   void block(const Stmt* first);
+  void lines(const Stmt* first);
   void print(const Stmt& stmt);
   void expression(Ex e) { ExpressionPrinter(out_).print(*e); }
   void optional(Ex e);
@@ -117,7 +118,7 @@ class DeclarationPrinter {
 
  private:
   void variable(const Variable& of);
-  void initialiser(const Variable& of);
+  void initialiser(const Valued& of);
   void function(const Function& of);
   void body(const Function& of);
   void record(const Record& of);
