@@ -167,73 +167,92 @@ void appendNativeHeaders(const ir::Module& module, const EmitOptions& options, s
   }
 }
 
+// The code of the module: its bodies in groups, those in C++, and a header for each small body that others inline.
+class Code {
+ public:
+  Code(const ir::Module& module, const EmitOptions& options, const Facts& facts)
+      : groups(makeGroups(module, facts)),
+        module_(module),
+        options_(options),
+        facts_(facts),
+        is_listed_(module.bodies.size()) {
+    marks_.body.resize(module.bodies.size());
+    marks_.hot.resize(module.bodies.size());
+    marks_.record.resize(module.types.count());
+    marks_.data.resize(module.data.size());
+    marks_.data_number.resize(module.data.size());
+  }
+
+  void write() {
+    for (uint32_t i = 0; i < groups.size(); ++i) writeGroup(groups[i], i + 1);
+    for (const ir::CppBody& cpp : module_.cpp_bodies)
+      list(cpp_files.emplace_back(writeCppBody(module_, options_, facts_, cpp)).group.inlined);
+    for (size_t i = 0; i < inlined.size(); ++i) {  // it grows while they are written
+      Group& header = headers.emplace_back();
+      const auto number = static_cast<uint32_t>(groups.size() + i) + 1;
+      BodyWriter(module_, options_, facts_, header, marks_, number).write(inlined[i]);
+      list(header.inlined);
+    }
+    setPhaseSubject("", 0);
+  }
+
+  std::vector<Group> groups;
+  std::vector<CppFile> cpp_files;
+  std::vector<ir::BodyId> inlined;
+  std::vector<Group> headers;  // of `inlined`
+
+ private:
+  void writeGroup(Group& group, uint32_t number) {
+    markHot(module_, group, marks_, number);
+    BodyWriter writer(module_, options_, facts_, group, marks_, number);
+    for (ir::BodyId id : group.bodies) {
+      const std::string_view name = module_.names.string(module_.body(id).name);
+      setPhaseSubject(name.data(), name.size());
+      writer.write(id);
+    }
+    list(group.inlined);
+  }
+
+  void list(const std::vector<ir::BodyId>& bodies) {
+    for (ir::BodyId id : bodies) {
+      if (is_listed_[id.index] != 0) continue;
+      is_listed_[id.index] = 1;
+      inlined.push_back(id);
+    }
+  }
+
+  const ir::Module& module_;
+  const EmitOptions& options_;
+  const Facts& facts_;
+  Marks marks_;
+  std::vector<uint8_t> is_listed_;
+};
+
 }  // namespace
 
 std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options) {
   setPhase("codegen");
   const std::string name_space = mangle(options.module_name);
   const Facts facts(module, options.optimize_all && !options.counts_steps);
-
-  std::vector<Group> groups = makeGroups(module, facts);
-  Marks marks;
-  marks.body.resize(module.bodies.size());
-  marks.hot.resize(module.bodies.size());
-  marks.record.resize(module.types.count());
-  marks.data.resize(module.data.size());
-  marks.data_number.resize(module.data.size());
-  std::vector<ir::BodyId> inlined;
-  std::vector<uint8_t> is_listed(module.bodies.size());
-  for (uint32_t i = 0; i < groups.size(); ++i) {
-    Group& group = groups[i];
-    markHot(module, group, marks, i + 1);
-    BodyWriter writer(module, options, facts, group, marks, i + 1);
-    for (ir::BodyId id : group.bodies) {
-      const std::string_view name = module.names.string(module.body(id).name);
-      setPhaseSubject(name.data(), name.size());
-      writer.write(id);
-    }
-    for (ir::BodyId id : group.inlined) {
-      if (is_listed[id.index] != 0) continue;
-      is_listed[id.index] = 1;
-      inlined.push_back(id);
-    }
-  }
-  std::vector<CppFile> cpp_files;
-  for (const ir::CppBody& cpp : module.cpp_bodies) {
-    const CppFile& created = cpp_files.emplace_back(writeCppBody(module, options, facts, cpp));
-    for (ir::BodyId id : created.group.inlined) {
-      if (is_listed[id.index] != 0) continue;
-      is_listed[id.index] = 1;
-      inlined.push_back(id);
-    }
-  }
-  std::vector<Group> headers;
-  for (size_t i = 0; i < inlined.size(); ++i) {
-    Group& header = headers.emplace_back();
-    BodyWriter(module, options, facts, header, marks, static_cast<uint32_t>(groups.size() + i) + 1).write(inlined[i]);
-    for (ir::BodyId id : header.inlined) {
-      if (is_listed[id.index] != 0) continue;
-      is_listed[id.index] = 1;
-      inlined.push_back(id);
-    }
-  }
-  setPhaseSubject("", 0);
+  Code code(module, options, facts);
+  code.write();
 
   RecordDefinitions records(module, facts, name_space, options.bundled);
-  for (const Group& group : groups) records.need(group.records, false);
-  for (const Group& header : headers) records.need(header.records, true);
-  for (const CppFile& file : cpp_files) records.need(file.group.records, false);
+  for (const Group& group : code.groups) records.need(group.records, false);
+  for (const Group& header : code.headers) records.need(header.records, true);
+  for (const CppFile& file : code.cpp_files) records.need(file.group.records, false);
   cxx::Tree tree;
   std::vector<OutputFile> files;
-  files.reserve(groups.size() + headers.size() + 3);
-  for (const Group& group : groups)
+  files.reserve(code.groups.size() + code.headers.size() + 3);
+  for (const Group& group : code.groups)
     files.push_back({group.stem + ".cpp", sourceOf(tree, module, group, records, name_space)});
-  for (const CppFile& file : cpp_files)
+  for (const CppFile& file : code.cpp_files)
     files.push_back({file.group.stem + ".cpp", sourceOf(tree, module, file, records, name_space), true});
-  for (size_t i = 0; i < headers.size(); ++i)
-    files.push_back({inlineFile(module, inlined[i]), headerOf(tree, module, headers[i], records, name_space)});
+  for (size_t i = 0; i < code.headers.size(); ++i)
+    files.push_back(
+        {inlineFile(module, code.inlined[i]), headerOf(tree, module, code.headers[i], records, name_space)});
   records.appendHeaders(files);
-  Description description = describe(module, options, facts, groups, name_space);
+  Description description = describe(module, options, facts, code.groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});
   if (!module.classes.empty() || !module.dispatches.empty())
     files.push_back({"classes.cpp", classesSource(module, name_space)});

@@ -11,6 +11,35 @@
 
 namespace rung::driver {
 
+namespace {
+
+// A program as compiled code.
+struct Loaded {
+  Cache cache;
+  ModuleLibrary library;
+  const rung_module* module = nullptr;
+};
+
+// Compiles the C++ to a shared object and loads it. `has_user_cpp`: the compilation reports what the C++ compiler says
+// about it. Returns an exit code.
+int load(Compilation& compilation, const NativeRequest& request, bool has_user_cpp, Loaded& to, Sink& sink) {
+  const NativeResult result = makeShared(to.cache, request, sink);
+  if (has_user_cpp)
+    compilation.finish(result);
+  else if (result.exit == kInternal)
+    sink.internalError(result.message);
+  else if (result.exit == kUsage)
+    usageError(sink, result.message);
+  if (result.exit != kSuccess) return result.exit;
+  std::string error = to.library.open(result.path);
+  to.module = error.empty() ? to.library.find(compilation.options.moduleName(), error) : nullptr;
+  if (to.module != nullptr) return kSuccess;
+  sink.internalError(error);
+  return kInternal;
+}
+
+}  // namespace
+
 int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink) {
   host::RunOptions run_options;
   std::vector<std::string> rest;
@@ -46,28 +75,15 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
     sink.message("rung: this program runs as compiled C++: " + why + "\n");
   }
 
-  Cache cache;
-  ModuleLibrary library;
-  const rung_module* module = program ? &program->description() : nullptr;
+  Loaded loaded;
+  if (program) loaded.module = &program->description();
   if (!program) {
     times.begin("c++");
     request.level = compilation.options.code.level;
     request.jobs = options.native.jobs;
     request.keep = options.native.keep;
-    NativeResult result = makeShared(cache, request, sink);
-    if (later) {
-      compilation.finish(result);
-    } else {
-      if (result.exit == kInternal) sink.internalError(result.message);
-      if (result.exit == kUsage) usageError(sink, result.message);
-    }
-    if (result.exit != kSuccess) return result.exit;
-    error = library.open(result.path);
-    module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
-    if (module == nullptr) {
-      sink.internalError(error);
-      return kInternal;
-    }
+    exit = load(compilation, request, later, loaded, sink);
+    if (exit != kSuccess) return exit;
   } else if (options.engine == Engine::Auto) {
     run_options.hint_when_long = "rung: a long run is faster with --engine=native";
   }
@@ -76,7 +92,7 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   times.begin("run");
   constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
   sink.programRuns(true, (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks);
-  exit = host::run(*module, run_options);
+  exit = host::run(*loaded.module, run_options);
   sink.programRuns(false, false);
   times.end();
   if (project.time_phases) sink.message(times.table());
