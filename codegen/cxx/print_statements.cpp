@@ -165,13 +165,7 @@ void StatementPrinter::print(const Stmt& stmt) {
       out_ += ':';
       return;
     case StmtKind::Declaration: return DeclarationPrinter(out_, tree_).print(*stmt.declares);
-    case StmtKind::Source:
-      out_ += "[&]() -> void {\n";
-      out_ += stmt.text;
-      out_ += '\n';
-      out_.append(indentOf(depth_), ' ');
-      out_ += "}();";
-      return;
+    case StmtKind::Source: return source(stmt.text);
     case StmtKind::Frame: return frame(stmt);
   }
 }
@@ -224,6 +218,14 @@ void StatementPrinter::forStatement(const Stmt& stmt) {
   optional(stmt.c);
   out_ += ')';
   braced(stmt.first);
+}
+
+void StatementPrinter::source(std::string_view text) {
+  out_ += "[&]() -> void {\n";
+  out_ += text;
+  out_ += '\n';
+  out_.append(indentOf(depth_), ' ');
+  out_ += "}();";
 }
 
 void StatementPrinter::frame(const Stmt& stmt) {

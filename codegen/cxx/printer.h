@@ -96,6 +96,7 @@ class StatementPrinter {
   void ifStatement(const Stmt& first);
   void forStatement(const Stmt& stmt);
   void frame(const Stmt& stmt);
+  void source(std::string_view text);
 
   Sink& out_;
   const Tree& tree_;
