@@ -42,6 +42,7 @@ RecordDefinitions::RecordDefinitions(const ir::Module& module, const Facts& fact
   held_seen_.resize(module.records.size());
   held_.resize(module.records.size());
   is_held_known_.resize(module.records.size());
+  definitions_.resize(module.records.size());
 }
 
 const std::vector<uint32_t>& RecordDefinitions::held(uint32_t row) {
@@ -93,9 +94,19 @@ void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<
       includes.push_back(recordFile(module_.types, module_.types.resolve(module_.records[row].type)));
     } else {
       definitions.add(tree.blank());
-      define(row, tree, definitions);
+      definitions.add(tree.printed(definition(row)));
     }
   });
+}
+
+const std::string& RecordDefinitions::definition(uint32_t row) {
+  std::string& text = definitions_[row];
+  if (!text.empty()) return text;
+  tree_.clear();
+  cxx::Declarations lines;
+  define(row, tree_, lines);
+  cxx::print(text, tree_, lines);
+  return text;
 }
 
 // Its declaration, and the prototypes of its code; without code, the assertion of its layout is here.
@@ -138,7 +149,7 @@ void RecordDefinitions::appendHeaders(std::vector<OutputFile>& files) {
     header.add(tree.blank());
     cxx::Namespace* const space = hiddenNamespace(tree, name_space_);
     space->members.add(tree.blank());
-    define(row, tree, space->members);
+    space->members.add(tree.printed(definition(row)));
     header.add(space);
     cxx::print(files.emplace_back(OutputFile{fileOf(row), {}}).content, tree, header);
   }

@@ -37,6 +37,7 @@ class RecordDefinitions {
   void forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f);  // each once, held records first
   template <class F>
   void visit(uint32_t row, bool into_headers, F& f);
+  const std::string& definition(uint32_t row);
   void define(uint32_t row, cxx::Tree& tree, cxx::Declarations& to) const;
   const std::vector<uint32_t>& held(uint32_t row);
 
@@ -48,6 +49,8 @@ class RecordDefinitions {
   std::vector<uint32_t> copies_, seen_, held_seen_;
   std::vector<std::vector<uint32_t>> held_;
   std::vector<uint8_t> is_held_known_;
+  std::vector<std::string> definitions_;  // printed; empty: not yet
+  cxx::Tree tree_;                        // of one definition after the other
   uint32_t round_ = 0, held_round_ = 0;
 };
 

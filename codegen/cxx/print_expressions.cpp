@@ -147,6 +147,14 @@ void ExpressionPrinter::list(std::span<const Node* const> items) {
   }
 }
 
+// More than there is room for.
+Sink& Sink::appendLarge(std::string_view text) {
+  flush();
+  if (text.size() <= sizeof buffer_) return *this += text;
+  out_ += text;
+  return *this;
+}
+
 void print(std::string& out, Ex expression) {
   Sink sink(out);
   ExpressionPrinter(sink).print(*expression);

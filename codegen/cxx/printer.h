@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -23,13 +24,9 @@ class Sink {
     return *this;
   }
   Sink& operator+=(std::string_view text) {
-    if (text.size() > sizeof buffer_ - used_) flush();
-    if (text.size() > sizeof buffer_) {
-      out_ += text;
-    } else {
-      std::copy(text.begin(), text.end(), buffer_ + used_);
-      used_ += text.size();
-    }
+    if (text.size() > sizeof buffer_ - used_) return appendLarge(text);
+    std::memcpy(buffer_ + used_, text.data(), text.size());
+    used_ += text.size();
     return *this;
   }
   void append(size_t count, char c) {
@@ -37,6 +34,7 @@ class Sink {
   }
 
  private:
+  Sink& appendLarge(std::string_view text);
   void flush() {
     out_.append(buffer_, used_);
     used_ = 0;
