@@ -100,7 +100,7 @@ cxx::Statements FunctionWriter::exits() {
   exit("fault");
   exits.append(nested([&] {
     writeAllBack();
-    perform(tree_.name("rung_raise(ctx, at & 15, sites_" + group_.stem + " + (at >> 4), value)"));
+    perform(raiseNoted());
   }));
   return exits;
 }

@@ -100,6 +100,14 @@ cxx::Ex BodyPart::quoted(std::string_view text, bool wide) {
   return tree_.name(out);
 }
 
+cxx::Ex BodyPart::raiseNoted() {
+  const Ex at = tree_.fixed("at");
+  const Ex site = tree_.infix(Operator::Add, tree_.name("sites_" + group_.stem),
+                              tree_.infix(Operator::ShiftRight, at, tree_.number(4)));
+  return tree_.call("rung_raise", {tree_.fixed("ctx"), tree_.infix(Operator::BitAnd, at, tree_.number(15)), site,
+                                   tree_.fixed("value")});
+}
+
 std::string BodyPart::pointerTo(TypeId type, bool constant) {
   return cxx::toString(pointerType(tree_, types_, type, constant), "");
 }

@@ -153,6 +153,7 @@ class BodyPart {
   Ex sizeOf(Ex variable) { return tree_.prefix("sizeof ", variable); }
   Ex addressOf(Ex place) { return tree_.prefix("&", place); }
   Ex target(Ex pointer) { return tree_.group(tree_.prefix("*", pointer)); }
+  Ex raiseNoted();  // the fault that a check noted in `at` and `value`
   // `type` of C++.
   std::string pointerTo(TypeId type, bool constant = false);
   // The statements that f adds.

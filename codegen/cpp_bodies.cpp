@@ -254,14 +254,15 @@ class Writer {
     const ir::List& list = module_.lists[known.index];
     facade_.need(list.record);
     const Field& field = info(list.record).fields[known.offset];
-    const Ex block = tree_.element(tree_.fixed("rung_ctx_->blocks"), tree_.number(facts_.list_block[known.index]));
+    const Ex block =
+        tree_.element(tree_.arrow(tree_.fixed("rung_ctx_"), "blocks"), tree_.number(facts_.list_block[known.index]));
     const Ex memory = tree_.call("static_cast<" + recordName(types_, list.record) + "*>", {block});
     return tree_.member(tree_.prefix("*", memory), keptMangled(field.name));
   }
 
   cxx::Variable* locatedVariable(const ir::CppBody::Variable& known) {
     const std::string name = cppIdentifier(string(known.name));
-    const Ex area = tree_.element(tree_.fixed("rung_ctx_->areas"), tree_.number(known.index));
+    const Ex area = tree_.element(tree_.arrow(tree_.fixed("rung_ctx_"), "areas"), tree_.number(known.index));
     const Ex address = tree_.infix(cxx::Op::Add, area, tree_.number(known.offset));
     if (known.bit != ir::kNoBit) {
       cxx::Variable* const bit = tree_.variable(known.constant ? "const ConstantBit" : "const LocatedBit", name);

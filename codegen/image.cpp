@@ -17,7 +17,7 @@ cxx::Ex PlaceWriter::area(uint32_t index) {
   name += module_.areas[index].letter;
   if ((areas_declared_ >> index & 1) == 0) {
     areas_declared_ |= 1u << index;
-    declare("uint8_t* const", name, tree_.element(tree_.fixed("ctx->areas"), tree_.number(index)));
+    declare("uint8_t* const", name, tree_.element(tree_.arrow(tree_.fixed("ctx"), "areas"), tree_.number(index)));
   }
   return tree_.name(name);
 }

@@ -9,7 +9,8 @@ namespace rung::codegen {
 // ---- steps: what rung_context::steps counts
 
 void StatementWriter::step(Loc loc) {
-  if (countsSteps()) checks().check(tree_.fixed("rung_step(ctx)"), loc, types::Fault::Stop, tree_.number(0));
+  if (countsSteps())
+    checks().check(tree_.call("rung_step", {tree_.fixed("ctx")}), loc, types::Fault::Stop, tree_.number(0));
 }
 
 void StatementWriter::stepOfCall() {

@@ -71,7 +71,7 @@ cxx::Ex PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view
   name += suffix;
   if (std::find(blocks_declared_.begin(), blocks_declared_.end(), number) == blocks_declared_.end()) {
     blocks_declared_.push_back(number);
-    const Ex memory = tree_.element(tree_.fixed("ctx->blocks"), tree_.number(number));
+    const Ex memory = tree_.element(tree_.arrow(tree_.fixed("ctx"), "blocks"), tree_.number(number));
     declare(cxx::Type{tree_.kept(type), "&", {}}, name,
             tree_.prefix("*", tree_.call("static_cast<" + type + "*>", {memory})));
   }

@@ -311,7 +311,7 @@ void StatementWriter::guarded(const std::string& frame, const std::string& fault
                   add(tree_.stmt(cxx::StmtKind::Return));
                   if (!state_.uses_fault) return;
                   cxx::Stmt* const raise = tree_.textual(cxx::StmtKind::Label, "fault");
-                  raise->a = tree_.name("rung_raise(ctx, at & 15, sites_" + group_.stem + " + (at >> 4), value)");
+                  raise->a = raiseNoted();
                   add(raise);
                 }).first();
   state_.uses_fault = outer_uses_fault;
@@ -347,7 +347,9 @@ void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
     cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::ShortIf, has_fault);
     add(made);
     made->first = nested([&] {
-                    perform(tree_.name("rung_raise(ctx, ctx->fault.kind, ctx->fault.site, ctx->fault.value)"));
+                    const Ex context = tree_.fixed("ctx"), raised = tree_.arrow(context, "fault");
+                    perform(tree_.call("rung_raise", {context, tree_.member(raised, "kind"),
+                                                      tree_.member(raised, "site"), tree_.member(raised, "value")}));
                   }).first();
   }
   const auto goesOn = [&](bool used, uint32_t how, auto&& write) {
