@@ -36,30 +36,26 @@ void FunctionWriter::declareLocal(uint32_t number) {
   if (analysis_->slices.has(number) || analysis_->appends.has(number)) return;
   std::string name;
   variable(name, local);
-  declarations_ += ' ';
   if (wide != 0) {
-    declarations_ += wide == 32 ? "int32_t " : "int64_t ";
-    declarations_ += name;
-    declarations_ += " = 0;";
+    declare(wide == 32 ? "int32_t" : "int64_t", name, tree_.number(0));
     return;
   }
-  appendDeclaration(declarations_, types_, local.type, name);
+  Ex value = nullptr;
   if (!isAggregate(local.type) && !isString(local.type))
-    declarations_ += isPointer(types_.plainKind(local.type)) ? " = nullptr" : " = 0";
-  declarations_ += ';';
+    value = isPointer(types_.plainKind(local.type)) ? tree_.fixed("nullptr") : tree_.number(0);
+  declare(valueType(tree_, types_, local.type), name, value);
 }
 
 void FunctionWriter::declareCached(uint32_t number) {
   const types::Field& field = analysis_->uses.variables.field(number);
   const uint8_t wide = analysis_->loops.wide[number];
   const bool is_truth = types_.plainKind(field.type) == TypeKind::Bool;
-  std::string name;
-  appendMangled(name, string(field.name));
-  declarations_ += ' ';
-  declarations_ += wide == 32 ? "int32_t" : wide == 64 ? "int64_t" : is_truth ? "bool" : scalarType(types_, field.type);
-  declarations_ += ' ' + name + " = self." + name;
-  if (is_truth) declarations_ += " != 0";
-  declarations_ += ';';
+  const Ex name = mangledName(field.name), memory = tree_.member(tree_.fixed("self"), name->text);
+  const char* const type = wide == 32   ? "int32_t"
+                           : wide == 64 ? "int64_t"
+                           : is_truth   ? "bool"
+                                        : scalarType(types_, field.type);
+  declare(type, name->text, is_truth ? tree_.infix(Operator::Differs, memory, tree_.number(0)) : memory);
 }
 
 void FunctionWriter::writeAllBack() {
@@ -83,79 +79,91 @@ void FunctionWriter::writeAllBack() {
   }
 }
 
-void FunctionWriter::writeExits(std::string& out) {
-  std::string result;
-  for (const ir::Local& local : body_->locals) {
-    if (local.kind == LocalKind::Result && !local.by_reference) variable(result, local);
+// The statements after the last brace: at `leave:` and at `fault:`.
+cxx::Statements FunctionWriter::exits() {
+  cxx::Statements exits;
+  const auto exit = [&](const char* label) { exits.add(tree_.textual(cxx::StmtKind::Exit, label)); };
+  if (state_.uses_leave) exit("leave");
+  exits.append(nested([&] {
+    writeAllBack();
+    strings().returnLengths();
+  }));
+  Ex result = nullptr;
+  for (const ir::Local& local : body_->locals)
+    if (local.kind == LocalKind::Result && !local.by_reference) result = variable(local);
+  if (result != nullptr || state_.uses_fault || state_.uses_leave) {
+    cxx::Stmt* const back = tree_.stmt(cxx::StmtKind::Return, result);
+    back->begins = true;
+    exits.add(back);
   }
-  if (state_.uses_leave) out += "\nleave:";
-  cxx::print(out, tree_, nested([&] {
-               writeAllBack();
-               strings().returnLengths();
-             }));
-  if (!result.empty()) {
-    out += "\n  return ";
-    out += result;
-    out += ';';
-  } else if (state_.uses_fault || state_.uses_leave) {
-    out += "\n  return;";
-  }
-  if (state_.uses_fault) {
-    out += "\nfault:";
-    cxx::print(out, tree_, nested([&] { writeAllBack(); }));
-    out += " rung_raise(ctx, at & 15, sites_";
-    out += group_.stem;
-    out += " + (at >> 4), value);";
-  }
+  if (!state_.uses_fault) return exits;
+  exit("fault");
+  exits.append(nested([&] {
+    writeAllBack();
+    perform(raiseNoted());
+  }));
+  return exits;
+}
+
+// The object of a method, which is also called through tables: one type for all objects.
+cxx::Stmt* FunctionWriter::objectOfMethod() {
+  const std::string type = recordType(types_, body_->self);
+  const Ex memory = tree_.prefix("*", tree_.call("static_cast<" + type + "*>", {tree_.fixed("object")}));
+  cxx::Variable* const self = tree_.variable(cxx::Type{tree_.kept(type), "&", {}}, "self", memory);
+  self->prefix = "[[maybe_unused]]";
+  cxx::Stmt* const made = tree_.declare(self);
+  made->begins = true;
+  return made;
 }
 
 void FunctionWriter::write(ir::BodyId id) {
   if (body_->self) includeRecord(body_->self);
   declareVariables();
   strings().declareLengths();
-  std::string code;
-  cxx::print(code, tree_, nested([&] {
-               statements().stepOfCall();
-               statements().block(body_->first);
-             }));
-  writeExits(code);
-  if (state_.uses_fault || analysis_->uses.has_try) declarations_ += " uint32_t at; int64_t value;";
+  const cxx::Statements code = nested([&] {
+    statements().stepOfCall();
+    statements().block(body_->first);
+  });
+  const cxx::Statements exits = this->exits();
+  if (state_.uses_fault || analysis_->uses.has_try) {
+    declare("uint32_t", "at");
+    declare("int64_t", "value");
+  }
+  if (!state_.declarations.empty()) state_.declarations.first()->begins = true;
 
-  writeHead(id);
-  std::string& to = group_.code;
-  appendSignature(to, module_, *body_);
-  to += " {";
-  if (isMethod(*body_)) {  // also called through tables: one type for all objects
-    to += "\n  [[maybe_unused]] ";
-    appendRecordType(to, types_, body_->self);
-    to += "& self = *static_cast<";
-    appendRecordType(to, types_, body_->self);
-    to += "*>(object);";
-  }
-  if (!declarations_.empty()) {
-    to += "\n ";
-    to += declarations_;
-  }
-  to += code;
-  to += "\n}\n";
+  cxx::Statements all;
+  if (isMethod(*body_)) all.add(objectOfMethod());
+  all.append(state_.declarations);
+  all.append(code);
+  cxx::Function* const function = signatureOf(tree_, module_, *body_);
+  function->form = cxx::Function::Form::Lines;
+  function->body = all.first();
+  function->exits = exits.first();
+  cxx::Declarations lines;
+  lines.add(tree_.blank());
+  addHead(id, *function, lines);
+  lines.add(function);
+  cxx::print(group_.code, tree_, lines);
 }
 
 // The comment with its name, and the attributes.
-void FunctionWriter::writeHead(ir::BodyId id) {
-  std::string& to = group_.code;
+void FunctionWriter::addHead(ir::BodyId id, cxx::Function& function, cxx::Declarations& lines) {
   if (facts_.is_inlined[id.index] != 0) {
-    to += "\nstatic inline ";
+    function.prefix = "static inline";
     return;
   }
-  to += "\n// ";
-  if (body_->kind == ir::BodyKind::Init) to += "initial values of ";
-  to += string(body_->spelling ? body_->spelling : body_->name);
-  to += '\n';
+  const std::string_view name = string(body_->spelling ? body_->spelling : body_->name);
+  const bool is_init = body_->kind == ir::BodyKind::Init;
+  lines.add(tree_.textual(cxx::DeclKind::Comment, (is_init ? "initial values of " : "") + std::string(name)));
   const bool is_hot = state_.in.marks.hot[id.index] == state_.in.group_number;
-  if (is_hot) to += "RUNG_INLINE ";
-  if (analysis_->effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
-  if (analysis_->effort == Effort::Loops) to += "RUNG_LOOPS ";
-  if (analysis_->effort == Effort::CheckedLoops) to += "RUNG_CHECKED_LOOPS ";
+  const bool is_straight = analysis_->effort == Effort::Straight && !is_hot && !options_.optimize_all;
+  const char* const attribute = is_straight                                 ? "RUNG_STRAIGHT"
+                                : analysis_->effort == Effort::Loops        ? "RUNG_LOOPS"
+                                : analysis_->effort == Effort::CheckedLoops ? "RUNG_CHECKED_LOOPS"
+                                                                            : "";
+  std::string prefix = is_hot ? "RUNG_INLINE" : "";
+  if (is_hot && *attribute != 0) prefix += ' ';
+  function.prefix = tree_.kept(prefix + attribute);
 }
 
 void BodyWriter::write(ir::BodyId id) {

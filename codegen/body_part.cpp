@@ -2,6 +2,7 @@
 // The common part of all writers of a body: see body_part.h.
 #include "codegen/body_part.h"
 
+#include "codegen/cxx/print.h"
 #include "codegen/signature.h"
 
 namespace rung::codegen {
@@ -48,13 +49,19 @@ std::string BodyPart::newName(const char* prefix) {
   return name;
 }
 
-std::string BodyPart::newVariable(TypeId type, const char* prefix) {
-  std::string name = newName(prefix);
+cxx::Variable* BodyPart::declare(const cxx::Type& type, std::string_view name, Ex value) {
+  cxx::Variable* const made = tree_.variable(type, name, value);
+  state_.declarations.add(tree_.declare(made));
+  return made;
+}
+
+cxx::Variable* BodyPart::declare(std::string_view type, std::string_view name, Ex value) {
+  return declare(cxx::Type{tree_.kept(type), {}, {}}, name, value);
+}
+
+cxx::Ex BodyPart::newVariable(TypeId type, const char* prefix) {
   includeRecord(type);
-  declarations_ += ' ';
-  appendDeclaration(declarations_, types_, type, name);
-  declarations_ += ';';
-  return name;
+  return tree_.fixed(declare(valueType(tree_, types_, type), newName(prefix))->name);
 }
 
 void BodyPart::variable(std::string& out, const ir::Local& local) const {
@@ -93,10 +100,16 @@ cxx::Ex BodyPart::quoted(std::string_view text, bool wide) {
   return tree_.name(out);
 }
 
-std::string BodyPart::pointerTo(TypeId type, bool constant) const {
-  std::string out;
-  appendPointer(out, types_, type, "", constant);
-  return out;
+cxx::Ex BodyPart::raiseNoted() {
+  const Ex at = tree_.fixed("at");
+  const Ex site = tree_.infix(Operator::Add, tree_.name("sites_" + group_.stem),
+                              tree_.infix(Operator::ShiftRight, at, tree_.number(4)));
+  return tree_.call("rung_raise", {tree_.fixed("ctx"), tree_.infix(Operator::BitAnd, at, tree_.number(15)), site,
+                                   tree_.fixed("value")});
+}
+
+std::string BodyPart::pointerTo(TypeId type, bool constant) {
+  return cxx::toString(pointerType(tree_, types_, type, constant), "");
 }
 
 bool BodyPart::isWrittenBack(uint32_t number) const {

@@ -50,7 +50,7 @@ struct BodyState {
 
   BodyParts* parts = nullptr;
   cxx::Statements* to = nullptr;                           // where statements go
-  std::string declarations;                                // the variables at the top
+  cxx::Statements declarations;                            // the variables at the top
   std::vector<std::pair<uint32_t, cxx::Ex>> materialized;  // expression, variable that holds its string
   struct Mangled {
     uint32_t name = ~0u;
@@ -76,8 +76,7 @@ class BodyPart {
         group_(state.in.group),
         body_(&state.body),
         analysis_(&state.analysis),
-        tree_(state.tree),
-        declarations_(state.declarations) {}
+        tree_(state.tree) {}
 
  protected:
   using Body = ir::Body;
@@ -103,7 +102,10 @@ class BodyPart {
   void includeRecord(TypeId type);
   void call(ir::BodyId id);  // adds it to the declarations of the group
   std::string newName(const char* prefix);
-  std::string newVariable(TypeId type, const char* prefix);
+  // Declares a variable at the top of the function; `type` and `name` are copied.
+  cxx::Variable* declare(std::string_view type, std::string_view name, Ex value = nullptr);
+  cxx::Variable* declare(const cxx::Type& type, std::string_view name, Ex value = nullptr);
+  Ex newVariable(TypeId type, const char* prefix);
   void variable(std::string& out, const ir::Local& local) const;
   Ex variable(const ir::Local& local);
   std::string mangled(NameId name) const;
@@ -151,8 +153,9 @@ class BodyPart {
   Ex sizeOf(Ex variable) { return tree_.prefix("sizeof ", variable); }
   Ex addressOf(Ex place) { return tree_.prefix("&", place); }
   Ex target(Ex pointer) { return tree_.group(tree_.prefix("*", pointer)); }
+  Ex raiseNoted();  // the fault that a check noted in `at` and `value`
   // `type` of C++.
-  std::string pointerTo(TypeId type, bool constant = false) const;
+  std::string pointerTo(TypeId type, bool constant = false);
   // The statements that f adds.
   template <class F>
   cxx::Statements nested(F&& f) {
@@ -177,7 +180,6 @@ class BodyPart {
   const Body* body_;
   const BodyAnalysis* analysis_;
   cxx::Tree& tree_;
-  std::string& declarations_;
 };
 
 }  // namespace rung::codegen

@@ -340,8 +340,9 @@ class FunctionWriter : public BodyPart {
   void declareLocal(uint32_t number);
   void declareCached(uint32_t number);
   void writeAllBack();
-  void writeExits(std::string& out);
-  void writeHead(ir::BodyId id);
+  cxx::Statements exits();
+  cxx::Stmt* objectOfMethod();
+  void addHead(ir::BodyId id, cxx::Function& function, cxx::Declarations& lines);
 };
 
 struct BodyParts {

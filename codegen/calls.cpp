@@ -165,14 +165,14 @@ void CallWriter::passCopy(const CallPlan::Argument& argument, Made& made) {
   const TypeId type = expr(argument.operand).type;
   const bool is_input = parameter.kind == ir::LocalKind::Input;
   if (ir::isAggregate(types_, type)) {  // its bytes, which have any alignment in the image
-    const Ex copy = tree_.name(newVariable(type, "v")), place = places().imageAddress(argument.operand);
+    const Ex copy = newVariable(type, "v"), place = places().imageAddress(argument.operand);
     const auto move = [&](Ex to, Ex from) { perform(tree_.call("memcpy", {to, from, sizeOf(copy)})); };
     made.before.append(nested([&] { move(addressOf(copy), place); }));
     if (!is_input) made.after.append(nested([&] { move(place, addressOf(copy)); }));
     made.arguments.push_back(isString(type) ? copy : addressOf(copy));
     return;
   }
-  const Ex copy = tree_.name(newVariable(parameter.type, "v"));
+  const Ex copy = newVariable(parameter.type, "v");
   made.before.append(nested([&] { assign(copy, values().value(argument.operand)); }));
   if (!is_input) made.after.append(nested([&] { perform(places().store(argument.operand, copy)); }));
   made.arguments.push_back(addressOf(copy));
@@ -181,9 +181,7 @@ void CallWriter::passCopy(const CallPlan::Argument& argument, Made& made) {
 // Through a variable: the length itself stays in a register. What is passed twice has no known length in either.
 void CallWriter::passLength(const ir::CallStmt& stmt, ExprId operand, Made& made) {
   const Ex name = tree_.name(newName("n"));
-  declarations_ += " uint32_t ";
-  declarations_ += name->text;
-  declarations_ += ';';
+  declare("uint32_t", name->text);
   made.arguments.push_back(addressOf(name));
   const uint32_t number = operand ? analysis_->uses.variables.stringAt(operand) : kNoVariable;
   const bool is_known = number != kNoVariable && isPassedOnce(&stmt, number);
@@ -200,7 +198,7 @@ void CallWriter::passResult(const ir::CallStmt& stmt, const CallPlan& plan, Made
     to = places().place(stmt.result);
     type = expr(stmt.result).type;
   } else if (plan.result == CallPlan::Result::Copied) {
-    to = made.copy = tree_.name(newVariable(callee.result, "v"));
+    to = made.copy = newVariable(callee.result, "v");
   } else {
     return;
   }

@@ -63,7 +63,7 @@ void CheckWriter::prepare(ExprId id) {
   if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
     strings().materializeString(id);
   } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
-    const Ex name = tree_.name(newVariable(e.type, "z"));
+    const Ex name = newVariable(e.type, "z");
     clear(name);
     state_.materialized.push_back({id.index, name});
   }
@@ -200,9 +200,7 @@ void CheckWriter::overflowCheck(ExprId id) {
   if (op == Op::Add || op == Op::Sub || op == Op::Mul || op == Op::Neg) {
     const std::string type = scalarType(types_, e.type);
     const Ex result = tree_.name(newName("o"));
-    declarations_ += " " + type + " ";
-    declarations_ += result->text;
-    declarations_ += ";";
+    declare(type, result->text);
     const Ex left = tree_.cast(type, op == Op::Neg ? tree_.number(0) : values().value(a));
     const Ex right = tree_.cast(type, values().value(op == Op::Neg ? a : b));
     const char* const function = op == Op::Add   ? "__builtin_add_overflow"

@@ -11,11 +11,12 @@
 #include <string>
 #include <string_view>
 
+#include "codegen/cxx/nodes.h"
 #include "ir/ir.h"
 
 namespace rung::codegen {
 
-std::string declareDispatch(const ir::Module& module, ir::BodyId method);
+void declareDispatch(cxx::Tree& tree, const ir::Module& module, ir::BodyId method, cxx::Declarations& to);
 std::string classesSource(const ir::Module& module, std::string_view name_space);
 
 }  // namespace rung::codegen

@@ -17,12 +17,15 @@
 #include "codegen/cpp_bodies.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "codegen/cpp_facade.h"
 #include "codegen/cpp_names.h"
+#include "codegen/cpp_source.h"
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 #include "codegen/signature.h"
 #include "codegen/types.h"
-#include "ir/builder.h"
 
 namespace rung::codegen {
 
@@ -30,795 +33,406 @@ using ir::Local;
 using ir::LocalKind;
 using types::Field;
 using types::FieldRole;
-using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;
 
 namespace {
 
-constexpr uint64_t kMaxBlocks = 256;  // of an array: each gets an object
+// The functions that make the values of times. Parts go from the least significant to the most significant; TIME takes
+// a sign first.
+constexpr std::string_view kTimeFunctions =
+    "[[maybe_unused]] inline TIME TIME_CPP(int sign, double ms, double s, double min, double h, double days) {\n"
+    "  const double span = ms + s * 1e3 + min * 6e4 + h * 36e5 + days * 864e5;\n"
+    "  return rung::cpp::time<TIME>(sign < 0 ? -span : span);\n}\n"
+    "[[maybe_unused]] inline TOD TOD_CPP(double s, double min, double h) {\n"
+    "  return rung::cpp::time<TOD>(s * 1e3 + min * 6e4 + h * 36e5);\n}\n"
+    "[[maybe_unused]] inline DATE DATE_CPP(int day, int month, int year) {\n"
+    "  return rung::cpp::time<DATE>(static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n"
+    "[[maybe_unused]] inline DT DT_CPP(double s, double min, double h, int day, int month, int year) {\n"
+    "  return rung::cpp::time<DT>(s + min * 60 + h * 3600 +\n"
+    "                             static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n";
 
-std::string mangled(std::string_view name) {
-  std::string out;
-  appendMangled(out, name);
-  return out;
-}
+struct TimeName {
+  TypeKind kind;
+  const char* name;
+};
+constexpr TimeName kTimeNames[] = {{TypeKind::Time, "TIME"},
+                                   {TypeKind::LTime, "LTIME"},
+                                   {TypeKind::Date, "DATE"},
+                                   {TypeKind::LDate, "LDATE"},
+                                   {TypeKind::TimeOfDay, "TOD"},
+                                   {TypeKind::LTimeOfDay, "LTOD"},
+                                   {TypeKind::TimeOfDay, "TIME_OF_DAY"},
+                                   {TypeKind::DateTime, "DT"},
+                                   {TypeKind::LDateTime, "LDT"},
+                                   {TypeKind::DateTime, "DATE_AND_TIME"}};
 
 class Writer {
  public:
+  using Ex = cxx::Ex;
   Writer(const ir::Module& module, const EmitOptions& options, const Facts& facts, const ir::CppBody& cpp)
       : module_(module),
         types_(module.types),
         options_(options),
         facts_(facts),
         cpp_(cpp),
-        body_(module.body(cpp.body)) {}
+        body_(module.body(cpp.body)),
+        facade_(module, facts, cpp.body, file_.group, tree_) {}
 
   CppFile write() {
     Group& group = file_.group;
     group.stem = "cpp_" + fileStem(string(body_.name));
     group.bodies.push_back(cpp_.body);
-    if (body_.self) need(body_.self);
-    for (const Local& local : body_.locals) need(local.type);
-    splitSource(cpp_.source, cpp_.loc, source_);
-    splitSource(cpp_.file_source, cpp_.file_loc, file_source_);
-    for (const ir::BodyId function : cpp_.functions) declareFunction(function);
-    const std::string variables = this->variables();
-    group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_;
-    // Internal to this file: two POUs may define the same name.
-    if (!cpp_.file_source.empty()) group.code += "\n" + file_source_ + "\n#line 1 \"" + group.stem + ".cpp\"\n";
-    group.code += "\n}  // namespace\n\n// ";
-    group.code += string(body_.spelling);
-    group.code += '\n';
-    appendSignature(group.code, module_, body_);
-    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + running() + names_ + "  {\n" +
-                  fields_ + "  {\n" + variables + "    [&]() -> void {\n" + source_ + "\n    }();\n" + ending_ +
-                  "  }\n  }\n}\n";
+    if (body_.self) facade_.need(body_.self);
+    for (const Local& local : body_.locals) facade_.need(local.type);
+    const std::string_view path = module_.sources.path(body_.file);
+    std::string source, file_source;
+    splitCppSource(cpp_.source, path, module_.sources.location(cpp_.loc), source, file_.front);
+    splitCppSource(cpp_.file_source, path, module_.sources.location(cpp_.file_loc), file_source, file_.front);
+    for (const ir::BodyId id : cpp_.functions)
+      if (const cxx::Variable* const object = facade_.functionObject(id)) declare(functions_, object);
+    addVariables();
+    addLists();
+    if (body_.self) addFields();
+    addLocals();
+
+    cxx::Declarations lines;
+    lines.add(tree_.blank());
+    lines.add(ownDefinitions(file_source));
+    lines.add(tree_.blank());
+    lines.add(tree_.textual(cxx::DeclKind::Comment, string(body_.spelling)));
+    lines.add(function(source));
+    cxx::print(group.code, tree_, lines);
     return std::move(file_);
   }
 
  private:
   std::string_view string(NameId name) const { return module_.names.string(name); }
   const TypeInfo& info(TypeId type) const { return types_.info(types_.resolve(type)); }
-  bool isString(TypeId type) const { return TypeTable::isString(types_.plainKind(type)); }
-  bool isBlock(TypeId type) const {
-    return types_.kind(type) == TypeKind::Record && (info(type).record_kind == RecordKind::FunctionBlock);
+  static std::string mangled(std::string_view name) {
+    std::string out;
+    appendMangled(out, name);
+    return out;
+  }
+  std::string_view keptMangled(NameId name) { return tree_.kept(mangled(string(name))); }
+
+  // ---- the file
+
+  // Internal to this file: two POUs may define the same name.
+  cxx::Namespace* ownDefinitions(std::string_view file_source) {
+    cxx::Namespace* const space = tree_.declaration<cxx::Namespace>();
+    cxx::Declarations& to = space->members;
+    const auto use = [&](std::string_view name, std::string_view of) {
+      cxx::Using* const made = tree_.declaration<cxx::Using>();
+      made->name = name;
+      made->of = of;
+      to.add(made);
+    };
+    to.add(tree_.blank());
+    use("namespace rung::cpp", "");
+    cxx::Variable* const truth = tree_.variable("bool", "TRUE", tree_.fixed("true"));
+    truth->prefix = "constexpr";
+    truth->also = tree_.variable("bool", "FALSE", tree_.fixed("false"));
+    to.add(truth);
+    for (const TimeName& time : kTimeNames) use(time.name, scalarType(types_, types::idOf(time.kind)));
+    to.add(tree_.printed(kTimeFunctions));
+    to.append(facade_.definitions());
+    if (file_source.empty()) return space;
+    to.add(tree_.blank());
+    to.add(tree_.textual(cxx::DeclKind::Printed, std::string(file_source) + '\n'));
+    to.add(tree_.textual(cxx::DeclKind::Directive, "line 1 \"" + file_.group.stem + ".cpp\""));
+    return space;
   }
 
-  // True for types that need an object, which knows its context: a block, and a structure with blocks inside.
-  bool holdsBlock(TypeId type) const {
-    type = elementOf(types_, type);
-    if (types_.kind(type) != TypeKind::Record || isBlock(type)) return isBlock(type);
-    const std::vector<Field>& fields = info(type).fields;
-    return info(type).record_kind == RecordKind::Struct &&
-           std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return holdsBlock(field.type); });
-  }
-
-  // Notes that the file needs the definition of a record.
-  void need(TypeId type) {
-    type = elementOf(types_, type);
-    std::vector<TypeId>& records = file_.group.records;
-    if (types_.kind(type) == TypeKind::Record && std::find(records.begin(), records.end(), type) == records.end())
-      records.push_back(type);
+  // The names of the object are around those of the method and its parameters, which may hide them.
+  cxx::Function* function(std::string_view source) {
+    const auto block = [&](const cxx::Statements& list) {
+      cxx::Stmt* const made = line(tree_.stmt(cxx::StmtKind::Lines));
+      made->first = list.first();
+      return made;
+    };
+    cxx::Statements inner = functions_;
+    inner.append(variables_);
+    inner.add(line(tree_.textual(cxx::StmtKind::Source, source)));
+    inner.append(ending_);
+    cxx::Statements fields = fields_;
+    fields.add(block(inner));
+    cxx::Statements all;
+    cxx::Variable* const context = tree_.variable("rung_context* const", "rung_ctx_", tree_.fixed("ctx"));
+    context->prefix = "[[maybe_unused]]";
+    declare(all, context);
+    if (options_.counts_steps) declare(all, running());
+    all.append(names_);
+    all.add(block(fields));
+    cxx::Function* const made = signatureOf(tree_, module_, body_);
+    made->form = cxx::Function::Form::Lines;
+    made->body = all.first();
+    return made;
   }
 
   // For messages about a body that crashes or does not end.
-  std::string running() const {
-    if (!options_.counts_steps) return {};
+  cxx::Variable* running() {
     const std::string where = std::string(module_.sources.path(body_.file)) + '\n' +
                               std::to_string(module_.sources.location(cpp_.loc).line) + '\n' +
                               std::string(string(body_.spelling));
-    std::string out = "  const rung::cpp::Running rung_running_(ctx, ";
-    appendQuoted(out, where);
-    return out + ");\n";
+    cxx::Variable* const made = tree_.variable("const rung::cpp::Running", "rung_running_");
+    made->arguments = tree_.call("", {tree_.fixed("ctx"), quoted(where)});
+    return made;
   }
 
-  // A preprocessor directive, `include`; empty: not a directive.
-  static std::string_view directiveOf(std::string_view row) {
-    const auto blanks = [&] {
-      const size_t first = row.find_first_not_of(" \t");
-      row.remove_prefix(std::min(first, row.size()));
-    };
-    blanks();
-    if (!row.starts_with('#')) return {};
-    row.remove_prefix(1);
-    blanks();
-    return row.substr(0, std::min(row.find_first_of(" \t\r<\"(!"), row.size()));
-  }
-  static bool isCondition(std::string_view directive) {
-    return directive.starts_with("if") || directive.starts_with("el") || directive == "endif";
-  }
+  // ---- C++
 
-  // Copies a source with its lines kept. #include lines go to the front of the file, and where conditions surround one
-  // of them, a copy of these too.
-  void splitSource(std::string_view source, Loc loc, std::string& out) {
-    if (source.empty()) return;
-    const SourceLocation location = module_.sources.location(loc);
-    std::string path;
-    appendQuoted(path, module_.sources.path(body_.file));
-    const auto lineDirective = [&](std::string& to, uint32_t line) {
-      to += "#line ";
-      appendUnsigned(to, line);
-      to += ' ' + path + '\n';
-    };
-    std::vector<std::string_view> rows;
-    for (size_t at = 0; at <= source.size();) {
-      const size_t end = std::min(source.find('\n', at), source.size());
-      rows.push_back(source.substr(at, end - at));
-      at = end + 1;
-    }
-    bool is_nested = false;
-    uint32_t depth = 0;
-    for (const std::string_view row : rows) {
-      const std::string_view directive = directiveOf(row);
-      if (directive.starts_with("if")) ++depth;
-      if (directive == "endif" && depth > 0) --depth;
-      is_nested = is_nested || (directive == "include" && depth > 0);
-    }
-    bool continues = false, moves = false, copies = false;
-    for (size_t i = 0; i < rows.size(); ++i) {
-      const uint32_t line = location.line + static_cast<uint32_t>(i);
-      if (i == 0) {
-        lineDirective(out, line);
-        out.append(location.column - 1, ' ');
-      } else {
-        out += '\n';
-      }
-      if (!continues) {
-        const std::string_view directive = directiveOf(rows[i]);
-        moves = directive == "include";
-        copies = is_nested && isCondition(directive);
-      }
-      if (moves || copies) {
-        if (!continues) lineDirective(file_.front, line);
-        file_.front += std::string(rows[i]) + '\n';
-      }
-      if (!moves) out += rows[i];
-      continues = (moves || copies) && rows[i].ends_with('\\');
-    }
+  cxx::Stmt* line(cxx::Stmt* stmt) const {
+    stmt->begins = true;
+    return stmt;
   }
-
-  // ---- types
-
-  // The C++ type that the body uses; empty: not accessible from C++.
-  std::string view(TypeId type) {
-    type = types_.resolve(type);
-    const TypeInfo& of = types_.info(type);
-    if (of.kind == TypeKind::Enum && of.name) return named(type);
-    if (isString(type)) {
-      const TypeId plain = types_.resolve(type);
-      const TypeKind kind = types_.plainKind(plain);
-      std::string out = kind == TypeKind::WString   ? "WideString<"
-                        : kind == TypeKind::UString ? "Utf8String<"
-                                                    : "String<";
-      appendUnsigned(out, info(plain).length);
-      return out + ">";
-    }
-    if (of.kind == TypeKind::Array) {
-      const std::string element = holdsBlock(type) ? "" : view(of.base);
-      if (element.empty()) return {};
-      std::string out = "Array<" + element;
-      for (const types::Dimension& dimension : of.dimensions) {
-        out += '[';
-        appendUnsigned(out, dimension.count());
-        out += ']';
-      }
-      return out + ">";
-    }
-    if (of.kind == TypeKind::Record)
-      return of.record_kind == RecordKind::Struct && !holdsBlock(type) ? named(type) : "";
-    if (of.kind == TypeKind::Pointer || of.kind == TypeKind::Reference) return "void*";
-    return typeKindName(types_, type) + 5;  // RUNG_INT
-  }
-
-  // The C++ type of a located variable: its bytes lie at any address.
-  std::string located(TypeId type) {
-    type = types_.resolve(type);
-    const TypeInfo& of = types_.info(type);
-    if (of.kind == TypeKind::Array) {
-      std::string out = "Array<" + located(of.base);
-      for (const types::Dimension& dimension : of.dimensions) {
-        out += '[';
-        appendUnsigned(out, dimension.count());
-        out += ']';
-      }
-      return out + ">";
-    }
-    const std::string seen = view(type);
-    if (of.kind == TypeKind::Record) return locatedStructure(type, seen);
-    const bool is_bytes = of.size == 1 || (isString(type) && types_.plainKind(type) != TypeKind::WString);
-    if (is_bytes) return seen;
-    return (of.kind == TypeKind::Enum && of.name ? "LocatedEnum<" : "Located<") + seen + ">";
-  }
-
-  // The members of the structure `seen` without alignment; those that overlap an earlier one are not shown.
-  std::string locatedStructure(TypeId type, const std::string& seen) {
-    const std::string name = seen + "_located";
-    for (const TypeId known : located_)
-      if (known == type) return name;
-    located_.push_back(type);
-    std::string fields;
-    uint32_t at = 0, gaps = 0;
-    const auto addGap = [&](uint32_t end) {
-      if (end <= at) return;
-      fields += "  unsigned char rung_gap";
-      appendUnsigned(fields, gaps++);
-      fields += "_[";
-      appendUnsigned(fields, end - at);
-      fields += "];\n";
-      at = end;
-    };
-    const TypeInfo& of = info(type);
-    for (const Field& field : of.fields) {
-      const std::string_view field_name = string(field.name);
-      if (view(field.type).empty() || field_name.empty() || mangled(field_name) != std::string(field_name) + "_" ||
-          field.offset < at)
-        continue;
-      addGap(field.offset);
-      fields += "  " + located(field.type) + ' ' + cppIdentifier(field_name) + ";\n";
-      at += info(field.type).size;
-    }
-    addGap(of.size);
-    definitions_ += "\nstruct RUNG_MAY_ALIAS " + name + " {\n" + fields + "  operator " + seen +
-                    "() const { return rung::cpp::bits<" + seen + ">(*this); }\n  " + name + "& operator=(const " +
-                    seen + "& value) { return *this = rung::cpp::bits<" + name + ">(value); }\n};\n";
-    return name;
-  }
-
-  // Defines the type, unless already known, and returns its name.
-  std::string named(TypeId type) {
-    for (const auto& [known, name] : named_) {
-      if (known == type) return name;
-    }
-    std::string name = cppIdentifier(cppUpper(string(info(type).name)));
-    for (size_t i = 0; i < named_.size(); ++i) {
-      if (named_[i].second == name) name += '_', i = 0;
-    }
-    named_.push_back({type, name});
-    std::string definition = info(type).kind == TypeKind::Enum ? enumeration(type, name)
-                             : holdsBlock(type)                ? object(type, name)
-                                                               : structure(type, name);
-    definitions_ += '\n' + definition;
-    return name;
-  }
-
-  std::string enumeration(TypeId type, const std::string& name) {
-    const std::string scalar = scalarType(types_, type);
-    std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n  enum Value : " + scalar + " {";
-    const char* separator = " ";
-    for (const auto& [item, value] : info(type).items) {
-      std::string item_name = cppIdentifier(cppUpper(string(item)));
-      if (item_name == name) item_name += '_';
-      out += separator + item_name + " = ";
-      appendConstant(out, types_, type, static_cast<uint64_t>(value));
-      separator = ", ";
-    }
-    return out + " };\n  Value value;\n  " + name + "() = default;\n  constexpr " + name +
-           "(Value of) : value(of) {}\n  constexpr operator Value() const { return value; }\n};\n";
-  }
-
-  std::string structure(TypeId type, const std::string& name) {
-    const TypeInfo& of = info(type);
-    const RecordPlacement placement = placementOf(types_, type);
-    std::string fields;
-    const auto addGap = [&](uint32_t bytes, size_t number) {
-      if (bytes == 0) return;
-      fields += "  unsigned char rung_gap";
-      appendUnsigned(fields, number);
-      fields += "_[";
-      appendUnsigned(fields, bytes);
-      fields += "];\n";
-    };
-    for (size_t i = 0; i < of.fields.size(); ++i) {
-      const Field& field = of.fields[i];
-      const std::string seen = view(field.type);
-      const std::string_view field_name = string(field.name);
-      const bool is_plain =
-          !seen.empty() && !field_name.empty() && mangled(field_name) == std::string(field_name) + "_";
-      addGap(placement.members[i].gap, i);
-      if (is_plain) {
-        fields += "  " + placement.members[i].before + seen + ' ' + cppIdentifier(field_name) +
-                  placement.members[i].after + ";\n";
-      } else {
-        fields += "  alignas(";
-        appendUnsigned(fields, std::min(types_.fieldAlign(field), of.placed_align));
-        fields += ") ";
-        fields += "unsigned char rung_hidden";
-        appendUnsigned(fields, i);
-        fields += "_[";
-        appendUnsigned(fields, info(field.type).size);
-        fields += "];\n";
-      }
-    }
-    addGap(placement.gap, of.fields.size());
-    std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n" + fields + "};\nstatic_assert(sizeof(" + name + ") == ";
-    appendUnsigned(out, of.size);
-    return out + ", \"layout\");\n";
-  }
-
-  // The fields of a block and of those that it extends, each with its lvalue.
-  void fieldsOf(TypeId type, const std::string& place, std::vector<std::pair<const Field*, std::string>>& out) const {
-    for (const Field& field : info(type).fields) {
-      const std::string own = place + '.' + mangled(string(field.name));
-      if (field.role == FieldRole::Base)
-        fieldsOf(types_.resolve(field.type), own, out);
-      else
-        out.push_back({&field, own});
-    }
-  }
-
-  // The objects of a variable: `OBJECT name`, or for an array `struct { OBJECT table[2][3]; } name`; and the
-  // initialiser. Empty: too many.
-  struct Objects {
-    std::string declaration, begin;
-  };
-  Objects objectsOf(const std::string& name, TypeId type, const std::string& place) {
-    const TypeId element = elementOf(types_, type);
-    const std::string object = named(element);
-    if (element == type) return {object + ' ' + name, "(rung_ctx_, " + place + ")"};
-    std::vector<std::string> places = {place};
-    std::string extents;
-    for (TypeId at = type; types_.kind(at) == TypeKind::Array; at = types_.resolve(info(at).base)) {
-      if (at != type) return {};  // an array of arrays of blocks
-      for (const types::Dimension& dimension : info(at).dimensions) {
-        if (dimension.count() * places.size() > kMaxBlocks) return {};
-        std::vector<std::string> next;
-        extents += '[' + std::to_string(dimension.count()) + ']';
-        for (const std::string& one : places) {
-          for (uint64_t i = 0; i < dimension.count(); ++i) next.push_back(one + '[' + std::to_string(i) + ']');
-        }
-        places = std::move(next);
-      }
-    }
-    std::string list;
-    for (const std::string& one : places) list += (list.empty() ? "" : ", ") + object + "(rung_ctx_, " + one + ")";
-    return {"struct {\n      " + object + " table" + extents + ";\n    } " + name, "{{" + list + "}}"};
-  }
-
-  // Inputs and outputs are references, in-outs are values that Body() passes to the block. Inner blocks are objects
-  // again; an in-out that is a block is the address of such an object.
-  std::string object(TypeId type, const std::string& name) {
-    need(type);
-    const std::string memory = recordName(types_, type);
-    std::string members, init, lend, take_back;
-    std::vector<std::pair<const Field*, std::string>> fields;
-    fieldsOf(type, "rung_self_", fields);
-    for (const auto& [known, place] : fields) {
-      const Field& field = *known;
-      const bool is_pin =
-          field.role == FieldRole::Input || field.role == FieldRole::Output || field.role == FieldRole::InOut;
-      const bool is_member = field.role == FieldRole::Member && !isBlock(type);
-      if (!is_pin && !is_member) continue;
-      const std::string pin = cppIdentifier(string(field.name));
-      const TypeId field_type = types_.resolve(field.type);
-      if (holdsBlock(field_type)) {
-        if (field.role == FieldRole::InOut) {
-          if (!isBlock(field_type)) continue;
-          members += "  " + named(field_type) + "* " + pin + " = nullptr;\n";
-          lend += "    const auto rung_before_" + pin + " = " + place + ";\n    if (" + pin + " != nullptr) " + place +
-                  " = &" + pin + "->rung_self_;\n";
-          take_back += "    " + place + " = rung_before_" + pin + ";\n";
-          continue;
-        }
-        const Objects objects = objectsOf(pin, field_type, place);
-        if (objects.declaration.empty()) continue;
-        members += "  " + objects.declaration + ";\n";
-        init += ", " + pin + objects.begin;
-        continue;
-      }
-      const std::string seen = view(field.type);
-      if (seen.empty()) continue;
-      if (field.role == FieldRole::InOut) {
-        members += "  " + seen + ' ' + pin + "{};\n";
-        lend += "    const auto rung_before_" + pin + " = " + place + ";\n    " + place +
-                " = reinterpret_cast<decltype(" + place + ")>(&" + pin + ");\n";
-        take_back += "    " + place + " = rung_before_" + pin + ";\n";
-        continue;
-      }
-      members += "  " + (field.role == FieldRole::Output ? constantOf(seen) : seen) + "& " + pin + ";\n";
-      init += ", " + pin + "(rung::cpp::view<" + seen + ">(" + place + "))";
-    }
-    const std::string body = isBlock(type) ? bodyOf(type, lend, take_back) + methodsOf(type) : "";
-    return "class " + name + " {\n public:\n  rung_context* const rung_ctx_;\n  " + memory + "& rung_self_;\n" +
-           members + "  " + name + "(rung_context* ctx, " + memory + "& self) : rung_ctx_(ctx), rung_self_(self)" +
-           init + " {}\n  " + name + "(const " + name + "&) = delete;\n" + body + "};\n";
-  }
-
-  std::string bodyOf(TypeId type, const std::string& lend, const std::string& take_back) {
-    std::string call;
-    for (const ir::Record& record : module_.records) {
-      if (types_.resolve(record.type) != type || !record.body) continue;
-      const ir::Body& body = module_.body(record.body);
-      if (body.native) {
-        file_.group.callees.push_back(record.body);
-        call = ir::nativeName(module_, body) + "(rung_ctx_, &rung_self_)";
-      } else {
-        if (facts_.is_inlined[record.body.index] != 0) file_.group.inlined.push_back(record.body);
-        appendFunctionName(call, module_, body);
-        call += "(rung_self_, rung_ctx_)";
-      }
-    }
-    return "  void Body() {\n" + lend + "    " + call + ";\n" + take_back + "  }\n";
-  }
-
-  // The methods and actions of a block and of those that it extends, by their declared names.
-  std::string methodsOf(TypeId type) {
+  void declare(cxx::Statements& to, const cxx::Decl* declaration) { to.add(line(tree_.declare(declaration))); }
+  cxx::Type reference(const std::string& type) { return {tree_.kept(type), "&", {}}; }
+  Ex quoted(std::string_view text) {
     std::string out;
-    std::vector<std::string> taken;
-    for (std::string place = "rung_self_"; type;) {
-      for (uint32_t i = 1; i < module_.bodies.size(); ++i) {
-        const ir::Body& method = module_.bodies[i];
-        if (!isMethod(method) || method.abstract || types_.resolve(method.self) != type || i == cpp_.body.index)
-          continue;
-        const std::string name = ownName(method);
-        const Call call = callOf({i}, place);
-        const std::string key = name + '(' + call.parameters;
-        if (!call.ok || std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
-        taken.push_back(key);
-        out += "  " + call.result + ' ' + name + "(" + call.parameters + ") { " + call.code + " }\n";
-      }
-      const std::vector<Field>& fields = info(type).fields;
-      const auto base =
-          std::find_if(fields.begin(), fields.end(), [](const Field& field) { return field.role == FieldRole::Base; });
-      if (base == fields.end()) break;
-      place += '.' + mangled(string(base->name));
-      type = types_.resolve(base->type);
-    }
-    return out;
+    appendQuoted(out, text);
+    return tree_.name(out);
+  }
+  Ex dereferenced(Ex pointer) { return tree_.group(tree_.prefix("*", pointer)); }
+  // The memory at an address as `type`.
+  Ex memoryAs(const std::string& type, Ex address) {
+    return tree_.prefix("*", tree_.call("reinterpret_cast<" + type + "*>", {address}));
   }
 
-  // ---- functions
-
-  // As declared: methods and actions are members like pins.
-  std::string ownName(const ir::Body& method) const {
-    const std::string_view name = string(method.spelling);
-    return cppIdentifier(name.substr(name.rfind('.') + 1));
-  }
-
-  // The path from a block to one that it extends.
-  std::string placeOf(const std::string& place, TypeId from, TypeId to) const {
-    from = types_.resolve(from);
-    if (from == types_.resolve(to)) return place;
-    for (const Field& field : info(from).fields)
-      if (field.role == FieldRole::Base) return placeOf(place + '.' + mangled(string(field.name)), field.type, to);
-    return place;
-  }
-
-  // A function or method as the facade calls it; `self`: the lvalue of its object.
-  struct Call {
-    bool ok = false;
-    std::string parameters, names, result, code;
-  };
-  Call callOf(ir::BodyId id, const std::string& self) {
-    const ir::Body& function = module_.body(id);
-    Call created;
-    std::string arguments, lengths;
-    bool ok = true;
-    uint32_t count = 0;
-    for (const Local& local : ir::parameters(function)) {
-      const std::string seen = view(local.type);
-      ok = ok && !seen.empty() && !holdsBlock(local.type);
-      need(local.type);
-      std::string name = "rung_p";
-      appendUnsigned(name, count++);
-      created.parameters += (created.parameters.empty() ? "" : ", ");
-      created.names += (created.names.empty() ? "" : ", ") + name;
-      if (local.kind == LocalKind::Input) {
-        created.parameters += (local.by_reference ? constantOf(seen) + "& " : seen + ' ') + name;
-        arguments += ", " + (local.by_reference ? pointer(local.type, "&" + name, true)
-                                                : "rung::cpp::bits<" + std::string(scalarType(types_, local.type)) +
-                                                      ">(" + name + ")");
-      } else {
-        created.parameters += seen + "* " + name;
-        arguments += ", " + pointer(local.type, name, false);
-        if (passesLength(module_, function, local)) {
-          lengths += "uint32_t " + name + "n = RUNG_UNCOUNTED; ";
-          arguments += ", &" + name + "n";
-        }
-      }
-    }
-    created.result = function.result ? view(function.result) : "void";
-    if (!ok || created.result.empty()) return created;
-    created.ok = true;
-    if (facts_.is_inlined[id.index] != 0) {
-      file_.group.inlined.push_back(id);
-    } else {
-      file_.group.callees.push_back(id);
-    }
-    std::string call;
-    if (function.native) {
-      call = ir::nativeName(module_, function);
-    } else {
-      appendFunctionName(call, module_, function);
-    }
-    call += self.empty() ? "(rung_ctx_" : isMethod(function) ? "(&" + self + ", rung_ctx_" : "(" + self + ", rung_ctx_";
-    call += arguments;
-    if (!function.result) {
-      created.code = call + ");";
-    } else if (!ir::isAggregate(types_, function.result)) {
-      created.code = "return rung::cpp::bits<" + created.result + ">(" + call + "));";
-    } else {
-      need(function.result);
-      created.code = created.result + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
-      if (function.native && isString(function.result)) {
-        created.code += ", ";
-        appendUnsigned(created.code, info(function.result).length);
-      }
-      created.code += "); return rung_result;";
-    }
-    created.code.insert(0, lengths);
-    return created;
-  }
-
-  void declareFunction(ir::BodyId id) {
-    const ir::Body& function = module_.body(id);
-    const Call call = callOf(id, function.self ? "rung_self_" : "");
-    if (!call.ok) return;
-    const std::string name = function.self ? ownName(function) : cppIdentifier(cppUpper(string(function.spelling)));
-    const std::string type = "rung_function_" + name;
-    std::string self;
-    if (function.self) {
-      need(function.self);
-      self = recordName(types_, types_.resolve(function.self)) + "& rung_self_;\n  ";
-    }
-    definitions_ += "\nstruct " + type + " {\n  rung_context* rung_ctx_;\n  " + self + call.result + " operator()(" +
-                    call.parameters + ") const { " + call.code + " }\n";
-    if (!function.self) {
-      definitions_ += "  " + call.result + " operator()(bool rung_en, BOOL* rung_eno" +
-                      (call.parameters.empty() ? "" : ", " + call.parameters) +
-                      ") const {\n    if (rung_eno != nullptr) *rung_eno = rung_en;\n    ";
-      definitions_ += function.result ? "return rung_en ? (*this)(" + call.names + ") : " + call.result + "{};"
-                                      : "if (rung_en) (*this)(" + call.names + ");";
-      definitions_ += "\n  }\n";
-    }
-    definitions_ += "};\n";
-    functions_ += "    const " + type + ' ' + name + "{rung_ctx_" +
-                  (function.self ? ", " + placeOf("rung_self_", body_.self, function.self) : "") + "};\n";
-  }
-
-  // The address of a view, converted to the parameter type of the function.
-  std::string pointer(TypeId type, const std::string& address, bool constant) {
-    std::string to;
-    appendPointer(to, types_, type, "", constant);
-    return "reinterpret_cast<" + to + ">(" + address + ")";
-  }
-
-  // ---- variables
-
-  static std::string quotedBits(const std::string& type, const std::string& value) {
-    return "rung::cpp::bits<" + type + ">(" + value + ")";
-  }
-
-  std::string constant(TypeId type, uint64_t bits) {
-    const std::string seen = view(type);
+  Ex constant(TypeId type, uint64_t bits) {
+    const std::string seen = facade_.view(type);
     std::string value;
-    if (isString(type)) {
+    if (facade_.isString(type)) {
       const std::string_view of = string(NameId{static_cast<uint32_t>(bits)});
-      if (types_.plainKind(type) == TypeKind::WString) {
-        appendQuotedWide(value, of);
-      } else {
-        appendQuoted(value, of);
-      }
-      return seen + "(" + value + ")";
+      types_.plainKind(type) == TypeKind::WString ? appendQuotedWide(value, of) : appendQuoted(value, of);
+      return tree_.call(seen, {tree_.name(value)});
     }
     appendConstant(value, types_, type, bits);
-    return quotedBits(seen, std::string(scalarType(types_, type)) + "(" + value + ")");
+    return facade_.bitsOf(seen, tree_.call(scalarType(types_, type), {tree_.name(value)}));
+  }
+
+  cxx::Variable* constantVariable(const ir::CppBody::Constant& known) {
+    cxx::Variable* const made = tree_.variable(facade_.view(known.type), cppIdentifier(string(known.name)));
+    made->prefix = "const";
+    made->value = constant(known.type, known.bits);
+    return made;
   }
 
   // The initial value of a variable of a call.
-  std::string initial(NameId name, TypeId type) {
-    for (const ir::CppBody::Constant& known : cpp_.initial) {
+  Ex initial(NameId name, TypeId type) {
+    for (const ir::CppBody::Constant& known : cpp_.initial)
       if (known.name == name) return constant(type, known.bits);
-    }
     const TypeInfo& of = info(type);
     if (of.kind == TypeKind::Enum && !of.items.empty())
       return constant(type, static_cast<uint64_t>(of.items[0].second));
     if (of.kind == TypeKind::Subrange) return constant(type, static_cast<uint64_t>(of.initial));
-    return view(type) + "{}";
+    return tree_.name(facade_.view(type) + "{}");
   }
 
-  // Declares a name for an lvalue: a reference, the object of a block, or the objects of an array of blocks.
-  std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
+  // A name for an lvalue: a reference, the object of a block, or the objects of an array of blocks; null: none.
+  cxx::Valued* variable(std::string_view name, TypeId type, Ex place, bool is_constant) {
     type = types_.resolve(type);
     const std::string called = cppIdentifier(name);
-    if (!holdsBlock(type)) {
-      const std::string seen = view(type);
-      if (seen.empty()) return {};
-      return "    " + (constant ? constantOf(seen) : seen) + "& " + called + " = rung::cpp::view<" + seen + ">(" +
-             place + ");\n";
+    if (!facade_.holdsBlock(type)) {
+      const std::string seen = facade_.view(type);
+      if (seen.empty()) return nullptr;
+      return tree_.variable(reference(is_constant ? constantOf(seen) : seen), called, facade_.viewOf(seen, place));
     }
-    const Objects objects = objectsOf(called, type, place);
-    return objects.declaration.empty() ? "" : "    " + objects.declaration + objects.begin + ";\n";
+    const CppFacade::Objects objects = facade_.objectsOf(called, type, place);
+    if (objects.declaration != nullptr) objects.declaration->arguments = objects.arguments;
+    return objects.declaration;
   }
+  void addVariable(cxx::Statements& to, std::string_view name, TypeId type, Ex place, bool is_constant) {
+    if (const cxx::Valued* const made = variable(name, type, place, is_constant)) declare(to, made);
+  }
+
+  // ---- global variables
 
   // A global variable in its list.
-  std::string placeOf(const ir::CppBody::Variable& known) {
+  Ex placeOf(const ir::CppBody::Variable& known) {
     const ir::List& list = module_.lists[known.index];
-    need(list.record);
+    facade_.need(list.record);
     const Field& field = info(list.record).fields[known.offset];
-    std::string block = "(*static_cast<" + recordName(types_, list.record) + "*>(rung_ctx_->blocks[";
-    appendUnsigned(block, facts_.list_block[known.index]);
-    return block + "]))." + mangled(string(field.name));
+    const Ex block =
+        tree_.element(tree_.arrow(tree_.fixed("rung_ctx_"), "blocks"), tree_.number(facts_.list_block[known.index]));
+    const Ex memory = tree_.call("static_cast<" + recordName(types_, list.record) + "*>", {block});
+    return tree_.member(tree_.prefix("*", memory), keptMangled(field.name));
   }
 
-  // The declaration of a name, and the initialiser of a member of an object.
-  struct Declared {
-    std::string declaration, member, value;
-  };
-  Declared locatedVariable(const ir::CppBody::Variable& known, const std::string& name) {
-    std::string address = "rung_ctx_->areas[";
-    appendUnsigned(address, known.index);
-    address += "] + ";
-    appendUnsigned(address, known.offset);
+  cxx::Variable* locatedVariable(const ir::CppBody::Variable& known) {
+    const std::string name = cppIdentifier(string(known.name));
+    const Ex area = tree_.element(tree_.arrow(tree_.fixed("rung_ctx_"), "areas"), tree_.number(known.index));
+    const Ex address = tree_.infix(cxx::Op::Add, area, tree_.number(known.offset));
     if (known.bit != ir::kNoBit) {
-      const std::string type = known.constant ? "const ConstantBit " : "const LocatedBit ";
-      address += ", ";
-      appendUnsigned(address, known.bit);
-      return {type + name + "(" + address + ")", type + name, "{" + address + "}"};
+      cxx::Variable* const bit = tree_.variable(known.constant ? "const ConstantBit" : "const LocatedBit", name);
+      bit->arguments = tree_.call("", {address, tree_.number(known.bit)});
+      return bit;
     }
-    need(known.type);
-    const std::string seen = located(known.type), type = known.constant ? constantOf(seen) : seen;
-    const std::string value = "*reinterpret_cast<" + type + "*>(" + address + ")";
-    return {type + "& " + name + " = " + value, type + "& " + name, value};
+    facade_.need(known.type);
+    const std::string seen = facade_.located(known.type), type = known.constant ? constantOf(seen) : seen;
+    return tree_.variable(reference(type), name, memoryAs(type, address));
+  }
+
+  void addVariables() {
+    for (const ir::CppBody::Variable& known : cpp_.variables) {
+      if (known.list) continue;
+      cxx::Statements& to = known.of_object ? fields_ : variables_;
+      if (known.in_image)
+        declare(to, locatedVariable(known));
+      else
+        addVariable(to, string(known.name), known.type, placeOf(known), known.constant);
+    }
+    for (const ir::CppBody::Constant& known : cpp_.constants)
+      if (!known.list) declare(known.of_object ? fields_ : variables_, constantVariable(known));
   }
 
   // An object for each list of globals that the source names.
-  std::string lists() {
+  void addLists() {
     std::vector<NameId> names;
     const auto note = [&](NameId list) {
       if (list && std::find(names.begin(), names.end(), list) == names.end()) names.push_back(list);
     };
     for (const ir::CppBody::Variable& known : cpp_.variables) note(known.list);
     for (const ir::CppBody::Constant& known : cpp_.constants) note(known.list);
-    std::string out;
-    for (const NameId list : names) {
-      std::string members, values;
-      const auto add = [&](const std::string& member, const std::string& value) {
-        members += "      " + member + ";\n";
-        values += (values.empty() ? "" : ", ") + value;
-      };
-      for (const ir::CppBody::Variable& known : cpp_.variables) {
-        if (!(known.list == list)) continue;
-        const std::string name = cppIdentifier(string(known.name));
-        if (known.in_image) {
-          const Declared declared = locatedVariable(known, name);
-          add(declared.member, declared.value);
-        } else if (holdsBlock(known.type)) {
-          const Objects objects = objectsOf(name, types_.resolve(known.type), placeOf(known));
-          if (objects.declaration.empty()) continue;
-          const bool is_one = objects.begin.front() == '(';
-          add(objects.declaration, is_one ? named(types_.resolve(known.type)) + objects.begin : objects.begin);
-        } else if (const std::string seen = view(known.type); !seen.empty()) {
-          add((known.constant ? constantOf(seen) : seen) + "& " + name,
-              "rung::cpp::view<" + seen + ">(" + placeOf(known) + ")");
-        }
+    for (const NameId name : names) {
+      cxx::Record* const list = tree_.declaration<cxx::Record>();
+      list->keyword = "struct";
+      list->variable = tree_.kept(cppIdentifier(string(name)));
+      std::vector<Ex> values;
+      for (const ir::CppBody::Variable& known : cpp_.variables)
+        if (known.list == name) addListed(known, list->members, values);
+      for (const ir::CppBody::Constant& known : cpp_.constants) {
+        if (!(known.list == name)) continue;
+        cxx::Variable* const member = constantVariable(known);
+        values.push_back(std::exchange(member->value, nullptr));
+        list->members.add(member);
       }
-      for (const ir::CppBody::Constant& known : cpp_.constants)
-        if (known.list == list)
-          add("const " + view(known.type) + ' ' + cppIdentifier(string(known.name)), constant(known.type, known.bits));
-      out += "    struct {\n" + members + "    } " + cppIdentifier(string(list)) + " = {" + values + "};\n";
+      list->value = tree_.braces(values);
+      declare(variables_, list);
     }
-    return out;
   }
 
-  std::string variables() {
-    std::string out;
-    for (const ir::CppBody::Variable& known : cpp_.variables) {
-      if (known.list) continue;
-      const std::string name = cppIdentifier(string(known.name));
-      std::string& to = known.of_object ? fields_ : out;
-      if (known.in_image) {
-        to += "    " + locatedVariable(known, name).declaration + ";\n";
-      } else {
-        to += variable(string(known.name), known.type, placeOf(known), known.constant);
-      }
+  // A member of such an object, and its value.
+  void addListed(const ir::CppBody::Variable& known, cxx::Declarations& members, std::vector<Ex>& values) {
+    const std::string name = cppIdentifier(string(known.name));
+    cxx::Valued* member = nullptr;
+    Ex value = nullptr;
+    if (known.in_image) {
+      member = locatedVariable(known);
+      const Ex arguments = std::exchange(member->arguments, nullptr);
+      value = std::exchange(member->value, nullptr);
+      if (arguments != nullptr) value = tree_.braces({arguments->operands.begin(), arguments->operands.end()});
+    } else if (facade_.holdsBlock(known.type)) {
+      const CppFacade::Objects objects = facade_.objectsOf(name, types_.resolve(known.type), placeOf(known));
+      if (objects.declaration == nullptr) return;
+      member = objects.declaration;
+      const std::string object = facade_.named(elementOf(types_, known.type));
+      value = objects.arguments;
+      if (objects.is_one) value = tree_.call(object, std::vector<Ex>(value->operands.begin(), value->operands.end()));
+    } else {
+      member = variable(string(known.name), known.type, placeOf(known), known.constant);
+      if (member == nullptr) return;
+      value = std::exchange(member->value, nullptr);
     }
-    for (const ir::CppBody::Constant& known : cpp_.constants)
-      if (!known.list)
-        (known.of_object ? fields_ : out) += "    const " + view(known.type) + ' ' + cppIdentifier(string(known.name)) +
-                                             " = " + constant(known.type, known.bits) + ";\n";
-    out += lists();
-    if (body_.self) {
-      if (isMethod(body_)) {
-        const std::string memory = recordName(types_, types_.resolve(body_.self));
-        names_ += "  auto& rung_self_ = *static_cast<" + memory + "*>(object);\n";
-      } else {
-        names_ += "  auto& rung_self_ = self;\n";
-      }
-      const std::string instance = isMethod(body_) ? ownName(body_) + "__" : "";  // VAR_INST
-      std::vector<std::pair<const Field*, std::string>> fields;
-      fieldsOf(types_.resolve(body_.self), "rung_self_", fields);
-      for (const auto& [known, place] : fields) {
-        const Field& field = *known;
-        const std::string_view name = string(field.name);
-        if (mangled(name) != std::string(name) + "_" || name.starts_with("__")) continue;
-        const bool is_const = field.role == FieldRole::Input || field.constant;
-        const bool own = !instance.empty() && name.starts_with(instance);
-        const std::string_view called = own ? name.substr(instance.size()) : name;
-        if (field.by_reference && isString(field.type)) {
-          fields_ += "    " + view(field.type) + "& " + cppIdentifier(called) + " = *reinterpret_cast<" +
-                     view(field.type) + "*>(" + place + ");\n";
-        } else {
-          (own ? out : fields_) +=
-              variable(called, field.type, field.by_reference ? "(*" + place + ")" : place, is_const);
-        }
-      }
+    members.add(member);
+    values.push_back(value);
+  }
+
+  // ---- the instance
+
+  void addFields() {
+    cxx::Variable* const self = tree_.variable(cxx::Type{"auto", "&", {}}, "rung_self_", tree_.fixed("self"));
+    const std::string memory = recordName(types_, types_.resolve(body_.self));
+    if (isMethod(body_))
+      self->value = tree_.prefix("*", tree_.call("static_cast<" + memory + "*>", {tree_.fixed("object")}));
+    declare(names_, self);
+    CppFacade::FieldPlaces fields;
+    facade_.fieldsOf(types_.resolve(body_.self), tree_.fixed("rung_self_"), fields);
+    for (const auto& [field, place] : fields) addField(*field, place);
+  }
+
+  void addField(const Field& field, Ex place) {
+    const std::string_view name = string(field.name);
+    if (mangled(name) != std::string(name) + "_" || name.starts_with("__")) return;
+    const std::string instance = isMethod(body_) ? facade_.ownName(body_) + "__" : "";  // VAR_INST
+    const bool is_const = field.role == FieldRole::Input || field.constant;
+    const bool own = !instance.empty() && name.starts_with(instance);
+    const std::string_view called = own ? name.substr(instance.size()) : name;
+    if (field.by_reference && facade_.isString(field.type)) {
+      const std::string seen = facade_.view(field.type);
+      declare(fields_, tree_.variable(reference(seen), cppIdentifier(called), memoryAs(seen, place)));
+      return;
     }
+    const Ex value = field.by_reference ? dereferenced(place) : place;
+    addVariable(own ? variables_ : fields_, called, field.type, value, is_const);
+  }
+
+  // ---- parameters, variables and the result
+
+  void addLocals() {
     uint32_t count = 0;
     for (const Local& local : body_.locals) {
-      const std::string name = cppIdentifier(string(local.name)), seen = view(local.type);
-      std::string passed = "rung_p";
-      appendUnsigned(passed, count++);
-      passed += '_';
+      const std::string passed = "rung_p" + std::to_string(count++) + "_";
       switch (local.kind) {
         case LocalKind::Temp: break;
         case LocalKind::Variable:
-          out += "    " + seen + ' ' + name + " = " + initial(local.name, local.type) + ";\n";
+          declare(variables_, tree_.variable(facade_.view(local.type), cppIdentifier(string(local.name)),
+                                             initial(local.name, local.type)));
           break;
-        case LocalKind::Input:
-          names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
-          if (isString(local.type)) {
-            out += "    const " + seen + ' ' + name + "(" + passed + ");\n";
-          } else if (local.by_reference) {
-            out += "    const " + seen + "& " + name + " = *reinterpret_cast<const " + seen + "*>(" + passed + ");\n";
-          } else {
-            out += "    const " + seen + ' ' + name + " = " + quotedBits(seen, passed) + ";\n";
-          }
-          break;
+        case LocalKind::Input: addInput(local, passed); break;
         case LocalKind::Output:
-        case LocalKind::InOut:
-          names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
-          if (holdsBlock(local.type)) {
-            out += variable(string(local.name), local.type, "(*" + passed + ")", false);
-            break;
-          }
-          out += "    " + seen + "& " + name + " = *reinterpret_cast<" + seen + "*>(" + passed + ");\n";
-          if (local.kind == LocalKind::Output) out += "    " + name + " = " + initial(local.name, local.type) + ";\n";
-          break;
-        case LocalKind::Result: {
-          const std::string result = body_.self ? ownName(body_) : cppIdentifier(cppUpper(string(body_.spelling)));
-          out += "    " + seen + ' ' + result + " = " + initial({}, local.type) + ";\n";
-          if (local.by_reference) {
-            names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
-            ending_ += "    memcpy(static_cast<void*>(" + passed + "), &" + result + ", sizeof " + result + ");\n";
-          } else {
-            ending_ += "    return " + quotedBits(scalarType(types_, local.type), result) + ";\n";
-          }
-          break;
-        }
+        case LocalKind::InOut: addInOut(local, passed); break;
+        case LocalKind::Result: addResult(local, passed); break;
       }
     }
-    return functions_ + out;
   }
 
-  // The types of time, whose C++ types depend on the dialect, and the functions that make their values. Parts go from
-  // the least significant to the most significant; TIME takes a sign first.
-  std::string times() const {
-    std::string out = "constexpr bool TRUE = true, FALSE = false;\n";
-    const std::pair<TypeKind, const char*> kinds[] = {{TypeKind::Time, "TIME"},
-                                                      {TypeKind::LTime, "LTIME"},
-                                                      {TypeKind::Date, "DATE"},
-                                                      {TypeKind::LDate, "LDATE"},
-                                                      {TypeKind::TimeOfDay, "TOD"},
-                                                      {TypeKind::LTimeOfDay, "LTOD"},
-                                                      {TypeKind::TimeOfDay, "TIME_OF_DAY"},
-                                                      {TypeKind::DateTime, "DT"},
-                                                      {TypeKind::LDateTime, "LDT"},
-                                                      {TypeKind::DateTime, "DATE_AND_TIME"}};
-    for (const auto& [kind, name] : kinds)
-      out += std::string("using ") + name + " = " + scalarType(types_, types::idOf(kind)) + ";\n";
-    return out +
-           "[[maybe_unused]] inline TIME TIME_CPP(int sign, double ms, double s, double min, double h, double days) {\n"
-           "  const double span = ms + s * 1e3 + min * 6e4 + h * 36e5 + days * 864e5;\n"
-           "  return rung::cpp::time<TIME>(sign < 0 ? -span : span);\n}\n"
-           "[[maybe_unused]] inline TOD TOD_CPP(double s, double min, double h) {\n"
-           "  return rung::cpp::time<TOD>(s * 1e3 + min * 6e4 + h * 36e5);\n}\n"
-           "[[maybe_unused]] inline DATE DATE_CPP(int day, int month, int year) {\n"
-           "  return rung::cpp::time<DATE>(static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n"
-           "[[maybe_unused]] inline DT DT_CPP(double s, double min, double h, int day, int month, int year) {\n"
-           "  return rung::cpp::time<DT>(s + min * 60 + h * 3600 +\n"
-           "                             static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n";
+  // The parameter under a name that the facade does not have.
+  Ex passedAs(const Local& local, const std::string& passed) {
+    declare(names_, tree_.variable(cxx::Type{"auto", "&&", {}}, passed, tree_.name(mangled(string(local.name)))));
+    return tree_.name(passed);
+  }
+
+  void addInput(const Local& local, const std::string& passed) {
+    const Ex parameter = passedAs(local, passed);
+    const std::string seen = facade_.view(local.type), name = cppIdentifier(string(local.name));
+    cxx::Variable* made = nullptr;
+    if (facade_.isString(local.type)) {
+      made = tree_.variable(seen, name);
+      made->arguments = tree_.call("", {parameter});
+    } else if (local.by_reference) {
+      made = tree_.variable(reference(seen), name, memoryAs("const " + seen, parameter));
+    } else {
+      made = tree_.variable(seen, name, facade_.bitsOf(seen, parameter));
+    }
+    made->prefix = "const";
+    declare(variables_, made);
+  }
+
+  void addInOut(const Local& local, const std::string& passed) {
+    const Ex parameter = passedAs(local, passed);
+    if (facade_.holdsBlock(local.type))
+      return addVariable(variables_, string(local.name), local.type, dereferenced(parameter), false);
+    const std::string seen = facade_.view(local.type), name = cppIdentifier(string(local.name));
+    declare(variables_, tree_.variable(reference(seen), name, memoryAs(seen, parameter)));
+    if (local.kind != LocalKind::Output) return;
+    const Ex value = tree_.infix(cxx::Op::Assign, tree_.name(name), initial(local.name, local.type));
+    variables_.add(line(tree_.stmt(cxx::StmtKind::Expression, value)));
+  }
+
+  // A variable that is copied to the caller at the end, or returned.
+  void addResult(const Local& local, const std::string& passed) {
+    const std::string name = body_.self ? facade_.ownName(body_) : cppIdentifier(cppUpper(string(body_.spelling)));
+    const Ex result = tree_.name(name);
+    declare(variables_, tree_.variable(facade_.view(local.type), name, initial({}, local.type)));
+    if (!local.by_reference) {
+      ending_.add(line(tree_.stmt(cxx::StmtKind::Return, facade_.bitsOf(scalarType(types_, local.type), result))));
+      return;
+    }
+    const Ex to = tree_.call("static_cast<void*>", {passedAs(local, passed)});
+    const Ex copy = tree_.call("memcpy", {to, tree_.prefix("&", result), tree_.prefix("sizeof ", result)});
+    ending_.add(line(tree_.stmt(cxx::StmtKind::Expression, copy)));
   }
 
   const ir::Module& module_;
@@ -828,9 +442,9 @@ class Writer {
   const ir::CppBody& cpp_;
   const ir::Body& body_;
   CppFile file_;
-  std::vector<std::pair<TypeId, std::string>> named_;
-  std::vector<TypeId> located_;
-  std::string definitions_, functions_, names_, fields_, source_, file_source_, ending_;
+  cxx::Tree tree_;
+  CppFacade facade_;
+  cxx::Statements functions_, names_, fields_, variables_, ending_;
 };
 
 }  // namespace

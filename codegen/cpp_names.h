@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of a program in the facade of a body in C++. In: names as declared. Out: valid C++ names.
-// Called by cpp_bodies.cpp.
+// Called by cpp_bodies.cpp and the parts of the facade.
 #pragma once
 
 #include <string>

@@ -17,9 +17,7 @@ cxx::Ex PlaceWriter::area(uint32_t index) {
   name += module_.areas[index].letter;
   if ((areas_declared_ >> index & 1) == 0) {
     areas_declared_ |= 1u << index;
-    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
-    appendUnsigned(declarations_, index);
-    declarations_ += "];";
+    declare("uint8_t* const", name, tree_.element(tree_.arrow(tree_.fixed("ctx"), "areas"), tree_.number(index)));
   }
   return tree_.name(name);
 }
@@ -88,7 +86,7 @@ void PlaceWriter::holdBytes(StmtId id) {
   for (; holdsBytesFrom(id); ++held_begun_) {
     const HeldByte& byte = all[held_begun_];
     const std::string name = newName("held");
-    declarations_ += " uint32_t " + name + ";";
+    declare("uint32_t", name);
     Ex bits = byte.cleared == 0xFF ? tree_.number(0) : memoryByte(byte.area, byte.byte);
     if (byte.cleared != 0xFF && byte.cleared != 0)
       bits = tree_.infix(Operator::BitAnd, bits, tree_.number(0xFF & ~byte.cleared));

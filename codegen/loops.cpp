@@ -9,7 +9,8 @@ namespace rung::codegen {
 // ---- steps: what rung_context::steps counts
 
 void StatementWriter::step(Loc loc) {
-  if (countsSteps()) checks().check(tree_.fixed("rung_step(ctx)"), loc, types::Fault::Stop, tree_.number(0));
+  if (countsSteps())
+    checks().check(tree_.call("rung_step", {tree_.fixed("ctx")}), loc, types::Fault::Stop, tree_.number(0));
 }
 
 void StatementWriter::stepOfCall() {
@@ -108,11 +109,7 @@ cxx::Ex StatementWriter::controlName(ExprId control) {
 cxx::Ex StatementWriter::limitOf(const ir::ForStmt& stmt, uint8_t wide) {
   if (expr(stmt.to).kind == ExprKind::Const) return values().value(stmt.to);
   const Ex limit = tree_.name(newName("e"));
-  declarations_ += ' ';
-  declarations_ += wide == 64 ? "int64_t" : wide == 32 ? "int32_t" : scalarType(types_, expr(stmt.control).type);
-  declarations_ += ' ';
-  declarations_ += limit->text;
-  declarations_ += ';';
+  declare(wide == 64 ? "int64_t" : wide == 32 ? "int32_t" : scalarType(types_, expr(stmt.control).type), limit->text);
   assign(limit, values().value(stmt.to));
   return limit;
 }
@@ -179,7 +176,9 @@ void StatementWriter::forStatement(StmtId id, const ir::ForStmt& stmt) {
   const auto step = static_cast<int64_t>(ir::bitsOf(expr(stmt.step)));
   const std::string type = scalarType(types_, expr(stmt.control).type);
   const std::string next_name = newName("n"), limit_name = newName("e"), more_name = newName("m");
-  declarations_ += " " + type + " " + next_name + " = 0, " + limit_name + " = 0; bool " + more_name + " = false;";
+  const Ex zero = tree_.number(0);
+  declare(type, next_name, zero)->also = tree_.variable(type, limit_name, zero);
+  declare("bool", more_name, tree_.fixed("false"));
   const Ex next = tree_.name(next_name), limit = tree_.name(limit_name), more = tree_.name(more_name);
   assign(next, values().value(stmt.from));
   assign(limit, values().value(stmt.to));

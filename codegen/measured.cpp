@@ -14,17 +14,20 @@ void StringWriter::declareLengths() {
   for (uint32_t i = 0; i < variables.count(); ++i) {
     if (!analysis_->measured.has(i) || analysis_->appends.has(i)) continue;
     const std::string name = nameOf(i);
-    declarations_ += " uint32_t " + name + "n = ";
-    declarations_ += returnsLength(i) ? '*' + name + "np" : analysis_->measured.isShared(i) ? "RUNG_UNCOUNTED" : "0";
-    declarations_ += ';';
-    if (analysis_->slices.has(i)) declarations_ += " const char* " + name + "v = nullptr;";
+    const Ex length = returnsLength(i)                  ? tree_.prefix("*", tree_.name(name + "np"))
+                      : analysis_->measured.isShared(i) ? tree_.fixed("RUNG_UNCOUNTED")
+                                                        : tree_.number(0);
+    declare("uint32_t", name + 'n', length);
+    if (analysis_->slices.has(i)) declare(cxx::Type{"const char", "*", {}}, name + 'v', tree_.fixed("nullptr"));
   }
   for (const ir::Local& local : body_->locals) {
     const uint32_t i = static_cast<uint32_t>(&local - body_->locals.data());
     if (!passesLength(module_, *body_, local) || analysis_->measured.has(i)) continue;
-    declarations_ += " *";
-    variable(declarations_, local);
-    declarations_ += "np = RUNG_UNCOUNTED;";
+    std::string name;
+    variable(name, local);
+    const Ex length = tree_.prefix("*", tree_.name(name + "np"));
+    const Ex unknown = tree_.infix(Operator::Assign, length, tree_.fixed("RUNG_UNCOUNTED"));
+    state_.declarations.add(tree_.stmt(cxx::StmtKind::Expression, unknown));
   }
 }
 

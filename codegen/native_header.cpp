@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 #include "codegen/signature.h"
 #include "codegen/types.h"
@@ -30,18 +31,24 @@ class Declarations {
     }
     for (const ir::Local& local : body.locals)
       if (isParameter(local)) declareAll(local.type);
-    prototypes_ += "extern \"C\" ";
-    appendSignature(prototypes_, module_, body, {}, self);
-    prototypes_ += ";\n";
+    cxx::Function* const prototype = signatureOf(tree_, module_, body, {}, self);
+    prototype->prefix = "extern \"C\"";
+    prototypes_.add(prototype);
   }
 
-  std::string text(std::string_view name_space) const {
-    if (structs_.empty()) return prototypes_;
-    std::string out = "namespace ";
-    out += name_space;
-    out += " {\n\n" + structs_ + "}  // namespace ";
-    out += name_space;
-    return out += "\n\n" + prototypes_;
+  std::string text(std::string_view name_space) {
+    cxx::Declarations all;
+    if (!structs_.empty()) {
+      cxx::Namespace* const space = tree_.declaration<cxx::Namespace>();
+      space->name = tree_.kept(name_space);
+      space->members = structs_;
+      all.add(space);
+      all.add(tree_.blank());
+    }
+    all.append(prototypes_);
+    std::string out;
+    cxx::print(out, tree_, all);
+    return out;
   }
 
  private:
@@ -69,33 +76,38 @@ class Declarations {
       else
         declare(field.type);
     }
-    appendRecordDefinition(structs_, types_, type, false);
-    appendLayoutAssert(structs_, types_, type);
-    structs_ += '\n';
+    structs_.add(tree_.blank());
+    structs_.add(recordDefinition(tree_, types_, type, false));
+    structs_.add(layoutAssertion(tree_, types_, type));
   }
 
   void enumeration(TypeId type) {
     const TypeInfo& info = types_.info(type);
-    structs_ += "enum ";
-    appendMangled(structs_, types_.names().string(info.name));
-    structs_ += "type : ";
-    structs_ += scalarType(types_, type);
-    structs_ += " {\n";
+    const auto mangled = [&](NameId name) {
+      std::string out;
+      appendMangled(out, types_.names().string(name));
+      return out;
+    };
+    std::vector<cxx::Enumeration::Item> items;
     for (const auto& [name, value] : info.items) {
-      structs_ += "  ";
-      appendMangled(structs_, types_.names().string(name));
-      structs_ += " = ";
-      appendConstant(structs_, types_, info.base, static_cast<uint64_t>(value));
-      structs_ += ",\n";
+      std::string constant;
+      appendConstant(constant, types_, info.base, static_cast<uint64_t>(value));
+      items.push_back({tree_.kept(mangled(name)), tree_.name(constant)});
     }
-    structs_ += "};\n\n";
+    cxx::Enumeration* const made = tree_.declaration<cxx::Enumeration>();
+    made->name = tree_.kept(mangled(info.name) + "type");
+    made->base = scalarType(types_, type);
+    made->items = tree_.copy(items);
+    structs_.add(tree_.blank());
+    structs_.add(made);
   }
 
   const ir::Module& module_;
   const TypeTable& types_;
   std::vector<bool> is_declared_;  // by type
   std::vector<TypeId> pointed_;    // to declare later
-  std::string structs_, prototypes_;
+  cxx::Tree tree_;
+  cxx::Declarations structs_, prototypes_;
 };
 
 }  // namespace

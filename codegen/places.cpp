@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "codegen/body_parts.h"
+#include "codegen/cxx/print.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -70,9 +71,9 @@ cxx::Ex PlaceWriter::blockPlace(TypeId record, uint32_t number, std::string_view
   name += suffix;
   if (std::find(blocks_declared_.begin(), blocks_declared_.end(), number) == blocks_declared_.end()) {
     blocks_declared_.push_back(number);
-    declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
-    appendUnsigned(declarations_, number);
-    declarations_ += "]);";
+    const Ex memory = tree_.element(tree_.arrow(tree_.fixed("ctx"), "blocks"), tree_.number(number));
+    declare(cxx::Type{tree_.kept(type), "&", {}}, name,
+            tree_.prefix("*", tree_.call("static_cast<" + type + "*>", {memory})));
   }
   return tree_.name(name);
 }
@@ -202,13 +203,12 @@ cxx::Ex PlaceWriter::dataReference(uint32_t index) {
     std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
     size_t used = bytes.size();
     while (used > 0 && bytes[used - 1] == '\0') --used;
-    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
-    appendUnsigned(group_.data, group_.data_count);
-    group_.data += '[';
-    appendUnsigned(group_.data, bytes.size() + 1);
-    group_.data += "] = ";
-    appendQuoted(group_.data, bytes.substr(0, used));
-    group_.data += ";\n";
+    const std::string name = "data_" + group_.stem + '_' + std::to_string(group_.data_count);
+    cxx::Variable* const constant = tree_.variable("unsigned char", name, quoted(bytes.substr(0, used)));
+    constant->prefix = "alignas(8) static const";
+    constant->type.extents = tree_.copy(std::vector<uint64_t>{bytes.size() + 1});
+    cxx::print(group_.data, tree_, *constant);
+    group_.data += '\n';
   }
   return tree_.name("data_" + group_.stem + '_' + std::to_string(state_.in.marks.data_number[index]));
 }
@@ -240,7 +240,7 @@ cxx::Ex PlaceWriter::storeBits(const ir::BitsExpr& node, TypeKind kind, Ex value
 
 cxx::Ex PlaceWriter::reference(const ir::Local& parameter, ExprId operand) {
   if (!operand) {  // a discarded output
-    const Ex name = tree_.name(newVariable(parameter.type, "d"));
+    const Ex name = newVariable(parameter.type, "d");
     return isString(parameter.type) ? name : addressOf(name);
   }
   // Only VAR_IN_OUT CONSTANT takes an input, which is const here. A bound in-out and its body do not say that they are.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
 
@@ -41,6 +42,7 @@ RecordDefinitions::RecordDefinitions(const ir::Module& module, const Facts& fact
   held_seen_.resize(module.records.size());
   held_.resize(module.records.size());
   is_held_known_.resize(module.records.size());
+  definitions_.resize(module.records.size());
 }
 
 const std::vector<uint32_t>& RecordDefinitions::held(uint32_t row) {
@@ -81,8 +83,8 @@ void RecordDefinitions::need(const std::vector<TypeId>& records, bool shared) {
   forEachHeld(records, true, [&](uint32_t row) { copies_[row] += shared ? kMaxCopies + 1 : 1; });
 }
 
-void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<std::string>& includes,
-                                std::string& definitions) {
+void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<std::string>& includes, cxx::Tree& tree,
+                                cxx::Declarations& definitions) {
   // By name: the order of first uses in the bodies would make the copies differ.
   std::vector<TypeId> sorted = records;
   std::sort(sorted.begin(), sorted.end(),
@@ -91,47 +93,65 @@ void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<
     if (hasHeader(row)) {
       includes.push_back(recordFile(module_.types, module_.types.resolve(module_.records[row].type)));
     } else {
-      definitions += '\n';
-      definitions += definition(row);
+      definitions.add(tree.blank());
+      definitions.add(tree.printed(definition(row)));
     }
   });
 }
 
-std::string RecordDefinitions::definition(uint32_t row) const {
+const std::string& RecordDefinitions::definition(uint32_t row) {
+  std::string& text = definitions_[row];
+  if (!text.empty()) return text;
+  tree_.clear();
+  cxx::Declarations lines;
+  define(row, tree_, lines);
+  cxx::print(text, tree_, lines);
+  return text;
+}
+
+// Its declaration, and the prototypes of its code; without code, the assertion of its layout is here.
+void RecordDefinitions::define(uint32_t row, cxx::Tree& tree, cxx::Declarations& to) const {
   const ir::Record& record = module_.records[row];
   const types::TypeTable& types = module_.types;
   const TypeId type = types.resolve(record.type);
-  std::string out = "// ";
-  out += keyword(types.info(type).record_kind);
-  out += ' ';
-  out += module_.names.string(record.name);
-  out += '\n';
-  appendRecordDefinition(out, types, type, facts_.is_pointed[type.index] != 0);
+  const std::string name(module_.names.string(record.name));
+  to.add(tree.textual(cxx::DeclKind::Comment, keyword(types.info(type).record_kind) + (' ' + name)));
+  to.add(recordDefinition(tree, types, type, facts_.is_pointed[type.index] != 0));
   bool has_code = false;
-  for (ir::BodyId body : {record.init, record.body}) {
-    if (!body || module_.body(body).native || facts_.is_zeroing[body.index] != 0 || facts_.is_inlined[body.index] != 0)
+  for (const ir::BodyId id : {record.init, record.body}) {
+    if (!id || module_.body(id).native || facts_.is_zeroing[id.index] != 0 || facts_.is_inlined[id.index] != 0)
       continue;
     has_code = true;
-    out += "void ";
-    appendFunctionName(out, module_, module_.body(body));
-    out += '(';
-    out += recordName(types, type);
-    out += "& self, rung_context* ctx);\n";
+    std::string function_name;
+    appendFunctionName(function_name, module_, module_.body(id));
+    cxx::Function* const function = tree.declaration<cxx::Function>();
+    function->result.base = "void";
+    function->name = tree.kept(function_name);
+    function->parameters.add(tree.variable(cxx::Type{tree.kept(recordName(types, type)), "&", {}}, "self"));
+    function->parameters.add(tree.variable(cxx::Type{"rung_context", "*", {}}, "ctx"));
+    to.add(function);
   }
-  if (!has_code) appendLayoutAssert(out, types, type);
-  return out;
+  if (!has_code) to.add(layoutAssertion(tree, types, type));
 }
 
 void RecordDefinitions::appendHeaders(std::vector<OutputFile>& files) {
+  const auto fileOf = [&](uint32_t row) {
+    return recordFile(module_.types, module_.types.resolve(module_.records[row].type));
+  };
   for (uint32_t row = 0; row < module_.records.size(); ++row) {
     if (!hasHeader(row)) continue;
-    const TypeId type = module_.types.resolve(module_.records[row].type);
-    std::string out = "#pragma once\n\n#include \"rung/code.h\"\n";
-    for (uint32_t other : held(row)) {
-      out += "#include \"" + recordFile(module_.types, module_.types.resolve(module_.records[other].type)) + "\"\n";
-    }
-    out += '\n' + openNamespace(name_space_) + '\n' + definition(row) + "\n}  // namespace " + name_space_ + '\n';
-    files.push_back({recordFile(module_.types, type), std::move(out)});
+    cxx::Tree tree;
+    cxx::Declarations header;
+    header.add(tree.textual(cxx::DeclKind::Directive, "pragma once"));
+    header.add(tree.blank());
+    header.add(tree.textual(cxx::DeclKind::Include, "rung/code.h"));
+    for (uint32_t other : held(row)) header.add(tree.textual(cxx::DeclKind::Include, fileOf(other)));
+    header.add(tree.blank());
+    cxx::Namespace* const space = hiddenNamespace(tree, name_space_);
+    space->members.add(tree.blank());
+    space->members.add(tree.printed(definition(row)));
+    header.add(space);
+    cxx::print(files.emplace_back(OutputFile{fileOf(row), {}}).content, tree, header);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the struct of each record is defined. In: the records that each source of the module needs complete. Out:
-// their definitions as C++ code. Called by emit.cpp, after the bodies were written.
+// their definitions as C++ (cxx/nodes.h). Called by emit.cpp, after the bodies were written.
 //
 // A record that few sources use is written into each of them, after the records that it holds: a change of its fields
 // then recompiles exactly its users, g++ opens no file for it, and a project of thousands of blocks makes few files
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/cxx/nodes.h"
 #include "codegen/emit.h"
 #include "codegen/facts.h"
 
@@ -25,7 +26,8 @@ class RecordDefinitions {
   void need(const std::vector<TypeId>& records, bool shared);
 
   // Called after all `need`: the headers that such a source includes, and the definitions that it writes itself.
-  void collect(const std::vector<TypeId>& records, std::vector<std::string>& includes, std::string& definitions);
+  void collect(const std::vector<TypeId>& records, std::vector<std::string>& includes, cxx::Tree& tree,
+               cxx::Declarations& definitions);
   void appendHeaders(std::vector<OutputFile>& files);
 
  private:
@@ -35,7 +37,8 @@ class RecordDefinitions {
   void forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f);  // each once, held records first
   template <class F>
   void visit(uint32_t row, bool into_headers, F& f);
-  std::string definition(uint32_t row) const;
+  const std::string& definition(uint32_t row);
+  void define(uint32_t row, cxx::Tree& tree, cxx::Declarations& to) const;
   const std::vector<uint32_t>& held(uint32_t row);
 
   const ir::Module& module_;
@@ -46,6 +49,8 @@ class RecordDefinitions {
   std::vector<uint32_t> copies_, seen_, held_seen_;
   std::vector<std::vector<uint32_t>> held_;
   std::vector<uint8_t> is_held_known_;
+  std::vector<std::string> definitions_;  // printed; empty: not yet
+  cxx::Tree tree_;                        // of one definition after the other
   uint32_t round_ = 0, held_round_ = 0;
 };
 

@@ -2,6 +2,9 @@
 // Signatures of functions: see signature.h.
 #include "codegen/signature.h"
 
+#include <algorithm>
+
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
 #include "ir/builder.h"
@@ -14,19 +17,78 @@ using types::TypeTable;
 namespace {
 
 // Arrays and records have no C type that a library could know.
-void appendParameter(std::string& out, const TypeTable& types, const ir::Local& local, std::string_view name,
-                     bool native) {
+cxx::Type parameterType(cxx::Tree& tree, const TypeTable& types, const ir::Local& local, bool native) {
   const bool read_only = local.kind == LocalKind::Input;
   const types::TypeKind kind = types.kind(local.type);
-  if (!local.by_reference) {
-    appendDeclaration(out, types, local.type, name);
-  } else if (native && (kind == types::TypeKind::Array || kind == types::TypeKind::Record)) {
-    out += read_only ? "const void* " : "void* ";
-    out += name;
-  } else {
-    appendPointer(out, types, local.type, name, read_only);
-  }
+  if (!local.by_reference) return valueType(tree, types, local.type);
+  if (native && (kind == types::TypeKind::Array || kind == types::TypeKind::Record))
+    return {read_only ? "const void" : "void", "*", {}};
+  return pointerType(tree, types, local.type, read_only);
 }
+
+// The name and the parameters of a signature.
+class SignatureMaker {
+ public:
+  SignatureMaker(cxx::Tree& tree, const ir::Module& module, const ir::Body& body)
+      : tree_(tree), module_(module), types_(module.types), body_(body) {}
+
+  cxx::Function* make(std::string_view function, std::string_view self) {
+    const bool by_value = body_.result && !ir::isAggregate(types_, body_.result);
+    made_->result.base = by_value ? scalarType(types_, body_.result) : returnsString() ? "uint32_t" : "void";
+    std::string name(function);
+    if (name.empty() && body_.native)
+      name = ir::nativeName(module_, body_);
+    else if (name.empty())
+      appendFunctionName(name, module_, body_);
+    made_->name = tree_.kept(name);
+    addContext(self);
+    for (const ir::Local& local : ir::parameters(body_)) {
+      add(parameterType(tree_, types_, local, body_.native), nameOf(local));
+      if (passesLength(module_, body_, local)) add({"uint32_t", "*", {}}, nameOf(local) + "np");
+    }
+    if (body_.result && !by_value) addResult();
+    return made_;
+  }
+
+ private:
+  // A native returns the length of its string.
+  bool returnsString() const { return body_.native && body_.result && TypeTable::isString(types_.kind(body_.result)); }
+
+  void add(const cxx::Type& type, std::string_view name) { made_->parameters.add(tree_.variable(type, name)); }
+
+  std::string nameOf(const ir::Local& local) const {
+    std::string name;
+    appendMangled(name, module_.names.string(local.name));
+    return name;
+  }
+
+  // The context, and the instance of a block or object.
+  void addContext(std::string_view self) {
+    const cxx::Type context{"rung_context", "*", {}};
+    if (isMethod(body_)) add({"void", "*", {}}, "object");
+    if (body_.self && !body_.native && !isMethod(body_))
+      add({tree_.kept(recordType(types_, body_.self)), "&", {}}, "self");
+    add(context, "ctx");
+    if (body_.self && body_.native) add({self.empty() ? "void" : tree_.kept(self), "*", {}}, "self");
+  }
+
+  void addResult() {
+    const auto result = std::find_if(body_.locals.rbegin(), body_.locals.rend(),
+                                     [](const ir::Local& local) { return local.kind == LocalKind::Result; });
+    const bool is_named = result != body_.locals.rend() && !body_.native;
+    if (body_.native && !returnsString())
+      add({"void", "*", {}}, "out");
+    else
+      add(pointerType(tree_, types_, body_.result), is_named ? nameOf(*result) : "out");
+    if (returnsString()) add({"uint32_t", {}, {}}, "capacity");
+  }
+
+  cxx::Tree& tree_;
+  const ir::Module& module_;
+  const TypeTable& types_;
+  const ir::Body& body_;
+  cxx::Function* const made_ = tree_.declaration<cxx::Function>();
+};
 
 }  // namespace
 
@@ -37,70 +99,14 @@ bool passesLength(const ir::Module& module, const ir::Body& function, const ir::
          module.types.kind(parameter.type) == types::TypeKind::String;
 }
 
-void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view function,
-                     std::string_view self) {
-  const TypeTable& types = module.types;
-  const ir::Local* result = nullptr;
-  for (const ir::Local& local : body.locals) {
-    if (local.kind == LocalKind::Result) result = &local;
-  }
-  const bool by_value = body.result && !ir::isAggregate(types, body.result);
-  if (by_value) {
-    const char* type = scalarType(types, body.result);
-    out += type;
-  } else if (body.native && body.result && TypeTable::isString(types.kind(body.result))) {
-    out += "uint32_t";  // the length
-  } else {
-    out += "void";
-  }
-  out += ' ';
-  if (!function.empty()) {
-    out += function;
-  } else if (body.native) {
-    out += ir::nativeName(module, body);
-  } else {
-    appendFunctionName(out, module, body);
-  }
-  out += '(';
-  if (body.native) {
-    out += "rung_context* ctx";
-    if (body.self) {
-      out += ", ";
-      out += self.empty() ? "void" : self;
-      out += "* self";
-    }
-  } else if (isMethod(body)) {
-    out += "void* object, rung_context* ctx";
-  } else if (body.self) {
-    appendRecordType(out, types, body.self);
-    out += "& self, rung_context* ctx";
-  } else {
-    out += "rung_context* ctx";
-  }
-  std::string name;
-  for (const ir::Local& local : ir::parameters(body)) {
-    out += ", ";
-    name.clear();
-    appendMangled(name, module.names.string(local.name));
-    appendParameter(out, types, local, name, body.native);
-    if (passesLength(module, body, local)) out += ", uint32_t* " + name + "np";
-  }
-  if (body.result && !by_value) {
-    name.clear();
-    if (result != nullptr && !body.native) {
-      appendMangled(name, module.names.string(result->name));
-    } else {
-      name = "out";
-    }
-    out += ", ";
-    if (body.native && !TypeTable::isString(types.kind(body.result))) {
-      out += "void* out";
-    } else {
-      appendPointer(out, types, body.result, name);
-    }
-    if (body.native && TypeTable::isString(types.kind(body.result))) out += ", uint32_t capacity";
-  }
-  out += ')';
+cxx::Function* signatureOf(cxx::Tree& tree, const ir::Module& module, const ir::Body& body, std::string_view function,
+                           std::string_view self) {
+  return SignatureMaker(tree, module, body).make(function, self);
+}
+
+void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
+  cxx::Tree tree;
+  cxx::printSignature(out, *signatureOf(tree, module, body));
 }
 
 }  // namespace rung::codegen

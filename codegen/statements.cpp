@@ -311,7 +311,7 @@ void StatementWriter::guarded(const std::string& frame, const std::string& fault
                   add(tree_.stmt(cxx::StmtKind::Return));
                   if (!state_.uses_fault) return;
                   cxx::Stmt* const raise = tree_.textual(cxx::StmtKind::Label, "fault");
-                  raise->a = tree_.name("rung_raise(ctx, at & 15, sites_" + group_.stem + " + (at >> 4), value)");
+                  raise->a = raiseNoted();
                   add(raise);
                 }).first();
   state_.uses_fault = outer_uses_fault;
@@ -321,7 +321,8 @@ void StatementWriter::guarded(const std::string& frame, const std::string& fault
 void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
   const std::string exit = newName("x"), fault = newName("k");
   const Ex exit_name = tree_.name(exit), fault_name = tree_.name(fault), zero = tree_.number(0);
-  declarations_ += " uint32_t " + exit + " = 0; uint8_t " + fault + " = 0;";
+  declare("uint32_t", exit, zero);
+  declare("uint8_t", fault, zero);
   frames_.push_back({});
   frames_.back().exit = exit;
   assign(exit_name, zero);
@@ -346,7 +347,9 @@ void StatementWriter::tryStatement(const ir::TryStmt& stmt) {
     cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::ShortIf, has_fault);
     add(made);
     made->first = nested([&] {
-                    perform(tree_.name("rung_raise(ctx, ctx->fault.kind, ctx->fault.site, ctx->fault.value)"));
+                    const Ex context = tree_.fixed("ctx"), raised = tree_.arrow(context, "fault");
+                    perform(tree_.call("rung_raise", {context, tree_.member(raised, "kind"),
+                                                      tree_.member(raised, "site"), tree_.member(raised, "value")}));
                   }).first();
   }
   const auto goesOn = [&](bool used, uint32_t how, auto&& write) {
@@ -370,9 +373,9 @@ cxx::Stmt* StatementWriter::assertionReport(const Stmt& stmt) {
                                   tree_.number(report.position.column), quotedOrNull(report.source),
                                   node.message ? strings().stringValue(node.message) : quotedOrNull(report.message),
                                   quotedOrNull(report.shown), quotedOrNull(report.items)});
-  return tree_.textual(cxx::StmtKind::Declaration, (node.message ? "const rung_assertion assertion = "
-                                                                 : "static const rung_assertion assertion = ") +
-                                                       cxx::toString(values));
+  cxx::Variable* const assertion = tree_.variable("rung_assertion", "assertion", values);
+  assertion->prefix = node.message ? "const" : "static const";
+  return tree_.declare(assertion);
 }
 
 void StatementWriter::assertStatement(const Stmt& stmt) {

@@ -76,7 +76,7 @@ void StringWriter::prepareString(ExprId from) {
 
 void StringWriter::materializeString(ExprId id) {
   const Expr& e = expr(id);
-  const Ex name = tree_.name(newVariable(e.type, "s"));
+  const Ex name = newVariable(e.type, "s");
   if (e.kind == ExprKind::Convert) {
     copyString({name, capacityOf(e.type), isWide(e.type), nullptr}, id);
   } else {  // a pure function: its string result is the last parameter

@@ -168,6 +168,30 @@ class SymbolWriter {
     }
   }
 
+  std::string items(const rung_type& row) const {
+    Object items;
+    for (uint32_t i = row.first; i < row.first + row.count; ++i) {
+      const std::string key(name(is_.enum_items[i].name));
+      items.number(key.c_str(), is_.enum_items[i].value);
+    }
+    return items.end();
+  }
+
+  std::string dimensions(const rung_type& row) const {
+    std::string dimensions;
+    for (uint32_t i = row.first; i < row.first + row.count; ++i)
+      dimensions += (dimensions.empty() ? "[" : ", [") + std::to_string(is_.dimensions[i].low) + ", " +
+                    std::to_string(is_.dimensions[i].high) + "]";
+    return "[" + dimensions + "]";
+  }
+
+  std::string fields(const rung_type& row) const {
+    std::string fields;
+    for (uint32_t i = row.first; i < row.first + row.count; ++i)
+      if (!isHidden(is_.fields[i].flags)) fields += (fields.empty() ? "\n  " : ",\n  ") + field(is_.fields[i]);
+    return "[" + fields + "]";
+  }
+
   std::string type(const rung_type& row) const {
     Object out;
     out.text("name", name(row.name)).text("kind", kTypeWords[row.kind]).number("size", row.size);
@@ -177,32 +201,15 @@ class SymbolWriter {
       case RUNG_STRING:
       case RUNG_WSTRING:
       case RUNG_USTRING: out.number("length", row.length); break;
-      case RUNG_ENUM: {
+      case RUNG_ENUM:
         typeOf(out, row.element);
-        Object items;
-        for (uint32_t i = row.first; i < row.first + row.count; ++i) {
-          const std::string key(name(is_.enum_items[i].name));
-          items.number(key.c_str(), is_.enum_items[i].value);
-        }
-        out.raw("items", items.end());
+        out.raw("items", items(row));
         break;
-      }
-      case RUNG_ARRAY: {
+      case RUNG_ARRAY:
         typeOf(out, row.element);
-        std::string dimensions;
-        for (uint32_t i = row.first; i < row.first + row.count; ++i)
-          dimensions += (dimensions.empty() ? "[" : ", [") + std::to_string(is_.dimensions[i].low) + ", " +
-                        std::to_string(is_.dimensions[i].high) + "]";
-        out.raw("dimensions", "[" + dimensions + "]");
+        out.raw("dimensions", dimensions(row));
         break;
-      }
-      case RUNG_RECORD: {
-        std::string fields;
-        for (uint32_t i = row.first; i < row.first + row.count; ++i)
-          if (!isHidden(is_.fields[i].flags)) fields += (fields.empty() ? "\n  " : ",\n  ") + field(is_.fields[i]);
-        out.raw("fields", "[" + fields + "]");
-        break;
-      }
+      case RUNG_RECORD: out.raw("fields", fields(row)); break;
       case RUNG_POINTER:
         if (row.element != RUNG_NONE) typeOf(out, row.element);
         break;

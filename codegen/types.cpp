@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // C++ names of types, constants and record definitions: see types.h.
-#include <algorithm>
-
 #include "codegen/types.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 
+#include "codegen/cxx/print.h"
 #include "codegen/names.h"
 
 namespace rung::codegen {
@@ -60,35 +60,26 @@ Representation representationOf(const TypeTable& types, TypeId type) {
   }
 }
 
-void appendDimensions(std::string& out, const TypeTable& types, TypeId type) {
+std::vector<uint64_t> extentsOf(const TypeTable& types, TypeId type) {
+  std::vector<uint64_t> extents;
   for (;;) {
     const TypeInfo& info = types.info(types.resolve(type));
     if (info.kind == TypeKind::Array) {
-      for (const types::Dimension& dimension : info.dimensions) {
-        out += '[';
-        appendUnsigned(out, std::max<uint64_t>(dimension.count(), 1));  // C++ has no array without elements
-        out += ']';
-      }
-      if (info.dimensions.empty()) out += "[1]";  // ARRAY[*]: the caller knows its bounds
+      for (const types::Dimension& dimension : info.dimensions)
+        extents.push_back(std::max<uint64_t>(dimension.count(), 1));  // C++ has no array without elements
+      if (info.dimensions.empty()) extents.push_back(1);              // ARRAY[*]: the caller knows its bounds
       type = info.base;
       continue;
     }
-    if (TypeTable::isString(info.kind)) {
-      out += '[';
-      appendUnsigned(out, uint64_t{info.length} + 1);
-      out += ']';
-    }
-    return;
+    if (TypeTable::isString(info.kind)) extents.push_back(uint64_t{info.length} + 1);
+    return extents;
   }
 }
 
-void appendBase(std::string& out, const TypeTable& types, TypeId type) {
+std::string_view baseOf(cxx::Tree& tree, const TypeTable& types, TypeId type) {
   const TypeId element = elementOf(types, type);
-  if (types.kind(element) == TypeKind::Record) {
-    appendRecordType(out, types, element);
-  } else {
-    out += scalarType(types, element);
-  }
+  if (types.kind(element) == TypeKind::Record) return tree.kept(recordType(types, element));
+  return scalarType(types, element);
 }
 
 bool isEightBytes(const TypeTable& types, TypeId type) {
@@ -151,10 +142,16 @@ std::string recordFile(const TypeTable& types, TypeId type) {
   return name += info.record_kind == RecordKind::GlobalList ? "list.h" : ".h";
 }
 
-void appendRecordType(std::string& out, const TypeTable& types, TypeId type) {
+std::string recordType(const TypeTable& types, TypeId type) {
   const TypeInfo& info = types.info(types.resolve(type));
-  out += info.record_kind == RecordKind::Union ? "union " : "struct ";
-  out += recordName(types, type);
+  return (info.record_kind == RecordKind::Union ? "union " : "struct ") + recordName(types, type);
+}
+
+cxx::Namespace* hiddenNamespace(cxx::Tree& tree, std::string_view name) {
+  cxx::Namespace* const made = tree.declaration<cxx::Namespace>();
+  made->name = tree.kept(name);
+  made->attributes = "RUNG_HIDDEN";
+  return made;
 }
 
 std::string className(const TypeTable& types, TypeId record) {
@@ -189,29 +186,23 @@ void appendFunctionName(std::string& out, const ir::Module& module, const ir::Bo
   }
 }
 
+cxx::Type valueType(cxx::Tree& tree, const TypeTable& types, TypeId type) {
+  return {baseOf(tree, types, type), {}, tree.copy(extentsOf(types, type))};
+}
+
+cxx::Type pointerType(cxx::Tree& tree, const TypeTable& types, TypeId type, bool constant) {
+  const std::string_view base = baseOf(tree, types, type);
+  cxx::Type made{constant ? tree.kept(constantOf(std::string(base))) : base, "*", {}};
+  if (types.kind(type) == TypeKind::Array) made.extents = tree.copy(extentsOf(types, type));
+  return made;
+}
+
 void appendDeclaration(std::string& out, const TypeTable& types, TypeId type, std::string_view name) {
-  appendBase(out, types, type);
-  out += ' ';
-  out += name;
-  appendDimensions(out, types, type);
+  cxx::Tree tree;
+  cxx::print(out, valueType(tree, types, type), name);
 }
 
 std::string constantOf(const std::string& type) { return type.back() == '*' ? type + " const" : "const " + type; }
-
-void appendPointer(std::string& out, const TypeTable& types, TypeId type, std::string_view name, bool constant) {
-  std::string base;
-  appendBase(base, types, type);
-  out += constant ? constantOf(base) : base;
-  if (types.kind(type) != TypeKind::Array) {
-    out += "* ";
-    out += name;
-    return;
-  }
-  out += " (*";
-  out += name;
-  out += ')';
-  appendDimensions(out, types, type);
-}
 
 void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint64_t bits) {
   const Representation representation = representationOf(types, type);
@@ -275,15 +266,6 @@ uint32_t cppAlign(const TypeTable& types, const Field& field) {
   return info.kind == TypeKind::Record ? info.placed_align : info.align;
 }
 
-void appendGap(std::string& out, uint32_t bytes, size_t number) {
-  if (bytes == 0) return;
-  out += "  uint8_t gap";
-  appendUnsigned(out, number);
-  out += '[';
-  appendUnsigned(out, bytes);
-  out += "];\n";
-}
-
 }  // namespace
 
 RecordPlacement placementOf(const TypeTable& types, TypeId type) {
@@ -298,7 +280,7 @@ RecordPlacement placementOf(const TypeTable& types, TypeId type) {
       member.after =
           align == 1 ? " __attribute__((packed))" : " __attribute__((packed, aligned(" + std::to_string(align) + ")))";
     } else if (own < align || (align == 8 && isEightBytes(types, field.type) && !field.by_reference)) {
-      member.before = "alignas(" + std::to_string(align) + ") ";
+      member.before = "alignas(" + std::to_string(align) + ")";
     }
     const uint64_t size = field.by_reference ? types.pointerSize() : types.info(types.resolve(field.type)).size;
     const uint64_t at = (end + align - 1) / align * align;
@@ -310,59 +292,61 @@ RecordPlacement placementOf(const TypeTable& types, TypeId type) {
   return placement;
 }
 
-void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId type, bool pointed) {
+cxx::Record* recordDefinition(cxx::Tree& tree, const TypeTable& types, TypeId type, bool pointed) {
   const TypeInfo& info = types.info(types.resolve(type));
   const RecordPlacement placement = placementOf(types, type);
-  out += info.record_kind == RecordKind::Union ? "union " : "struct ";
-  if (pointed) out += "RUNG_MAY_ALIAS ";
-  out += recordName(types, type);
-  out += " {\n";
-  std::string field_name;
-  for (const Field& field : info.fields) {
-    const size_t number = static_cast<size_t>(&field - info.fields.data());
-    field_name.clear();
-    appendMangled(field_name, types.names().string(field.name));
-    appendGap(out, placement.members[number].gap, number);
-    out += "  ";
-    const bool has_given_offset = info.record_kind == RecordKind::Union && field.given_offset != 0;
-    if (has_given_offset) {  // STRUCT OVERLAP: after a gap
-      out += "struct { uint8_t gap";
-      appendUnsigned(out, number);
-      out += '[';
-      appendUnsigned(out, field.given_offset);
-      out += "]; ";
+  cxx::Record* const record = tree.declaration<cxx::Record>();
+  record->keyword = info.record_kind == RecordKind::Union ? "union" : "struct";
+  record->attributes = pointed ? "RUNG_MAY_ALIAS" : "";
+  record->name = tree.kept(recordName(types, type));
+  const auto gap = [&](uint64_t bytes, size_t number) {
+    cxx::Variable* const made = tree.variable("uint8_t", "gap" + std::to_string(number));
+    made->type.extents = tree.copy(std::vector<uint64_t>{bytes});
+    return made;
+  };
+  std::string name;
+  for (size_t i = 0; i < info.fields.size(); ++i) {
+    const Field& field = info.fields[i];
+    const MemberPlacement& placed = placement.members[i];
+    name.clear();
+    appendMangled(name, types.names().string(field.name));
+    if (placed.gap != 0) record->members.add(gap(placed.gap, i));
+    cxx::Variable* const member = tree.variable(
+        field.by_reference ? pointerType(tree, types, field.type) : valueType(tree, types, field.type), name);
+    member->prefix = tree.kept(placed.before);
+    member->suffix = tree.kept(placed.after);
+    if (info.record_kind != RecordKind::Union || field.given_offset == 0) {
+      record->members.add(member);
+      continue;
     }
-    out += placement.members[number].before;
-    if (field.by_reference)
-      appendPointer(out, types, field.type, field_name);
-    else
-      appendDeclaration(out, types, field.type, field_name);
-    out += placement.members[number].after;
-    out += has_given_offset ? "; };\n" : ";\n";
+    cxx::Record* const overlay = tree.declaration<cxx::Record>();  // STRUCT OVERLAP: after a gap
+    overlay->keyword = "struct";
+    overlay->is_line = true;
+    overlay->members.add(gap(field.given_offset, i));
+    overlay->members.add(member);
+    record->members.add(overlay);
   }
-  appendGap(out, placement.gap, info.fields.size());
-  out += "};\n";
+  if (placement.gap != 0) record->members.add(gap(placement.gap, info.fields.size()));
+  return record;
 }
 
-void appendLayoutAssert(std::string& out, const TypeTable& types, TypeId type) {
-  const TypeInfo& info = types.info(types.resolve(type));
-  const std::string name = recordName(types, type);
-  out += "static_assert(sizeof(";
-  out += name;
-  out += ") == ";
-  appendUnsigned(out, info.size);
+cxx::Assertion* layoutAssertion(cxx::Tree& tree, const TypeTable& types, TypeId type) {
   constexpr size_t kAsserted = 16;
+  const TypeInfo& info = types.info(types.resolve(type));
+  const cxx::Ex name = tree.name(recordName(types, type));
+  const auto is = [&](cxx::Ex what, uint64_t bytes) { return tree.infix(cxx::Op::Equal, what, tree.number(bytes)); };
+  cxx::Assertion* const assertion = tree.declaration<cxx::Assertion>();
+  assertion->text = "layout";
+  assertion->condition = is(tree.call("sizeof", {name}), info.size);
   const size_t step = info.fields.size() / kAsserted + 1;
   for (size_t i = 0; i < info.fields.size(); ++i) {
     if (info.fields[i].offset == 0 || (i % step != 0 && i + 1 != info.fields.size())) continue;
-    out += " && offsetof(";
-    out += name;
-    out += ", ";
-    appendMangled(out, types.names().string(info.fields[i].name));
-    out += ") == ";
-    appendUnsigned(out, info.fields[i].offset);
+    std::string field;
+    appendMangled(field, types.names().string(info.fields[i].name));
+    const cxx::Ex offset = tree.call("offsetof", {name, tree.name(field)});
+    assertion->condition = tree.infix(cxx::Op::And, assertion->condition, is(offset, info.fields[i].offset));
   }
-  out += ", \"layout\");\n";
+  return assertion;
 }
 
 }  // namespace rung::codegen

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types in C++: names, declarations, constants, the struct of each record.
-// In: types of the type table, laid out. Out: C++ code appended to `out`. Called by every file of codegen.
+// In: types of the type table, laid out. Out: C++ as values (cxx/nodes.h), or as text appended to `out`. Called by
+// every file of codegen.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "codegen/cxx/nodes.h"
 #include "ir/ir.h"
 
 namespace rung::codegen {
@@ -18,14 +20,14 @@ const char* scalarAliasType(const types::TypeTable& types, TypeId type);
 // The constant of module.h for a type: `RUNG_INT`.
 const char* typeKindName(const types::TypeTable& types, TypeId type);
 
-// `int16_t x_`, `float x_[3][4]`, `char x_[81]`, `struct Ramp_type x_`.
+// The type of a variable: `int16_t x_`, `float x_[3][4]`, `char x_[81]`, `struct Ramp_type x_`.
+cxx::Type valueType(cxx::Tree& tree, const types::TypeTable& types, TypeId type);
+// A pointer to such a variable: `int16_t* x_`, `float (*x_)[3][4]`, `char* x_`, `struct Ramp_type* x_`.
+cxx::Type pointerType(cxx::Tree& tree, const types::TypeTable& types, TypeId type, bool constant = false);
 void appendDeclaration(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name);
 std::string constantOf(const std::string& type);  // `const float`, `void* const`
-// A pointer to such a variable: `int16_t* x_`, `float (*x_)[3][4]`, `char* x_`, `struct Ramp_type* x_`.
-void appendPointer(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name,
-                   bool constant = false);
 // `struct Ramp_type` or `union Ramp_type`.
-void appendRecordType(std::string& out, const types::TypeTable& types, TypeId type);
+std::string recordType(const types::TypeTable& types, TypeId type);
 std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, for a global list `Valves_list`
 std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
 // Pointer arithmetic has the bounds of ULINT.
@@ -45,12 +47,11 @@ void appendConstant(std::string& out, const types::TypeTable& types, TypeId type
 // The element type of an array, of any dimensions, or the type itself.
 TypeId elementOf(const types::TypeTable& types, TypeId type);
 
-// The struct or union. `pointed`: pointers may read it as memory of another type.
 // How a field becomes a member of a struct that has the layout of the type table. Usually the C++ compiler places it
 // there by itself.
 struct MemberPlacement {
   uint32_t gap = 0;    // bytes before it
-  std::string before;  // `alignas(8) `
+  std::string before;  // `alignas(8)`
   std::string after;   // ` __attribute__((packed))`
 };
 struct RecordPlacement {
@@ -59,8 +60,13 @@ struct RecordPlacement {
 };
 RecordPlacement placementOf(const types::TypeTable& types, TypeId record);
 
-void appendRecordDefinition(std::string& out, const types::TypeTable& types, TypeId type, bool pointed);
+// The struct or union. `pointed`: pointers may read it as memory of another type.
+cxx::Record* recordDefinition(cxx::Tree& tree, const types::TypeTable& types, TypeId type, bool pointed);
 // One assertion for the whole layout: the size and the offsets of fields, about 16 of them in a large record.
-void appendLayoutAssert(std::string& out, const types::TypeTable& types, TypeId type);
+cxx::Assertion* layoutAssertion(cxx::Tree& tree, const types::TypeTable& types, TypeId type);
+
+// The namespace of a module. What it holds is hidden: a shared library exports only the module's function, and
+// position-independent code calls and reads directly.
+cxx::Namespace* hiddenNamespace(cxx::Tree& tree, std::string_view name);
 
 }  // namespace rung::codegen

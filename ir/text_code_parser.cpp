@@ -338,6 +338,12 @@ ExprId Reader::primary(TypeId wanted) {
   }
   for (const char* word : {"true", "false", "inf", "nan", "null", "zero", "class"})
     if (isWord(word)) return literal(wanted);
+  return afterWord();
+}
+
+// An expression that begins with a word of its own, or with the name of a variable.
+ExprId Reader::afterWord() {
+  Builder& b = *builder_;
   if (accept("data")) {
     const Loc loc = b.loc;
     const auto number = static_cast<uint64_t>(integer());
@@ -494,88 +500,99 @@ ExprId Reader::afterType(TypeId of) {
   return failed_ ? ExprId{} : postfix(b.image(of, address->area.index, address->byte, bit));
 }
 
+ExprId Reader::misfit(std::string_view seen, TypeId of) {
+  fail(diag::IrLiteralType, builder_->loc, {seen, of ? types_.toString(of) : "an unknown type"});
+  return {};
+}
+
 ExprId Reader::literal(TypeId of) {
   Builder& b = *builder_;
   if (failed_) return {};
   b.loc = token().loc;
-  const Loc loc = b.loc;
-  auto kindOf = [&](TypeId id) { return id ? types_.plainKind(id) : TypeKind::None; };
-  auto misfit = [&](std::string_view seen) {
-    fail(diag::IrLiteralType, loc, {seen, of ? types_.toString(of) : "an unknown type"});
-    return ExprId{};
-  };
+  const TypeKind kind = of ? types_.plainKind(of) : TypeKind::None;
   if (token().kind == TokenKind::Text) {
-    if (!TypeTable::isString(kindOf(of))) return misfit("a string");
+    if (!TypeTable::isString(kind)) return misfit("a string", of);
     return b.string(of, module_.names.intern(quotedText(TokenKind::Text)));
   }
-  if (accept("zero")) return of ? b.zero(of) : misfit("zero");
+  if (accept("zero")) return of ? b.zero(of) : misfit("zero", of);
   if (isWord("true") || isWord("false")) {
     const bool value = tokens_[at_++].text == "true";
-    if (!of) of = types::kBool;
-    return kindOf(of) == TypeKind::Bool ? b.constant(of, value) : misfit(value ? "true" : "false");
+    if (of && kind != TypeKind::Bool) return misfit(value ? "true" : "false", of);
+    return b.constant(of ? of : types::kBool, value);
   }
-  if (accept("class")) {
-    const TypeId record = type();
-    ConstExpr number{.number_of = record};
-    for (size_t i = 0; i < module_.classes.size(); ++i)
-      if (module_.classes[i].record == record) number.bits = i + 1;
-    return b.add(loc, types::kUDInt, number);
-  }
+  if (accept("class")) return classNumber();
   if (accept("null")) {
-    const TypeKind kind = kindOf(of);
-    return kind == TypeKind::Pointer || kind == TypeKind::Reference ? b.constant(of, 0) : misfit("null");
+    const bool is_pointer = kind == TypeKind::Pointer || kind == TypeKind::Reference;
+    return is_pointer ? b.constant(of, 0) : misfit("null", of);
   }
-  if (token().kind == TokenKind::Name && of && types_.kind(of) == TypeKind::Enum) {
-    const NameId item = name();
-    for (const auto& [item_name, value] : types_.info(of).items)
-      if (item_name == item) return b.integer(of, value);
-    fail(diag::IrUnknownName, loc, {module_.names.string(item), "item"});
-    return {};
-  }
+  if (token().kind == TokenKind::Name && of && types_.kind(of) == TypeKind::Enum) return enumItem(of);
   const bool negative = accept("-");
-  if (accept("inf")) {
-    if (!of) of = types::kReal;
-    return TypeTable::isReal(kindOf(of)) ? b.real(of, negative ? -INFINITY : INFINITY) : misfit("inf");
-  }
-  if (!negative && accept("nan")) {
-    if (!of) of = types::kReal;
-    if (!TypeTable::isReal(kindOf(of))) return misfit("nan");
-    if (!isPunct("(") || token().first_in_line) return b.real(of, std::nan(""));
-    expect("(");
-    const auto bits = static_cast<uint64_t>(integer());
-    expect(")");
-    return failed_ ? ExprId{} : b.constant(of, bits);
-  }
-  if (token().kind != TokenKind::Number) {
-    expected("a literal");
-    return {};
-  }
+  if (isWord("inf") || (!negative && isWord("nan"))) return specialReal(of ? of : types::kReal, negative);
+  if (token().kind == TokenKind::Number) return number(of, negative);
+  expected("a literal");
+  return {};
+}
+
+// The number of the class whose objects have a record.
+ExprId Reader::classNumber() {
+  const Loc loc = builder_->loc;
+  const TypeId record = type();
+  ConstExpr number{.number_of = record};
+  for (size_t i = 0; i < module_.classes.size(); ++i)
+    if (module_.classes[i].record == record) number.bits = i + 1;
+  return builder_->add(loc, types::kUDInt, number);
+}
+
+ExprId Reader::enumItem(TypeId of) {
+  const Loc loc = builder_->loc;
+  const NameId item = name();
+  for (const auto& [item_name, value] : types_.info(of).items)
+    if (item_name == item) return builder_->integer(of, value);
+  fail(diag::IrUnknownName, loc, {module_.names.string(item), "item"});
+  return {};
+}
+
+// inf, nan, or nan with its bits.
+ExprId Reader::specialReal(TypeId of, bool negative) {
+  Builder& b = *builder_;
+  const bool is_real = TypeTable::isReal(types_.plainKind(of));
+  if (accept("inf")) return is_real ? b.real(of, negative ? -INFINITY : INFINITY) : misfit("inf", of);
+  accept("nan");
+  if (!is_real) return misfit("nan", of);
+  if (!isPunct("(") || token().first_in_line) return b.real(of, std::nan(""));
+  expect("(");
+  const auto bits = static_cast<uint64_t>(integer());
+  expect(")");
+  return failed_ ? ExprId{} : b.constant(of, bits);
+}
+
+ExprId Reader::number(TypeId of, bool negative) {
+  Builder& b = *builder_;
   const std::string_view text = token().text;
   const bool is_integer = text.find_first_of(".eE") == std::string_view::npos;
   if (!of) of = is_integer ? kDefaultInteger : types::kReal;
-  const TypeKind kind = kindOf(of);
+  const TypeKind kind = types_.plainKind(of);
   if (TypeTable::isReal(kind)) {
     double value = 0;
-    if (kind == TypeKind::Real) {
-      float narrow = 0;
+    float narrow = 0;
+    if (kind == TypeKind::Real)
       std::from_chars(text.data(), text.data() + text.size(), narrow);
-      value = narrow;
-    } else {
+    else
       std::from_chars(text.data(), text.data() + text.size(), value);
-    }
+    if (kind == TypeKind::Real) value = narrow;
     ++at_;
     return b.real(of, negative ? -value : value);
   }
   const bool is_pointer = kind == TypeKind::Pointer || kind == TypeKind::Reference;
   uint64_t magnitude = 0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), magnitude);
-  if (!is_integer || parsed.ec != std::errc() || (!TypeTable::isScalar(kind) && !is_pointer)) return misfit(text);
+  if (!is_integer || parsed.ec != std::errc() || (!TypeTable::isScalar(kind) && !is_pointer)) return misfit(text, of);
   ++at_;
   const uint32_t width = is_pointer ? 64 : TypeTable::bitWidth(kind);
   const bool is_signed = types_.isSigned(kind);
   const uint64_t limit = is_signed ? (uint64_t{1} << (width - 1)) - (negative ? 0 : 1)
                                    : (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1);
-  if (magnitude > limit || (negative && !is_signed && magnitude != 0)) return misfit(text);
+  if (magnitude > limit || (negative && !is_signed && magnitude != 0)) return misfit(text, of);
   return b.constant(of, negative ? 0 - magnitude : magnitude);
 }
 
@@ -583,65 +600,88 @@ ExprId Reader::postfix(ExprId base) {
   Builder& b = *builder_;
   while (!failed_ && base) {
     b.loc = token().loc;
-    const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
-    auto need = [&](bool holds, std::string_view access, std::string_view what) {
-      if (!holds) fail(diag::IrWrongBase, b.loc, {access, what, types_.toString(typeOf(base))});
-      return holds;
-    };
     ExprId created;
-    if (isPunct(".") && isPunct("%", 1) && token(2).kind == TokenKind::Name) {
-      at_ += 2;
-      const std::string_view part = token().text;
-      const TypeKind kind = part[0] == 'X'   ? TypeKind::Bool
-                            : part[0] == 'B' ? TypeKind::Byte
-                            : part[0] == 'W' ? TypeKind::Word
-                            : part[0] == 'D' ? TypeKind::DWord
-                                             : TypeKind::None;
-      uint32_t position = 0;
-      const auto parsed = std::from_chars(part.data() + 1, part.data() + part.size(), position);
-      if (kind == TypeKind::None || parsed.ec != std::errc() || parsed.ptr != part.data() + part.size()) {
-        expected("X, B, W or D and a position");
-        return {};
-      }
-      ++at_;
-      created = b.bits(base, types::idOf(kind), position);
-    } else if (isPunct(".") && token(1).kind == TokenKind::Name) {
-      ++at_;
-      const Loc loc = token().loc;
-      const NameId id = name();
-      if (failed_ || !need(info.kind == TypeKind::Record, "`.`", "a record")) return {};
-      const uint32_t field = fieldOf(types_.resolve(typeOf(base)), id);
-      if (field == ~0u) {
-        fail(diag::IrUnknownName, loc, {module_.names.string(id), "field"});
-        return {};
-      }
-      created = b.field(base, field);
-    } else if (isPunct("[") && !token().first_in_line) {
-      if (!need(info.kind == TypeKind::Array, "`[`", "an array")) return {};
-      const Loc loc = b.loc;
-      ++at_;
-      std::vector<ExprId> indices;
-      uint16_t proven = 0;
-      do {
-        if (indices.size() < kMostProven && accept("=")) proven = static_cast<uint16_t>(proven | 1u << indices.size());
-        indices.push_back(expr({}));
-      } while (accept(","));
-      expect("]");
-      if (failed_) return {};
-      b.loc = loc;
-      created = b.index(base, indices);
-      b.body.expr(created).proven = proven;
-    } else if (isPunct("^")) {
-      if (!need(info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference, "`^`", "a pointer")) return {};
-      ++at_;
-      created = b.deref(base);
-    } else {
+    if (isPunct(".") && isPunct("%", 1) && token(2).kind == TokenKind::Name)
+      created = part(base);
+    else if (isPunct(".") && token(1).kind == TokenKind::Name)
+      created = field(base);
+    else if (isPunct("[") && !token().first_in_line)
+      created = element(base);
+    else if (isPunct("^"))
+      created = target(base);
+    else
       return base;
-    }
+    if (!created) return {};
     b.body.expr(created).checks = checks(naturalCheck(types_, b.body.expr(created)));
     base = created;
   }
   return base;
+}
+
+bool Reader::requireBase(ExprId base, bool holds, std::string_view access, std::string_view what) {
+  if (!holds) fail(diag::IrWrongBase, builder_->loc, {access, what, types_.toString(typeOf(base))});
+  return holds;
+}
+
+// base.%X3
+ExprId Reader::part(ExprId base) {
+  at_ += 2;
+  const std::string_view part = token().text;
+  const TypeKind kind = part[0] == 'X'   ? TypeKind::Bool
+                        : part[0] == 'B' ? TypeKind::Byte
+                        : part[0] == 'W' ? TypeKind::Word
+                        : part[0] == 'D' ? TypeKind::DWord
+                                         : TypeKind::None;
+  uint32_t position = 0;
+  const auto parsed = std::from_chars(part.data() + 1, part.data() + part.size(), position);
+  if (kind == TypeKind::None || parsed.ec != std::errc() || parsed.ptr != part.data() + part.size()) {
+    expected("X, B, W or D and a position");
+    return {};
+  }
+  ++at_;
+  return builder_->bits(base, types::idOf(kind), position);
+}
+
+// base.name
+ExprId Reader::field(ExprId base) {
+  const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
+  ++at_;
+  const Loc loc = token().loc;
+  const NameId id = name();
+  if (failed_ || !requireBase(base, info.kind == TypeKind::Record, "`.`", "a record")) return {};
+  const uint32_t found = fieldOf(types_.resolve(typeOf(base)), id);
+  if (found != ~0u) return builder_->field(base, found);
+  fail(diag::IrUnknownName, loc, {module_.names.string(id), "field"});
+  return {};
+}
+
+// base[i, =j]
+ExprId Reader::element(ExprId base) {
+  const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
+  if (!requireBase(base, info.kind == TypeKind::Array, "`[`", "an array")) return {};
+  const Loc loc = builder_->loc;
+  ++at_;
+  std::vector<ExprId> indices;
+  uint16_t proven = 0;
+  do {
+    if (indices.size() < kMostProven && accept("=")) proven = static_cast<uint16_t>(proven | 1u << indices.size());
+    indices.push_back(expr({}));
+  } while (accept(","));
+  expect("]");
+  if (failed_) return {};
+  builder_->loc = loc;
+  const ExprId created = builder_->index(base, indices);
+  builder_->body.expr(created).proven = proven;
+  return created;
+}
+
+// base^
+ExprId Reader::target(ExprId base) {
+  const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
+  const bool is_pointer = info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference;
+  if (!requireBase(base, is_pointer, "`^`", "a pointer")) return {};
+  ++at_;
+  return builder_->deref(base);
 }
 
 }  // namespace rung::ir::text_form

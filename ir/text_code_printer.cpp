@@ -159,6 +159,20 @@ void Printer::assertStmt(const AssertStmt& node) {
   }
 }
 
+void Printer::forStmt(const ForStmt& node) {
+  const TypeId type = typeOf(node.control);
+  put("for ");
+  expr(node.control, {});
+  put(" = ");
+  expr(node.from, type);
+  put(" to ");
+  expr(node.to, type);
+  put(" by ");
+  expr(node.step, type);
+  put(" {");
+  block(node.body_block);
+}
+
 void Printer::stmt(const Stmt& s) {
   const auto word = [&](const char* after = " ") {
     put(wordOf(s.kind));
@@ -193,20 +207,7 @@ void Printer::stmt(const Stmt& s) {
       word(" {");
       block(s.as<LoopStmt>().body_block);
       return optionalBlock(" next {", s.as<LoopStmt>().next_block);
-    case StmtKind::For: {
-      const ForStmt& node = s.as<ForStmt>();
-      const TypeId type = typeOf(node.control);
-      word();
-      expr(node.control, {});
-      put(" = ");
-      expr(node.from, type);
-      put(" to ");
-      expr(node.to, type);
-      put(" by ");
-      expr(node.step, type);
-      put(" {");
-      return block(node.body_block);
-    }
+    case StmtKind::For: return forStmt(s.as<ForStmt>());
     case StmtKind::Break:
     case StmtKind::Continue:
     case StmtKind::Return: return word("");

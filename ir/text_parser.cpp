@@ -588,6 +588,21 @@ bool Reader::read() {
     if (!diagnostics_.hasErrors()) types_.layout(entry.second);
   if (!diagnostics_.hasErrors())
     for (const Data& data : module_.data) types_.layout(data.type);
+  linkInits();
+  forEachItem([&] { entryOrTest(); });
+  forEachItem([&] {
+    if (accept("dispatch")) dispatch();
+    if (accept("around_task")) taskCalls();
+  });
+  if (diagnostics_.hasErrors() && !had_errors) return false;
+  readCodes();
+  const bool ok = !diagnostics_.hasErrors() || had_errors;
+  for (uint32_t i = 0; ok && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
+  return ok;
+}
+
+// Lists and instances have the bodies of their records.
+void Reader::linkInits() {
   auto initOf = [&](TypeId record) {
     auto found = record_by_type_.find(record.index);
     return found == record_by_type_.end() ? Record{} : module_.records[found->second];
@@ -597,26 +612,26 @@ bool Reader::read() {
     program.init = initOf(program.record).init;
     program.body = initOf(program.record).body;
   }
-  forEachItem([&] {
-    const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
-    const bool is_safe = !is_exit && !is_after_init && accept("safe");
-    if (!is_exit && !is_after_init && !is_safe && !accept("test")) return;
-    const BodyId named = bodyNamed("body");
-    if (failed_) return;
-    if (is_exit)
-      module_.exit = named;
-    else if (is_after_init)
-      module_.after_init = named;
-    else if (is_safe)
-      module_.safe = named;
-    else
-      test(named);
-  });
-  forEachItem([&] {
-    if (accept("dispatch")) dispatch();
-    if (accept("around_task")) taskCalls();
-  });
-  if (diagnostics_.hasErrors() && !had_errors) return false;
+}
+
+// exit, after_init, safe or test, and the body that it names.
+void Reader::entryOrTest() {
+  const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
+  const bool is_safe = !is_exit && !is_after_init && accept("safe");
+  if (!is_exit && !is_after_init && !is_safe && !accept("test")) return;
+  const BodyId named = bodyNamed("body");
+  if (failed_) return;
+  if (is_exit)
+    module_.exit = named;
+  else if (is_after_init)
+    module_.after_init = named;
+  else if (is_safe)
+    module_.safe = named;
+  else
+    test(named);
+}
+
+void Reader::readCodes() {
   for (const Code& one : codes_) {
     at_ = one.at;
     failed_ = false;
@@ -627,9 +642,6 @@ bool Reader::read() {
     code();
     builder_ = nullptr;
   }
-  const bool ok = !diagnostics_.hasErrors() || had_errors;
-  for (uint32_t i = 0; ok && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
-  return ok;
 }
 
 // ---- types

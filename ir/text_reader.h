@@ -94,6 +94,9 @@ class Reader : TokenReader {
   void taskCalls();
   void ioModule();
   void instance();
+  void linkInits();
+  void entryOrTest();
+  void readCodes();
   void test(BodyId body);
   void area();
   struct AddressInArea {
@@ -135,12 +138,23 @@ class Reader : TokenReader {
   void switchStmt();
   ExprId expr(TypeId wanted);
   ExprId primary(TypeId wanted);
+  ExprId afterWord();
   ExprId afterSigil();
   ExprId conversion(types::Rounding rounding);
   ExprId operation(Op op);
   uint32_t numberOf(const Map& by_name, std::string_view what, bool numbered = false);
   ExprId postfix(ExprId base);
+  ExprId part(ExprId base);
+  ExprId field(ExprId base);
+  ExprId element(ExprId base);
+  ExprId target(ExprId base);
+  bool requireBase(ExprId base, bool holds, std::string_view access, std::string_view what);
   ExprId literal(TypeId type);
+  ExprId classNumber();
+  ExprId enumItem(TypeId type);
+  ExprId specialReal(TypeId type, bool negative);
+  ExprId number(TypeId type, bool negative);
+  ExprId misfit(std::string_view seen, TypeId type);
   ExprId variable();
   ExprId afterType(TypeId type);
   std::vector<ExprId> operands(const Body& callee);

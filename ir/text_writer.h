@@ -83,6 +83,7 @@ class Printer {
   void stmt(const Stmt& stmt);
   void callStmt(const CallStmt& call);
   void switchStmt(const SwitchStmt& node);
+  void forStmt(const ForStmt& node);
   void tryStmt(const TryStmt& node);
   void assertStmt(const AssertStmt& node);
   void expr(ExprId id, TypeId expected);

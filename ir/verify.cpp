@@ -96,7 +96,14 @@ class Verifier {
   void report(int rule, std::string_view what);
   std::string toString(TypeId type) const { return types_.toString(type); }
 
+  void checkMemory();
+  void checkTasks();
+  void checkTests();
   void checkRecordOrder();
+  void requireUnique(NameId name, std::string_view what, NameId resource = {});  // among those since seen_ was empty
+  void requireCallable(BodyId id);
+  bool isRecord(TypeId type) const;
+  bool isBodyOf(BodyId id, BodyKind kind, TypeId record) const;
   bool known(TypeId type);
   void locals();
   void block(StmtId first);
@@ -116,6 +123,9 @@ class Verifier {
   void placeNode(const Expr& e);
   void constant(const Expr& e);
   void image(const Expr& e);
+  bool requireBase(ExprId base, int rule);
+  void field(const Expr& e);
+  void element(const Expr& e);
   void bits(const Expr& e);
   void conversion(const Expr& e);
   void pureCall(const Expr& e);
@@ -135,6 +145,7 @@ class Verifier {
   const Module& module_;
   const TypeTable& types_;
   const Body* body_ = nullptr;
+  std::unordered_set<uint64_t> seen_;  // names of the module
   std::vector<bool> expr_seen_, stmt_seen_;
   std::vector<uint32_t> label_block_;  // by label: the number of the block that contains it, or 0
   std::vector<uint32_t> open_blocks_;
@@ -153,39 +164,63 @@ void Verifier::report(int rule, std::string_view what) {
 
 // ---- module
 
+void Verifier::requireUnique(NameId name, std::string_view what, NameId resource) {
+  require(seen_.insert(uint64_t{resource.index} << 32 | name.index).second, 1,
+          [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.string(name)) + "`"; });
+}
+
+bool Verifier::isRecord(TypeId type) const {
+  return type.index < types_.count() && types_.kind(type) == TypeKind::Record;
+}
+
+bool Verifier::isBodyOf(BodyId id, BodyKind kind, TypeId record) const {
+  if (!id) return true;
+  if (id.index >= module_.bodies.size()) return false;
+  const Body& body = module_.body(id);
+  return body.kind == kind && types_.resolve(body.self) == types_.resolve(record);
+}
+
+void Verifier::requireCallable(BodyId id) {
+  const Body* const body = id.index < module_.bodies.size() ? &module_.body(id) : nullptr;
+  require(!id || (body != nullptr && body->kind == BodyKind::Function && !body->result && parameters(*body).empty()), 2,
+          "what a task or program instance calls is not a function without parameters and result");
+}
+
 void Verifier::checkModule() {
-  std::unordered_set<uint64_t> seen;
-  auto unique = [&](NameId name, std::string_view what, NameId resource = {}) {
-    require(seen.insert(uint64_t{resource.index} << 32 | name.index).second, 1,
-            [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.string(name)) + "`"; });
-  };
-  auto isRecord = [&](TypeId type) { return type.index < types_.count() && types_.kind(type) == TypeKind::Record; };
-  auto isBodyOf = [&](BodyId id, BodyKind kind, TypeId record) {
-    if (!id) return true;
-    if (id.index >= module_.bodies.size()) return false;
-    const Body& body = module_.body(id);
-    return body.kind == kind && types_.resolve(body.self) == types_.resolve(record);
-  };
-  const auto requireCallable = [&](BodyId id) {
-    const Body* const body = id.index < module_.bodies.size() ? &module_.body(id) : nullptr;
-    require(!id || (body != nullptr && body->kind == BodyKind::Function && !body->result && parameters(*body).empty()),
-            2, "what a task or program instance calls is not a function without parameters and result");
-  };
+  checkMemory();
+  checkTasks();
+  checkTests();
+  seen_.clear();
+  for (size_t i = 1; i < module_.bodies.size(); ++i)
+    if (module_.bodies[i].kind != BodyKind::Init) requireUnique(module_.bodies[i].name, "body");
+  seen_.clear();
+  for (size_t i = 1; i < module_.bodies.size(); ++i)
+    if (module_.bodies[i].kind == BodyKind::Init) requireUnique(module_.bodies[i].name, "initialiser");
+  checkRecordOrder();
+  checkDispatches();
+  for (const Data& data : module_.data)
+    require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
+            [&] { return "data does not have the size of its type " + toString(data.type); });
+}
+
+// Records, lists and program instances, with their bodies.
+void Verifier::checkMemory() {
+  seen_.clear();
   for (const Record& record : module_.records) {
-    unique(record.name, "record");
+    requireUnique(record.name, "record");
     require(isRecord(record.type), 2, "a record without a record type");
     require(isBodyOf(record.init, BodyKind::Init, record.type), 2, "the init of a record does not belong to it");
     require(isBodyOf(record.body, BodyKind::Block, record.type), 2, "the body of a record does not belong to it");
   }
-  seen.clear();
+  seen_.clear();
   for (const List& list : module_.lists) {
-    unique(list.name, "list");
+    requireUnique(list.name, "list");
     require(isRecord(list.record), 2, "a list without a record type");
     require(isBodyOf(list.init, BodyKind::Init, list.record), 2, "the init of a list does not belong to its record");
   }
-  seen.clear();
+  seen_.clear();
   for (const ProgramInstance& program : module_.programs) {
-    unique(program.name, "program instance", program.resource);
+    requireUnique(program.name, "program instance", program.resource);
     require(isRecord(program.record), 2, "a program instance without a record type");
     require(isBodyOf(program.init, BodyKind::Init, program.record), 2,
             "the init of a program does not belong to its record");
@@ -194,13 +229,19 @@ void Verifier::checkModule() {
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
     for (BodyId function : {program.run, program.setup, program.after_init, program.exit}) requireCallable(function);
   }
+}
+
+void Verifier::checkTasks() {
   for (BodyId function : {module_.after_init, module_.exit, module_.safe}) requireCallable(function);
   for (const Task& task : module_.tasks)
     for (BodyId function : {task.before, task.after}) requireCallable(function);
-  seen.clear();
-  for (const Task& task : module_.tasks) unique(task.name, "task", task.resource);
+  seen_.clear();
+  for (const Task& task : module_.tasks) requireUnique(task.name, "task", task.resource);
   for (const Located& located : module_.located)
     require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
+}
+
+void Verifier::checkTests() {
   for (const Test& test : module_.tests) {
     require(test.body && test.body.index < module_.bodies.size() && module_.body(test.body).kind != BodyKind::Init, 2,
             "a test is not a function or block");
@@ -209,17 +250,6 @@ void Verifier::checkModule() {
                  parameters(module_.body(test.setup)).empty()),
             2, "the setup of a test is not a function without parameters");
   }
-  seen.clear();
-  for (size_t i = 1; i < module_.bodies.size(); ++i)
-    if (module_.bodies[i].kind != BodyKind::Init) unique(module_.bodies[i].name, "body");
-  seen.clear();
-  for (size_t i = 1; i < module_.bodies.size(); ++i)
-    if (module_.bodies[i].kind == BodyKind::Init) unique(module_.bodies[i].name, "initialiser");
-  checkRecordOrder();
-  checkDispatches();
-  for (const Data& data : module_.data)
-    require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
-            [&] { return "data does not have the size of its type " + toString(data.type); });
 }
 
 bool Verifier::hasDispatch(BodyId method) const {
@@ -614,10 +644,38 @@ void Verifier::bits(const Expr& e) {
           [&] { return "a part outside of " + toString(typeOf(bits.base)); });
 }
 
+bool Verifier::requireBase(ExprId base, int rule) {
+  return require(isPlace(body_->expr(base).kind), rule, "the base is not a place");
+}
+
+void Verifier::field(const Expr& e) {
+  const FieldExpr& node = e.as<FieldExpr>();
+  const TypeInfo& info = types_.info(typeOf(node.base));
+  if (!requireBase(node.base, 11) || !require(info.kind == TypeKind::Record && node.field < info.fields.size(), 11,
+                                              "a field of something other than a record"))
+    return;
+  wantType(e, info.fields[node.field].type, 11);
+  allowChecks(e, info.fields[node.field].by_reference ? checksOf(e.kind) : 0u, 11);
+}
+
+void Verifier::element(const Expr& e) {
+  const IndexExpr& node = e.as<IndexExpr>();
+  const TypeInfo& info = types_.info(typeOf(node.base));
+  if (!requireBase(node.base, 12) ||
+      !require(info.kind == TypeKind::Array, 12, "an index into something other than an array"))
+    return;
+  require(info.dimensions.empty() || info.dimensions.size() == node.indices.count, 12,
+          "the number of indices differs from the number of dimensions");
+  for (const ExprId index : body_->list(node.indices))
+    require(isIntegral(plainOf(index)), 12, "an index is not an integer");
+  wantType(e, info.base, 12);
+  const bool has_check = (e.checks & kCheckIndex) != 0;
+  require(e.proven == 0 || (has_check && e.proven >> std::min(node.indices.count, kMostProven) == 0), 12,
+          "a dimension without check is marked as proven");
+  allowChecks(e, 12);
+}
+
 void Verifier::placeNode(const Expr& e) {
-  auto isBase = [&](ExprId base, int rule) {
-    return require(isPlace(body_->expr(base).kind), rule, "the base is not a place");
-  };
   auto names = [&](uint32_t index, const auto& list, const char* what) {
     return require(index < list.size(), 10, what);
   };
@@ -642,31 +700,8 @@ void Verifier::placeNode(const Expr& e) {
       return allowChecks(e, 10);
     }
     case ExprKind::Image: image(e); return allowChecks(e, 10);
-    case ExprKind::Field: {
-      const FieldExpr& node = e.as<FieldExpr>();
-      const TypeInfo& info = types_.info(typeOf(node.base));
-      if (!isBase(node.base, 11) || !require(info.kind == TypeKind::Record && node.field < info.fields.size(), 11,
-                                             "a field of something other than a record"))
-        return;
-      wantType(e, info.fields[node.field].type, 11);
-      return allowChecks(e, info.fields[node.field].by_reference ? checksOf(e.kind) : 0u, 11);
-    }
-    case ExprKind::Index: {
-      const IndexExpr& node = e.as<IndexExpr>();
-      const TypeInfo& info = types_.info(typeOf(node.base));
-      if (!isBase(node.base, 12) ||
-          !require(info.kind == TypeKind::Array, 12, "an index into something other than an array"))
-        return;
-      require(info.dimensions.empty() || info.dimensions.size() == node.indices.count, 12,
-              "the number of indices differs from the number of dimensions");
-      for (const ExprId index : body_->list(node.indices))
-        require(isIntegral(plainOf(index)), 12, "an index is not an integer");
-      wantType(e, info.base, 12);
-      const bool has_check = (e.checks & kCheckIndex) != 0;
-      require(e.proven == 0 || (has_check && e.proven >> std::min(node.indices.count, kMostProven) == 0), 12,
-              "a dimension without check is marked as proven");
-      return allowChecks(e, 12);
-    }
+    case ExprKind::Field: return field(e);
+    case ExprKind::Index: return element(e);
     case ExprKind::Deref: {
       const TypeInfo& info = types_.info(typeOf(e.as<DerefExpr>().pointer));
       if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
@@ -674,7 +709,7 @@ void Verifier::placeNode(const Expr& e) {
       return allowChecks(e, 13);
     }
     case ExprKind::Bits:
-      if (isBase(e.as<BitsExpr>().base, 14)) bits(e);
+      if (requireBase(e.as<BitsExpr>().base, 14)) bits(e);
       return allowChecks(e, 15);
     case ExprKind::None:
     case ExprKind::Const:

@@ -16,8 +16,11 @@ bool same(Ex a, Ex b) {
 void Arena::beginChunk(size_t bytes) {
   constexpr size_t kChunk = 32 * 1024;
   if (current_ < chunks_.size()) ++current_;
-  while (current_ < chunks_.size() && chunks_[current_].size() < bytes) ++current_;
-  if (current_ == chunks_.size()) chunks_.emplace_back(std::max(bytes, kChunk));
+  while (current_ < chunks_.size() && chunks_[current_].size < bytes) ++current_;
+  if (current_ == chunks_.size()) {
+    const size_t size = std::max(bytes, kChunk);
+    chunks_.push_back({std::unique_ptr<unsigned char[]>(new unsigned char[size]), size});
+  }
   used_ = 0;
 }
 

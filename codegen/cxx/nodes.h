@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++ as a value: expressions and statements of a function, made before any of it is printed. A Tree owns the nodes of
-// one function and makes them; they never change, so that one may be a part of several others. print.h prints them and
-// alone knows parentheses, lines and indentation. Nothing here knows the IR.
+// C++ as a value: expressions, statements and declarations, made before any of it is printed. A Tree owns the nodes of
+// one function or file and makes them. An expression never changes, so that it may be a part of several others; a
+// statement or declaration is in one list. print.h prints them and alone knows parentheses, braces, lines and
+// indentation. Nothing here knows the IR.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <new>
 #include <span>
 #include <string_view>
@@ -51,6 +53,8 @@ struct Position {
   uint32_t line = 0;
 };
 
+struct Decl;
+
 enum class StmtKind : uint8_t {
   Nothing,     // only the line that it begins
   Empty,       // ;
@@ -62,6 +66,7 @@ enum class StmtKind : uint8_t {
   Continue,
   Return,       // return a; or return;
   Block,        // { first }
+  Lines,        // { first } with a line for each brace
   If,           // if (a) { first } else { second }
   ShortIf,      // if (a) first; on one line
   BracedIf,     // if (a) { first } on one line
@@ -71,7 +76,9 @@ enum class StmtKind : uint8_t {
   Switch,       // switch (a) { first: cases }
   Case,         // text { first }: the text is `case 1: case 3 ... 5:` or `default:`
   Scope,        // { first } on one line
-  Declaration,  // text;
+  Exit,         // text: at the beginning of a line, before the exits of a function
+  Declaration,  // declares
+  Source,       // [&]() -> void { text }(); where the text is lines of the user
   Frame         // { auto text = [&]() { first return; }; a }: what runs between setjmp and longjmp
 };
 
@@ -83,38 +90,148 @@ struct Stmt {
   Position second_at;  // of an If: of its `second`
   Ex a = nullptr, b = nullptr, c = nullptr;
   std::string_view text;
+  const Decl* declares = nullptr;
   Stmt* first = nullptr;
   Stmt* second = nullptr;
   Stmt* next = nullptr;
 };
 
-// A list of statements that grows at its end.
-class Statements {
+// A list of statements or declarations that grows at its end.
+template <class T>
+class Chain {
  public:
-  void add(Stmt* stmt) {
-    (last_ == nullptr ? first_ : last_->next) = stmt;
-    last_ = stmt;
+  void add(T* item) {
+    (last_ == nullptr ? first_ : last_->next) = item;
+    last_ = item;
   }
-  Stmt* first() const { return first_; }
+  T* first() const { return first_; }
   bool empty() const { return first_ == nullptr; }
-  void append(const Statements& other) {
+  void append(const Chain& other) {
     if (other.empty()) return;
     add(other.first_);
     last_ = other.last_;
   }
 
  private:
-  Stmt* first_ = nullptr;
-  Stmt* last_ = nullptr;
+  T* first_ = nullptr;
+  T* last_ = nullptr;
 };
+using Statements = Chain<Stmt>;
+using Declarations = Chain<Decl>;
+
+enum class DeclKind : uint8_t {
+  Variable,
+  Function,
+  Record,
+  Enumeration,
+  Using,
+  Namespace,
+  Assertion,
+  Include,
+  Directive,
+  Comment,
+  Blank,
+  Printed
+};
+
+struct Decl {
+  DeclKind kind;
+  Decl* next = nullptr;
+};
+
+// The type of a variable as C++ writes it around the name: `float x[3]`, `char* x`, `float (*x)[3]`.
+struct Type {
+  std::string_view base;              // `float`, `struct Ramp_type`, `void* const`
+  std::string_view reference;         // `*`, `&` or `&&`
+  std::span<const uint64_t> extents;  // 0: as many as its value has
+};
+
+struct Valued : Decl {  // the declaration of something that may have a value
+  explicit Valued(DeclKind of) : Decl{of} {}
+  Ex value = nullptr;      // ` = value`
+  Ex arguments = nullptr;  // `(a, b)` or `{a, b}` after the name
+};
+
+struct Variable : Valued {  // prefix type name suffix = value;
+  Variable() : Valued{DeclKind::Variable} {}
+  std::string_view prefix;  // `extern const`, `alignas(8)`
+  Type type;
+  std::string_view name, suffix;
+  Variable* also = nullptr;  // another name of the same type: `int a, b;`
+};
+
+struct Function : Decl {  // prefix result name(parameters) suffix
+  Function() : Decl{DeclKind::Function} {}
+  enum class Form : uint8_t { Prototype, Lines, OneLine };
+  std::string_view prefix;
+  Type result;  // without a base: a constructor or conversion
+  std::string_view name, suffix;
+  Chain<Decl> parameters;  // variables
+  struct Initialised {
+    std::string_view member;
+    Ex arguments;
+  };
+  std::span<const Initialised> initialises;  // those that a constructor does: `a(b)`
+  Form form = Form::Prototype;
+  const Stmt* body = nullptr;
+  const Stmt* exits = nullptr;  // after the last brace of the body
+};
+
+struct Record : Valued {  // keyword attributes name { members } variable = value;
+  Record() : Valued{DeclKind::Record} {}
+  std::string_view keyword, attributes, name;
+  bool is_line = false;     // all on one line
+  bool has_access = false;  // of a class: its members are public
+  Declarations members;
+  std::string_view variable;
+};
+
+struct Enumeration : Decl {  // enum name : base { items };
+  Enumeration() : Decl{DeclKind::Enumeration} {}
+  std::string_view name, base;
+  bool is_line = false;
+  struct Item {
+    std::string_view name;
+    Ex value;
+  };
+  std::span<const Item> items;
+};
+
+struct Using : Decl {  // using name = of;
+  Using() : Decl{DeclKind::Using} {}
+  std::string_view name, of;  // without `of`: using name;
+};
+
+struct Namespace : Decl {
+  Namespace() : Decl{DeclKind::Namespace} {}
+  std::string_view name, attributes;
+  Declarations members;
+};
+
+struct Assertion : Decl {  // static_assert(condition, "text");
+  Assertion() : Decl{DeclKind::Assertion} {}
+  Ex condition = nullptr;
+  std::string_view text;
+};
+
+struct Textual : Decl {
+  explicit Textual(DeclKind of) : Decl{of} {}
+  // Include: the path; Directive: `define NAME`; Comment; Printed: lines that were printed before, or are the user's.
+  std::string_view text;
+};
+
+template <class T>
+const T& as(const Decl& decl) {
+  return static_cast<const T&>(decl);
+}
 
 // Memory for what needs no destructor; all of it is given up at once, and used again.
 class Arena {
  public:
   void* allocate(size_t bytes, size_t align) {
     used_ = (used_ + align - 1) & ~(align - 1);
-    if (current_ == chunks_.size() || used_ + bytes > chunks_[current_].size()) beginChunk(bytes);
-    void* const at = chunks_[current_].data() + used_;
+    if (current_ == chunks_.size() || used_ + bytes > chunks_[current_].size) beginChunk(bytes);
+    void* const at = chunks_[current_].bytes.get() + used_;
     used_ += bytes;
     return at;
   }
@@ -133,7 +250,11 @@ class Arena {
  private:
   void beginChunk(size_t bytes);
 
-  std::vector<std::vector<unsigned char>> chunks_;
+  struct Chunk {
+    std::unique_ptr<unsigned char[]> bytes;  // not cleared
+    size_t size;
+  };
+  std::vector<Chunk> chunks_;
   size_t current_ = 0, used_ = 0;  // the chunk in use, and its bytes that are taken
 };
 
@@ -178,6 +299,43 @@ class Tree {
     return made;
   }
 
+  // ---- declarations
+  template <class T>
+  T* declaration() {
+    return arena_.make(T{});
+  }
+  Decl* textual(DeclKind kind, std::string_view text) {
+    Textual* const made = arena_.make(Textual(kind));
+    made->text = kept(text);
+    return made;
+  }
+  // `fixed` is not copied.
+  Decl* printed(std::string_view fixed) {
+    Textual* const made = arena_.make(Textual(DeclKind::Printed));
+    made->text = fixed;
+    return made;
+  }
+  Decl* blank() { return arena_.make(Textual(DeclKind::Blank)); }
+  Variable* variable(const Type& type, std::string_view name, Ex value = nullptr) {
+    Variable* const made = declaration<Variable>();
+    made->type = type;
+    made->name = kept(name);
+    made->value = value;
+    return made;
+  }
+  Variable* variable(std::string_view type, std::string_view name, Ex value = nullptr) {
+    return variable(Type{kept(type), {}, {}}, name, value);
+  }
+  Stmt* declare(const Decl* declaration) {
+    Stmt* const made = stmt(StmtKind::Declaration);
+    made->declares = declaration;
+    return made;
+  }
+
+  template <class T>
+  std::span<const T> copy(const std::vector<T>& items) {
+    return arena_.copy(std::span<const T>(items));
+  }
   std::string_view kept(std::string_view text) {
     if (text.empty()) return {};
     const std::span<const char> copy = arena_.copy(std::span<const char>(text.data(), text.size()));

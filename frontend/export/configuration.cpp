@@ -17,7 +17,10 @@ class ConfigurationExport {
 
  private:
   void resource(std::string_view name, Slice<DeclId> members);
+  struct TaskSettings;
+  TaskSettings settingsOf(const TaskDecl& task);
   void task(const TaskDecl& task, std::span<const DeclId> members);
+  void kindOfTask(const TaskSettings& settings);
   void program(const ProgramInstanceDecl& program);
   void globals(Slice<DeclId> members);
   void paths(Slice<DeclId> members, SectionKind kind);
@@ -51,38 +54,51 @@ void ConfigurationExport::time(std::string_view attribute, ExprId value) {
   to_.xml.attribute(attribute, text + "S");
 }
 
-// <task name="Fast" interval="PT0.01S" priority="1">, its programs, and the kind of the task as 3S names it.
-void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> members) {
+// What the settings of a task say, and what TC6 has no word for.
+struct ConfigurationExport::TaskSettings {
   ExprId interval, priority, single, kind, trigger, watchdog, sensitivity;
+  bool is_freewheeling = false, is_status = false, is_external = false;
+  bool isPlain() const { return !kind && !trigger; }
+};
+
+ConfigurationExport::TaskSettings ConfigurationExport::settingsOf(const TaskDecl& task) {
+  TaskSettings found;
   for (const Argument& setting : to_.tree.list(task.settings)) {
     const std::string_view name = to_.string(setting.pin.name);
-    ExprId* const slot = sameIdentifier(name, "INTERVAL")      ? &interval
-                         : sameIdentifier(name, "PRIORITY")    ? &priority
-                         : sameIdentifier(name, "SINGLE")      ? &single
-                         : sameIdentifier(name, "KIND")        ? &kind
-                         : sameIdentifier(name, "TRIGGER")     ? &trigger
-                         : sameIdentifier(name, "WATCHDOG")    ? &watchdog
-                         : sameIdentifier(name, "SENSITIVITY") ? &sensitivity
+    ExprId* const slot = sameIdentifier(name, "INTERVAL")      ? &found.interval
+                         : sameIdentifier(name, "PRIORITY")    ? &found.priority
+                         : sameIdentifier(name, "SINGLE")      ? &found.single
+                         : sameIdentifier(name, "KIND")        ? &found.kind
+                         : sameIdentifier(name, "TRIGGER")     ? &found.trigger
+                         : sameIdentifier(name, "WATCHDOG")    ? &found.watchdog
+                         : sameIdentifier(name, "SENSITIVITY") ? &found.sensitivity
                                                                : nullptr;
     if (slot == nullptr || !setting.value)
       to_.is_lossless = false;
     else
       *slot = setting.value;
   }
-  const std::string word = kind ? to_.printed(kind) : std::string();
-  const bool freewheeling = sameIdentifier(word, "FREEWHEELING"), status = sameIdentifier(word, "STATUS"),
-             external = sameIdentifier(word, "EXTERNAL");
-  const bool plain = !kind && !trigger;
-  if (plain ? interval == ExprId{} && single == ExprId{} : !(freewheeling || status || external))
-    to_.is_lossless = false;
-  if (interval && (single || kind)) to_.is_lossless = false;
+  const std::string word = found.kind ? to_.printed(found.kind) : std::string();
+  found.is_freewheeling = sameIdentifier(word, "FREEWHEELING");
+  found.is_status = sameIdentifier(word, "STATUS");
+  found.is_external = sameIdentifier(word, "EXTERNAL");
+  const bool has_kind = found.is_freewheeling || found.is_status || found.is_external;
+  if (found.isPlain() ? found.interval == ExprId{} && found.single == ExprId{} : !has_kind) to_.is_lossless = false;
+  if (found.interval && (found.single || found.kind)) to_.is_lossless = false;
+  if (found.sensitivity && !found.watchdog) to_.is_lossless = false;
+  return found;
+}
+
+// <task name="Fast" interval="PT0.01S" priority="1">, its programs, and the kind of the task as 3S names it.
+void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> members) {
+  const TaskSettings settings = settingsOf(task);
   to_.xml.open("task").attribute("name", to_.string(task.name));
-  if (single) to_.xml.attribute("single", to_.printed(single));
-  if (interval) time("interval", interval);
+  if (settings.single) to_.xml.attribute("single", to_.printed(settings.single));
+  if (settings.interval) time("interval", settings.interval);
   // The schema requires a priority; 1 is the default of a task.
-  const bool is_number = priority && to_.tree.kind(priority) == ExprKind::Literal;
-  if (priority && !is_number) to_.is_lossless = false;
-  to_.xml.attribute("priority", is_number ? to_.printed(priority) : "1");
+  const bool is_number = settings.priority && to_.tree.kind(settings.priority) == ExprKind::Literal;
+  if (settings.priority && !is_number) to_.is_lossless = false;
+  to_.xml.attribute("priority", is_number ? to_.printed(settings.priority) : "1");
   bool any = false;
   for (const DeclId id : members) {
     if (to_.tree.kind(id) != DeclKind::ProgramInstance) continue;
@@ -93,31 +109,33 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
     any = true;
   }
   if (!any) to_.is_lossless = false;
-  if (!plain || watchdog) {
-    AddData data(to_);
-    data.open("tasksettings");
-    to_.xml.open("TaskSettings");
-    to_.xml.attribute("KindOfTask", freewheeling ? "Freewheeling"
-                                    : status     ? "Status"
-                                    : external   ? "ExternalEvent"
-                                    : single     ? "Event"
-                                                 : "Cyclic");
-    if (trigger) {
-      std::string text = to_.printed(trigger);
-      if (external && text.size() > 1 && text[0] == '\'') text = text.substr(1, text.size() - 2);
-      to_.xml.attribute(external ? "ExternalEvent" : "Event", text);
-    }
-    if (watchdog) {
-      to_.xml.open("Watchdog").attribute("Enabled", "true");
-      time("Time", watchdog);
-      if (sensitivity) to_.xml.attribute("Sensitivity", to_.printed(sensitivity));
-      to_.xml.close();
-    }
-    to_.xml.close();
-    data.close();
-  }
-  if (sensitivity && !watchdog) to_.is_lossless = false;
+  if (!settings.isPlain() || settings.watchdog) kindOfTask(settings);
   to_.xml.close();
+}
+
+void ConfigurationExport::kindOfTask(const TaskSettings& settings) {
+  AddData data(to_);
+  data.open("tasksettings");
+  to_.xml.open("TaskSettings");
+  to_.xml.attribute("KindOfTask", settings.is_freewheeling ? "Freewheeling"
+                                  : settings.is_status     ? "Status"
+                                  : settings.is_external   ? "ExternalEvent"
+                                  : settings.single        ? "Event"
+                                                           : "Cyclic");
+  if (settings.trigger) {
+    std::string text = to_.printed(settings.trigger);
+    const bool is_quoted = settings.is_external && text.size() > 1 && text[0] == '\'';
+    if (is_quoted) text = text.substr(1, text.size() - 2);
+    to_.xml.attribute(settings.is_external ? "ExternalEvent" : "Event", text);
+  }
+  if (settings.watchdog) {
+    to_.xml.open("Watchdog").attribute("Enabled", "true");
+    time("Time", settings.watchdog);
+    if (settings.sensitivity) to_.xml.attribute("Sensitivity", to_.printed(settings.sensitivity));
+    to_.xml.close();
+  }
+  to_.xml.close();
+  data.close();
 }
 
 void ConfigurationExport::program(const ProgramInstanceDecl& program) {

@@ -63,6 +63,8 @@ class NetworkExport {
   bool isLeftOut(const DiagramElement& e) const;
   void network(uint32_t network);
   void element(uint32_t k);
+  void attributes(const DiagramElement& e);
+  void content(const DiagramElement& e);
   void pins(const DiagramElement& e);
   void pinList(std::string_view list, const DiagramElement& e, PinDirection direction,
                std::span<const NameId> unlisted = {});
@@ -250,21 +252,33 @@ void NetworkExport::data(const DiagramElement& e) {
 
 void NetworkExport::element(uint32_t k) {
   const DiagramElement& e = elements_[k];
-  const bool box = e.kind == ElementKind::Box || e.kind == ElementKind::Execute;
   const bool structure = e.kind == ElementKind::Compose || e.kind == ElementKind::Select;
   to_.xml.open(elementName(e.kind)).attribute("localId", std::to_string(numbers_[k]));
+  attributes(e);
+  to_.xml.open("position")
+      .attribute("x", std::to_string(positions_[k].x))
+      .attribute("y", std::to_string(positions_[k].y))
+      .close();
+  if (structure) to_.xml.formatted("alternativeText", pathOf(e.path));
+  if (structure || e.kind == ElementKind::Box || e.kind == ElementKind::Execute)
+    pins(e);
+  else
+    input(e);
+  content(e);
+  data(e);
+  to_.xml.close();
+}
+
+void NetworkExport::attributes(const DiagramElement& e) {
+  const bool linked = e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation;
   const bool sized = e.width != 0 || e.height != 0 || e.kind == ElementKind::Comment;
-  if (sized) {
-    to_.xml.attribute("height", std::to_string(e.height)).attribute("width", std::to_string(e.width));
-  }
-  if (box) {
+  if (sized) to_.xml.attribute("height", std::to_string(e.height)).attribute("width", std::to_string(e.width));
+  if (e.kind == ElementKind::Box || e.kind == ElementKind::Execute) {
     to_.xml.attribute("typeName", e.kind == ElementKind::Execute ? "EXECUTE" : pathOf(e.path));
     if (e.operand) to_.xml.attribute("instanceName", operand(e));
   }
-  if (e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation)
-    to_.xml.attribute("name", e.name.name ? to_.string(e.name.name) : "");
+  if (linked) to_.xml.attribute("name", e.name.name ? to_.string(e.name.name) : "");
   if (e.kind == ElementKind::Jump || e.kind == ElementKind::Label) to_.xml.attribute("label", to_.string(e.name.name));
-  const bool linked = e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation;
   if (e.order != 0 && !linked && e.kind != ElementKind::Comment)
     to_.xml.attribute("executionOrderId", std::to_string(e.order));
   if (e.kind == ElementKind::Contact || e.kind == ElementKind::Coil || e.kind == ElementKind::Input ||
@@ -275,16 +289,10 @@ void NetworkExport::element(uint32_t k) {
     for (const DiagramPin& pin : to_.tree.list(e.pins))
       if (pin.direction == PinDirection::Output) modifiers(pin.negated, pin.edge, pin.storage, "Out");
   }
-  to_.xml.open("position")
-      .attribute("x", std::to_string(positions_[k].x))
-      .attribute("y", std::to_string(positions_[k].y))
-      .close();
-  if (box || structure) {
-    if (structure) to_.xml.formatted("alternativeText", pathOf(e.path));
-    pins(e);
-  } else {
-    input(e);
-  }
+}
+
+// Its output, and its variable, expression or text.
+void NetworkExport::content(const DiagramElement& e) {
   switch (e.kind) {
     case ElementKind::Rail: to_.xml.open("connectionPointOut").attribute("formalParameter", "").close(); break;
     case ElementKind::Contact:
@@ -310,8 +318,6 @@ void NetworkExport::element(uint32_t k) {
     case ElementKind::Compose:
     case ElementKind::Select: break;
   }
-  data(e);
-  to_.xml.close();
 }
 
 // The start of a network: its title, or the warning that it is omitted.

@@ -253,6 +253,20 @@ class Outliner {
     if (pieces_[k].network == NetworkPiece::Heading && !open_.empty()) open_.back().indents = true;
   }
 
+  // The colon ends a label of CASE or of a jump.
+  bool isLabel(uint32_t k) const {
+    const bool follows_name = k > 0 && k - 1 == statement_;
+    return in_label_ || (follows_name && !inDeclarations() && !header_ && openKind() != Tok::Type);
+  }
+
+  // A program in a resource is an instance, on one line.
+  void pushPou(uint32_t k) {
+    const Tok token = pieces_[k].token;
+    const bool is_instance = token == Tok::Program && (openKind() == Tok::Configuration || openKind() == Tok::Resource);
+    const bool ends_line = k + 1 >= pieces_.size() || pieces_[k + 1].newlines > 0;
+    if (!is_instance) push(token, token == Tok::Type ? ends_line : indents(token));
+  }
+
   // Changes the state by a token; `starts`: it is the first of a statement.
   void advance(uint32_t k, bool starts) {
     const Tok token = pieces_[k].token;
@@ -287,14 +301,10 @@ class Outliner {
     } else if (token == Tok::Catch) {
       in_catch_ = true;
       at_start_ = k + 1 >= pieces_.size() || pieces_[k + 1].token != Tok::LeftParen;
-    } else if (token == Tok::Colon && in_label_) {
+    } else if (token == Tok::Colon && isLabel(k)) {
       pieces_[k].is_label = true;
-      open_.back().labelled = true;
+      if (in_label_) open_.back().labelled = true;
       in_label_ = false;
-      at_start_ = true;
-    } else if (token == Tok::Colon && k > 0 && k - 1 == statement_ && !inDeclarations() && !header_ &&
-               openKind() != Tok::Type) {
-      pieces_[k].is_label = true;  // of a jump
       at_start_ = true;
     } else if (token == Tok::Network) {
       push(token, false);
@@ -308,10 +318,7 @@ class Outliner {
     } else if (starts && isStep(k)) {
       push(Tok::InitialStep, true);
     } else if (starts && kPous.has(token)) {
-      const bool is_instance =
-          token == Tok::Program && (openKind() == Tok::Configuration || openKind() == Tok::Resource);
-      const bool ends_line = k + 1 >= pieces_.size() || pieces_[k + 1].newlines > 0;
-      if (!is_instance) push(token, token == Tok::Type ? ends_line : indents(token));
+      pushPou(k);
     } else if (starts || (k > 0 && isModifier(k))) {
       at_start_ = isModifier(k);
     }

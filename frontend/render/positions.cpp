@@ -70,37 +70,47 @@ void snapToPins(const Body& body, Plan& plan) {
     }
 }
 
-}  // namespace
-
-bool takeFilePositions(const Body& body, Plan& plan) {
-  const size_t count = plan.items.size();
-  if (count > kMostPlacedElements) return false;
-  for (const Item& item : plan.items) {
-    const DiagramElement& e = body.elements[item.element];
-    if (!e.placed && e.kind != ElementKind::Comment) return false;
-  }
-  const int32_t unit = unitOf(body, plan);
+// The wanted positions of all items on both axes, and roughly where they will be.
+struct Wanted {
   Axis x, y;
-  std::vector<Rect> guess(count);
-  for (size_t k = 0; k < count; ++k) {
-    Item& item = plan.items[k];
+  std::vector<Rect> guess;
+};
+
+int64_t onGrid(int64_t n) { return (n >= 0 ? n + kGrid / 2 : n - kGrid / 2) / kGrid * kGrid; }
+
+Wanted wantedPositions(const Body& body, Plan& plan) {
+  constexpr int64_t kLimit = 1 << 29;
+  const int32_t unit = unitOf(body, plan);
+  Wanted wanted;
+  for (Item& item : plan.items) {
     const DiagramElement& e = body.elements[item.element];
     if (isRail(e.kind)) item.area.width = 0;
     // Elements on one line stay aligned by their middle; boxes are positioned by their upper edge.
     const int64_t middle = isFrame(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
     const int64_t centre =
         e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
-    const auto onGrid = [](int64_t n) { return (n >= 0 ? n + kGrid / 2 : n - kGrid / 2) / kGrid * kGrid; };
-    x.wanted.push_back(onGrid(int64_t{e.x} * unit + centre));
-    y.wanted.push_back(onGrid(int64_t{e.y} * unit + middle));
-    x.before.push_back(-item.area.x);
-    x.after.push_back(item.area.right());
-    y.before.push_back(-item.area.y);
-    y.after.push_back(item.area.bottom());
-    const int64_t limit = 1 << 29;
-    guess[k] = item.area.at({static_cast<int32_t>(std::clamp(x.wanted[k], -limit, limit)), 0});
+    wanted.x.wanted.push_back(onGrid(int64_t{e.x} * unit + centre));
+    wanted.y.wanted.push_back(onGrid(int64_t{e.y} * unit + middle));
+    wanted.x.before.push_back(-item.area.x);
+    wanted.x.after.push_back(item.area.right());
+    wanted.y.before.push_back(-item.area.y);
+    wanted.y.after.push_back(item.area.bottom());
+    const int64_t x = std::clamp(wanted.x.wanted.back(), -kLimit, kLimit);
+    wanted.guess.push_back(item.area.at({static_cast<int32_t>(x), 0}));
   }
-  const auto rail = [&](uint32_t k) { return isRail(body.elements[plan.items[k].element].kind); };
+  return wanted;
+}
+
+bool isRailItem(const Body& body, const Plan& plan, uint32_t k) {
+  return isRail(body.elements[plan.items[k].element].kind);
+}
+
+// First the rows, then the columns of what overlaps in its rows.
+void placeItems(const Body& body, Plan& plan) {
+  const Wanted wanted = wantedPositions(body, plan);
+  const std::vector<Rect>& guess = wanted.guess;
+  const Axis& y = wanted.y;
+  const auto rail = [&](uint32_t k) { return isRailItem(body, plan, k); };
   // Variables may be as close to each other as the pins to which they are connected.
   const auto gapY = [&](uint32_t a, uint32_t b) {
     if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kElementGap ||
@@ -114,10 +124,14 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     const int32_t below = std::min(ys[a] + y.after[a], ys[b] + y.after[b]);
     return rail(a) || rail(b) || above < below ? kElementGap : -1;
   };
-  const std::vector<int32_t> xs = spread(x, gapX);
-  for (uint32_t k = 0; k < count; ++k) plan.items[k].origin = {xs[k], ys[k]};
-  for (uint32_t k = 0; k < count; ++k) {
-    if (!rail(k)) continue;
+  const std::vector<int32_t> xs = spread(wanted.x, gapX);
+  for (uint32_t k = 0; k < plan.items.size(); ++k) plan.items[k].origin = {xs[k], ys[k]};
+}
+
+// A rail is as long as the rows of its links need.
+void stretchRails(const Body& body, Plan& plan) {
+  for (uint32_t k = 0; k < plan.items.size(); ++k) {
+    if (!isRailItem(body, plan, k)) continue;
     Item& item = plan.items[k];
     const DiagramElement& e = body.elements[item.element];
     int32_t top = item.origin.y, bottom = top + std::clamp(e.height, 40, 100'000);
@@ -131,7 +145,10 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     item.terminals[0].length = (bottom - top + kGrid - 1) / kGrid * kGrid;
     item.area = {0, 0, 0, item.terminals[0].length};
   }
-  snapToPins(body, plan);
+}
+
+bool hasOverlaps(const Plan& plan) {
+  const size_t count = plan.items.size();
   std::vector<uint32_t> order(count);
   for (uint32_t k = 0; k < count; ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(),
@@ -141,10 +158,24 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     for (size_t other = k + 1; other < count; ++other) {
       const Rect theirs = plan.items[order[other]].bounds();
       if (theirs.y >= mine.bottom()) break;
-      if (mine.overlaps(theirs)) return false;
+      if (mine.overlaps(theirs)) return true;
     }
   }
-  return true;
+  return false;
+}
+
+}  // namespace
+
+bool takeFilePositions(const Body& body, Plan& plan) {
+  if (plan.items.size() > kMostPlacedElements) return false;
+  for (const Item& item : plan.items) {
+    const DiagramElement& e = body.elements[item.element];
+    if (!e.placed && e.kind != ElementKind::Comment) return false;
+  }
+  placeItems(body, plan);
+  stretchRails(body, plan);
+  snapToPins(body, plan);
+  return !hasOverlaps(plan);
 }
 
 }  // namespace rung::picture

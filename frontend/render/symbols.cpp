@@ -295,6 +295,31 @@ void drawContinuation(Svg& svg, const Item& item) {
   svg.text({f.x + (f.width - 8) / 2 + 1, item.origin.y + 4}, Anchor::Middle, std::to_string(item.continuation));
 }
 
+// A variable, or one of the forms with a text: connectors, jumps, labels.
+void measureForm(const Body& body, const DiagramElement& e, Item& item) {
+  const bool has_modifier = e.negated || e.edge != EdgeKind::None || e.storage != PinStorage::None;
+  const bool form = e.kind != ElementKind::Input && e.kind != ElementKind::Output && e.kind != ElementKind::InOut &&
+                    e.kind != ElementKind::Label;
+  const bool boxed = body.diagram.language == NetworkLanguage::Continuous;
+  const int32_t text = textWidth(e.kind == ElementKind::Return ? "RETURN" : operandText(body, e));
+  const int32_t width = roundUp(text + (form ? 24 : boxed ? 16 : 8));
+  const bool reads =
+      e.kind == ElementKind::Input || e.kind == ElementKind::Continuation || e.kind == ElementKind::Label;
+  const bool gives = e.kind != ElementKind::Output && e.kind != ElementKind::Jump && e.kind != ElementKind::Return &&
+                     e.kind != ElementKind::Label;
+  item.frame = {0, -kGrid, width, 2 * kGrid};
+  item.area = item.frame;
+  if (has_modifier) {
+    item.area.width += kGrid;
+    if (!reads) item.area.x -= kGrid;
+  }
+  if (!body.number(item.element).empty()) {
+    item.area.y -= kGrid;
+    item.area.height += kGrid;
+  }
+  addLineTerminals(body, e, !reads, gives, item);
+}
+
 }  // namespace
 
 Item measure(const Body& body, uint32_t element, std::span<const NameId> unlisted_outputs) {
@@ -321,30 +346,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
     case ElementKind::Continuation:
     case ElementKind::Jump:
     case ElementKind::Label:
-    case ElementKind::Return: {
-      const bool has_modifier = e.negated || e.edge != EdgeKind::None || e.storage != PinStorage::None;
-      const bool form = e.kind != ElementKind::Input && e.kind != ElementKind::Output && e.kind != ElementKind::InOut &&
-                        e.kind != ElementKind::Label;
-      const bool boxed = body.diagram.language == NetworkLanguage::Continuous;
-      const int32_t text = e.kind == ElementKind::Return ? textWidth("RETURN") : name;
-      const int32_t width = roundUp(text + (form ? 24 : boxed ? 16 : 8));
-      const bool reads =
-          e.kind == ElementKind::Input || e.kind == ElementKind::Continuation || e.kind == ElementKind::Label;
-      const bool gives = e.kind != ElementKind::Output && e.kind != ElementKind::Jump &&
-                         e.kind != ElementKind::Return && e.kind != ElementKind::Label;
-      item.frame = {0, -kGrid, width, 2 * kGrid};
-      item.area = item.frame;
-      if (has_modifier) {
-        item.area.width += kGrid;
-        if (!reads) item.area.x -= kGrid;
-      }
-      if (!body.number(element).empty()) {
-        item.area.y -= kGrid;
-        item.area.height += kGrid;
-      }
-      addLineTerminals(body, e, !reads, gives, item);
-      break;
-    }
+    case ElementKind::Return: measureForm(body, e, item); break;
     case ElementKind::Box:
     case ElementKind::Execute:
     case ElementKind::Compose:

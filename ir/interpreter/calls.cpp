@@ -175,25 +175,11 @@ void BodyTranslator::callStatement(const CallStmt& stmt, Loc loc) {
   const ExprId to = stmt.result;
   if (to && ir::mayFault(*body_, to)) place(to);  // its checks come before the call
 
-  // A result in memory: written directly to its target, if nothing that the callee reads can be there.
+  // A result in memory is written directly to its target where it can be, else to a slot.
   const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
+  const bool direct_result = by_reference && canHoldResult(stmt, callee, passed);
   Address memory;
-  bool direct_result = false;
   if (by_reference) {
-    if (to && !isImage(*body_, to) && expr(to).kind != ExprKind::Bits) {
-      const TypeId type = expr(to).type;
-      const uint32_t* root = localOf(expr(rootOf(*body_, to)));
-      direct_result = callee.native || (root != nullptr && !body_->locals[*root].by_reference);
-      for (const Argument& argument : passed) {
-        if (!direct_result || callee.native || !argument.operand || !isPlace(expr(argument.operand).kind)) continue;
-        const uint32_t* other = localOf(expr(rootOf(*body_, argument.operand)));
-        direct_result = other == nullptr || *other != *root;
-      }
-      if (isString(callee.result)) {
-        if (!callee.native && capacityOf(type) < capacityOf(callee.result)) direct_result = false;
-        if (isWide(type) != isWide(callee.result)) direct_result = false;
-      }
-    }
     const TypeId type = direct_result ? expr(to).type : callee.result;
     memory = direct_result ? place(to) : Address{Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
     pointerInto(memory, result);
@@ -202,41 +188,71 @@ void BodyTranslator::callStatement(const CallStmt& stmt, Loc loc) {
            capacityOf(type));
     }
   }
-
-  if (callee.native) {
-    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
-    if (has_self_slot) pointerInto(self, {0, true});
-    emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
-  } else if (stmt.is_virtual) {
-    emitVirtualCall(id, self, site(loc));
-  } else {
-    emitCall(id, stmt.self ? &self : nullptr, site(loc));
-  }
-
+  emitCallOf(stmt, self, passed.size(), loc);
   if (to && by_reference && !direct_result) {
     const TypeId type = expr(to).type;
-    if (isString(type)) {
+    if (isString(type))
       copyString(place(to), capacityOf(type), isWide(type), memory, callee.result);
-    } else {
+    else
       copyAggregate(place(to), memory, info(type).size);
-    }
   } else if (to && !by_reference && callee.result) {
-    const Scalar type = scalarOf(to);
-    Operand value{Mode::Frame, result, 0};
-    if (contains(*body_, to, ExprKind::Call)) {  // the place would overwrite it
-      value = temp();
-      move(type, {Mode::Frame, result, 0}, value);
-    }
-    write(place(to), type, value);
+    storeResult(to, result);
   }
+  copyBack(passed);
+}
+
+// Nothing that the callee reads can be where the result goes, and it has room there.
+bool BodyTranslator::canHoldResult(const CallStmt& stmt, const Body& callee,
+                                   const std::vector<Argument>& passed) const {
+  const ExprId to = stmt.result;
+  if (!to || isImage(*body_, to) || expr(to).kind == ExprKind::Bits) return false;
+  const TypeId type = expr(to).type;
+  if (isString(callee.result)) {
+    if (!callee.native && capacityOf(type) < capacityOf(callee.result)) return false;
+    if (isWide(type) != isWide(callee.result)) return false;
+  }
+  if (callee.native) return true;
+  const uint32_t* const root = localOf(expr(rootOf(*body_, to)));
+  if (root == nullptr || body_->locals[*root].by_reference) return false;
+  return std::none_of(passed.begin(), passed.end(), [&](const Argument& argument) {
+    if (!argument.operand || !isPlace(expr(argument.operand).kind)) return false;
+    const uint32_t* const other = localOf(expr(rootOf(*body_, argument.operand)));
+    return other != nullptr && *other == *root;
+  });
+}
+
+void BodyTranslator::emitCallOf(const CallStmt& stmt, const Address& self, size_t passed, Loc loc) {
+  const Body& callee = module_.body(stmt.callee);
+  if (callee.native) {
+    native_slots_ = std::max(native_slots_, slotsOf(callee, passed));
+    if (callee.self) pointerInto(self, {0, true});
+    emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
+  } else if (stmt.is_virtual) {
+    emitVirtualCall(stmt.callee, self, site(loc));
+  } else {
+    emitCall(stmt.callee, stmt.self ? &self : nullptr, site(loc));
+  }
+}
+
+void BodyTranslator::storeResult(ExprId to, Ref result) {
+  const Scalar type = scalarOf(to);
+  Operand value{Mode::Frame, result, 0};
+  if (contains(*body_, to, ExprKind::Call)) {  // the place would overwrite it
+    value = temp();
+    move(type, {Mode::Frame, result, 0}, value);
+  }
+  write(place(to), type, value);
+}
+
+// Variables that were passed as copies get their values.
+void BodyTranslator::copyBack(const std::vector<Argument>& passed) {
   for (const Argument& argument : passed) {
     if (!argument.copied || argument.parameter->kind == LocalKind::Input) continue;
     const Expr& e = expr(argument.operand);
-    if (isAggregate(e.type) || isString(e.type)) {
+    if (isAggregate(e.type) || isString(e.type))
       copyAggregate(place(argument.operand), argument.copy, info(e.type).size);
-    } else {
+    else
       write(place(argument.operand), scalarOf(argument.operand), direct(argument.copy));
-    }
   }
 }
 

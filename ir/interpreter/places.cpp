@@ -16,6 +16,57 @@ Address BodyTranslator::fieldMemory(const Expr& e) {
   return shifted(place(base), offset);
 }
 
+Address BodyTranslator::fieldPlace(const Expr& e) {
+  const Address at = fieldMemory(e);
+  if (!isReference(module_, *body_, e)) return at;
+  const Operand own = temp();
+  const Operand pointer = inFrame(read(at, Scalar::U64, &own), Scalar::U64);
+  if ((e.checks & kCheckNull) != 0) checkNull(pointer, RUNG_FAULT_NULL, e.loc);
+  return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
+}
+
+void BodyTranslator::checkNull(const Operand& pointer, uint32_t fault, Loc loc) {
+  emit(checkNullHandler(), {fault, false}, pointer.ref, {}, site(loc));
+}
+
+// A list of globals, or the instance of a program.
+Address BodyTranslator::blockMemory(uint32_t block) const {
+  for (const auto& [known, at] : block_slots_)
+    if (known == block) return {Base::Pointer, at, 0, 0, kNoBit};
+  return {};
+}
+
+Address BodyTranslator::imageMemory(const ImageExpr& image) const {
+  for (const auto& [known, at] : image_slots_)
+    if (known == image.area) return {Base::Pointer, at, image.byte, 0, image.bit};
+  return {};
+}
+
+// Memory is little-endian: a part is at its own bytes.
+Address BodyTranslator::bitsPlace(const Expr& e) {
+  const uint32_t width = TypeTable::bitWidth(types_.plainKind(e.type));
+  const uint32_t position = e.as<BitsExpr>().position;
+  const Address base = place(e.as<BitsExpr>().base);
+  if (width > 1) return shifted(base, uint64_t{position} * width / 8);
+  Address at = shifted(base, position / 8);
+  at.bit = position % 8;
+  return at;
+}
+
+Address BodyTranslator::selectedPlace(const Expr& e) {
+  const Operand to = temp();
+  const Label otherwise = newLabel(), end = newLabel();
+  const auto [condition, yes, no] = e.as<SelectExpr>();
+  const auto pointTo = [&](ExprId id) { pointerInto(isString(e.type) ? string(id) : place(id), to.ref); };
+  branch(condition, false, otherwise);
+  pointTo(yes);
+  jump(end);
+  place(otherwise);
+  pointTo(no);
+  place(end);
+  return {Base::Pointer, to.ref, 0, 0, kNoBit};
+}
+
 Address BodyTranslator::place(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
@@ -25,49 +76,18 @@ Address BodyTranslator::place(ExprId id) {
       return {body_->locals[local].by_reference ? Base::Pointer : Base::Frame, at, 0, 0, kNoBit};
     }
     case ExprKind::Self: return {Base::Self, {}, 0, 0, kNoBit};
-    case ExprKind::Global:
-    case ExprKind::Program: {
-      const uint32_t number = e.kind == ExprKind::Global ? blocks_.list_block[e.as<GlobalExpr>().list]
-                                                         : blocks_.program_block[e.as<ProgramExpr>().program];
-      for (const auto& [known, at] : block_slots_) {
-        if (known == number) return {Base::Pointer, at, 0, 0, kNoBit};
-      }
-      return {};
-    }
-    case ExprKind::Image: {
-      const ImageExpr& image = e.as<ImageExpr>();
-      for (const auto& [known, at] : image_slots_) {
-        if (known == image.area) return {Base::Pointer, at, image.byte, 0, image.bit};
-      }
-      return {};
-    }
-    case ExprKind::Field: {
-      const Address at = fieldMemory(e);
-      if (!isReference(module_, *body_, e)) return at;
-      const Operand own = temp();
-      const Operand pointer = inFrame(read(at, Scalar::U64, &own), Scalar::U64);
-      if ((e.checks & kCheckNull) != 0)
-        emit(checkNullHandler(), {RUNG_FAULT_NULL, false}, pointer.ref, {}, site(e.loc));
-      return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
-    }
+    case ExprKind::Global: return blockMemory(blocks_.list_block[e.as<GlobalExpr>().list]);
+    case ExprKind::Program: return blockMemory(blocks_.program_block[e.as<ProgramExpr>().program]);
+    case ExprKind::Image: return imageMemory(e.as<ImageExpr>());
+    case ExprKind::Field: return fieldPlace(e);
     case ExprKind::Index: return indexed(e, e.as<IndexExpr>().indices.count);
     case ExprKind::Deref: {
       const Operand pointer = inFrame(value(e.as<DerefExpr>().pointer), Scalar::U64);
-      if ((e.checks & (kCheckNull | kCheckCast)) != 0) {
-        const uint32_t kind = (e.checks & kCheckNull) != 0 ? RUNG_FAULT_NULL : RUNG_FAULT_CAST;
-        emit(checkNullHandler(), {kind, false}, pointer.ref, {}, site(e.loc));
-      }
+      if ((e.checks & (kCheckNull | kCheckCast)) != 0)
+        checkNull(pointer, (e.checks & kCheckNull) != 0 ? RUNG_FAULT_NULL : RUNG_FAULT_CAST, e.loc);
       return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
     }
-    case ExprKind::Bits: {  // little-endian: a part is at its own bytes
-      const uint32_t width = TypeTable::bitWidth(types_.plainKind(e.type));
-      const uint32_t position = e.as<BitsExpr>().position;
-      const Address base = place(e.as<BitsExpr>().base);
-      if (width > 1) return shifted(base, uint64_t{position} * width / 8);
-      Address at = shifted(base, position / 8);
-      at.bit = position % 8;
-      return at;
-    }
+    case ExprKind::Bits: return bitsPlace(e);
     case ExprKind::Data: {
       const uint64_t* const bytes = code_.data_of_module[e.as<DataExpr>().index];
       return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(bytes), kNoBit};
@@ -78,18 +98,7 @@ Address BodyTranslator::place(ExprId id) {
       emit(clearHandler(Base::Frame), memory, {}, {static_cast<uint32_t>(info(e.type).size), false});
       return {Base::Frame, memory, 0, 0, kNoBit};
     }
-    case ExprKind::Select: {
-      const Operand to = temp();
-      const Label otherwise = newLabel(), end = newLabel();
-      const auto [condition, yes, no] = e.as<SelectExpr>();
-      branch(condition, false, otherwise);
-      pointerInto(isString(e.type) ? string(yes) : place(yes), to.ref);
-      jump(end);
-      place(otherwise);
-      pointerInto(isString(e.type) ? string(no) : place(no), to.ref);
-      place(end);
-      return {Base::Pointer, to.ref, 0, 0, kNoBit};
-    }
+    case ExprKind::Select: return selectedPlace(e);
     case ExprKind::String: return literal(e);
     case ExprKind::None:
     case ExprKind::Const:

@@ -111,8 +111,98 @@ struct Program::Parts {
   void describe();
 };
 
-void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options) {
+// Translates what the entries of the module run: calls of bodies, in the order in which compiled code has them.
+class EntryTranslator {
+ public:
   using Step = BodyTranslator::Step;
+  using Steps = std::vector<Step>;
+  EntryTranslator(const Module& module, const MemoryBlocks& blocks, BodyTranslator& translator)
+      : module_(module), blocks_(blocks), translator_(translator) {}
+
+  Code::Entry init() {
+    Steps steps;
+    for (uint32_t i = 0; i < blocks_.block_count; ++i) steps.push_back({Step::Clear, {}, i});
+    const std::vector<InitStep> order = initOrder(module_, blocks_);
+    for (const InitStep& step : order) {
+      const BodyId body = step.is_list ? module_.lists[step.index].init : module_.programs[step.index].init;
+      const uint32_t block = step.is_list ? blocks_.list_block[step.index] : blocks_.program_block[step.index];
+      if (body) steps.push_back({Step::CallOn, body, block});
+    }
+    for (const InitStep& step : order)
+      if (!step.is_list) addCall(steps, module_.programs[step.index].setup);
+    addCall(steps, module_.after_init);
+    return translator_.translateSteps(steps);
+  }
+
+  Code::Entry call(BodyId function) {
+    Steps steps;
+    addCall(steps, function);
+    return translator_.translateSteps(steps);
+  }
+
+  Code::Entry task(uint32_t index) {
+    Steps steps;
+    addCall(steps, module_.tasks[index].before);
+    for (uint32_t p = 0; p < module_.programs.size(); ++p)
+      if (module_.programs[p].task == index + 1 && module_.programs[p].body) addRun(steps, p);
+    for (const BlockTask& block : module_.block_tasks)
+      if (block.task == index + 1) addCall(steps, block.run);
+    addCall(steps, module_.tasks[index].after);
+    return translator_.translateSteps(steps);
+  }
+
+  Code::Entry test(const Description::Test& test) {
+    Steps steps;
+    addCall(steps, test.before);
+    if (test.program == RUNG_NONE)
+      addCall(steps, test.body);
+    else
+      addRun(steps, test.program);
+    addCall(steps, test.after);
+    return translator_.translateSteps(steps);
+  }
+
+  // A test begins with fresh memory, and then its fixtures.
+  Code::Entry testInit(const Description::Test& test) {
+    Steps steps;
+    if (test.program != RUNG_NONE) {
+      const ProgramInstance& program = module_.programs[test.program];
+      const uint32_t block = blocks_.program_block[test.program];
+      steps.push_back({Step::Clear, {}, block});
+      if (program.init) steps.push_back({Step::CallOn, program.init, block});
+      addCall(steps, program.setup);
+      addCall(steps, program.after_init);
+    }
+    for (const BodyId setup : test.setups) addCall(steps, setup);
+    return translator_.translateSteps(steps);
+  }
+
+  Code::Entry testExit(const Description::Test& test) {
+    Steps steps;
+    for (const BodyId teardown : test.teardowns) addCall(steps, teardown);
+    if (test.program != RUNG_NONE) addCall(steps, module_.programs[test.program].exit);
+    return translator_.translateSteps(steps);
+  }
+
+ private:
+  void addCall(Steps& steps, BodyId function) const {
+    if (function) steps.push_back({Step::CallOf, function, 0});
+  }
+
+  void addRun(Steps& steps, uint32_t p) const {
+    const ProgramInstance& program = module_.programs[p];
+    if (program.run)
+      addCall(steps, program.run);
+    else if (program.body)
+      steps.push_back({Step::CallOn, program.body, blocks_.program_block[p]});
+  }
+
+  const Module& module_;
+  const MemoryBlocks& blocks_;
+  BodyTranslator& translator_;
+};
+
+void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options) {
   TranslateOptions translate_options;
   translate_options.natives = options.natives;
   translate_options.coverage = options.coverage;
@@ -128,74 +218,22 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     translator.translate(BodyId{i});
   }
   setPhaseSubject("", 0);
-  const auto runOf = [&](std::vector<Step>& steps, uint32_t p) {
-    const ProgramInstance& program = module.programs[p];
-    if (program.run) {
-      steps.push_back({Step::CallOf, program.run, 0});
-    } else if (program.body) {
-      steps.push_back({Step::CallOn, program.body, blocks.program_block[p]});
-    }
-  };
 
-  std::vector<Step> steps;
-  for (uint32_t i = 0; i < blocks.block_count; ++i) steps.push_back({Step::Clear, {}, i});
-  const std::vector<InitStep> order = initOrder(module, blocks);
-  for (const InitStep& step : order) {
-    const BodyId body = step.is_list ? module.lists[step.index].init : module.programs[step.index].init;
-    const uint32_t block = step.is_list ? blocks.list_block[step.index] : blocks.program_block[step.index];
-    if (body) steps.push_back({Step::CallOn, body, block});
-  }
-  for (const InitStep& step : order)
-    if (!step.is_list && module.programs[step.index].setup)
-      steps.push_back({Step::CallOf, module.programs[step.index].setup, 0});
-  if (module.after_init) steps.push_back({Step::CallOf, module.after_init, 0});
-  init = translator.translateSteps(steps);
+  EntryTranslator entries(module, blocks, translator);
+  init = entries.init();
   if (module.exit) {
-    steps.assign(1, {Step::CallOf, module.exit, 0});
-    exit = translator.translateSteps(steps);
+    exit = entries.call(module.exit);
     is.exit = runExit;
   }
   if (module.safe) {
-    steps.assign(1, {Step::CallOf, module.safe, 0});
-    safe = translator.translateSteps(steps);
+    safe = entries.call(module.safe);
     is.safe = runSafe;
   }
-
-  for (uint32_t i = 0; i < module.tasks.size(); ++i) {
-    steps.clear();
-    if (module.tasks[i].before) steps.push_back({Step::CallOf, module.tasks[i].before, 0});
-    for (uint32_t p = 0; p < module.programs.size(); ++p) {
-      if (module.programs[p].task == i + 1 && module.programs[p].body) runOf(steps, p);
-    }
-    for (const BlockTask& block : module.block_tasks)
-      if (block.task == i + 1) steps.push_back({Step::CallOf, block.run, 0});
-    if (module.tasks[i].after) steps.push_back({Step::CallOf, module.tasks[i].after, 0});
-    of_task.push_back(translator.translateSteps(steps));
-  }
+  for (uint32_t i = 0; i < module.tasks.size(); ++i) of_task.push_back(entries.task(i));
   for (const Description::Test& test : description->tests) {
-    steps.clear();
-    std::vector<Step> first, last;
-    if (test.before) steps.push_back({Step::CallOf, test.before, 0});
-    if (test.program == RUNG_NONE) {
-      steps.push_back({Step::CallOf, test.body, 0});
-    } else {
-      const ProgramInstance& program = module.programs[test.program];
-      const uint32_t block = blocks.program_block[test.program];
-      runOf(steps, test.program);
-      first.push_back({Step::Clear, {}, block});
-      if (program.init) first.push_back({Step::CallOn, program.init, block});
-      if (program.setup) first.push_back({Step::CallOf, program.setup, 0});
-      if (program.after_init) first.push_back({Step::CallOf, program.after_init, 0});
-      if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
-    }
-    if (test.after) steps.push_back({Step::CallOf, test.after, 0});
-    for (const BodyId setup : test.setups) first.push_back({Step::CallOf, setup, 0});
-    std::vector<Step> teardowns;
-    for (const BodyId teardown : test.teardowns) teardowns.push_back({Step::CallOf, teardown, 0});
-    last.insert(last.begin(), teardowns.begin(), teardowns.end());
-    of_test.push_back(translator.translateSteps(steps));
-    of_test_init.push_back(translator.translateSteps(first));
-    of_test_exit.push_back(translator.translateSteps(last));
+    of_test.push_back(entries.test(test));
+    of_test_init.push_back(entries.testInit(test));
+    of_test_exit.push_back(entries.testExit(test));
   }
   link(module, code);
   for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kTaskStack + 2 * size_t{body.frame});

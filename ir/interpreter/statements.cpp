@@ -29,28 +29,9 @@ void BodyTranslator::statement(const Stmt& stmt) {
   switch (stmt.kind) {
     case StmtKind::None: return;
     case StmtKind::Assign: return assign(stmt.as<AssignStmt>().place, stmt.as<AssignStmt>().value);
-    case StmtKind::Bind: {
-      const auto [field, variable_of] = stmt.as<BindStmt>();
-      const Address to = fieldMemory(expr(field));
-      if (!variable_of) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
-      const Address variable = isString(expr(field).type) ? string(variable_of) : place(variable_of);
-      return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
-    }
+    case StmtKind::Bind: return bindStatement(stmt.as<BindStmt>());
     case StmtKind::Call: return callStatement(stmt.as<CallStmt>(), stmt.loc);
-    case StmtKind::If: {
-      const Label otherwise = newLabel();
-      const IfStmt& node = stmt.as<IfStmt>();
-      branch(node.condition, false, otherwise);
-      countBranch(stmt.loc, 1);
-      block(node.then_block);
-      if (!node.else_block && !countsBranches(stmt.loc)) return place(otherwise);
-      const Label end = newLabel();
-      jump(end);
-      place(otherwise);
-      countBranch(stmt.loc, 2);
-      block(node.else_block);
-      return place(end);
-    }
+    case StmtKind::If: return ifStatement(stmt.as<IfStmt>(), stmt.loc);
     case StmtKind::Switch: return switchStatement(stmt.as<SwitchStmt>(), stmt.loc);
     case StmtKind::Loop: return loopStatement(stmt.as<LoopStmt>());
     case StmtKind::For: return forStatement(stmt.as<ForStmt>());
@@ -70,33 +51,52 @@ void BodyTranslator::statement(const Stmt& stmt) {
       countStep();
       return;
     case StmtKind::Try: return tryStatement(stmt.as<TryStmt>());
-    case StmtKind::Fault: {
-      const auto [shown, fault] = stmt.as<FaultStmt>();
-      Operand value = temp();
-      if (shown) {
-        value = wideBits(shown);
-      } else {
-        move(Scalar::U64, {}, value);
-      }
-      const bool open_array = fault == types::Fault::Index;  // low above high: unknown
-      emit(raiseHandler(), {static_cast<uint32_t>(fault), false}, value.ref, {},
-           open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
-      return;
-    }
+    case StmtKind::Fault: return faultStatement(stmt.as<FaultStmt>(), stmt.loc);
     case StmtKind::Assert: return assertStatement(stmt);
-    case StmtKind::Evaluate: {
-      const ExprId evaluated = stmt.as<EvaluateStmt>().value;
-      const TypeId type = expr(evaluated).type;
-      if (isString(type)) {
-        string(evaluated);
-      } else if (isAggregate(type)) {
-        place(evaluated);
-      } else {
-        value(evaluated);
-      }
-      return;
-    }
+    case StmtKind::Evaluate: return evaluate(stmt.as<EvaluateStmt>().value);
   }
+}
+
+void BodyTranslator::bindStatement(const BindStmt& stmt) {
+  const Address to = fieldMemory(expr(stmt.field));
+  if (!stmt.place) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
+  const Address variable = isString(expr(stmt.field).type) ? string(stmt.place) : place(stmt.place);
+  write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
+}
+
+void BodyTranslator::ifStatement(const IfStmt& stmt, Loc loc) {
+  const Label otherwise = newLabel();
+  branch(stmt.condition, false, otherwise);
+  countBranch(loc, 1);
+  block(stmt.then_block);
+  if (!stmt.else_block && !countsBranches(loc)) return place(otherwise);
+  const Label end = newLabel();
+  jump(end);
+  place(otherwise);
+  countBranch(loc, 2);
+  block(stmt.else_block);
+  place(end);
+}
+
+void BodyTranslator::faultStatement(const FaultStmt& stmt, Loc loc) {
+  Operand shown = temp();
+  if (stmt.value)
+    shown = wideBits(stmt.value);
+  else
+    move(Scalar::U64, {}, shown);
+  const bool open_array = stmt.fault == types::Fault::Index;  // low above high: unknown
+  emit(raiseHandler(), {static_cast<uint32_t>(stmt.fault), false}, shown.ref, {},
+       open_array ? site(loc, 1, 0) : site(loc));
+}
+
+void BodyTranslator::evaluate(ExprId id) {
+  const TypeId type = expr(id).type;
+  if (isString(type))
+    string(id);
+  else if (isAggregate(type))
+    place(id);
+  else
+    value(id);
 }
 
 // ---- assignments
@@ -139,52 +139,19 @@ void BodyTranslator::switchStatement(const SwitchStmt& stmt, Loc loc) {
   const Operand value_of = inMemory(value(stmt.selector), type);
   const Label otherwise = newLabel(), end = newLabel();
   const uint64_t flip = isSigned(type) ? uint64_t{1} << 63 : 0;
-  struct Row {
-    uint64_t low, high;
-    Label label;
-  };
-  std::vector<Row> rows;
+  std::vector<SwitchRow> rows;
   std::vector<Label> labels;
   for (const Case& one : body_->list(stmt.cases)) {
     labels.push_back(newLabel());
-    for (const CaseRange& range : body_->list(one.ranges)) {
+    for (const CaseRange& range : body_->list(one.ranges))
       rows.push_back(
           {static_cast<uint64_t>(range.low) ^ flip, static_cast<uint64_t>(range.high) ^ flip, labels.back()});
-    }
   }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.low < b.low; });
-  if (!rows.empty() && rows.back().high - rows.front().low < kLargestTable) {
-    const uint64_t first = rows.front().low;
-    code_.tables.emplace_back(rows.back().high - first + 1);
-    std::vector<int32_t>& table = code_.tables.back();
-    const uint32_t insn =
-        emit(switchHandler(type, value_of.mode), value_of.ref, {}, {static_cast<uint32_t>(table.size()), false}, 0,
-             reinterpret_cast<int64_t>(table.data()));
-    emit(haltHandler(), {}, {}, {}, 0, static_cast<int64_t>(first ^ flip));
-    jumpTo(insn, otherwise);
-    for (int32_t& to : table) to = -1;
-    for (const Row& row : rows) {
-      for (uint64_t at = row.low - first; at <= row.high - first; ++at) {
-        if (table[at] != -1) continue;
-        table[at] = 0;
-        table_jumps_.push_back({&table[at], insn, row.label});
-      }
-    }
-    for (int32_t& to : table) {
-      if (to == -1) table_jumps_.push_back({&to, insn, otherwise});
-    }
-  } else {
-    code_.ranges.emplace_back(rows.size());
-    std::vector<SwitchRange>& ranges = code_.ranges.back();
-    const uint32_t insn =
-        emit(switchRangesHandler(type, value_of.mode), value_of.ref, {}, {static_cast<uint32_t>(rows.size()), false}, 0,
-             reinterpret_cast<int64_t>(ranges.data()));
-    jumpTo(insn, otherwise);
-    for (size_t i = 0; i < rows.size(); ++i) {
-      ranges[i] = {rows[i].low, rows[i].high, 0};
-      table_jumps_.push_back({&ranges[i].to, insn, rows[i].label});
-    }
-  }
+  std::sort(rows.begin(), rows.end(), [](const SwitchRow& a, const SwitchRow& b) { return a.low < b.low; });
+  if (!rows.empty() && rows.back().high - rows.front().low < kLargestTable)
+    switchByTable(value_of, type, rows, otherwise);
+  else
+    switchByRanges(value_of, type, rows, otherwise);
   for (uint32_t i = 0; i < stmt.cases.count; ++i) {
     place(labels[i]);
     countBranch(loc, i + 1);
@@ -195,6 +162,42 @@ void BodyTranslator::switchStatement(const SwitchStmt& stmt, Loc loc) {
   countBranch(loc, stmt.cases.count + 1);
   block(stmt.else_block);
   place(end);
+}
+
+// A jump for each value from the lowest to the highest.
+void BodyTranslator::switchByTable(const Operand& value, Scalar type, const std::vector<SwitchRow>& rows,
+                                   Label otherwise) {
+  const uint64_t flip = isSigned(type) ? uint64_t{1} << 63 : 0, first = rows.front().low;
+  code_.tables.emplace_back(rows.back().high - first + 1);
+  std::vector<int32_t>& table = code_.tables.back();
+  const uint32_t insn = emit(switchHandler(type, value.mode), value.ref, {},
+                             {static_cast<uint32_t>(table.size()), false}, 0, reinterpret_cast<int64_t>(table.data()));
+  emit(haltHandler(), {}, {}, {}, 0, static_cast<int64_t>(first ^ flip));
+  jumpTo(insn, otherwise);
+  for (int32_t& to : table) to = -1;
+  for (const SwitchRow& row : rows) {
+    for (uint64_t at = row.low - first; at <= row.high - first; ++at) {
+      if (table[at] != -1) continue;
+      table[at] = 0;
+      table_jumps_.push_back({&table[at], insn, row.label});
+    }
+  }
+  for (int32_t& to : table)
+    if (to == -1) table_jumps_.push_back({&to, insn, otherwise});
+}
+
+// A search in the ranges.
+void BodyTranslator::switchByRanges(const Operand& value, Scalar type, const std::vector<SwitchRow>& rows,
+                                    Label otherwise) {
+  code_.ranges.emplace_back(rows.size());
+  std::vector<SwitchRange>& ranges = code_.ranges.back();
+  const uint32_t insn = emit(switchRangesHandler(type, value.mode), value.ref, {},
+                             {static_cast<uint32_t>(rows.size()), false}, 0, reinterpret_cast<int64_t>(ranges.data()));
+  jumpTo(insn, otherwise);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ranges[i] = {rows[i].low, rows[i].high, 0};
+    table_jumps_.push_back({&ranges[i].to, insn, rows[i].label});
+  }
 }
 
 // ---- loops

@@ -78,6 +78,12 @@ class BodyTranslator : RecordedCode {
   using FrameCode::place;  // a label
   Address place(ExprId id);
   Address fieldMemory(const Expr& e);  // of a by-reference field: of the pointer itself
+  Address fieldPlace(const Expr& e);
+  Address blockMemory(uint32_t block) const;
+  Address imageMemory(const ImageExpr& image) const;
+  Address bitsPlace(const Expr& e);
+  Address selectedPlace(const Expr& e);
+  void checkNull(const Operand& pointer, uint32_t fault, Loc loc);
   Address indexed(const Expr& e, size_t count);
   uint32_t indexSite(const Expr& e, const types::Dimension& dimension);  // 0 where it is not checked
   bool loadOfTwo(ExprId id, const Operand* want, Operand& to);           // a[i, j] by one instruction
@@ -96,7 +102,17 @@ class BodyTranslator : RecordedCode {
   void block(StmtId first);
   void statement(const Stmt& stmt);
   void assign(ExprId to, ExprId from);
+  void bindStatement(const BindStmt& stmt);
+  void ifStatement(const IfStmt& stmt, Loc loc);
+  void faultStatement(const FaultStmt& stmt, Loc loc);
+  void evaluate(ExprId id);
+  struct SwitchRow {
+    uint64_t low, high;  // as unsigned numbers of the same order
+    Label label;
+  };
   void switchStatement(const SwitchStmt& stmt, Loc loc);
+  void switchByTable(const Operand& value, Scalar type, const std::vector<SwitchRow>& rows, Label otherwise);
+  void switchByRanges(const Operand& value, Scalar type, const std::vector<SwitchRow>& rows, Label otherwise);
   void loopStatement(const LoopStmt& stmt);
   void forStatement(const ForStmt& stmt);
   void tryStatement(const TryStmt& stmt);
@@ -116,6 +132,10 @@ class BodyTranslator : RecordedCode {
     bool copied = false;
     Address copy;
   };
+  bool canHoldResult(const CallStmt& stmt, const Body& callee, const std::vector<Argument>& passed) const;
+  void emitCallOf(const CallStmt& stmt, const Address& self, size_t passed, Loc loc);
+  void storeResult(ExprId to, Ref result);
+  void copyBack(const std::vector<Argument>& passed);
   std::vector<Argument> arguments(const Body& callee, Slice<ExprId> operands, uint32_t at);
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);

@@ -45,82 +45,105 @@ bool isSmall(const Interval& a) {
   return a.low >= -limit && a.high <= limit;
 }
 
-}  // namespace
+// The result of an operation on values between bounds, in `type`.
+struct Operation {
+  const Interval &a, &b, &type;
 
-IntervalResult apply(Op op, const Interval& a, const Interval& b, const Interval& type) {
-  const auto exact = [&](Interval r) { return r.within(type) ? IntervalResult{r, true} : IntervalResult{type, false}; };
-  const auto atMost = [&](Interval r) { return IntervalResult{meet(r, type), true}; };
-  const IntervalResult anything{type, false};
-  if (!isSmall(a) || !isSmall(b) || a.isEmpty() || b.isEmpty()) return anything;
-  const bool not_negative = a.low >= 0 && b.low >= 0;
-  switch (op) {
-    case Op::Add: return exact({a.low + b.low, a.high + b.high});
-    case Op::Sub: return exact({a.low - b.high, a.high - b.low});
-    case Op::Mul: {
-      if (std::max(a.high, -a.low) > (Int128{1} << 62) || std::max(b.high, -b.low) > (Int128{1} << 62)) return anything;
-      const Int128 p[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-      return exact({*std::min_element(p, p + 4), *std::max_element(p, p + 4)});
+  IntervalResult anything() const { return {type, false}; }
+  IntervalResult exact(Interval r) const { return r.within(type) ? IntervalResult{r, true} : anything(); }
+  IntervalResult atMost(Interval r) const { return {meet(r, type), true}; }
+  bool isNotNegative() const { return a.low >= 0 && b.low >= 0; }
+
+  IntervalResult product() const {
+    if (std::max(a.high, -a.low) > (Int128{1} << 62) || std::max(b.high, -b.low) > (Int128{1} << 62)) return anything();
+    const Int128 p[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    return exact({*std::min_element(p, p + 4), *std::max_element(p, p + 4)});
+  }
+
+  // Towards 0: the largest magnitude comes from the smallest divisor.
+  IntervalResult quotient() const {
+    if (b.low <= 0) return anything();
+    const Int128 q[] = {a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high};
+    return exact({*std::min_element(q, q + 4), *std::max_element(q, q + 4)});
+  }
+
+  // |result| < |divisor|, with the sign of the dividend; MOD by an unchecked 0 gives 0.
+  IntervalResult remainder() const {
+    const Int128 most = std::max(b.high, -b.low) - 1;
+    const Int128 up = a.high > 0 ? std::min(a.high, std::max<Int128>(most, 0)) : 0;
+    const Int128 down = a.low < 0 ? -std::min(-a.low, std::max<Int128>(most, 0)) : 0;
+    return atMost({down, up});
+  }
+
+  IntervalResult magnitude() const {
+    if (a.low >= 0) return exact(a);
+    if (a.high <= 0) return exact({-a.high, -a.low});
+    return exact({0, std::max(-a.low, a.high)});
+  }
+
+  IntervalResult bitwise(Op op) const {
+    if (op == Op::Not) {
+      const Int128 ones = type.low == 0 ? type.high : Int128{-1};
+      return atMost({ones - a.high, ones - a.low});
     }
-    case Op::Div: {
-      if (b.low > 0) {  // towards 0: the largest magnitude comes from the smallest divisor
-        const Int128 q[] = {a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high};
-        return exact({*std::min_element(q, q + 4), *std::max_element(q, q + 4)});
-      }
-      return anything;
-    }
-    case Op::Mod: {  // |result| < |divisor|, sign of the dividend; MOD by an unchecked 0 gives 0
-      const Int128 most = std::max(b.high, -b.low) - 1;
-      const Int128 up = a.high > 0 ? std::min(a.high, std::max<Int128>(most, 0)) : 0;
-      const Int128 down = a.low < 0 ? -std::min(-a.low, std::max<Int128>(most, 0)) : 0;
-      return atMost({down, up});
-    }
-    case Op::Neg: return exact({-a.high, -a.low});
-    case Op::Abs:
-      if (a.low >= 0) return exact(a);
-      if (a.high <= 0) return exact({-a.high, -a.low});
-      return exact({0, std::max(-a.low, a.high)});
-    case Op::And:
-      if (not_negative) return atMost({0, std::min(a.high, b.high)});
+    if (op == Op::And && !isNotNegative()) {
       if (a.low >= 0) return atMost({0, a.high});
-      if (b.low >= 0) return atMost({0, b.high});
-      return anything;
-    case Op::Or:
-      if (not_negative) return atMost({std::max(a.low, b.low), onesAbove(std::max(a.high, b.high))});
-      return anything;
-    case Op::Xor:
-      if (not_negative) return atMost({0, onesAbove(std::max(a.high, b.high))});
-      return anything;
-    case Op::Not:
-      if (type.low == 0) return atMost({type.high - a.high, type.high - a.low});
-      return atMost({-1 - a.high, -1 - a.low});
-    case Op::Shr:
-      if (not_negative && b.low == b.high && b.low < 64) return atMost({a.low >> b.low, a.high >> b.low});
-      if (not_negative) return atMost({0, a.high});
-      return anything;
-    case Op::Sar: {
+      return b.low >= 0 ? atMost({0, b.high}) : anything();
+    }
+    if (!isNotNegative()) return anything();
+    if (op == Op::And) return atMost({0, std::min(a.high, b.high)});
+    return atMost({op == Op::Or ? std::max(a.low, b.low) : Int128{0}, onesAbove(std::max(a.high, b.high))});
+  }
+
+  IntervalResult shifted(Op op) const {
+    const bool is_known = isNotNegative() && b.low == b.high;
+    if (op == Op::Sar) {
       const auto count = [](Int128 n) { return static_cast<int>(n < 0 || n > 127 ? 127 : n); };
       const int least = b.low < 0 ? 0 : count(b.low), most = b.low < 0 ? 127 : count(b.high);
       return atMost({std::min(a.low >> least, a.low >> most), std::max(a.high >> least, a.high >> most)});
     }
-    case Op::Shl:
-      if (not_negative && b.low == b.high && b.low < 32 && a.high < (Int128{1} << 64)) {
-        const Interval r{a.low << b.low, a.high << b.low};
-        return r.within(type) ? IntervalResult{r, true} : anything;
-      }
-      return anything;
+    if (op == Op::Shr) {
+      if (is_known && b.low < 64) return atMost({a.low >> b.low, a.high >> b.low});
+      return isNotNegative() ? atMost({0, a.high}) : anything();
+    }
+    if (!is_known || b.low >= 32 || a.high >= (Int128{1} << 64)) return anything();
+    return exact({a.low << b.low, a.high << b.low});
+  }
+};
+
+}  // namespace
+
+IntervalResult apply(Op op, const Interval& a, const Interval& b, const Interval& type) {
+  if (!isSmall(a) || !isSmall(b) || a.isEmpty() || b.isEmpty()) return {type, false};
+  const Operation operation{a, b, type};
+  switch (op) {
+    case Op::Add: return operation.exact({a.low + b.low, a.high + b.high});
+    case Op::Sub: return operation.exact({a.low - b.high, a.high - b.low});
+    case Op::Mul: return operation.product();
+    case Op::Div: return operation.quotient();
+    case Op::Mod: return operation.remainder();
+    case Op::Neg: return operation.exact({-a.high, -a.low});
+    case Op::Abs: return operation.magnitude();
+    case Op::And:
+    case Op::Or:
+    case Op::Xor:
+    case Op::Not: return operation.bitwise(op);
+    case Op::Shr:
+    case Op::Sar:
+    case Op::Shl: return operation.shifted(op);
     case Op::Eq:
     case Op::Ne:
     case Op::Lt:
     case Op::Le:
     case Op::Gt:
     case Op::Ge: return {{0, 1}, true};
-    case Op::Min: return atMost({std::min(a.low, b.low), std::min(a.high, b.high)});
-    case Op::Max: return atMost({std::max(a.low, b.low), std::max(a.high, b.high)});
+    case Op::Min: return operation.atMost({std::min(a.low, b.low), std::min(a.high, b.high)});
+    case Op::Max: return operation.atMost({std::max(a.low, b.low), std::max(a.high, b.high)});
     case Op::Power:
     case Op::Rol:
-    case Op::Ror: return anything;
+    case Op::Ror: return operation.anything();
   }
-  return anything;
+  return operation.anything();
 }
 
 }  // namespace rung::ir

@@ -477,56 +477,59 @@ class Analysis {
     if (has_checks_[id.index] != 0) value(id);
   }
 
+  Interval constant(const Expr& e) {
+    if (isPointer(e.type)) return bitsOf(e) == 0 ? Interval{0, 0} : kNotNull;
+    if (!isIntegral(e.type)) return allOf(e.type, false);
+    const uint64_t value = bitsOf(e);
+    const Int128 bits = types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(value)} : Int128{value};
+    return {bits, bits};
+  }
+
+  Interval variableOf(ExprId id) {
+    const uint32_t v = variable(id);
+    return v != kNone ? facts_.current(v) : allOf(body_.expr(id).type, keepsBounds(id));
+  }
+
+  Interval unary(Expr& e) {
+    const auto [operand, op] = e.as<UnaryExpr>();
+    const Interval a = value(operand);
+    if (!isIntegral(e.type)) return allOf(e.type, false);
+    const IntervalResult result = apply(op, a, {0, 0}, allOf(e.type, false));
+    if (result.fits) clear(e, kCheckOverflow);
+    if (result.fits && op == Op::Neg) fits(e);
+    return result.interval;
+  }
+
+  Interval conversion(Expr& e) {
+    const ExprId operand = e.as<ConvertExpr>().operand;
+    const TypeId from = body_.expr(operand).type;
+    const Interval a = value(operand);
+    if (isPointer(e.type) && isPointer(from)) return a;
+    if (!isIntegral(e.type)) return allOf(e.type, false);
+    const Interval target = allOf(e.type, true);
+    if (!isIntegral(from)) return target;
+    if (types_.plainKind(e.type) == TypeKind::Bool) return allOf(e.type, false);  // <> 0
+    if (!a.within(target)) return target;
+    clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
+    if (types_.plainKind(from) != TypeKind::Bool && !types::isLossless(types_, from, e.type)) fits(e);
+    return a;
+  }
+
   // The values that an expression can have; clears the checks below that it proves.
   Interval value(ExprId id) {
     Expr& e = body_.expr(id);
     if (has_checks_[id.index] == 0 && !isTracked(e.type)) return {-kWide, kWide};
     switch (e.kind) {
-      case ExprKind::Const: {
-        if (isPointer(e.type)) return bitsOf(e) == 0 ? Interval{0, 0} : kNotNull;
-        if (!isIntegral(e.type)) break;
-        const uint64_t value = bitsOf(e);
-        const Int128 bits =
-            types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(value)} : Int128{value};
-        return {bits, bits};
-      }
-      case ExprKind::Local:
-      case ExprKind::Field: {
-        if (e.kind == ExprKind::Field) {
-          value(e.as<FieldExpr>().base);
-          nullCheck(e, variables().referenceAt(e));
-        }
-        const uint32_t v = variable(id);
-        if (v != kNone) return facts_.current(v);
-        return allOf(e.type, keepsBounds(id));
-      }
+      case ExprKind::Const: return constant(e);
+      case ExprKind::Local: return variableOf(id);
+      case ExprKind::Field:
+        value(e.as<FieldExpr>().base);
+        nullCheck(e, variables().referenceAt(e));
+        return variableOf(id);
       case ExprKind::Index: return indexed(id);
-      case ExprKind::Unary: {
-        const auto [operand, op] = e.as<UnaryExpr>();
-        const Interval a = value(operand);
-        if (!isIntegral(e.type)) break;
-        const IntervalResult result = apply(op, a, {0, 0}, allOf(e.type, false));
-        if (result.fits) clear(e, kCheckOverflow);
-        if (result.fits && op == Op::Neg) fits(e);
-        return result.interval;
-      }
+      case ExprKind::Unary: return unary(e);
       case ExprKind::Binary: return binary(id);
-      case ExprKind::Convert: {
-        const ExprId operand = e.as<ConvertExpr>().operand;
-        const Interval a = value(operand);
-        if (isPointer(e.type) && isPointer(body_.expr(operand).type)) return a;
-        if (!isIntegral(e.type)) break;
-        const Interval target = allOf(e.type, true);
-        if (!isIntegral(body_.expr(operand).type)) return target;
-        if (types_.plainKind(e.type) == TypeKind::Bool) break;  // <> 0
-        if (a.within(target)) {
-          clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
-          const TypeId from = body_.expr(operand).type;
-          if (types_.plainKind(from) != TypeKind::Bool && !types::isLossless(types_, from, e.type)) fits(e);
-          return a;
-        }
-        return target;
-      }
+      case ExprKind::Convert: return conversion(e);
       case ExprKind::Select: {
         const SelectExpr node = e.as<SelectExpr>();
         value(node.condition);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 
 #include "frontend/source/files.h"
 #include "tools/conformance/export.h"
@@ -125,8 +126,8 @@ int checkRows(const Suite& suite) {
   return exit;
 }
 
-int runTool(int count, char** arguments) {
-  ExportOptions options;
+// The words after the name of the tool. Returns an exit code where the tool is done.
+std::optional<int> parseWords(int count, char** arguments, ExportOptions& options) {
   options.root.clear();
   std::vector<std::string> words;
   for (int i = 1; i < count; ++i) {
@@ -160,19 +161,23 @@ int runTool(int count, char** arguments) {
   if (words.size() < 2) return usage("`export` needs the folder to write");
   options.folder = words[1];
   for (size_t i = 2; i < words.size(); ++i) options.programs.push_back(fs::path(words[i]).lexically_normal().string());
-  const bool is_whole = options.profiles.empty() && options.programs.empty();
-  if (options.profiles.empty())
-    for (const Profile& profile : kProfiles) options.profiles.push_back(&profile);
+  return {};
+}
 
+// The folder with the tables of the suite. Returns an error message, or an empty string.
+std::string findRoot(std::string& root) {
   std::error_code error;
   const char* const kFeatures = "tests/conformance/features.tsv";
-  if (options.root.empty()) {
-    options.root = fs::exists(kFeatures, error) ? "." : driver::sharedFolder("conformance");
-    if (options.root.empty()) return fail("the current folder is not that of Rung's sources; name it with --root=DIR");
-  } else if (!fs::exists(options.root + "/" + kFeatures, error)) {
-    return fail("`" + options.root + "` is not the folder of Rung's sources: it has no " + kFeatures);
-  }
-  Suite suite;
+  if (!root.empty())
+    return fs::exists(root + "/" + kFeatures, error)
+               ? ""
+               : "`" + root + "` is not the folder of Rung's sources: it has no " + kFeatures;
+  root = fs::exists(kFeatures, error) ? "." : driver::sharedFolder("conformance");
+  return root.empty() ? "the current folder is not that of Rung's sources; name it with --root=DIR" : "";
+}
+
+// Writes the programs, the runner and the tables. Returns an error message, or an empty string.
+std::string writeSuite(ExportOptions& options, Suite& suite) {
   std::string problem = readTables(options.root, suite);
   if (problem.empty()) problem = setDate(suite);
   std::vector<std::string> paths;
@@ -185,6 +190,18 @@ int runTool(int count, char** arguments) {
                                                         {"refusals.tsv", refusalTable(suite)}};
   for (const auto& [name, text] : tables)
     if (problem.empty()) problem = driver::writeFile(options.folder + "/" + name, text);
+  return problem;
+}
+
+int runTool(int count, char** arguments) {
+  ExportOptions options;
+  if (const std::optional<int> exit = parseWords(count, arguments, options)) return *exit;
+  const bool is_whole = options.profiles.empty() && options.programs.empty();
+  if (options.profiles.empty())
+    for (const Profile& profile : kProfiles) options.profiles.push_back(&profile);
+  Suite suite;
+  std::string problem = findRoot(options.root);
+  if (problem.empty()) problem = writeSuite(options, suite);
   if (!problem.empty()) return fail(problem);
   for (const Profile* profile : options.profiles) {
     size_t runs = 0, errors = 0;

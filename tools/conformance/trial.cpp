@@ -51,13 +51,12 @@ class Listener : public driver::Sink {
   std::FILE* stream_;
 };
 
-driver::Options optionsOf(const std::string& file, Dialect dialect) {
-  driver::Options options;
-  options.inputs = {file};
-  options.dialect = dialect;
-  options.dialect_given = true;
-  options.jobs = 1;
-  return options;
+driver::ProjectOptions projectOf(const std::string& file, Dialect dialect) {
+  driver::ProjectOptions project;
+  project.inputs = {file};
+  project.dialect = dialect;
+  project.dialect_given = true;
+  return project;
 }
 
 std::set<std::string> namesIn(std::string_view text) {
@@ -152,7 +151,7 @@ void collectConversions(const driver::Compilation& compilation, FileId file, std
 Checked check(const std::string& file, Dialect dialect) {
   Listener listener;
   driver::PhaseTimes times;
-  driver::Compilation compilation(optionsOf(file, dialect), times, listener);
+  driver::Compilation compilation(projectOf(file, dialect), times, listener);
   Checked checked;
   compilation.check();
   checked.refused = compilation.exitCode() == driver::kUsage;
@@ -181,14 +180,15 @@ Checked check(const std::string& file, Dialect dialect) {
 
 Ran run(const std::string& file, Dialect dialect, const RunSetting& setting) {
   Listener listener;
-  driver::Options options = optionsOf(file, dialect);
+  driver::RunOptions options;
+  options.native.jobs = 1;
   options.engine = driver::Engine::Interpreter;
   const std::string trace = file + ".trace";
   options.host_arguments = {"--cycles=" + std::to_string(setting.cycles), "--trace=" + trace,
                             "--watch=" + joined(setting.watch, ",")};
   options.host_arguments.insert(options.host_arguments.end(), setting.options.begin(), setting.options.end());
   Ran ran;
-  ran.exit = driver::runRun(options, listener);
+  ran.exit = driver::runRun(projectOf(file, dialect), options, listener);
   ran.messages = listener.said();
   ran.trace = linesOf(readFile(trace).content);
   std::error_code error;
@@ -199,17 +199,17 @@ Ran run(const std::string& file, Dialect dialect, const RunSetting& setting) {
 std::string asSt(const std::string& file) {
   Listener listener;
   driver::PhaseTimes times;
-  driver::Compilation compilation(optionsOf(file, Dialect::Codesys), times, listener);
+  driver::Compilation compilation(projectOf(file, Dialect::Codesys), times, listener);
   if (!compilation.parse() || compilation.diagnostics.hasErrors() || compilation.tree.files.empty()) return {};
   return std::string(compilation.sources.sourceText(compilation.tree.files[0].file));
 }
 
 std::string asXml(const std::string& file, const std::string& scratch) {
   Listener listener;
-  driver::Options options = optionsOf(file, Dialect::Iec3);
+  driver::ConvertOptions options;
   options.to = driver::ConvertTo::Xml;
   options.output = scratch;
-  if (driver::runConvert(options, listener) != driver::kSuccess) return {};
+  if (driver::runConvert(projectOf(file, Dialect::Iec3), options, listener) != driver::kSuccess) return {};
   const std::string path = scratch + "/" + fs::path(file).stem().string() + ".xml";
   std::string text = readFile(path).content;
   std::error_code error;

@@ -14,7 +14,7 @@ namespace rung::driver {
 
 namespace {
 
-int writeSymbols(const Options& options, const std::vector<codegen::OutputFile>& files, Sink& sink) {
+int writeSymbols(const BuildOptions& options, const std::vector<codegen::OutputFile>& files, Sink& sink) {
   for (const codegen::OutputFile& file : files) {
     if (file.path != codegen::kSymbolFile) continue;
     if (std::string error = writeFile(options.symbols, file.content); !error.empty()) return usageError(sink, error);
@@ -23,38 +23,39 @@ int writeSymbols(const Options& options, const std::vector<codegen::OutputFile>&
 }
 
 // gdb loads PROGRAM-gdb.py with PROGRAM.
-int writeDebuggerScript(const Options& options, Sink& sink) {
+int writeDebuggerScript(const BuildOptions& options, Sink& sink) {
   const std::string error = writeFile(options.output + "-gdb.py", std::string(embedded::debugger_scripts[0].text));
   return error.empty() ? kSuccess : usageError(sink, error);
 }
 
 }  // namespace
 
-int runBuild(const Options& options, Sink& sink) {
+int runBuild(const ProjectOptions& project, const BuildOptions& options, Sink& sink) {
   struct stat info;
   if (stat(options.output.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
     return usageError(sink, "`" + options.output + "` is a folder; `-o` needs the name of a file");
 
   PhaseTimes times;
-  Options building = options;
-  if (options.debug && !options.level_given) building.level = 0;
-  building.level_given = building.level_given || options.debug;
+  ProjectOptions building = project;
+  const bool is_for_debugger = options.debug && !project.code.level_given;
+  if (is_for_debugger) building.code.level = 0;
+  building.code.level_given = project.code.level_given || options.debug;
   Compilation compilation(building, times, sink);
   NativeRequest request;
   request.parts.resize(1);
-  const bool ok = (options.build != BuildKind::Executable || compilation.checkNatives()) &&
-                  compilation.emit(false, request.parts[0].files);
+  const bool ok =
+      (options.kind != BuildKind::Executable || compilation.checkNatives()) && compilation.emit(request.parts[0].files);
   const bool later = ok && compilation.hasUserCpp();
   int exit = later ? compilation.exitCode() : compilation.finish();
   if (ok && exit == kSuccess) {
     times.begin("c++");
     Cache cache;
-    request.level = options.debug && !options.level_given ? 0 : 2;
+    request.level = is_for_debugger ? 0 : 2;
     request.debug = options.debug;
-    request.jobs = options.jobs;
-    request.keep = options.keep;
+    request.jobs = options.native.jobs;
+    request.keep = options.native.keep;
     NativeResult result =
-        makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output, sink);
+        makeOutput(cache, request, options.kind, compilation.options.moduleName(), options.output, sink);
     times.end();
     exit = result.exit;
     if (later)
@@ -66,7 +67,7 @@ int runBuild(const Options& options, Sink& sink) {
     if (exit == kSuccess && options.debug) exit = writeDebuggerScript(options, sink);
     if (exit == kSuccess && !options.symbols.empty()) exit = writeSymbols(options, request.parts[0].files, sink);
   }
-  if (options.time_phases) sink.message(times.table());
+  if (project.time_phases) sink.message(times.table());
   return exit;
 }
 

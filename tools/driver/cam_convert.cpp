@@ -27,7 +27,7 @@ std::string commaSeparated(std::string text) {
 
 // The declarations of the cam as TC6 XML, in the form in which CODESYS exports a list of global variables.
 std::optional<std::string> plcopenOf(const cam::Cam& cam, Sink& sink) {
-  Options options;
+  ProjectOptions options;
   options.inputs = {cam.name + ".st"};
   options.unsaved = {{cam.name + ".st", globalsOf(cam)}};
   PhaseTimes times;
@@ -44,7 +44,7 @@ std::optional<std::string> plcopenOf(const cam::Cam& cam, Sink& sink) {
 
 // The `.cam` text of the cam that a program declares: of the one with the name, or of the only one.
 int textOfProgram(const CamRun& run, Sink& sink, std::string& text) {
-  Options options;
+  ProjectOptions options;
   options.inputs = {run.inputs[0]};
   PhaseTimes times;
   Compilation compilation(options, times, sink);

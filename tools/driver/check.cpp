@@ -7,17 +7,17 @@
 
 namespace rung::driver {
 
-int runCheck(const Options& options, Sink& sink) {
+int runCheck(const ProjectOptions& project, Sink& sink) {
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Compilation compilation(project, times, sink);
   // A dump or the verifier needs the IR.
-  const bool need_ir = options.verify || (!options.dump_after.empty() && options.dump_after != "parse");
+  const bool need_ir = project.code.verify || (!project.code.dump_after.empty() && project.code.dump_after != "parse");
   if (need_ir)
     compilation.lower();
   else
     compilation.check();
   int exit = compilation.finish();
-  if (options.time_phases) sink.message(times.table());
+  if (project.time_phases) sink.message(times.table());
   return exit;
 }
 

@@ -14,29 +14,29 @@
 namespace rung::driver {
 
 // Parses and checks.
-int runCheck(const Options& options, Sink& sink);
+int runCheck(const ProjectOptions& project, Sink& sink);
 // Writes C++ below options.output; or passes the tree or the IR to the sink.
-int runEmit(const Options& options, Sink& sink);
+int runEmit(const ProjectOptions& project, const EmitOptions& options, Sink& sink);
 // Compiles and links to options.output.
-int runBuild(const Options& options, Sink& sink);
+int runBuild(const ProjectOptions& project, const BuildOptions& options, Sink& sink);
 // Runs the program on the bundled host.
-int runRun(const Options& options, Sink& sink);
+int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink);
 // Runs the POUs marked {test}.
-int runTest(const Options& options, Sink& sink);
+int runTest(const ProjectOptions& project, const TestOptions& options, Sink& sink);
 // Writes the program as ST or PLCopen XML below options.output.
-int runConvert(const Options& options, Sink& sink);
+int runConvert(const ProjectOptions& project, const ConvertOptions& options, Sink& sink);
 // Writes pictures of networks and charts below options.output.
-int runGraph(const Options& options, Sink& sink);
+int runGraph(const ProjectOptions& project, const GraphOptions& options, Sink& sink);
 // Formats files in place; or tells what it would change.
-int runFormat(const Options& options, Sink& sink);
+int runFormat(const ProjectOptions& project, const FormatOptions& options, Sink& sink);
 // Libraries, POUs, warnings, or the declaration of options.signature.
-int runList(const Options& options, Sink& sink);
+int runList(const ProjectOptions& project, const ListOptions& options, Sink& sink);
 // Makes a folder with a small project of a template.
-int runNew(const Options& options, Sink& sink);
-// Writes a rung.project for the sources of a folder.
-int runInit(const Options& options, Sink& sink);
-// The page of the code options.inputs[0].
-int runExplain(const Options& options, Sink& sink);
+int runNew(const std::string& folder, const std::string& project_template, Sink& sink);
+// Writes a rung.project for the sources of a folder, the only input, or the current one.
+int runInit(const ProjectOptions& project, Sink& sink);
+// The page of the code that is wanted.
+int runExplain(const std::string& wanted, bool color, Sink& sink);
 // The version, and the paths of the parts that generated code needs.
 int runVersion(Sink& sink);
 

@@ -81,18 +81,18 @@ std::string PhaseTimes::table() const {
 
 Compilation::~Compilation() = default;
 
-Compilation::Compilation(const Options& given, PhaseTimes& times, Sink& sink)
+Compilation::Compilation(const ProjectOptions& given, PhaseTimes& times, Sink& sink)
     : options(given), diagnostics(sources), times_(times), sink_(sink) {
-  diagnostics.max_errors = options.max_errors;
-  diagnostics.keeps_all_warnings = options.max_warnings == 0;
-  diagnostics.warnings_are_errors = options.werror;
+  diagnostics.max_errors = options.report.max_errors;
+  diagnostics.keeps_all_warnings = options.report.max_warnings == 0;
+  diagnostics.warnings_are_errors = options.report.werror;
 }
 
 bool Compilation::read() {
   times_.begin("read");
   readInputs(options, sources, diagnostics, inputs);
   if (inputs.project.file) applyProjectFile(inputs.project, options);
-  for (const WarningSwitch& warning : options.warnings)
+  for (const WarningSwitch& warning : options.report.warnings)
     if (!diagnostics.setWarning(warning.name, warning.on) && usage_error_.empty())
       usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung list warnings` lists all";
   if (usage_error_.empty()) usage_error_ = libraries.load(options);
@@ -103,8 +103,8 @@ bool Compilation::read() {
   }
   if (usage_error_.empty() && !inputs.io_error) usage_error_ = natives.read(inputs, libraries, sources);
   importer::LadderSettings& ladder = inputs.project.ladder;
-  if (options.plc_period_ns > 0) ladder.plc_period_ns = options.plc_period_ns;
-  if (options.time_slice_ns > 0) ladder.time_slice_ns = options.time_slice_ns;
+  if (options.code.plc_period_ns > 0) ladder.plc_period_ns = options.code.plc_period_ns;
+  if (options.code.time_slice_ns > 0) ladder.time_slice_ns = options.code.time_slice_ns;
   if (ladder.plc_period_ns % ladder.time_slice_ns != 0 && usage_error_.empty())
     usage_error_ = "the PLC period of an NCT program must be a multiple of its TimeSlice";
   const bool ok = usage_error_.empty() && !inputs.io_error && diagnostics.errorCount() == inputs.missing_files;
@@ -195,7 +195,7 @@ bool Compilation::parse() {
     if (made) text::parseFile(tree, names, sources, made, options.dialect, diagnostics);
   setPhaseSubject("", 0);
   times_.end();
-  if (options.dump_after == "parse")
+  if (options.code.dump_after == "parse")
     for (const FileUnit& unit : tree.files) dump(printTree(tree, names, unit));
   return true;
 }
@@ -223,12 +223,12 @@ sema::Options Compilation::semaOptions() {
   sema_options.aligned_globals = inputs.project.aligned_globals;
   sema_options.io_modules = inputs.project.io_modules;
   sema_options.task_durations = inputs.project.task_durations;
-  sema_options.default_interval_ns = options.default_interval_ns;
-  sema_options.with_tests = options.with_tests;
-  sema_options.mocks = options.mocks;
-  sema_options.pointer_size = options.pointer_size;
-  sema_options.native_width = options.native_width;
-  sema_options.edge_coils = options.edge_coils;
+  sema_options.default_interval_ns = options.code.default_interval_ns;
+  sema_options.with_tests = options.code.with_tests;
+  sema_options.mocks = options.code.mocks;
+  sema_options.pointer_size = options.code.pointer_size;
+  sema_options.native_width = options.code.native_width;
+  sema_options.edge_coils = options.code.edge_coils;
   sema_options.scheduled = scheduled;
   sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                   FunctionRef<bool(sema::PouId)> ready) {
@@ -265,17 +265,17 @@ bool Compilation::lower() {
   times_.begin("lower");
   module = std::make_unique<ir::Module>(project->types, names, sources);
   ir::LowerOptions lower_options;
-  lower_options.checks = options.checks;
+  lower_options.checks = options.code.checks;
   ir::lower(*project, lower_options, *module);
   setPhaseSubject("", 0);
   times_.end();
-  if (options.dump_after == "lower") dump(ir::print(*module));
-  if (options.verify && !verified("lower")) return false;
+  if (options.code.dump_after == "lower") dump(ir::print(*module));
+  if (options.code.verify && !verified("lower")) return false;
 
   times_.begin("optimize");
-  ir::optimize(*module, options.level, [this](const ir::Pass& pass, ir::Body& body) {
-    if (options.dump_after == pass.name) dump(ir::print(*module, body));
-    if (!options.verify || !internal_error_.empty()) return;
+  ir::optimize(*module, options.code.level, [this](const ir::Pass& pass, ir::Body& body) {
+    if (options.code.dump_after == pass.name) dump(ir::print(*module, body));
+    if (!options.code.verify || !internal_error_.empty()) return;
     for (const std::string& problem : ir::verify(*module, body)) {
       internal_error_ = "the IR of `" + std::string(names.string(body.spelling)) + "` is broken after pass " +
                         pass.name + ": " + problem;
@@ -287,15 +287,15 @@ bool Compilation::lower() {
   return internal_error_.empty();
 }
 
-bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files) {
+bool Compilation::emit(std::vector<codegen::OutputFile>& files) {
   if (!module && !lower()) return false;
   times_.begin("emit");
   codegen::EmitOptions emit_options;
-  emit_options.bundled = options.bundles > 0;
+  emit_options.bundled = options.code.is_bundled;
   emit_options.module_name = options.moduleName();
-  emit_options.with_tests = with_tests;
-  emit_options.counts_steps = options.counts_steps;
-  emit_options.optimize_all = options.level >= 2;
+  emit_options.with_tests = options.code.with_tests;
+  emit_options.counts_steps = options.code.counts_steps;
+  emit_options.optimize_all = options.code.level >= 2;
   emit_options.is_native_of_rung = isNativeOfRung;
   files = codegen::emitCpp(*module, emit_options);
   natives.addTo(files, *module, sources);
@@ -315,17 +315,16 @@ bool Compilation::checkNatives() {
   return !diagnostics.hasErrors();
 }
 
-bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
+bool Compilation::translate(std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
   if (!lower()) return false;
-  if (options.engine == Engine::Native || (options.engine == Engine::Auto && options.keep)) return true;
   times_.begin("translate");
   ir::interpreter::ProgramOptions program_options;
   const std::string name = options.moduleName();
   program_options.module_name = name;
-  program_options.with_tests = with_tests;
+  program_options.with_tests = options.code.with_tests;
   program_options.natives = {rung::natives::table, rung::natives::count};
-  program_options.coverage = options.counts();
-  program_options.trace_calls = options.trace_calls;
+  program_options.coverage = options.code.counts_statements;
+  program_options.trace_calls = options.code.trace_calls;
   program = std::make_unique<ir::interpreter::Program>(*module, program_options);
   times_.end();
   if (program->refusal().empty()) return true;
@@ -361,15 +360,15 @@ void Compilation::prepare(Diagnostics& own) const {
 
 RenderOptions Compilation::renderOptions() const {
   RenderOptions render_options;
-  render_options.format = options.format;
-  render_options.color = options.color;
-  render_options.max_warnings = options.max_warnings;
+  render_options.format = options.report.format;
+  render_options.color = options.report.color;
+  render_options.max_warnings = options.report.max_warnings;
   render_options.page = errorPage;
   return render_options;
 }
 
 std::string Compilation::textOf(Diagnostics& own) const {
-  if (own.all().empty() && options.format == DiagnosticFormat::Text) return {};
+  if (own.all().empty() && options.report.format == DiagnosticFormat::Text) return {};
   prepare(own);
   return render(own, sources, renderOptions());
 }
@@ -391,10 +390,10 @@ int Compilation::finish() {
 std::string Compilation::passDiagnostics() {
   RenderOptions render_options = renderOptions();
   std::string error;
-  if (!options.diagnostics_path.empty()) {
+  if (!options.report.path.empty()) {
     RenderOptions of_file = render_options;
     of_file.color = false;
-    error = writeFile(options.diagnostics_path, render(diagnostics, sources, of_file));
+    error = writeFile(options.report.path, render(diagnostics, sources, of_file));
     render_options.format = DiagnosticFormat::Text;
   }
   if (!diagnostics.all().empty() || render_options.format != DiagnosticFormat::Text)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver: read → parse → check → lower → optimize → emit, with timings, dumps and the verifier between phases.
-// In: Options. Out: the tree, the project, the IR module, generated files; diagnostics go to the sink at the end of the
-// run. Called by the commands, one Compilation for each project; several may exist at a time, also in several threads.
+// In: ProjectOptions. Out: the tree, the project, the IR module, generated files; diagnostics go to the sink at the end
+// of the run. Called by the commands, one Compilation for each project; several may exist at a time, also in several
+// threads.
 #pragma once
 
 #include <functional>
@@ -45,7 +46,7 @@ class PhaseTimes {
 class Compilation {
  public:
   // Options are copied: rung.project may change them.
-  Compilation(const Options& options, PhaseTimes& times, Sink& sink);
+  Compilation(const ProjectOptions& options, PhaseTimes& times, Sink& sink);
   ~Compilation();
 
   // Each runs the phases before it. False: stop; finish() returns the exit code.
@@ -55,13 +56,13 @@ class Compilation {
   bool lower();  // and optimize
   // After parse(), for pictures: see sema/project.h. Mistakes in declarations are not reported.
   std::vector<bool> inOutsOfBoxes();
-  bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
+  bool emit(std::vector<codegen::OutputFile>& files);
   // Reports native bodies that no C++ file defines. Called before the code becomes a program; a library leaves them to
   // the product that links it. False: stop.
   bool checkNatives();
   // Makes the program that `rung run` and `rung test` interpret; none when it cannot be interpreted (the reason is in
-  // `why`) or native code is requested. False: stop.
-  bool translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
+  // `why`). False: stop.
+  bool translate(std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
 
   // Passes the diagnostics to the sink and returns the exit code: 0, 1, 2 or 70.
   int finish();
@@ -77,7 +78,7 @@ class Compilation {
   bool for_pictures = false;     // set before parse() by `rung graph`
   sema::Scheduled scheduled;     // set before check() by `rung convert`
   std::function<void()> parsed;  // likewise: called while the tree is as parsed, and has no errors
-  Options options;
+  ProjectOptions options;
   Sources sources;
   Names names;
   Diagnostics diagnostics;

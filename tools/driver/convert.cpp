@@ -102,7 +102,8 @@ void forEachVariableLine(std::string_view sections, const Visit& visit) {
 
 class Converter {
  public:
-  explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
+  Converter(Compilation& compilation, bool splits)
+      : compilation_(compilation), sources_(compilation.sources), splits_(splits) {
     compilation.scheduled = [this](sema::Project&, sema::PouId pou) { print(pou); };
   }
 
@@ -127,6 +128,7 @@ class Converter {
 
   Compilation& compilation_;
   const Sources& sources_;
+  const bool splits_;  // every file becomes a folder
   std::vector<Body> bodies_;
   std::vector<Edit> hidden_;                      // the variables that networks need
   std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
@@ -436,7 +438,7 @@ std::string projectContent(std::string_view text) {
 
 // Tells whether a file becomes a folder: that of a tool which keeps a project in one file, or any other on request.
 bool Converter::becomesFolder(const InputFile& input) const {
-  return importer::formatOf(input.kind).has(importer::kHoldsProject) || compilation_.options.splits;
+  return importer::formatOf(input.kind).has(importer::kHoldsProject) || splits_;
 }
 
 // One file for each declaration, below `folder`; false: the file stays whole.
@@ -553,22 +555,22 @@ std::optional<TextFile> messageFile(const Inputs& inputs) {
 }
 
 // The output folder must differ from that of the sources, or the next run would read both.
-std::string refusal(const Compilation& compilation) {
+std::string refusal(const Compilation& compilation, const std::string& output) {
   std::error_code error;
-  const fs::path folder = fs::weakly_canonical(compilation.options.output, error);
+  const fs::path folder = fs::weakly_canonical(output, error);
   const fs::path root = fs::weakly_canonical(compilation.inputs.root, error);
   if (folder != root) return {};
-  return "`-o " + compilation.options.output + "` is the folder of the sources; use another one";
+  return "`-o " + output + "` is the folder of the sources; use another one";
 }
 
 }  // namespace
 
-int runConvert(const Options& options, Sink& sink) {
+int runConvert(const ProjectOptions& project, const ConvertOptions& options, Sink& sink) {
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Compilation compilation(project, times, sink);
   std::optional<Converter> converter;
   std::vector<TextFile> outputs;
-  if (options.to == ConvertTo::St) converter.emplace(compilation);
+  if (options.to == ConvertTo::St) converter.emplace(compilation, options.splits);
   if (options.to == ConvertTo::Xml)
     compilation.parsed = [&] { outputs.push_back({projectName(compilation) + ".xml", projectXml(compilation)}); };
   if (compilation.check()) {
@@ -587,10 +589,10 @@ int runConvert(const Options& options, Sink& sink) {
   }
   int exit = compilation.finish();
   if (exit == kSuccess)
-    if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(sink, problem);
+    if (const std::string problem = refusal(compilation, options.output); !problem.empty())
+      exit = usageError(sink, problem);
   if (exit == kSuccess && outputs.empty()) exit = usageError(sink, "no messages to write: no ladder has any");
   if (exit == kSuccess) exit = writeFiles(options.output, outputs, sink);
-  if (options.time_phases) sink.message(times.table());
   return exit;
 }
 

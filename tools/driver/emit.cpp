@@ -58,8 +58,7 @@ void addBundles(uint32_t count, const std::string& name, std::vector<OutputFile>
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
 }
 
-std::string writeDepfile(const Compilation& compilation) {
-  const Options& options = compilation.options;
+std::string writeDepfile(const Compilation& compilation, const EmitOptions& options) {
   std::string target = options.depfile_target;
   if (target.empty()) target = options.output + "/rung.manifest";
   std::vector<std::string> read = compilation.inputs.read;
@@ -68,14 +67,13 @@ std::string writeDepfile(const Compilation& compilation) {
   return writeFile(options.depfile, codegen::depfile(target, read));
 }
 
-int emitCpp(Compilation& compilation, PhaseTimes& times, Sink& sink) {
-  const Options& options = compilation.options;
+int emitCpp(Compilation& compilation, const EmitOptions& options, PhaseTimes& times, Sink& sink) {
   std::vector<OutputFile> files;
-  const bool ok = compilation.emit(false, files);
+  const bool ok = compilation.emit(files);
   int exit = compilation.finish();
   if (!ok || exit != kSuccess) return exit;
 
-  if (options.bundles > 0) addBundles(options.bundles, options.moduleName(), files);
+  if (options.bundles > 0) addBundles(options.bundles, compilation.options.moduleName(), files);
   if (options.list_outputs) {
     std::string list;
     for (const OutputFile& file : files) list += file.path + "\n";
@@ -90,15 +88,15 @@ int emitCpp(Compilation& compilation, PhaseTimes& times, Sink& sink) {
   times.end();
   if (!written.error.empty()) return usageError(sink, written.error);
   if (!options.depfile.empty()) {
-    std::string error = writeDepfile(compilation);
+    std::string error = writeDepfile(compilation, options);
     if (!error.empty()) return usageError(sink, error);
   }
   return kSuccess;
 }
 
-int emitText(Compilation& compilation, Sink& sink) {
+int emitText(Compilation& compilation, EmitKind kind, Sink& sink) {
   std::string out;
-  if (compilation.options.emit == EmitKind::Tree) {  // also of a file with errors, whose nodes are `error`
+  if (kind == EmitKind::Tree) {  // also of a file with errors, whose nodes are `error`
     if (compilation.parse())
       for (const FileUnit& unit : compilation.tree.files) out += printTree(compilation.tree, compilation.names, unit);
     const int printed = out.empty() ? kSuccess : printResult(sink, out);
@@ -112,11 +110,14 @@ int emitText(Compilation& compilation, Sink& sink) {
 
 }  // namespace
 
-int runEmit(const Options& options, Sink& sink) {
+int runEmit(const ProjectOptions& project, const EmitOptions& options, Sink& sink) {
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
-  int exit = options.emit == EmitKind::Cpp ? emitCpp(compilation, times, sink) : emitText(compilation, sink);
-  if (options.time_phases) sink.message(times.table());
+  ProjectOptions emitting = project;
+  emitting.code.is_bundled = options.bundles > 0;
+  Compilation compilation(emitting, times, sink);
+  const int exit = options.kind == EmitKind::Cpp ? emitCpp(compilation, options, times, sink)
+                                                 : emitText(compilation, options.kind, sink);
+  if (project.time_phases) sink.message(times.table());
   return exit;
 }
 

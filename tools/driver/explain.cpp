@@ -30,8 +30,7 @@ std::string_view errorPage(std::string_view code) {
   return {};
 }
 
-int runExplain(const Options& options, Sink& sink) {
-  const std::string& wanted = options.inputs[0];
+int runExplain(const std::string& wanted, bool color, Sink& sink) {
   std::vector<const DiagInfo*> found;
   for (const char* const letter : {"", "E", "W", "I"})  // 501 is E0501
     if (const DiagInfo* info =
@@ -50,7 +49,7 @@ int runExplain(const Options& options, Sink& sink) {
   }
   std::string pages;
   for (const DiagInfo* const info : found) pages += (pages.empty() ? "" : "\n") + pageOf(*info);
-  return printResult(sink, renderPage(pages, options.color));
+  return printResult(sink, renderPage(pages, color));
 }
 
 }  // namespace rung::driver

@@ -117,7 +117,8 @@ class BodyFinder {
 
 class FileFormatter {
  public:
-  FileFormatter(Compilation& compilation, Sink& sink) : compilation_(compilation), sink_(sink), bodies_(compilation) {
+  FileFormatter(Compilation& compilation, const FormatOptions& options, Sink& sink)
+      : compilation_(compilation), options_(options), sink_(sink), bodies_(compilation) {
     const Sources& sources = compilation.sources;
     for (const Diagnostic& diagnostic : compilation.diagnostics.all())
       if (diagnostic.severity == Severity::Error && diagnostic.loc && !isUnreadBody(diagnostic.diag))
@@ -132,31 +133,30 @@ class FileFormatter {
     for (const std::vector<InputFile>* files : {&compilation_.inputs.files, &compilation_.inputs.message_files})
       for (const InputFile& input : *files)
         if (!input.is_library && canFormat(input) && !format(input)) return kUsage;
-    if (compilation_.options.only_checks && !compilation_.options.shows_changes) {
+    if (options_.only_checks && !options_.shows_changes) {
       const std::string error = sink_.output(listed_);
       if (!error.empty()) return usageError(sink_, error);
     }
-    return compilation_.options.only_checks && changed_ > 0 ? kInputErrors : kSuccess;
+    return options_.only_checks && changed_ > 0 ? kInputErrors : kSuccess;
   }
 
   std::string text(const InputFile& input, std::string_view source) {
-    const Options& options = compilation_.options;
+    const Dialect dialect = compilation_.options.dialect;
     const format::Style& style = compilation_.inputs.project.style;
     switch (importer::formatOf(input.kind).formatting) {
       case Formatting::Text: {
         // The halves of a pair of files were joined: what the parser saw is not this file.
         const bool is_parsed = compilation_.sources.original(input.file) == source;
         static const format::Bodies kNone;
-        return format::formatted(source, is_parsed ? bodies_.of(input.file) : kNone, style, options.dialect,
-                                 options.lines);
+        return format::formatted(source, is_parsed ? bodies_.of(input.file) : kNone, style, dialect, options_.lines);
       }
-      case Formatting::Ladder: return format::formattedLadder(source, style, options.lines);
-      case Formatting::Messages: return format::formattedMessages(source, style, options.lines);
-      case Formatting::Xml: return format::formattedXml(source, style, options.dialect);
+      case Formatting::Ladder: return format::formattedLadder(source, style, options_.lines);
+      case Formatting::Messages: return format::formattedMessages(source, style, options_.lines);
+      case Formatting::Xml: return format::formattedXml(source, style, dialect);
       case Formatting::Parts: {
         std::vector<format::Span> parts;
         for (const importer::TextPart& part : partsOf(input.kind, source)) parts.push_back({part.begin, part.end});
-        return format::formattedParts(source, parts, bodies_.of(input.file), style, options.dialect);
+        return format::formattedParts(source, parts, bodies_.of(input.file), style, dialect);
       }
       case Formatting::None: return std::string(source);
     }
@@ -169,7 +169,7 @@ class FileFormatter {
     const Formatting formatting = importer::formatOf(input.kind).formatting;
     const bool is_text =
         formatting == Formatting::Text || formatting == Formatting::Ladder || formatting == Formatting::Messages;
-    if (!is_text && compilation_.options.lines.last != UINT32_MAX)
+    if (!is_text && options_.lines.last != UINT32_MAX)
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
@@ -181,12 +181,11 @@ class FileFormatter {
     if (result == source) return true;
     ++changed_;
     listed_ += input.shown + "\n";
-    const Options& options = compilation_.options;
-    if (options.shows_changes) {
+    if (options_.shows_changes) {
       const std::string error = sink_.output(changesOf(source, result, input.shown));
       return error.empty() || fail(error);
     }
-    return options.only_checks || write(input.path, encoded(result, encoding));
+    return options_.only_checks || write(input.path, encoded(result, encoding));
   }
 
   // Keeps the permissions of the file, and a link to it.
@@ -204,6 +203,7 @@ class FileFormatter {
   }
 
   Compilation& compilation_;
+  const FormatOptions& options_;
   Sink& sink_;
   BodyFinder bodies_;
   std::set<std::string> broken_;  // files with errors
@@ -211,19 +211,19 @@ class FileFormatter {
   uint32_t changed_ = 0;
 };
 
-int formatStandardInput(Options options, Sink& sink) {
+int formatStandardInput(ProjectOptions project, const FormatOptions& options, Sink& sink) {
   std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
   const Encoding encoding = encodingOf(text);
   if (!decodeUtf16(text)) return usageError(sink, "standard input is not UTF-16");
   if (encoding == Encoding::Utf8WithMark) text.erase(0, kMark.size());
-  options.inputs = {kStandardInput};
-  options.unsaved = {{kStandardInput, text}};
+  project.inputs = {kStandardInput};
+  project.unsaved = {{kStandardInput, text}};
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Compilation compilation(project, times, sink);
   compilation.parse();
   const int exit = compilation.finish();
   if (exit == kUsage || exit == kInternal || compilation.inputs.files.empty()) return exit;
-  FileFormatter formatter(compilation, sink);
+  FileFormatter formatter(compilation, options, sink);
   const InputFile& input = compilation.inputs.files.front();
   if (!formatter.canFormat(input)) return exit;
   const std::string result = formatter.text(input, text);
@@ -235,20 +235,20 @@ int formatStandardInput(Options options, Sink& sink) {
 
 }  // namespace
 
-int runFormat(const Options& given, Sink& sink) {
-  Options options = given;
-  options.warnings.push_back({"all", false});
-  options.max_errors = ~0u;  // beyond a limit a file would seem to have none
-  const bool reads_input = std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
-  if (reads_input && options.inputs.size() > 1)
+int runFormat(const ProjectOptions& given, const FormatOptions& options, Sink& sink) {
+  ProjectOptions project = given;
+  project.report.warnings.push_back({"all", false});
+  project.report.max_errors = ~0u;  // beyond a limit a file would seem to have none
+  const bool reads_input = std::find(project.inputs.begin(), project.inputs.end(), "-") != project.inputs.end();
+  if (reads_input && project.inputs.size() > 1)
     return usageError(sink, "`-` is standard input; name no file beside it");
-  if (reads_input) return formatStandardInput(std::move(options), sink);
+  if (reads_input) return formatStandardInput(std::move(project), options, sink);
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Compilation compilation(project, times, sink);
   compilation.parse();
   const int exit = compilation.finish();
   if (exit == kUsage || exit == kInternal) return exit;
-  const int result = FileFormatter(compilation, sink).run();
+  const int result = FileFormatter(compilation, options, sink).run();
   return exit != kSuccess ? exit : result;
 }
 

@@ -113,9 +113,9 @@ std::vector<TextFile> Grapher::pictures() {
 
 }  // namespace
 
-int runGraph(const Options& options, Sink& sink) {
+int runGraph(const ProjectOptions& project, const GraphOptions& options, Sink& sink) {
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
+  Compilation compilation(project, times, sink);
   std::vector<TextFile> pictures;
   compilation.for_pictures = true;
   const bool parsed = compilation.parse() && !compilation.diagnostics.hasErrors();

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The folder's sources, checked; nothing is said about their errors.
-std::unique_ptr<Compilation> checked(const Options& options, Dialect dialect, PhaseTimes& times, Sink& sink) {
-  Options reading = options;
+std::unique_ptr<Compilation> checked(const ProjectOptions& options, Dialect dialect, PhaseTimes& times, Sink& sink) {
+  ProjectOptions reading = options;
   reading.dialect = dialect;
   reading.dialect_given = true;
   auto compilation = std::make_unique<Compilation>(reading, times, sink);
@@ -28,7 +28,7 @@ std::unique_ptr<Compilation> checked(const Options& options, Dialect dialect, Ph
 }
 
 // The dialect that was asked for; else the first of those with the fewest errors.
-std::unique_ptr<Compilation> inBestDialect(const Options& options, PhaseTimes& times, Sink& sink) {
+std::unique_ptr<Compilation> inBestDialect(const ProjectOptions& options, PhaseTimes& times, Sink& sink) {
   if (options.dialect_given) return checked(options, options.dialect, times, sink);
   std::unique_ptr<Compilation> best;
   for (const Dialect dialect : {Dialect::Codesys, Dialect::Iec3, Dialect::Iec2}) {
@@ -68,7 +68,7 @@ bool hasDrawings(const Compilation& compilation) {
 
 }  // namespace
 
-int runInit(const Options& options, Sink& sink) {
+int runInit(const ProjectOptions& options, Sink& sink) {
   const std::string folder = options.inputs.empty() ? "." : options.inputs[0];
   std::error_code error;
   if (!fs::is_directory(folder, error))
@@ -77,7 +77,7 @@ int runInit(const Options& options, Sink& sink) {
   if (fs::symlink_status(file, error).type() != fs::file_type::not_found)
     return usageError(sink, backquoted(file) + " exists; it is the project of this folder");
 
-  Options reading = options;
+  ProjectOptions reading = options;
   reading.inputs = {folder};
   PhaseTimes times;
   const std::unique_ptr<Compilation> compilation = inBestDialect(reading, times, sink);

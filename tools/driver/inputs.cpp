@@ -32,7 +32,7 @@ std::string folderOf(const std::string& path) {
 
 class Collector {
  public:
-  Collector(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs)
+  Collector(const ProjectOptions& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs)
       : options_(options), files_(options.unsaved), sources_(sources), diagnostics_(diagnostics), inputs_(inputs) {}
 
   void collect() {
@@ -306,7 +306,7 @@ class Collector {
     for (const std::string& project : folder.plc_projects) addPlcProject(project);
     if (!folder.plc_projects.empty()) return;
     for (const std::string& file : folder.files)
-      if (options_.junit.empty() || absolutePath(file) != absolutePath(options_.junit))
+      if (options_.written.empty() || absolutePath(file) != absolutePath(options_.written))
         candidates_.push_back({absolutePath(file), file, {}, false});
     if (depth > 100) return;
     for (const std::string& inner : folder.folders) scan(inner, depth + 1, is_extension || folder.is_beremiz);
@@ -377,7 +377,7 @@ class Collector {
                      candidate.library});
   }
 
-  const Options& options_;
+  const ProjectOptions& options_;
   const FileProvider files_;
   Sources& sources_;
   Diagnostics& diagnostics_;
@@ -392,7 +392,7 @@ class Collector {
 
 }  // namespace
 
-void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+void readInputs(const ProjectOptions& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   Collector(options, sources, diagnostics, inputs).collect();
 }
 

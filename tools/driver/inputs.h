@@ -55,7 +55,7 @@ struct Inputs {
   bool io_error = false;                    // something could not be read: exit 2
 };
 
-void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
+void readInputs(const ProjectOptions& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
 
 // Replaces each vendor's file by its program in ST, and the two files of one POU by one source.
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs, bool for_pictures);

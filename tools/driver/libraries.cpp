@@ -26,7 +26,7 @@ std::string_view folderOf(std::string_view file) {
 
 }  // namespace
 
-std::string LibrarySet::load(const Options& options) {
+std::string LibrarySet::load(const ProjectOptions& options) {
   for (size_t i = 0; i < embedded::library_sources_count; i++) {
     const embedded::File& file = embedded::library_sources[i];
     contents_.push_back(namespaceOf(folderOf(file.name)));

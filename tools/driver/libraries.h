@@ -29,7 +29,7 @@ bool isLibraryInSt(const std::string& path);
 class LibrarySet {
  public:
   // The error names the file that could not be read.
-  [[nodiscard]] std::string load(const Options& options);
+  [[nodiscard]] std::string load(const ProjectOptions& options);
   // A file of a library that was read from another format.
   void addFile(const std::string& library, const std::string& path, FileId file, std::string_view text);
   // Another name for a library: `Std.TON` when a project refers to Tc2_Standard as Std.

@@ -25,15 +25,13 @@ const char* word(PouKind kind) {
   return "";
 }
 
-int listPous(const Options& options, Sink& sink) {
-  if (options.inputs.size() < 2) return usageError(sink, "`rung list pous` needs files or folders to read");
-  Options reading = options;
-  reading.inputs.erase(reading.inputs.begin());
+int listPous(const ProjectOptions& project, Sink& sink) {
+  if (project.inputs.empty()) return usageError(sink, "`rung list pous` needs files or folders to read");
   PhaseTimes times;
-  Compilation compilation(reading, times, sink);
+  Compilation compilation(project, times, sink);
   if (!compilation.parse() || compilation.diagnostics.hasErrors()) return compilation.finish();
   const Tree& tree = compilation.tree;
-  List list(options);
+  List list(project.report);
   for (const FileUnit& unit : tree.files) {
     for (DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Pou) continue;
@@ -49,8 +47,8 @@ int listPous(const Options& options, Sink& sink) {
 }
 
 // One line each: the code, the name for `-W` and the message, with A, B, ... for its arguments.
-int listWarnings(const Options& options, Sink& sink) {
-  List list(options);
+int listWarnings(const ProjectOptions& project, Sink& sink) {
+  List list(project.report);
   for (const DiagInfo& info : allDiags()) {
     if (info.severity == Severity::Error) continue;
     const std::string name = switchName(info);
@@ -69,11 +67,11 @@ void eachBlock(const LibrarySet& libraries, Visit visit) {
     for (const sema::IndexedBlock& block : sema::indexLibrary(file.source)) visit(file, block);
 }
 
-int listLibraries(const Options& options, Sink& sink) {
+int listLibraries(const ProjectOptions& project, Sink& sink) {
   LibrarySet libraries;
-  std::string error = libraries.load(options);
+  std::string error = libraries.load(project);
   if (!error.empty()) return usageError(sink, error);
-  List list(options);
+  List list(project.report);
   std::string library;
   std::vector<std::string> names;
   auto flush = [&] {
@@ -94,7 +92,7 @@ int listLibraries(const Options& options, Sink& sink) {
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
     if (library != file.library) flush();
     library = file.library;
-    if ((block.standards & sema::bitOf(options.dialect)) == 0) return;
+    if ((block.standards & sema::bitOf(project.dialect)) == 0) return;
     for (std::string_view name : block.names) names.emplace_back(name);
   });
   flush();
@@ -132,24 +130,24 @@ std::string namesBeginning(std::string_view begin, std::vector<std::string_view>
   return list;
 }
 
-int listSignature(const Options& options, Sink& sink) {
+int listSignature(const ProjectOptions& project, const std::string& signature, Sink& sink) {
   LibrarySet libraries;
-  std::string error = libraries.load(options);
+  std::string error = libraries.load(project);
   if (!error.empty()) return usageError(sink, error);
-  List list(options);
+  List list(project.report);
   std::vector<std::string_view> known;
   auto add = [&](std::string_view where, std::string_view text, const sema::IndexedBlock& block) {
     for (std::string_view name : block.names) {
       known.push_back(name);
-      if (!sameIdentifier(name, options.signature)) continue;
+      if (!sameIdentifier(name, signature)) continue;
       const std::string declaration = header(text, block);
       list.add("// " + std::string(where) + "\n" + declaration,
                JsonRow().text("file", where).text("declaration", declaration));
     }
   };
   PhaseTimes times;
-  Compilation compilation(options, times, sink);
-  if (!options.inputs.empty()) {
+  Compilation compilation(project, times, sink);
+  if (!project.inputs.empty()) {
     if (!compilation.read()) return compilation.finish();
     for (const InputFile& file : compilation.inputs.files) {
       std::string_view text = compilation.sources.sourceText(file.file);
@@ -157,26 +155,26 @@ int listSignature(const Options& options, Sink& sink) {
     }
   }
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
-    if ((block.standards & sema::bitOf(options.dialect)) != 0) add(file.path, file.source, block);
+    if ((block.standards & sema::bitOf(project.dialect)) != 0) add(file.path, file.source, block);
   });
   if (!list.empty()) return printResult(sink, list.text());
-  const std::string unknown = "unknown function, block or type `" + options.signature + "`";
-  const std::string offered = namesBeginning(options.signature, known);
+  const std::string unknown = "unknown function, block or type `" + signature + "`";
+  const std::string offered = namesBeginning(signature, known);
   if (!offered.empty()) return usageError(sink, unknown + "; these begin so: " + offered);
-  const std::string_view near = nearest(options.signature, known);
+  const std::string_view near = nearest(signature, known);
   return usageError(sink, unknown + (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
 }
 
 }  // namespace
 
-int runList(const Options& options, Sink& sink) {
-  if (!options.signature.empty()) return listSignature(options, sink);
-  if (options.inputs[0] == "pous") return listPous(options, sink);
-  if (options.inputs[0] == "tasks") return listTasks(options, sink);
-  if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options, sink);
-  if (options.inputs[0] == "nct" && options.inputs.size() == 1) return listNct(options, sink);
-  if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings(options, sink);
-  return usageError(sink, "unknown argument `" + options.inputs[0] +
+int runList(const ProjectOptions& project, const ListOptions& options, Sink& sink) {
+  if (!options.signature.empty()) return listSignature(project, options.signature, sink);
+  if (options.what == "pous") return listPous(project, sink);
+  if (options.what == "tasks") return listTasks(project, sink);
+  if (options.what == "libraries" && project.inputs.empty()) return listLibraries(project, sink);
+  if (options.what == "nct" && project.inputs.empty()) return listNct(project, sink);
+  if (options.what == "warnings" && project.inputs.empty()) return listWarnings(project, sink);
+  return usageError(sink, "unknown argument `" + options.what +
                               "` of `rung list`; it takes `libraries`, `nct`, `pous FILE|DIR ...`, `tasks FILE|DIR "
                               "...`, `warnings` or `--signature NAME`");
 }

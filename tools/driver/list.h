@@ -40,7 +40,7 @@ class JsonRow {
 // The rows of a list, in the requested format.
 class List {
  public:
-  explicit List(const Options& options) : is_json_(options.format == DiagnosticFormat::Json) {}
+  explicit List(const ReportOptions& report) : is_json_(report.format == DiagnosticFormat::Json) {}
   void add(const std::string& line, const JsonRow& row) {
     if (!is_json_) {
       out_ += line;
@@ -57,8 +57,8 @@ class List {
 };
 
 // The names of the NCT ladder: symbols, instructions, services, execution codes. (list_nct.cpp)
-int listNct(const Options& options, Sink& sink);
+int listNct(const ProjectOptions& project, Sink& sink);
 // The tasks of a project, what they run, and in which order. (list_tasks.cpp)
-int listTasks(const Options& options, Sink& sink);
+int listTasks(const ProjectOptions& project, Sink& sink);
 
 }  // namespace rung::driver

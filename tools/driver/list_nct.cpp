@@ -22,7 +22,7 @@ using importer::nct::SymbolKind;
 // The lines of one kind; the first two parts are the name and what it is.
 class Lines {
  public:
-  explicit Lines(const Options& options) : list_(options) {}
+  explicit Lines(const ReportOptions& report) : list_(report) {}
   void add(std::initializer_list<std::string_view> titles, std::initializer_list<std::string_view> parts) {
     std::string line;
     JsonRow row;
@@ -145,8 +145,8 @@ void addInstruction(Lines& lines, const Instruction& instruction) {
 
 }  // namespace
 
-int listNct(const Options& options, Sink& sink) {
-  Lines lines(options);
+int listNct(const ProjectOptions& project, Sink& sink) {
+  Lines lines(project.report);
   addSymbols(lines);
   for (const Instruction& instruction : importer::nct::allInstructions()) addInstruction(lines, instruction);
   for (const importer::nct::Scope& scope : importer::nct::scopes())

@@ -199,18 +199,16 @@ class TaskList {
 
 }  // namespace
 
-int listTasks(const Options& options, Sink& sink) {
-  if (options.inputs.size() < 2) return usageError(sink, "`rung list tasks` needs files or folders to read");
-  Options reading = options;
-  reading.inputs.erase(reading.inputs.begin());
+int listTasks(const ProjectOptions& project, Sink& sink) {
+  if (project.inputs.empty()) return usageError(sink, "`rung list tasks` needs files or folders to read");
   PhaseTimes times;
-  Compilation compilation(reading, times, sink);
+  Compilation compilation(project, times, sink);
   if (!compilation.check() || compilation.diagnostics.hasErrors()) return compilation.finish();
   const TaskList tasks(*compilation.project);
-  List list(options);
+  List list(project.report);
   tasks.addTo(list);
   const int exit = compilation.finish();
-  const bool is_json = options.format == DiagnosticFormat::Json;
+  const bool is_json = project.report.format == DiagnosticFormat::Json;
   return exit == kSuccess ? printResult(sink, is_json ? list.text() : tasks.text()) : exit;
 }
 

@@ -116,20 +116,20 @@ std::string templateHelp() {
   return out;
 }
 
-int runNew(const Options& options, Sink& sink) {
-  const Template* row = findTemplate(options.project_template);
+int runNew(const std::string& folder, const std::string& project_template, Sink& sink) {
+  const Template* row = findTemplate(project_template);
   if (row == nullptr) {
     std::vector<std::string_view> names;
     for (const Template& each : kTemplates) names.push_back(each.name);
-    return usageError(sink, withSuggestion("no template is called " + backquoted(options.project_template),
-                                           options.project_template, names) +
-                                " (`rung new --help` lists all)");
+    return usageError(sink,
+                      withSuggestion("no template is called " + backquoted(project_template), project_template, names) +
+                          " (`rung new --help` lists all)");
   }
-  fs::path target = fs::path(options.inputs[0]).lexically_normal();
+  fs::path target = fs::path(folder).lexically_normal();
   if (!target.has_filename()) target = target.parent_path();
   const std::string name = target.filename().string();
   if (name.empty() || name == "." || name == "..")
-    return usageError(sink, backquoted(options.inputs[0]) + " is not a name for a new folder");
+    return usageError(sink, backquoted(folder) + " is not a name for a new folder");
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       return usageError(sink, "the name of a new project has no control characters");

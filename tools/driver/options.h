@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of all commands: data that the command line fills in, or a server or test without one. The parsers of
-// values that the command line shares with rung.project are here too.
+// The options of the commands: those that all have in common, and a structure for each command. They are data that the
+// command line fills in, or a server or test without one. The parsers of values that the command line shares with
+// rung.project are here too.
 #pragma once
 
 #include <cstdint>
@@ -39,93 +40,123 @@ struct UnsavedFile {
 // Division by zero, indices, null pointers and casts.
 uint8_t defaultChecks();
 
-struct Options {
-  std::vector<std::string> inputs;   // files and folders; of `list` and `explain`: what to show
-  std::vector<UnsavedFile> unsaved;  // read instead of the files on disk
+// What a command reports about the sources, and how.
+struct ReportOptions {
+  std::vector<WarningSwitch> warnings;  // -W
+  bool werror = false;
+  uint32_t max_errors = 100;
+  uint32_t max_warnings = 20;  // of one code, in text; 0: all
+  DiagnosticFormat format = DiagnosticFormat::Text;
+  std::string path;    // --diagnostics; empty: to the sink, in `format`
+  bool color = false;  // of diagnostics
+};
 
-  // common
-  std::string output;                      // -o
+// How the sources become a program.
+struct CodeOptions {
+  uint8_t checks = defaultChecks();  // ir::Check bits
+  bool checks_given = false;
+  int level = 1;  // -O
+  bool level_given = false;
+  uint32_t native_width = 32;  // of intermediate results in codesys
+  bool native_width_given = false;
+  diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;
+  bool edge_coils_given = false;
+  int64_t plc_period_ns = 0, time_slice_ns = 0;  // of an NCT program; 0: as rung.project says
+  uint32_t pointer_size = 8;
+  std::string dump_after;
+  bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
+
+  // Set by the commands, not by the command line.
+  int64_t default_interval_ns = 10'000'000;  // of a program without tasks
+  bool with_tests = false;
+  std::vector<std::string> mocks;  // sema::Options::mocks
+  bool counts_steps = false;
+  bool counts_statements = false;  // for coverage
+  bool trace_calls = false;
+  bool is_bundled = false;  // a unit of the C++ compiler includes several of the sources
+};
+
+// What all commands that read a project have in common.
+struct ProjectOptions {
+  std::vector<std::string> inputs;   // files and folders
+  std::vector<UnsavedFile> unsaved;  // read instead of the files on disk
+  std::string written;               // a file that the command writes: not a source, although it is among the inputs
   std::vector<std::string> library_paths;  // -I
   std::vector<text::Define> defines;       // -D
   std::string root;                        // --root
   std::string name;                        // --name; empty: plc
   Dialect dialect = kDefaultDialect;
   bool dialect_given = false;
-  uint8_t checks = defaultChecks();  // ir::Check bits
-  bool checks_given = false;
-  int level = 1;  // -O
-  bool level_given = false;
-  std::vector<WarningSwitch> warnings;
-  bool werror = false;
-  uint32_t max_errors = 100;
-  uint32_t max_warnings = 20;  // of one code, in text; 0: all
-  DiagnosticFormat format = DiagnosticFormat::Text;
-  std::string diagnostics_path;  // --diagnostics; empty: to the sink, in `format`
-  uint32_t jobs = 0;             // 0: one per processor
-  bool color = false;            // of diagnostics
-  std::string dump_after;
-  bool time_phases = false;
   bool verbose = false;
-  bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
+  bool time_phases = false;
+  ReportOptions report;
+  CodeOptions code;
 
-  // emit
-  EmitKind emit = EmitKind::Cpp;
+  std::string moduleName() const { return name.empty() ? "plc" : name; }
+};
+
+struct EmitOptions {
+  std::string output;  // -o
+  EmitKind kind = EmitKind::Cpp;
   std::string depfile, depfile_target;
   bool list_outputs = false;
   uint32_t bundles = 0;
+};
 
-  // convert
-  ConvertTo to = ConvertTo::None;
-  bool splits = false;  // --split: one file for each declaration, also of files in ST
+// What is made by a C++ compiler.
+struct NativeOptions {
+  uint32_t jobs = 0;  // 0: one per processor
+  bool keep = false;
+};
 
-  // fmt
-  bool only_checks = false, shows_changes = false;  // --check, --diff
-  format::LineRange lines;
-
-  // graph
-  uint32_t page_width = 1200;  // 0: unlimited
-
-  // build
-  BuildKind build = BuildKind::Executable;
+struct BuildOptions {
+  std::string output;
+  BuildKind kind = BuildKind::Executable;
   bool debug = false;   // -g
   std::string symbols;  // where the symbol file goes; empty: nowhere
-  bool keep = false;
+  NativeOptions native;
+};
 
-  // run: options for the host (rung::host::parseRunOptions), one `--name=value` each
-  std::vector<std::string> host_arguments;
-  uint32_t pointer_size = 8;
-  uint32_t native_width = 32;  // of intermediate results in codesys
-  bool native_width_given = false;
-  diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;
-  bool edge_coils_given = false;
-  bool counts_steps = false;                     // set by run.cpp and test.cpp
-  int64_t default_interval_ns = 10'000'000;      // set from --interval by run.cpp
-  int64_t plc_period_ns = 0, time_slice_ns = 0;  // of an NCT program; 0: as rung.project says
-
-  // run, test
+struct RunOptions {
   Engine engine = Engine::Auto;
+  NativeOptions native;
+  std::vector<std::string> host_arguments;  // for rung::host::parseRunOptions, one `--name=value` each
 
-  bool trace_calls = false;  // set from --trace-calls by run.cpp
+  bool mayInterpret() const { return engine == Engine::Interpreter || (engine == Engine::Auto && !native.keep); }
+};
 
-  // test
+struct TestOptions {
+  RunOptions run;
   std::vector<std::string> filters;
   std::string junit, lcov;
+  bool coverage = false;  // as a table
   bool allow_none = false;
+  bool separate = false;
   int64_t timeout_ns = 10'000'000'000;  // of each test; 0: none
   int64_t max_steps = 100'000'000;      // of an activation; 0: none
-  bool coverage = false;                // as a table
-  std::vector<std::string> mocks;       // sema::Options::mocks, set by test.cpp
-  bool with_tests = false;              // set by test.cpp
+
   bool counts() const { return coverage || !lcov.empty(); }
-  bool separate = false;
+};
 
-  // list
-  std::string signature;
+struct ConvertOptions {
+  std::string output;
+  ConvertTo to = ConvertTo::None;
+  bool splits = false;  // --split: one file for each declaration, also of files in ST
+};
 
-  // new
-  std::string project_template = "st";  // --template
+struct GraphOptions {
+  std::string output;
+  uint32_t page_width = 1200;  // 0: unlimited
+};
 
-  std::string moduleName() const { return name.empty() ? "plc" : name; }
+struct FormatOptions {
+  bool only_checks = false, shows_changes = false;  // --check, --diff
+  format::LineRange lines;
+};
+
+struct ListOptions {
+  std::string what;       // `pous`; empty: the signature
+  std::string signature;  // of this function, block or type
 };
 
 // The bits of `div,index,…`, `default`, `all` or `none`.

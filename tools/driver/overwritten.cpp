@@ -5,10 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <utility>
-#include <vector>
 
 #include "frontend/import/formats.h"
+#include "tools/driver/options.h"
 
 namespace rung::driver {
 namespace {
@@ -16,21 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kBeginning = 65536;  // enough to recognise the kind of a file
-
-struct Output {
-  std::string option, path;
-};
-
-std::vector<Output> outputsOf(const Options& options) {
-  std::vector<Output> all = {{"-o", options.output},         {"--diagnostics", options.diagnostics_path},
-                             {"--depfile", options.depfile}, {"--symbols", options.symbols},
-                             {"--junit", options.junit},     {"--lcov", options.lcov}};
-  for (const std::string& argument : options.host_arguments)
-    for (const char* const option : {"--trace", "--plot", "--retain"})
-      if (argument.starts_with(std::string(option) + "="))
-        all.push_back({option, argument.substr(std::string_view(option).size() + 1)});
-  return all;
-}
 
 bool isBelow(const fs::path& folder, const fs::path& file) {
   std::error_code ignored;
@@ -50,11 +34,11 @@ bool holdsSource(const std::string& path) {
 
 }  // namespace
 
-std::string checkOutputs(const Options& options) {
-  for (const Output& output : outputsOf(options)) {
+std::string checkOutputs(const std::vector<std::string>& inputs, const std::vector<Output>& outputs) {
+  for (const Output& output : outputs) {
     std::error_code ignored;
     if (output.path.empty() || output.path == "-" || !fs::is_regular_file(output.path, ignored)) continue;
-    for (const std::string& input : options.inputs) {
+    for (const std::string& input : inputs) {
       const bool is_input = fs::equivalent(output.path, input, ignored);
       const bool in_input =
           !is_input && fs::is_directory(input, ignored) && isBelow(input, output.path) && holdsSource(output.path);

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refuses a command line whose output would replace a source. In: the options. Out: an error message, or an empty
-// string. Called by the tool before any command.
+// Refuses a command line whose output would replace a source. In: inputs and outputs. Out: an error message, or an
+// empty string. Called by the tool before any command.
 #pragma once
 
 #include <string>
-
-#include "tools/driver/options.h"
+#include <vector>
 
 namespace rung::driver {
 
-[[nodiscard]] std::string checkOutputs(const Options& options);
+// A file that a command writes, and the option that names it: {"-o", "out.st"}. Where the path is empty, it writes
+// none.
+struct Output {
+  std::string option, path;
+};
+
+[[nodiscard]] std::string checkOutputs(const std::vector<std::string>& inputs, const std::vector<Output>& outputs);
 
 }  // namespace rung::driver

@@ -445,14 +445,14 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
   project.safe_values = writeSafeValues(sources, diagnostics, project);
 }
 
-void applyProjectFile(const ProjectFile& project, Options& options) {
+void applyProjectFile(const ProjectFile& project, ProjectOptions& options) {
   if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
-  if (project.has_native_width && !options.native_width_given) options.native_width = project.native_width;
-  if (project.has_edge_coils && !options.edge_coils_given) options.edge_coils = project.edge_coils;
-  if (project.has_checks && !options.checks_given) options.checks = project.checks;
-  if (project.has_level && !options.level_given) options.level = project.level;
+  if (project.has_native_width && !options.code.native_width_given) options.code.native_width = project.native_width;
+  if (project.has_edge_coils && !options.code.edge_coils_given) options.code.edge_coils = project.edge_coils;
+  if (project.has_checks && !options.code.checks_given) options.code.checks = project.checks;
+  if (project.has_level && !options.code.level_given) options.code.level = project.level;
   if (options.name.empty()) options.name = project.name;
-  options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
+  options.report.warnings.insert(options.report.warnings.begin(), project.warnings.begin(), project.warnings.end());
   // The last of two defines with one name counts: the command line's.
   options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
   for (std::string& library : libraryPaths(project)) options.library_paths.push_back(std::move(library));

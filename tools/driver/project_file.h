@@ -64,6 +64,6 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
 std::vector<std::string> libraryPaths(const ProjectFile& project);
 
 // Applies the settings of the file that the command line does not have.
-void applyProjectFile(const ProjectFile& project, Options& options);
+void applyProjectFile(const ProjectFile& project, ProjectOptions& options);
 
 }  // namespace rung::driver

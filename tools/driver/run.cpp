@@ -11,33 +11,62 @@
 
 namespace rung::driver {
 
-int runRun(const Options& options, Sink& sink) {
+namespace {
+
+// A program as compiled code.
+struct Loaded {
+  Cache cache;
+  ModuleLibrary library;
+  const rung_module* module = nullptr;
+};
+
+// Compiles the C++ to a shared object and loads it. `has_user_cpp`: the compilation reports what the C++ compiler says
+// about it. Returns an exit code.
+int load(Compilation& compilation, const NativeRequest& request, bool has_user_cpp, Loaded& to, Sink& sink) {
+  const NativeResult result = makeShared(to.cache, request, sink);
+  if (has_user_cpp)
+    compilation.finish(result);
+  else if (result.exit == kInternal)
+    sink.internalError(result.message);
+  else if (result.exit == kUsage)
+    usageError(sink, result.message);
+  if (result.exit != kSuccess) return result.exit;
+  std::string error = to.library.open(result.path);
+  to.module = error.empty() ? to.library.find(compilation.options.moduleName(), error) : nullptr;
+  if (to.module != nullptr) return kSuccess;
+  sink.internalError(error);
+  return kInternal;
+}
+
+}  // namespace
+
+int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink) {
   host::RunOptions run_options;
   std::vector<std::string> rest;
   std::string error = host::parseRunOptions(options.host_arguments, run_options, rest);
   if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "` of `rung run`";
   if (!error.empty()) return usageError(sink, error);
-  run_options.color = options.color;
+  run_options.color = project.report.color;
   run_options.out = sink.programOutput();
   run_options.err = sink.programErrors();
 
   PhaseTimes times;
-  Options compiling = options;
-  compiling.default_interval_ns = run_options.interval_ns;
-  compiling.counts_steps = true;
-  compiling.trace_calls = run_options.trace_calls;
+  ProjectOptions compiling = project;
+  compiling.code.default_interval_ns = run_options.interval_ns;
+  compiling.code.counts_steps = true;
+  compiling.code.trace_calls = run_options.trace_calls;
   Compilation compilation(compiling, times, sink);
   NativeRequest request;
   request.has_call_paths = true;
   request.parts.resize(1);
   std::unique_ptr<ir::interpreter::Program> program;
   std::string why;
-  bool ok = compilation.translate(false, program, why);
-  if (ok && !program) ok = compilation.checkNatives() && compilation.emit(false, request.parts[0].files);
+  bool ok = options.mayInterpret() ? compilation.translate(program, why) : compilation.lower();
+  if (ok && !program) ok = compilation.checkNatives() && compilation.emit(request.parts[0].files);
   const bool later = ok && compilation.hasUserCpp() && compilation.exitCode() == kSuccess;
   int exit = later ? kSuccess : compilation.finish();
   if (!ok || exit != kSuccess) {
-    if (options.time_phases) sink.message(times.table());
+    if (project.time_phases) sink.message(times.table());
     return exit;
   }
   if (!why.empty()) {
@@ -46,28 +75,15 @@ int runRun(const Options& options, Sink& sink) {
     sink.message("rung: this program runs as compiled C++: " + why + "\n");
   }
 
-  Cache cache;
-  ModuleLibrary library;
-  const rung_module* module = program ? &program->description() : nullptr;
+  Loaded loaded;
+  if (program) loaded.module = &program->description();
   if (!program) {
     times.begin("c++");
-    request.level = compilation.options.level;
-    request.jobs = options.jobs;
-    request.keep = options.keep;
-    NativeResult result = makeShared(cache, request, sink);
-    if (later) {
-      compilation.finish(result);
-    } else {
-      if (result.exit == kInternal) sink.internalError(result.message);
-      if (result.exit == kUsage) usageError(sink, result.message);
-    }
-    if (result.exit != kSuccess) return result.exit;
-    error = library.open(result.path);
-    module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
-    if (module == nullptr) {
-      sink.internalError(error);
-      return kInternal;
-    }
+    request.level = compilation.options.code.level;
+    request.jobs = options.native.jobs;
+    request.keep = options.native.keep;
+    exit = load(compilation, request, later, loaded, sink);
+    if (exit != kSuccess) return exit;
   } else if (options.engine == Engine::Auto) {
     run_options.hint_when_long = "rung: a long run is faster with --engine=native";
   }
@@ -75,11 +91,11 @@ int runRun(const Options& options, Sink& sink) {
   for (const InputFile& file : compilation.inputs.files) run_options.paths[file.below] = file.shown;
   times.begin("run");
   constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
-  sink.programRuns(true, (compilation.options.checks & kMemoryChecks) == kMemoryChecks);
-  exit = host::run(*module, run_options);
+  sink.programRuns(true, (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks);
+  exit = host::run(*loaded.module, run_options);
   sink.programRuns(false, false);
   times.end();
-  if (options.time_phases) sink.message(times.table());
+  if (project.time_phases) sink.message(times.table());
   return exit;
 }
 

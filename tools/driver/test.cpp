@@ -110,14 +110,15 @@ class Recorder : public Sink {
 
 class Tester {
  public:
-  Tester(const Options& options, Sink& sink) : options_(options), sink_(sink) {
+  Tester(const ProjectOptions& project, const TestOptions& options, Sink& sink)
+      : project_(project), options_(options), sink_(sink) {
     test_options_.filters = options.filters;
     test_options_.timeout_ns = options.timeout_ns;
     test_options_.max_steps = options.max_steps;
     test_options_.junit_path = options.junit;
     host::RunOptions shown;
     std::vector<std::string> others;
-    host::parseRunOptions(options.host_arguments, shown,
+    host::parseRunOptions(options.run.host_arguments, shown,
                           others);  // without mistakes: they are --watch, --trace, --plot
     test_options_.watch = shown.watch;
     test_options_.trace_path = shown.trace_path;
@@ -130,14 +131,14 @@ class Tester {
     if (options_.junit != "-")  // there, nothing would replace it
       if (const std::string error = writeOutcome("did not finish", "the run did not finish"); !error.empty())
         return usageError(sink_, error);
-    int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
+    int exit = options_.separate ? compileSeparately() : compileProject(project_, nullptr);
     if (exit == kSuccess) exit = buildAndRun();
     if (!reported_) {
       const std::string error = writeOutcome(exit == kInputErrors ? "compile" : "run", sink_.text());
       if (!error.empty()) exit = usageError(sink_, error);
     }
     times_.end();
-    if (options_.time_phases) sink_.message(times_.table());
+    if (project_.time_phases) sink_.message(times_.table());
     return exit;
   }
 
@@ -146,23 +147,23 @@ class Tester {
   std::string writeOutcome(const char* what, const std::string& messages) {
     if (options_.junit.empty()) return {};
     host::TestResults results;
-    const std::string& path = options_.inputs.front();
+    const std::string& path = project_.inputs.front();
     results.tests.push_back({what, path, 1, host::TestResult::Broken, 0, 0, messages, path});
     return host::writeJunit(results, options_.junit, sink_.programOutput());
   }
 
   // Compiles the modules of one project: the tests without mocks, then each set of mocks. `file`: the only file of a
   // project whose errors count as a failed test.
-  int compileProject(const Options& options, const InputFile* file) {
+  int compileProject(const ProjectOptions& options, const InputFile* file) {
     MockSets sets{{}};
     std::string name;
     for (size_t i = 0; i < sets.size(); i++) {
-      Options one = options;
-      one.mocks = sets[i];
+      ProjectOptions one = options;
+      one.code.mocks = sets[i];
       if (i > 0) one.name = name + "_mocks_" + std::to_string(i);
-      if (options.counts()) {  // counts each statement as written
-        one.level = 0;
-        one.level_given = true;
+      if (options_.counts()) {  // counts each statement as written
+        one.code.level = 0;
+        one.code.level_given = true;
       }
       auto owned = std::make_unique<Compilation>(one, times_, sink_);
       Compilation& compilation = *owned;
@@ -172,7 +173,7 @@ class Tester {
       module.name = compilation.options.moduleName();
       if (i == 0) {
         name = module.name;
-        checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
+        checked_ = (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks;
         if (module.ok) sets = mockSets(*compilation.project, test_options_);
       }
       if (file != nullptr && compilation.exitCode() != kInternal) {
@@ -211,25 +212,27 @@ class Tester {
   // Interpreted when possible, else as C++ files.
   bool makeModule(Compilation& compilation, Module& module, NativePart& part) {
     std::string why;
-    if (!compilation.translate(true, module.program, why)) return false;
+    const bool compiled =
+        options_.run.mayInterpret() ? compilation.translate(module.program, why) : compilation.lower();
+    if (!compiled) return false;
     if (module.program) return true;
-    const bool must = options_.engine == Engine::Interpreter || options_.counts();
+    const bool must = options_.run.engine == Engine::Interpreter || options_.counts();
     if (!why.empty() && must) why_ = "this program cannot be interpreted: " + why;
     if (!why.empty() && why_.empty()) sink_.message("rung: this program runs as compiled C++: " + why + "\n");
-    return compilation.checkNatives() && compilation.emit(true, part.files);
+    return compilation.checkNatives() && compilation.emit(part.files);
   }
 
   int compileSeparately() {
     // The files are found once, as one project; their sources are read again for each.
-    Compilation all(options_, times_, sink_);
+    Compilation all(project_, times_, sink_);
     if (!all.read()) return all.finish();
-    std::string root = options_.root.empty() ? all.inputs.root : options_.root;
+    std::string root = project_.root.empty() ? all.inputs.root : project_.root;
     for (size_t i = 0; i < all.inputs.files.size(); i++) {
       const InputFile& file = all.inputs.files[i];
-      Options one = options_;
+      ProjectOptions one = project_;
       one.inputs = {file.path};
       one.root = root;
-      one.bundles = 1;  // a unit includes several of its sources
+      one.code.is_bundled = true;
       one.name = all.options.moduleName() + "_" + std::to_string(i);
       const int exit = compileProject(one, &file);
       if (exit != kSuccess) return exit;
@@ -244,9 +247,9 @@ class Tester {
     if (!request_.parts.empty()) {
       times_.begin("c++");
       request_.has_call_paths = true;
-      request_.level = options_.level;
-      request_.jobs = options_.jobs;
-      request_.keep = options_.keep;
+      request_.level = project_.code.level;
+      request_.jobs = options_.run.native.jobs;
+      request_.keep = options_.run.native.keep;
       NativeResult result = makeShared(cache, request_, sink_);
       if (result.exit == kInternal) sink_.internalError(result.message);
       if (result.exit == kUsage) usageError(sink_, result.message);
@@ -260,7 +263,7 @@ class Tester {
     }
     times_.begin("run");
     host::TestResults results;
-    if (options_.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
+    if (options_.run.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
       test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
     for (const Module& module : modules_) {
       const int exit = runModule(module, library, results);
@@ -333,7 +336,8 @@ class Tester {
     return kSuccess;
   }
 
-  const Options& options_;
+  const ProjectOptions& project_;
+  const TestOptions& options_;
   Recorder sink_;
   host::TestOptions test_options_;
   PhaseTimes times_;
@@ -349,10 +353,12 @@ class Tester {
 
 }  // namespace
 
-int runTest(const Options& options, Sink& sink) {
-  Options testing = options;
-  testing.with_tests = testing.counts_steps = true;
-  return Tester(testing, sink).run();
+int runTest(const ProjectOptions& project, const TestOptions& options, Sink& sink) {
+  ProjectOptions testing = project;
+  testing.written = options.junit;
+  testing.code.with_tests = testing.code.counts_steps = true;
+  testing.code.counts_statements = options.counts();
+  return Tester(testing, options, sink).run();
 }
 
 }  // namespace rung::driver

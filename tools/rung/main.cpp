@@ -9,28 +9,32 @@
 #include "tools/rung/console.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
+#include "tools/rung/response_files.h"
 #include "tools/workspace/project.h"
 
 namespace {
 
 using rung::tool::Command;
+using rung::tool::CommandLine;
 using rung::tool::Console;
 
-int runCommand(const rung::tool::Options& options, Console& console) {
-  switch (options.command) {
-    case Command::Check: return rung::driver::runCheck(options, console);
-    case Command::Emit: return rung::driver::runEmit(options, console);
-    case Command::Build: return rung::driver::runBuild(options, console);
-    case Command::Run: return rung::driver::runRun(options, console);
-    case Command::Test: return rung::driver::runTest(options, console);
-    case Command::Convert: return rung::driver::runConvert(options, console);
-    case Command::Graph: return rung::driver::runGraph(options, console);
-    case Command::Fmt: return rung::driver::runFormat(options, console);
-    case Command::List: return rung::driver::runList(options, console);
-    case Command::New: return rung::driver::runNew(options, console);
-    case Command::Init: return rung::driver::runInit(options, console);
-    case Command::Cam: return rung::driver::runCam(options.inputs, options.cam, options.output, console);
-    case Command::Explain: return rung::driver::runExplain(options, console);
+int runCommand(const CommandLine& line, Console& console) {
+  const rung::driver::ProjectOptions& project = line.project;
+  const std::vector<std::string>& words = project.inputs;
+  switch (line.command) {
+    case Command::Check: return rung::driver::runCheck(project, console);
+    case Command::Emit: return rung::driver::runEmit(project, line.emit, console);
+    case Command::Build: return rung::driver::runBuild(project, line.build, console);
+    case Command::Run: return rung::driver::runRun(project, line.run, console);
+    case Command::Test: return rung::driver::runTest(project, line.test, console);
+    case Command::Convert: return rung::driver::runConvert(project, line.convert, console);
+    case Command::Graph: return rung::driver::runGraph(project, line.graph, console);
+    case Command::Fmt: return rung::driver::runFormat(project, line.fmt, console);
+    case Command::List: return rung::driver::runList(project, line.list, console);
+    case Command::New: return rung::driver::runNew(words[0], line.project_template, console);
+    case Command::Init: return rung::driver::runInit(project, console);
+    case Command::Cam: return rung::driver::runCam(words, line.cam, line.cam_output, console);
+    case Command::Explain: return rung::driver::runExplain(words[0], project.report.color, console);
     case Command::Version: return rung::driver::runVersion(console);
     case Command::None:
     case Command::Help: break;
@@ -51,16 +55,16 @@ int main(int argc, char** argv) {
     console.message(rung::tool::helpText(Command::None));
     return rung::driver::kUsage;
   }
-  rung::tool::Options options;
+  CommandLine line;
+  std::vector<std::string>& inputs = line.project.inputs;
   std::string error = rung::tool::expandResponseFiles(arguments);
-  if (error.empty()) error = rung::tool::parseOptions(arguments, options);
-  if (error.empty() && !options.help && rung::tool::readsProject(options.command))
-    error = rung::workspace::addProject(options.inputs, rung::tool::commandName(options.command),
-                                        options.command == Command::Test);
-  if (error.empty() && !options.help) error = rung::driver::checkDumpName(options.dump_after);
-  if (error.empty() && !options.help) error = rung::driver::checkOutputs(options);
+  if (error.empty()) error = rung::tool::parseCommandLine(arguments, line);
+  if (error.empty() && !line.help && rung::tool::readsProject(line.command))
+    error = rung::workspace::addProject(inputs, rung::tool::commandName(line.command), line.command == Command::Test);
+  if (error.empty() && !line.help) error = rung::driver::checkDumpName(line.project.code.dump_after);
+  if (error.empty() && !line.help) error = rung::driver::checkOutputs(inputs, rung::tool::outputsOf(line));
   if (!error.empty()) return rung::driver::usageError(console, error);
-  if (options.help) return rung::driver::printResult(console, rung::tool::helpText(options.command));
-  options.color = rung::tool::useColor(options.color_choice, options.command == Command::Explain ? 1 : 2);
-  return runCommand(options, console);
+  if (line.help) return rung::driver::printResult(console, rung::tool::helpText(line.command));
+  line.project.report.color = rung::tool::useColor(line.color, line.command == Command::Explain ? 1 : 2);
+  return runCommand(line, console);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of rung: its commands and options, in one table for the parser, "did you mean" and --help.
-// In: argv. Out: Options, or a usage error (exit 2). Called by main.cpp.
+// The command line of rung: its commands and options, by tables (option_table.h), and its help.
+// In: argv. Out: CommandLine, or a usage error (exit 2). Called by main.cpp.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "tools/driver/cam.h"
 #include "tools/driver/options.h"
+#include "tools/driver/overwritten.h"
 
 namespace rung::tool {
 
@@ -37,18 +38,30 @@ inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) +
 
 enum class Color : uint8_t { Auto, Always, Never };
 
-struct Options : driver::Options {
+// A parsed command line: what all commands have in common, and the options of each. Only those of `command` are set.
+struct CommandLine {
   Command command = Command::None;
   bool help = false;  // `rung CMD --help`
-  Color color_choice = Color::Auto;
+  Color color = Color::Auto;
+  ProjectOptions project;  // its inputs are the words of a command that reads no project too
+  EmitOptions emit;
+  BuildOptions build;
+  RunOptions run;
+  TestOptions test;
+  ConvertOptions convert;
+  GraphOptions graph;
+  FormatOptions fmt;
+  ListOptions list;
+  std::string project_template = "st";  // --template
   CamOptions cam;
+  std::string cam_output;
 };
 
 // Parses the arguments after the program's name. Returns an error message for the user, or an empty string.
-[[nodiscard]] std::string parseOptions(const std::vector<std::string>& arguments, Options& options);
+[[nodiscard]] std::string parseCommandLine(const std::vector<std::string>& arguments, CommandLine& line);
 
-// Expands `@file` arguments (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
-[[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& arguments);
+// The files that the command writes.
+std::vector<Output> outputsOf(const CommandLine& line);
 
 // One screen of help: of rung (Command::None) or of one command.
 std::string helpText(Command command);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++ as a value: parentheses where the grammar needs them or g++ warns without them, and the lines of statements.
+// C++ as a value: parentheses where the grammar needs them or g++ warns without them, the lines of statements, and
+// declarations.
 #include <gtest/gtest.h>
 
 #include "codegen/cxx/print.h"
@@ -16,7 +17,8 @@ struct Cxx : testing::Test {
     made->at = {tree.file("a.st"), line};
     to.add(made);
   }
-  std::string printed(const Statements& list) {
+  template <class List>
+  std::string printed(const List& list) {
     std::string out;
     print(out, tree, list);
     return out;
@@ -81,6 +83,88 @@ TEST_F(Cxx, BracesCloseWhereTheSourceHasRoom) {
   list.add(test);
   begin(list, "c", 4);
   EXPECT_EQ(printed(list), "\n#line 1 \"a.st\"\n  if (b) {\n    a;\n  }\n  c;");
+}
+
+TEST_F(Cxx, TheNameIsInsideItsType) {
+  const std::vector<uint64_t> extents = {3, 81};
+  EXPECT_EQ(toString(Type{"float", {}, {}}, "x"), "float x");
+  EXPECT_EQ(toString(Type{"char", {}, extents}, "x"), "char x[3][81]");
+  EXPECT_EQ(toString(Type{"struct Ramp_type", "*", {}}, "x"), "struct Ramp_type* x");
+  EXPECT_EQ(toString(Type{"char", "*", extents}, "x"), "char (*x)[3][81]");
+  const std::vector<uint64_t> unknown = {0};
+  EXPECT_EQ(toString(Type{"f_call* const", {}, unknown}, "table"), "f_call* const table[]");
+}
+
+TEST_F(Cxx, VariablesHaveValuesOrArguments) {
+  Declarations list;
+  Variable* const first = tree.variable("int", "x", tree.number(0));
+  first->also = tree.variable("int", "y");
+  list.add(first);
+  Variable* const second = tree.variable("Motor", "m");
+  second->prefix = "const";
+  second->arguments = tree.call("", {a, b});
+  list.add(second);
+  EXPECT_EQ(printed(list), "int x = 0, y;\nconst Motor m(a, b);\n");
+}
+
+TEST_F(Cxx, AFunctionIsAPrototypeOrHasABody) {
+  Declarations list;
+  const auto function = [&](Function::Form form) {
+    Function* const made = tree.declaration<Function>();
+    made->result.base = "int";
+    made->name = "f";
+    made->parameters.add(tree.variable(Type{"char", "*", {}}, "x"));
+    made->parameters.add(tree.variable("int", "y"));
+    made->form = form;
+    list.add(made);
+    return made;
+  };
+  function(Function::Form::Prototype)->prefix = "extern";
+  Statements body, exits;
+  body.add(tree.declare(tree.variable("int", "z")));
+  body.first()->begins = true;
+  perform(body, "g()");
+  exits.add(tree.textual(StmtKind::Exit, "leave"));
+  exits.add(tree.stmt(StmtKind::Return, a));
+  Function* const lines = function(Function::Form::Lines);
+  lines->body = body.first();
+  lines->exits = exits.first();
+  function(Function::Form::OneLine)->body = body.first();
+  function(Function::Form::OneLine)->suffix = " const";
+  EXPECT_EQ(printed(list),
+            "extern int f(char* x, int y);\nint f(char* x, int y) {\n  int z; g();\nleave: return a;\n}\n"
+            "int f(char* x, int y) {\n  int z; g(); }\nint f(char* x, int y) const {}\n");
+}
+
+TEST_F(Cxx, RecordsInANamespace) {
+  Declarations list;
+  Namespace* const space = tree.declaration<Namespace>();
+  space->name = "plc";
+  Record* const outer = tree.declaration<Record>();
+  outer->keyword = "struct";
+  outer->name = "R";
+  outer->members.add(tree.variable("int", "x"));
+  Record* const inner = tree.declaration<Record>();
+  inner->keyword = "struct";
+  inner->is_line = true;
+  inner->members.add(tree.variable("int", "y"));
+  outer->members.add(inner);
+  space->members.add(outer);
+  const std::vector<Enumeration::Item> items = {{"Red", tree.number(1)}, {"Blue", tree.number(2)}};
+  for (const bool is_line : {true, false}) {
+    Enumeration* const colors = tree.declaration<Enumeration>();
+    colors->name = "Color";
+    colors->base = "int8_t";
+    colors->items = items;
+    colors->is_line = is_line;
+    space->members.add(colors);
+  }
+  list.add(tree.textual(DeclKind::Include, "x.h"));
+  list.add(space);
+  EXPECT_EQ(printed(list),
+            "#include \"x.h\"\nnamespace plc {\nstruct R {\n  int x;\n  struct { int y; };\n};\n"
+            "enum Color : int8_t { Red = 1, Blue = 2 };\nenum Color : int8_t {\n  Red = 1,\n  Blue = 2,\n};\n"
+            "\n}  // namespace plc\n");
 }
 
 TEST_F(Cxx, ATreeIsUsedAgain) {

@@ -38,16 +38,17 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-Options irOf(std::vector<std::string> inputs) {
-  Options options;
-  options.inputs = std::move(inputs);
-  options.emit = EmitKind::Ir;
-  return options;
+ProjectOptions projectOf(std::vector<std::string> inputs) {
+  ProjectOptions project;
+  project.inputs = std::move(inputs);
+  return project;
 }
 
-Outcome emitted(const Options& options) {
+Outcome emitted(const ProjectOptions& project) {
   TextSink sink;
-  const int exit = runEmit(options, sink);
+  EmitOptions options;
+  options.kind = EmitKind::Ir;
+  const int exit = runEmit(project, options, sink);
   return {exit, sink.messages, sink.outputs};
 }
 
@@ -61,13 +62,13 @@ Outcome byCommand(const TemporaryFolder& folder, const std::string& arguments) {
 TEST(Driver, TwoProjectsTwiceAsFromTheCommandLine) {
   TemporaryFolder folder;
   const std::string pump = folder.write("pump/pump.st", kPump), valve = folder.write("valve/valve.xml", kValve);
-  const Outcome first = emitted(irOf({pump})), other = emitted(irOf({valve}));
+  const Outcome first = emitted(projectOf({pump})), other = emitted(projectOf({valve}));
   EXPECT_EQ(first.exit, kSuccess);
   EXPECT_NE(first.outputs.find("Pump"), std::string::npos);
   EXPECT_EQ(other.exit, kInputErrors);
   EXPECT_NE(other.messages.find("`shut`"), std::string::npos) << other.messages;
-  EXPECT_EQ(emitted(irOf({pump})), first);
-  EXPECT_EQ(emitted(irOf({valve})), other);
+  EXPECT_EQ(emitted(projectOf({pump})), first);
+  EXPECT_EQ(emitted(projectOf({valve})), other);
   EXPECT_EQ(byCommand(folder, "emit --emit=ir " + pump), first);
   EXPECT_EQ(byCommand(folder, "emit --emit=ir " + valve), other);
 }
@@ -75,8 +76,8 @@ TEST(Driver, TwoProjectsTwiceAsFromTheCommandLine) {
 TEST(Driver, UnsavedTextReplacesTheFile) {
   TemporaryFolder folder;
   const std::string pump = folder.write("pump/pump.st", kPump), stale = folder.write("stale/pump.st", "not yet (*");
-  const Outcome saved = emitted(irOf({pump}));
-  Options options = irOf({stale});
+  const Outcome saved = emitted(projectOf({pump}));
+  ProjectOptions options = projectOf({stale});
   options.unsaved = {{stale, kPump}};
   const Outcome unsaved = emitted(options);
   EXPECT_EQ(unsaved, saved);  // the IR names files below the root
@@ -92,7 +93,7 @@ TEST(Driver, UnsavedTextReplacesTheFile) {
 TEST(Driver, UnsavedFileThatIsNotOnDisk) {
   TemporaryFolder folder;
   folder.write("p/main.st", "PROGRAM Main\nVAR p : Pump; END_VAR\np();\nEND_PROGRAM\n");
-  Options options = irOf({folder.path() + "/p"});
+  ProjectOptions options = projectOf({folder.path() + "/p"});
   EXPECT_EQ(emitted(options).exit, kInputErrors);
   options.unsaved = {{folder.path() + "/p/inside/pump.st", "FUNCTION_BLOCK Pump\n;\nEND_FUNCTION_BLOCK\n"}};
   const Outcome outcome = emitted(options);
@@ -102,9 +103,9 @@ TEST(Driver, UnsavedFileThatIsNotOnDisk) {
 TEST(Driver, TwoThreads) {
   TemporaryFolder folder;
   const std::string pump = folder.write("pump/pump.st", kPump), valve = folder.write("valve/valve.xml", kValve);
-  const Outcome first = emitted(irOf({pump})), other = emitted(irOf({valve}));
+  const Outcome first = emitted(projectOf({pump})), other = emitted(projectOf({valve}));
   const auto repeat = [](const std::string& path, const Outcome& expected, int& wrong) {
-    for (int i = 0; i < 20; ++i) wrong += emitted(irOf({path})) == expected ? 0 : 1;
+    for (int i = 0; i < 20; ++i) wrong += emitted(projectOf({path})) == expected ? 0 : 1;
   };
   int wrong[2] = {};
   std::thread one([&] { repeat(pump, first, wrong[0]); }), two([&] { repeat(valve, other, wrong[1]); });
@@ -138,34 +139,30 @@ class RunSink : public TextSink {
 TEST(Driver, RunsAndTestsWithoutTheTerminal) {
   TemporaryFolder folder;
   const std::string pump = folder.write("pump/pump.st", kPump);
-  Options options;
-  options.inputs = {pump};
+  RunOptions options;
   options.host_arguments = {"--cycles=6"};
   RunSink run;
-  EXPECT_EQ(runRun(options, run), kSuccess) << run.messages;
+  EXPECT_EQ(runRun(projectOf({pump}), options, run), kSuccess) << run.messages;
   EXPECT_NE(run.program().find("Main.p.on = TRUE\n"), std::string::npos) << run.program();
   EXPECT_EQ(run.messages, "");
 
-  options.inputs = {folder.write("t/t.st", "{test} PROGRAM counts\nASSERT_EQ(1, 1);\nEND_PROGRAM\n")};
+  const std::string tests = folder.write("t/t.st", "{test} PROGRAM counts\nASSERT_EQ(1, 1);\nEND_PROGRAM\n");
   RunSink test;
-  EXPECT_EQ(runTest(options, test), kSuccess) << test.messages;
+  EXPECT_EQ(runTest(projectOf({tests}), {}, test), kSuccess) << test.messages;
   EXPECT_EQ(test.program(), "pass counts\n1 passed, 0 failed\n");
 }
 
 TEST(Driver, FilesAndPages) {
   TemporaryFolder folder;
-  Options options;
-  options.inputs = {folder.write("pump/pump.st", kPump)};
+  ConvertOptions options;
   options.to = ConvertTo::Xml;
   options.output = folder.path() + "/out";
   TextSink sink;
-  EXPECT_EQ(runConvert(options, sink), kSuccess) << sink.messages;
+  EXPECT_EQ(runConvert(projectOf({folder.write("pump/pump.st", kPump)}), options, sink), kSuccess) << sink.messages;
   EXPECT_NE(readFile(folder.path() + "/out/pump.xml").content.find("name=\"Pump\""), std::string::npos);
-  options.inputs = {"E0231"};
-  EXPECT_EQ(runExplain(options, sink), kSuccess);
+  EXPECT_EQ(runExplain("E0231", false, sink), kSuccess);
   EXPECT_EQ(sink.outputs.find("E0231: "), 0u);
-  options.inputs = {"nothing"};
-  EXPECT_EQ(runList(options, sink), kUsage);
+  EXPECT_EQ(runList({}, {"nothing", ""}, sink), kUsage);
   EXPECT_NE(sink.messages.find("rung: error: unknown argument `nothing`"), std::string::npos);
 }
 

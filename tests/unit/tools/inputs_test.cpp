@@ -33,7 +33,7 @@ class InputsTest : public testing::Test {
   }
 
   TemporaryFolder folder;
-  Options options;
+  ProjectOptions options;
   Sources sources;
   Diagnostics diagnostics{sources};
   Inputs inputs;

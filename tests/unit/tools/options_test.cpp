@@ -2,6 +2,7 @@
 // The command line: every form of a value, defaults, mistakes, help, response files.
 #include "tools/rung/options.h"
 #include "frontend/source/dialect.h"
+#include "tools/rung/response_files.h"
 
 #include <gtest/gtest.h>
 
@@ -11,33 +12,33 @@
 namespace rung::tool {
 namespace {
 
-Options parsed(const std::vector<std::string>& arguments) {
-  Options options;
-  EXPECT_EQ(parseOptions(arguments, options), "");
-  return options;
+CommandLine parsed(const std::vector<std::string>& arguments) {
+  CommandLine line;
+  EXPECT_EQ(parseCommandLine(arguments, line), "");
+  return line;
 }
 std::string errorOf(const std::vector<std::string>& arguments) {
-  Options options;
-  return parseOptions(arguments, options);
+  CommandLine line;
+  return parseCommandLine(arguments, line);
 }
 
 TEST(Options, EveryFormOfAValue) {
-  EXPECT_EQ(parsed({"emit", "a.st", "-o", "out"}).output, "out");
-  EXPECT_EQ(parsed({"emit", "a.st", "-oout"}).output, "out");
-  EXPECT_EQ(parsed({"check", "a.st", "--name=x"}).name, "x");
-  EXPECT_EQ(parsed({"check", "a.st", "--name", "x"}).name, "x");
-  EXPECT_EQ(parsed({"check", "-O2", "a.st"}).level, 2);
-  EXPECT_EQ(parsed({"run", "-j4", "a.st"}).jobs, 4u);
-  EXPECT_EQ(parsed({"check", "-I", "lib", "-Ilib2", "a.st"}).library_paths.size(), 2u);
-  EXPECT_EQ(parsed({"check", "--", "-strange.st"}).inputs[0], "-strange.st");
+  EXPECT_EQ(parsed({"emit", "a.st", "-o", "out"}).emit.output, "out");
+  EXPECT_EQ(parsed({"emit", "a.st", "-oout"}).emit.output, "out");
+  EXPECT_EQ(parsed({"check", "a.st", "--name=x"}).project.name, "x");
+  EXPECT_EQ(parsed({"check", "a.st", "--name", "x"}).project.name, "x");
+  EXPECT_EQ(parsed({"check", "-O2", "a.st"}).project.code.level, 2);
+  EXPECT_EQ(parsed({"run", "-j4", "a.st"}).run.native.jobs, 4u);
+  EXPECT_EQ(parsed({"check", "-I", "lib", "-Ilib2", "a.st"}).project.library_paths.size(), 2u);
+  EXPECT_EQ(parsed({"check", "--", "-strange.st"}).project.inputs[0], "-strange.st");
 }
 
 TEST(Options, Defaults) {
-  Options options = parsed({"check", "a.st"});
+  const ProjectOptions options = parsed({"check", "a.st"}).project;
   EXPECT_EQ(options.dialect, Dialect::Codesys);
-  EXPECT_EQ(options.checks, ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast);
-  EXPECT_EQ(options.level, 1);
-  EXPECT_EQ(options.max_errors, 100u);
+  EXPECT_EQ(options.code.checks, ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast);
+  EXPECT_EQ(options.code.level, 1);
+  EXPECT_EQ(options.report.max_errors, 100u);
   EXPECT_EQ(options.moduleName(), "plc");
 }
 
@@ -52,15 +53,15 @@ TEST(Options, Checks) {
 }
 
 TEST(Options, EdgeCoils) {
-  EXPECT_EQ(parsed({"check", "a.st"}).edge_coils, diagram::EdgeCoils::Pulse);
-  EXPECT_EQ(parsed({"run", "a.st", "--edge-coils=latch"}).edge_coils, diagram::EdgeCoils::Latch);
-  EXPECT_EQ(parsed({"convert", "--to=st", "-o", "out", "a.st", "--edge-coils", "pulse"}).edge_coils,
+  EXPECT_EQ(parsed({"check", "a.st"}).project.code.edge_coils, diagram::EdgeCoils::Pulse);
+  EXPECT_EQ(parsed({"run", "a.st", "--edge-coils=latch"}).project.code.edge_coils, diagram::EdgeCoils::Latch);
+  EXPECT_EQ(parsed({"convert", "--to=st", "-o", "out", "a.st", "--edge-coils", "pulse"}).project.code.edge_coils,
             diagram::EdgeCoils::Pulse);
   EXPECT_NE(errorOf({"graph", "a.st", "--edge-coils=latch"}), "");  // a picture shows what is written
 }
 
 TEST(Options, Warnings) {
-  Options options = parsed({"check", "a.st", "-Wno-W0101", "-Wunused", "-Werror"});
+  const ReportOptions options = parsed({"check", "a.st", "-Wno-W0101", "-Wunused", "-Werror"}).project.report;
   ASSERT_EQ(options.warnings.size(), 2u);
   EXPECT_FALSE(options.warnings[0].on);
   EXPECT_EQ(options.warnings[0].name, "W0101");
@@ -95,7 +96,7 @@ TEST(Options, MistakesSayWhatToDo) {
 }
 
 TEST(Options, HostOptionsArePassedOn) {
-  Options options = parsed({"run", "a.st", "--cycles", "5", "--set=a=3", "--realtime"});
+  const RunOptions options = parsed({"run", "a.st", "--cycles", "5", "--set=a=3", "--realtime"}).run;
   EXPECT_EQ(options.host_arguments, (std::vector<std::string>{"--cycles=5", "--set=a=3", "--realtime"}));
 }
 

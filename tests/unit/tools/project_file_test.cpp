@@ -41,11 +41,11 @@ TEST_F(ProjectFileTest, AllSections) {
   EXPECT_EQ(project.sections[1].name, "feed");
   EXPECT_EQ(project.sections[1].find("period")->value, "360");
 
-  Options options;
+  ProjectOptions options;
   applyProjectFile(project, options);
   EXPECT_EQ(options.dialect, Dialect::Iec2);
   EXPECT_EQ(options.moduleName(), "press");
-  Options chosen;
+  ProjectOptions chosen;
   chosen.dialect_given = true;
   chosen.dialect = Dialect::Iec3;
   applyProjectFile(project, chosen);
@@ -55,13 +55,13 @@ TEST_F(ProjectFileTest, AllSections) {
 TEST_F(ProjectFileTest, EdgeCoils) {
   read("[project]\nedge-coils = latch\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
-  Options options;
+  ProjectOptions options;
   applyProjectFile(project, options);
-  EXPECT_EQ(options.edge_coils, diagram::EdgeCoils::Latch);
-  Options chosen;
-  chosen.edge_coils_given = true;
+  EXPECT_EQ(options.code.edge_coils, diagram::EdgeCoils::Latch);
+  ProjectOptions chosen;
+  chosen.code.edge_coils_given = true;
   applyProjectFile(project, chosen);
-  EXPECT_EQ(chosen.edge_coils, diagram::EdgeCoils::Pulse);  // the command line wins
+  EXPECT_EQ(chosen.code.edge_coils, diagram::EdgeCoils::Pulse);  // the command line wins
 }
 
 TEST_F(ProjectFileTest, MistakesHaveTheirLocation) {
