@@ -16,7 +16,7 @@ namespace rung::host {
 
 class Drivers {
  public:
-  Drivers(const rung_module& module, Memory& memory) : module_(module), memory_(memory) {}
+  Drivers(const LoadedModule& module, Memory& memory) : module_(module), memory_(memory) {}
 
   // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`,
   // that of drives, or that of a control. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
@@ -46,7 +46,7 @@ class Drivers {
     const rung_driver* driver;
     uint32_t task;
   };
-  const rung_module& module_;
+  const LoadedModule& module_;
   Memory& memory_;
   std::vector<Bound> drivers_;
   const rung_drives* drives_ = nullptr;

@@ -52,7 +52,7 @@ class Exchange {
   void giveShared(const Copy& copy);
   void giveGlobals(const Copy& copy);
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   Memory& memory_;
   std::vector<Globals> globals_;
   std::vector<Copy> copies_;  // by task; empty: all work on the common memory

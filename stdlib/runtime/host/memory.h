@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "rung/module.h"
+#include "loaded_module.h"
 
 namespace rung::host {
 
 class Memory {
  public:
-  explicit Memory(const rung_module& module);
+  explicit Memory(const LoadedModule& module);
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
@@ -31,7 +31,9 @@ class Memory {
   void safeOutputs(std::vector<std::vector<uint8_t>>& areas) const;
 
  private:
-  const rung_module& module_;
+  uint8_t run(void (*function)(rung_context*));  // of the module; null: it has none
+
+  const LoadedModule& module_;
   rung_context context_{};
   std::vector<std::unique_ptr<uint8_t[]>> storage_;
   std::vector<uint8_t*> blocks_;

@@ -49,7 +49,7 @@ Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& o
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
   tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
-  resources_ = std::max(1u, context.module->resource_count);
+  resources_ = std::max(1u, context.module->resources.count);
   processors_ = std::make_unique<Processor[]>(resources_);
 }
 

@@ -69,7 +69,7 @@ Run* running = nullptr;
 void endHungRun(const rung_context* context, uint8_t reason);
 
 struct Run {
-  Run(const rung_module& chosen, const RunOptions& chosen_options)
+  Run(const LoadedModule& chosen, const RunOptions& chosen_options)
       : module(chosen),
         options(chosen_options),
         memory(chosen),
@@ -105,7 +105,7 @@ struct Run {
   bool cycleOnce();
   // Statistics of virtual time say something where activations take time.
   bool hasTimes() const {
-    return std::any_of(module.tasks, module.tasks + module.task_count,
+    return std::any_of(module.tasks.begin(), module.tasks.end(),
                        [](const rung_task& task) { return task.duration_ns > 0; });
   }
   bool reset(rung_start kind);
@@ -125,7 +125,7 @@ struct Run {
     return "";
   }
 
-  const rung_module& module;
+  const LoadedModule& module;
   const RunOptions& options;
   Memory memory;
   Symbols symbols;
@@ -323,7 +323,7 @@ int Run::prepare() {
   context.host = &host;
   context.host_data = this;
   context.step_limit = options.max_steps;
-  is_reported.resize(module.task_count);
+  is_reported.resize(module.tasks.size());
   if (!options.realtime) {
     running = this;
     stopper.emplace(context, endHungRun, Stopper::Interrupt::AfterTheCycle);
@@ -361,7 +361,7 @@ void Run::stop() {
 
 // TM/TP manual 4.1.4: what a reset keeps. The program is stopped after it.
 bool Run::reset(rung_start kind) {
-  std::vector<uint64_t> kept(rung_retain_bytes(&module) / 8 + 1);
+  std::vector<uint64_t> kept(rung_retain_bytes(&module.description) / 8 + 1);
   memory.end();
   rung_retain_pack(&memory.context(), kept.data());
   channels.closeAll();
@@ -598,7 +598,7 @@ int Run::runInRealTime() {
   wanted.rows = cycles < 0 ? cycles : (cycles - 1) * rows_per_cycle + 1;
   wanted.timeout_ns = options.timeout_ns;
   wanted.base_ns = base_ns;
-  const bool has_events = std::any_of(module.tasks, module.tasks + module.task_count,
+  const bool has_events = std::any_of(module.tasks.begin(), module.tasks.end(),
                                       [](const rung_task& task) { return task.kind == RUNG_EXTERNAL; });
   if (has_events || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
   wanted.others_go_on = options.others_go_on;
@@ -672,9 +672,10 @@ int Run::runInRealTime() {
 
 }  // namespace
 
-int run(const rung_module& module, const RunOptions& options) {
-  if (const char* const why = refusal(module)) return refuse(options, why);
-  const bool has_program = std::any_of(module.symbols, module.symbols + module.symbol_count,
+int run(const rung_module& description, const RunOptions& options) {
+  if (const char* const why = refusal(description)) return refuse(options, why);
+  const LoadedModule module(description);
+  const bool has_program = std::any_of(module.symbols.begin(), module.symbols.end(),
                                        [](const rung_symbol& symbol) { return symbol.is_program != 0; });
   if (!has_program) return refuse(options, "there is no PROGRAM to run; add one that calls what you want to see");
   Run run(module, options);

@@ -41,10 +41,10 @@ Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t i
       memory_(memory),
       drivers_(drivers),
       exchange_(symbols, memory),
-      tasks_(symbols.module().task_count),
-      states_(symbols.module().task_count) {
-  const rung_module& module = symbols.module();
-  for (uint32_t i = 0; i < module.task_count; ++i) {
+      tasks_(symbols.module().tasks.size()),
+      states_(symbols.module().tasks.size()) {
+  const LoadedModule& module = symbols.module();
+  for (uint32_t i = 0; i < module.tasks.size(); ++i) {
     const rung_task& row = module.tasks[i];
     tasks_[i].row = &row;
     tasks_[i].index = i;
@@ -111,7 +111,7 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
   }
   exchange_.take(task.index, context);
   context.now_ns = now_ns;
-  context.entry = task.row;
+  context.entry = rung_task_at(context.module, task.index);
   context.task = task.index + 1;
   context.activation = ++task.activation;
   const uint8_t fault = guarded(&context, task.row->run);

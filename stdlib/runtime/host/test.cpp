@@ -116,7 +116,7 @@ void onCrash(const char* signal) { noteWhere(runningContext(), std::string("cras
 
 class TestRunner {
  public:
-  TestRunner(const rung_module& module, const TestOptions& options)
+  TestRunner(const LoadedModule& module, const TestOptions& options)
       : module_(module),
         options_(options),
         memory_(module),
@@ -171,7 +171,7 @@ class TestRunner {
     {
       Stopper stopper(memory_.context(), onHung);
       stopper.limitTime(options_.timeout_ns);
-      runCase(module_.tests[number], one, stopper);
+      runCase(number, one, stopper);
       interrupted_ = stopper.reason() == RUNG_STOP_INTERRUPT;
     }
     one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -188,13 +188,14 @@ class TestRunner {
   }
 
   // Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
-  void runCase(const rung_test& test, Case& result, Stopper& stopper) {
+  void runCase(uint32_t number, Case& result, Stopper& stopper) {
+    const rung_test& test = module_.tests[number];
     rung_context& context = memory_.context();
     served_.reset();
     channels_.reset();
     if (faulted(result, memory_.reset())) return;
-    context.entry = &test;
-    context.task = context.module->task_count + 1;  // none of the module's: only MUTEX and SEMA look at it
+    context.entry = rung_test_at(context.module, number);
+    context.task = module_.tasks.size() + 1;  // none of the module's: only MUTEX and SEMA look at it
     std::string error;
     const bool is_open =
         trace_.open(options_.trace_path, options_.out, error) &&
@@ -233,7 +234,7 @@ class TestRunner {
                                         ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
   }
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   const TestOptions& options_;
   Memory memory_;
   Symbols symbols_;
@@ -279,12 +280,13 @@ bool isChosen(const TestOptions& options, const std::string& name) {
          });
 }
 
-std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results) {
-  if (const char* const why = refusal(module)) return why;
+std::string runTests(const rung_module& description, const TestOptions& options, TestResults& results) {
+  if (const char* const why = refusal(description)) return why;
   if (results.interrupted) return "";
+  const LoadedModule module(description);
   TestRunner runner(module, options);
   std::vector<uint32_t> chosen;
-  for (uint32_t i = 0; i < module.test_count; ++i) {
+  for (uint32_t i = 0; i < module.tests.size(); ++i) {
     const std::string name = module.strings + module.tests[i].name;
     if (!isChosen(options, name)) continue;
     const auto skip = options.skipped.find(name);
