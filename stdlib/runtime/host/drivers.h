@@ -38,6 +38,10 @@ class Drivers {
   std::string readAll(int64_t now_ns) const;
   // All outputs, after a stop, and that it is one. A driver that fails is not asked again; the others are.
   void writeAll(int64_t now_ns) const;
+  // Of the simulated modules.
+  void transfer(StateArchive& archive) {
+    for (const std::unique_ptr<SimulatedModule>& module : modules_) module->transfer(archive);
+  }
   // `di, ad`; empty: none.
   std::string simulatedNames() const;
 

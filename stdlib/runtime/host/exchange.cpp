@@ -91,6 +91,17 @@ void Exchange::closeGlobals() {
   if (!globals_.empty()) addRun({module_.blocks[globals_.back().block].size, 1, 0});
 }
 
+void Exchange::transfer(StateArchive& archive) {
+  const auto contents = [&](std::vector<std::vector<uint64_t>>& all) {
+    for (std::vector<uint64_t>& one : all) archive.bytes(one.data(), one.size() * sizeof one[0]);
+  };
+  for (Copy& copy : copies_) {
+    contents(copy.storage);
+    contents(copy.taken);
+    contents(copy.before);
+  }
+}
+
 void Exchange::take(uint32_t task, rung_context& context) {
   if (copies_.empty()) return;
   Copy& copy = copies_[task];

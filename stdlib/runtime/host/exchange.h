@@ -26,6 +26,9 @@ class Exchange {
   // Sets what the task may write of outputs to the safe values.
   void makeSafe(uint32_t task);
 
+  // The copies of activations that have not ended.
+  void transfer(StateArchive& archive);
+
   // For std::lock_guard: the common image and globals do not change while one holds it.
   void lock() { mutex_.lock(); }
   void unlock() { mutex_.unlock(); }

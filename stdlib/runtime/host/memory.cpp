@@ -77,6 +77,17 @@ void Memory::makeOutputsSafe() {
   }
 }
 
+void Memory::transfer(StateArchive& archive) {
+  for (uint32_t i = 0; i < module_.blocks.size(); ++i) archive.bytes(blocks_[i], module_.blocks[i].size);
+  for (uint32_t i = 0; i < module_.areas.size(); ++i) archive.bytes(areas_[i], module_.areas[i].size);
+  size_t kept = kept_outputs_.size();
+  archive.value(kept);
+  kept_outputs_.resize(kept);
+  for (std::vector<uint8_t>& area : kept_outputs_) archive.list(area);
+  rung_context& c = context_;
+  archive.values(c.now_ns, c.entry, c.task, c.activation, c.fault, c.callers, c.caller_count);
+}
+
 void Memory::restoreOutputs() {
   for (uint32_t i = 0; i < kept_outputs_.size(); ++i)
     if (module_.areas[i].owner == RUNG_AREA_OUTPUT)

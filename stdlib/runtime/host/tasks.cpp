@@ -167,6 +167,17 @@ void Tasks::restoreOutputs() {
   memory_.restoreOutputs();
 }
 
+void Tasks::transfer(StateArchive& archive) {
+  for (Task& task : tasks_) {
+    archive.values(task.activation, task.too_long, task.is_first, task.stopped, task.fault, task.caller_count);
+    archive.list(task.callers);
+    archive.values(task.lateness, task.latest_start);
+  }
+  for (rung_task_state& state : states_) archive.value(state);
+  archive.text(lost_driver_);
+  exchange_.transfer(archive);
+}
+
 int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }
 
 std::string Tasks::statistics(int64_t elapsed_ns) {

@@ -22,6 +22,17 @@ struct Histogram {
   void add(int64_t ns) { ++counts[ns < 0 ? 0 : ns / 1000 < kBuckets ? ns / 1000 : kBuckets - 1]; }
 };
 
+// How an activation, a cycle or a run ended.
+struct Ending {
+  enum Kind : uint8_t { Complete, Faulted, Watchdog, Driver } kind = Complete;
+  rung_fault fault{};
+  const rung_context* context = nullptr;  // of the activation that faulted
+  std::string name;                       // of the task whose watchdog, or of the driver that ended it
+
+  bool isComplete() const { return kind == Complete; }
+  static Ending faulted(const rung_context& context) { return {Faulted, context.fault, &context, ""}; }
+};
+
 struct Task {
   const rung_task* row = nullptr;
   uint32_t index = 0;
@@ -82,6 +93,8 @@ class Tasks {
 
   Exchange& exchange() { return exchange_; }
   const rung_task_state& stateOf(const Task& task) const { return states_[task.index]; }
+  // What has become of the tasks, with their statistics; no activation runs.
+  void transfer(StateArchive& archive);
   // A line for each task, `elapsed_ns` after the start.
   std::string statistics(int64_t elapsed_ns);
   // The last driver that failed, or empty.
