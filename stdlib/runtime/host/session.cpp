@@ -108,6 +108,7 @@ bool Session::load(std::string& error) {
 }
 
 void Session::switchOn() {
+  tasks_.switchOn();
   controller_.reset();
   hsio_.reset();
   served_.reset();

@@ -105,8 +105,7 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
   {
     const std::lock_guard<Exchange> lock(exchange_);
     noteStart(task, now_ns + late_ns, late_ns);
-    const std::string lost = drivers_.read(task.index, now_ns);
-    if (!lost.empty()) lost_driver_ = lost;
+    noteLost(drivers_.read(task.index, now_ns));
     exchangeServed();
   }
   exchange_.take(task.index, context);
@@ -133,8 +132,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   noteEnd(task, took_ns);
   if (!goes_on) return false;
   exchangeServed();
-  const std::string lost = drivers_.write(task.index, now_ns);
-  if (!lost.empty()) lost_driver_ = lost;
+  noteLost(drivers_.write(task.index, now_ns));
   return true;
 }
 
@@ -146,6 +144,18 @@ void Tasks::stopOne(Task& task, const rung_context& context) {
   exchange_.makeSafe(task.index);
   const std::lock_guard<Exchange> lock(exchange_);
   drivers_.write(task.index, states_[task.index].last_start_ns);
+}
+
+void Tasks::switchOn() {
+  for (Task& task : tasks_) {
+    Task fresh;
+    fresh.row = task.row;
+    fresh.index = task.index;
+    fresh.interval_ns = task.interval_ns;
+    fresh.trigger = task.trigger;
+    task = fresh;
+  }
+  std::fill(states_.begin(), states_.end(), rung_task_state{});
 }
 
 void Tasks::restart() {
@@ -175,6 +185,7 @@ void Tasks::transfer(StateArchive& archive) {
   }
   for (rung_task_state& state : states_) archive.value(state);
   archive.text(lost_driver_);
+  has_lost_driver_.store(!lost_driver_.empty());
   exchange_.transfer(archive);
 }
 

@@ -4,6 +4,7 @@
 // In: the tables of a module. Out: activations run, and why one did not end well.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -68,7 +69,9 @@ class Tasks {
   // Before the first activation: the inputs of all devices.
   void readInputs(int64_t now_ns) {
     const std::lock_guard<Exchange> lock(exchange_);
-    lost_driver_ = drivers_.readAll(now_ns);
+    lost_driver_.clear();
+    has_lost_driver_.store(false);
+    noteLost(drivers_.readAll(now_ns));
   }
   // The code of an activation, from reading the inputs on: RUNG_FAULT_NONE, or a fault, after which nothing that it
   // wrote leaves. `now_ns` is the time that the program sees, `late_ns` how long after its due time it begins.
@@ -88,6 +91,8 @@ class Tasks {
   // The watchdog's limit of one activation, or 0.
   static int64_t limitOf(const Task& task);
 
+  // As at power on: no task has run.
+  void switchOn();
   // After a reset: tasks that a fault stopped run again.
   void restart();
 
@@ -97,13 +102,19 @@ class Tasks {
   void transfer(StateArchive& archive);
   // A line for each task, `elapsed_ns` after the start.
   std::string statistics(int64_t elapsed_ns);
-  // The last driver that failed, or empty.
+  // The last driver that failed, or empty. Asked after each activation, so it is quick where none did.
   std::string lostDriver() {
+    if (!has_lost_driver_.load(std::memory_order_relaxed)) return {};
     const std::lock_guard<Exchange> lock(exchange_);
     return lost_driver_;
   }
 
  private:
+  void noteLost(const std::string& driver) {
+    if (driver.empty()) return;
+    lost_driver_ = driver;
+    has_lost_driver_.store(true, std::memory_order_relaxed);
+  }
   void noteStart(Task& task, int64_t start_ns, int64_t late_ns);
   void noteEnd(Task& task, int64_t took_ns);
   void exchangeServed() {
@@ -119,6 +130,7 @@ class Tasks {
   std::vector<Task> tasks_;
   std::vector<rung_task_state> states_;
   std::string lost_driver_;
+  std::atomic<bool> has_lost_driver_{false};
   ServedImage* served_ = nullptr;
 };
 
