@@ -102,7 +102,7 @@ class Session {
   Ending endTest();
   Ending end();
 
-  // Runs until a signal, the last row, a command or a fault ends it.
+  // Runs until a signal, the last row, a command or a fault ends it. Not for a test.
   RealtimeResult runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks);
   void endThreads() { threads_->end(); }  // from a hook
   // Where interrupts of simulated devices start tasks in real time: from the hook `idle`.
@@ -110,7 +110,6 @@ class Session {
 
   // From the hook `idle` in real time; tasks rest meanwhile.
   Answer obey(const Command& command);
-  void stop();
   bool isStopped() const { return is_stopped_; }
   // All outputs get their safe values.
   void makeOutputsSafe() { tasks_.makeOutputsSafe(nowNs()); }
@@ -142,6 +141,7 @@ class Session {
   void serve();
   void switchOn();
   Ending reset(rung_start kind);
+  void stop();
   void resume();
   bool cycleOnce();
   bool raise(const std::string& event);

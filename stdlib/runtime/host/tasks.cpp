@@ -54,7 +54,6 @@ Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t i
     if (fastest_ == RUNG_NONE || tasks_[i].interval_ns < tasks_[fastest_].interval_ns) fastest_ = i;
   }
   row_ns_ = fastest_ == RUNG_NONE ? interval_ns : tasks_[fastest_].interval_ns;
-  memory.context().task_states = states_.data();
 }
 
 std::string Tasks::nameOf(const Task& task) const {
@@ -63,6 +62,7 @@ std::string Tasks::nameOf(const Task& task) const {
 }
 
 bool Tasks::prepare(std::string& error) {
+  memory_.context().task_states = states_.data();
   for (Task& task : tasks_) {
     if (task.row->kind != RUNG_EVENT && task.row->kind != RUNG_STATUS) continue;
     const std::string name = symbols_.text(task.row->name);

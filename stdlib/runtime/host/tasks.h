@@ -54,7 +54,7 @@ class Tasks {
  public:
   // `interval_ns` is the period of cyclic tasks without one, and of a row when there is no cyclic task.
   Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns);
-  // False: a trigger is not a BOOL; `error` has the message.
+  // The program sees the states of its tasks from now on. False: a trigger is not a BOOL; `error` has the message.
   bool prepare(std::string& error);
 
   // The period of a row: that of the fastest cyclic task.
