@@ -36,4 +36,8 @@ void NumericalControl::serve(const LoadedModule& module, rung_host& host,
   simulated_->serve(host);
 }
 
+void NumericalControl::transfer(StateArchive& archive) {
+  if (simulated_ != nullptr) simulated_->transfer(archive);
+}
+
 }  // namespace rung::host

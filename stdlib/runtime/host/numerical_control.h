@@ -9,6 +9,7 @@
 
 #include "loaded_module.h"
 #include "rung/nc.h"
+#include "state_archive.h"
 
 namespace rung::nct {
 class Control;
@@ -26,6 +27,8 @@ class NumericalControl {
   // A control as it is when it is switched on. Does nothing for other programs, and where the host has a control.
   // `on_message` gets `00002000 door open` when a message of the program appears.
   void serve(const LoadedModule& module, rung_host& host, std::function<void(const std::string&)> on_message);
+  // Of the simulated one, if there is one.
+  void transfer(StateArchive& archive);
 
  private:
   std::unique_ptr<nct::Control> simulated_;

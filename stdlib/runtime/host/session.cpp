@@ -325,6 +325,7 @@ void Session::transfer(StateArchive& archive) {
   controller_.transfer(archive);
   hsio_.transfer(archive);
   drivers_.transfer(archive);
+  control_.transfer(archive);
   archive.values(cycle_, row_, rows_done_, base_ns_, is_stopped_, is_single_cycle_);
 }
 

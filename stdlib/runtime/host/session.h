@@ -65,9 +65,9 @@ struct Answer {
   bool hangs = false;   // in real time: a task did not end its activation
 };
 
-// Everything that decides how the program goes on: its memory, time and tasks, the devices that the host simulates. Not
-// in it are open files, bytes on their way in channels, and a numerical control. It is restored in the session that
-// saved it.
+// Everything that decides how the program goes on: its memory, time and tasks, the devices and the numerical control
+// that the host simulates. Not in it are open files and bytes on their way to others. It is restored in the session
+// that saved it.
 using SessionState = std::vector<uint8_t>;
 
 class Session {

@@ -48,6 +48,29 @@ class StateArchive {
     all.resize(count);
     bytes(all.data(), count * sizeof(T));
   }
+  // The same of elements that are not plain bytes: `each` transfers one of them, `blank` is a new one.
+  template <class List, class Each>
+  void sequence(List& all, const typename List::value_type& blank, Each each) {
+    size_t count = all.size();
+    value(count);
+    all.resize(count, blank);
+    for (auto&& one : all) each(one);
+  }
+  template <class Set>
+  void set(Set& all) {
+    std::vector<typename Set::value_type> members(all.begin(), all.end());
+    list(members);
+    if (isRestoring()) all = Set(members.begin(), members.end());
+  }
+  // `each` transfers a value.
+  template <class Map, class Each>
+  void map(Map& all, Each each) {
+    std::vector<typename Map::key_type> keys;
+    for (const auto& [key, ignored] : all) keys.push_back(key);
+    list(keys);
+    if (isRestoring()) all.clear();
+    for (const auto& key : keys) each(all[key]);
+  }
   void text(std::string& text) {
     size_t size = text.size();
     value(size);

@@ -80,7 +80,7 @@ class Machine {
     EXPECT_TRUE(session_.load(error)) << error;
     for (const std::string& path : inputs)
       EXPECT_TRUE(session_.symbols().find(path, inputs_.emplace_back(), error)) << error;
-    for (const Variable& root : session_.symbols().roots()) session_.symbols().expand(root, leaves_);
+    for (const Variable& root : session_.symbols().programRoots()) session_.symbols().expand(root, leaves_);
     EXPECT_TRUE(session_.init().isComplete());
     EXPECT_TRUE(session_.begin().isComplete());
   }
@@ -101,7 +101,7 @@ class Machine {
     }
   }
 
-  // The rest of a cycle, and all that can be seen after it.
+  // The rest of a cycle, and what programs have after it.
   std::string finishCycle(int64_t number) {
     const Ending ending = session_.cycle();
     EXPECT_TRUE(ending.isComplete()) << "cycle " << number << ": fault " << int{ending.fault.kind};
@@ -155,6 +155,7 @@ const Project kProjects[] = {
     {"samples/conveyor", {"Main.belt.start", "Main.belt.stop", "Main.belt.reset", "Main.belt.part"}},
     {"samples/traffic_light", {"Crossing.button"}},
     {"samples/packaging_line", {"Main.run"}},
+    {"samples/milling_machine", {"Machine.DoorOpen", "Machine.StopPressed", "Machine.AirMissing"}},
 };
 
 // The first words of two rows that are not equal.
