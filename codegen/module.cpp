@@ -85,8 +85,10 @@ class Table {
   void define(std::string& out, const char* storage) const {
     if (!empty()) out += std::string("\n// ") + columns_ + '\n' + storage + declaration() + " = {\n" + rows_ + "};\n";
   }
-  // The two cells of the table in the description.
-  std::string cells() const { return (empty() ? "nullptr" : name_) + (", " + number(count_)); }
+  // The table in the description.
+  std::string cell() const {
+    return std::string("{") + (empty() ? "nullptr" : name_) + ", " + number(count_) + ", sizeof(" + type_ + ")}";
+  }
 
  private:
   // Names of files and foreign names may have any character: what could end or continue the line is left out.
@@ -111,6 +113,7 @@ class Describer {
         is_(module, facts, options.with_tests) {}
 
   Description run(const std::vector<Group>& groups) {
+    addInitialisers();
     addTasks();
     addTests();
     addSites(groups);  // may add strings
@@ -151,6 +154,19 @@ class Describer {
     declared_.push_back(id.index);
     appendSignature(prototypes_, module_, module_.body(id));
     prototypes_ += ";\n";
+  }
+
+  void addInitialisers() {
+    for (const ir::Description::Initialiser& is : is_.initialisers) {
+      if (!hasCode(is.body)) continue;
+      declare(is.body);
+      const ir::Body& body = module_.body(is.body);
+      const std::string function = "init" + number(is.type);
+      code_ += "\nstatic void " + function + "(rung_context* ctx, void* instance) {\n  ";
+      appendFunctionName(code_, module_, body);
+      code_ += "(*static_cast<" + recordName(types_, body.self) + "*>(instance), ctx);\n}\n";
+      initialisers_.row({number(is.type), function}, typeName(is.type));
+    }
   }
 
   void addTasks() {
@@ -336,7 +352,7 @@ class Describer {
                                &retain_, &persistent_, &resources_, &writes_, &io_modules_})
       table->define(out, kExtern);
     out += code_;
-    for (const Table* table : {&tasks_, &tests_}) table->define(out, kExtern);
+    for (const Table* table : {&initialisers_, &tasks_, &tests_}) table->define(out, kExtern);
     return out + init + "\n}  // namespace " + name_space_ + '\n';
   }
 
@@ -374,9 +390,9 @@ class Describer {
   }
 
   // The tables in the order of rung_module.
-  std::array<const Table*, 15> tables() const {
-    return {&blocks_, &areas_,      &resources_,  &tasks_,  &writes_,     &io_modules_, &symbols_, &types_rows_,
-            &fields_, &enum_items_, &dimensions_, &retain_, &persistent_, &sites_,      &tests_};
+  std::array<const Table*, 16> tables() const {
+    return {&blocks_, &areas_,      &resources_,  &tasks_,  &writes_,     &io_modules_, &symbols_,      &types_rows_,
+            &fields_, &enum_items_, &dimensions_, &retain_, &persistent_, &sites_,      &initialisers_, &tests_};
   }
 
   std::string descriptionSource() const {
@@ -385,9 +401,9 @@ class Describer {
                       ", ";
     appendQuoted(out, options_.module_name);
     out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n";
-    for (const Table* table : tables()) out += "  " + table->cells() + ",\n";
-    return out + "  init, " + (module_.exit ? "exit" : "nullptr") + ", " + (module_.safe ? "safe" : "nullptr") +
-           ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
+    for (const Table* table : tables()) out += "  " + table->cell() + ",\n";
+    return out + "  {nullptr, 0, sizeof(rung_extension)},\n  init, " + (module_.exit ? "exit" : "nullptr") + ", " +
+           (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
   }
 
   const ir::Module& module_;
@@ -406,6 +422,7 @@ class Describer {
   Table symbols_{"rung_symbol", "symbols", "name, type, storage, bit, is_program, index, offset, flags, path"};
   Table retain_{"rung_range", "retain", "block, offset, size"};
   Table persistent_{"rung_range", "persistent", "block, offset, size"};
+  Table initialisers_{"rung_initialiser", "initialisers", "type, init"};
   Table resources_{"uint32_t", "resources", "name"};
   Table writes_{"rung_write", "writes", "area, mask, offset, size"};
   Table io_modules_{"rung_io_module", "io_modules", "name, type, station, task, input_offset, output_offset"};

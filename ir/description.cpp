@@ -31,6 +31,7 @@ class Describer {
     addTasks();
     addIoModules();
     if (with_tests) addTests();
+    addInitialisers();
     out_.layout_hash = layoutHash();
     out_.aligned_globals = module_.aligned_globals;
   }
@@ -118,6 +119,16 @@ class Describer {
     row.length = info->length;
     out_.types[index] = row;
     return index;
+  }
+
+  // The records of the table of types that have initial values.
+  void addInitialisers() {
+    for (const Record& record : module_.records) {
+      const auto known = type_number_.find(types_.resolve(record.type).index);
+      if (record.init && known != type_number_.end()) out_.initialisers.push_back({known->second, record.init});
+    }
+    std::sort(out_.initialisers.begin(), out_.initialisers.end(),
+              [](const auto& a, const auto& b) { return a.type < b.type; });
   }
 
   static bool holdsBits(const TypeInfo& record, uint32_t field) {

@@ -60,6 +60,11 @@ struct Description {
   std::vector<rung_dimension> dimensions;
   std::vector<rung_symbol> symbols;  // sorted by name
   std::vector<rung_range> retain, persistent;
+  struct Initialiser {
+    uint32_t type;
+    BodyId body;  // of kind Init
+  };
+  std::vector<Initialiser> initialisers;  // by type
   std::vector<uint32_t> resources;
   std::vector<rung_task> tasks;  // `run` is not set
   std::vector<rung_write> writes;

@@ -33,14 +33,15 @@ struct Program::Parts {
   std::unique_ptr<Description> description;
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
+  std::vector<rung_initialiser> initialisers;
   Code::Entry init, exit, safe;
-  std::vector<Code::Entry> of_task, of_test, of_test_init, of_test_exit;
+  std::vector<Code::Entry> of_initialiser, of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kTaskStack;
   rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
 
   static const Parts& of(const rung_context* ctx) { return *reinterpret_cast<const Parts*>(ctx->module); }
 
-  void run(rung_context* ctx, const Code::Entry& entry) const {
+  void run(rung_context* ctx, const Code::Entry& entry, void* instance = nullptr) const {
     if (stack.size < stack_size) {
       stack.memory = std::make_unique_for_overwrite<uint8_t[]>(stack_size);
       stack.size = stack_size;
@@ -53,7 +54,7 @@ struct Program::Parts {
       return of(of_ctx).siteOf(reinterpret_cast<uintptr_t>(insn)) + 1;
     };
     running = &machine;
-    execute(code.insns.data() + entry.at, begin, nullptr, &machine);
+    execute(code.insns.data() + entry.at, begin, static_cast<uint8_t*>(instance), &machine);
   }
 
   bool isInsn(uintptr_t address) const {
@@ -96,6 +97,11 @@ struct Program::Parts {
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
   static void runExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).exit); }
   static void runSafe(rung_context* ctx) { of(ctx).run(ctx, of(ctx).safe); }
+  static void runInitialiser(rung_context* ctx, void* instance) {
+    const Parts& parts = of(ctx);
+    const auto* const row = static_cast<const rung_initialiser*>(ctx->entry);
+    parts.run(ctx, parts.of_initialiser[static_cast<size_t>(row - parts.initialisers.data())], instance);
+  }
   static void runTask(rung_context* ctx) {
     const Parts& parts = of(ctx);
     parts.run(ctx, parts.of_task[static_cast<size_t>(static_cast<const rung_task*>(ctx->entry) - parts.tasks.data())]);
@@ -111,16 +117,17 @@ struct Program::Parts {
   void describe();
 };
 
-// Translates what the entries of the module run: calls of bodies, in the order in which compiled code has them.
-class EntryTranslator {
+// The entries of a module: the code of its init, exit, tasks and tests, which calls bodies.
+class Entries {
  public:
-  using Step = BodyTranslator::Step;
-  using Steps = std::vector<Step>;
-  EntryTranslator(const Module& module, const MemoryBlocks& blocks, BodyTranslator& translator)
+  Entries(const Module& module, const MemoryBlocks& blocks, BodyTranslator& translator)
       : module_(module), blocks_(blocks), translator_(translator) {}
 
+  Code::Entry callOf(BodyId function) { return one({Step::CallOf, function, 0}); }
+  Code::Entry callOnSelf(BodyId body) { return one({Step::CallOnSelf, body, 0}); }
+
   Code::Entry init() {
-    Steps steps;
+    std::vector<Step> steps;
     for (uint32_t i = 0; i < blocks_.block_count; ++i) steps.push_back({Step::Clear, {}, i});
     const std::vector<InitStep> order = initOrder(module_, blocks_);
     for (const InitStep& step : order) {
@@ -129,72 +136,65 @@ class EntryTranslator {
       if (body) steps.push_back({Step::CallOn, body, block});
     }
     for (const InitStep& step : order)
-      if (!step.is_list) addCall(steps, module_.programs[step.index].setup);
-    addCall(steps, module_.after_init);
+      if (!step.is_list) addCallOf(steps, module_.programs[step.index].setup);
+    addCallOf(steps, module_.after_init);
     return translator_.translateSteps(steps);
   }
 
-  Code::Entry call(BodyId function) {
-    Steps steps;
-    addCall(steps, function);
-    return translator_.translateSteps(steps);
-  }
-
-  Code::Entry task(uint32_t index) {
-    Steps steps;
-    addCall(steps, module_.tasks[index].before);
+  Code::Entry task(uint32_t number) {
+    std::vector<Step> steps;
+    addCallOf(steps, module_.tasks[number].before);
     for (uint32_t p = 0; p < module_.programs.size(); ++p)
-      if (module_.programs[p].task == index + 1 && module_.programs[p].body) addRun(steps, p);
+      if (module_.programs[p].task == number + 1 && module_.programs[p].body) addRun(steps, p);
     for (const BlockTask& block : module_.block_tasks)
-      if (block.task == index + 1) addCall(steps, block.run);
-    addCall(steps, module_.tasks[index].after);
+      if (block.task == number + 1) addCallOf(steps, block.run);
+    addCallOf(steps, module_.tasks[number].after);
     return translator_.translateSteps(steps);
   }
 
   Code::Entry test(const Description::Test& test) {
-    Steps steps;
-    addCall(steps, test.before);
+    std::vector<Step> steps;
+    addCallOf(steps, test.before);
     if (test.program == RUNG_NONE)
-      addCall(steps, test.body);
+      addCallOf(steps, test.body);
     else
       addRun(steps, test.program);
-    addCall(steps, test.after);
+    addCallOf(steps, test.after);
     return translator_.translateSteps(steps);
   }
-
-  // A test begins with fresh memory, and then its fixtures.
   Code::Entry testInit(const Description::Test& test) {
-    Steps steps;
+    std::vector<Step> steps;
     if (test.program != RUNG_NONE) {
       const ProgramInstance& program = module_.programs[test.program];
       const uint32_t block = blocks_.program_block[test.program];
       steps.push_back({Step::Clear, {}, block});
       if (program.init) steps.push_back({Step::CallOn, program.init, block});
-      addCall(steps, program.setup);
-      addCall(steps, program.after_init);
+      addCallOf(steps, program.setup);
+      addCallOf(steps, program.after_init);
     }
-    for (const BodyId setup : test.setups) addCall(steps, setup);
+    for (const BodyId setup : test.setups) addCallOf(steps, setup);
     return translator_.translateSteps(steps);
   }
-
   Code::Entry testExit(const Description::Test& test) {
-    Steps steps;
-    for (const BodyId teardown : test.teardowns) addCall(steps, teardown);
-    if (test.program != RUNG_NONE) addCall(steps, module_.programs[test.program].exit);
+    std::vector<Step> steps;
+    for (const BodyId teardown : test.teardowns) addCallOf(steps, teardown);
+    if (test.program != RUNG_NONE) addCallOf(steps, module_.programs[test.program].exit);
     return translator_.translateSteps(steps);
   }
 
  private:
-  void addCall(Steps& steps, BodyId function) const {
+  using Step = BodyTranslator::Step;
+
+  Code::Entry one(const Step& step) { return translator_.translateSteps({&step, 1}); }
+  static void addCallOf(std::vector<Step>& steps, BodyId function) {
     if (function) steps.push_back({Step::CallOf, function, 0});
   }
-
-  void addRun(Steps& steps, uint32_t p) const {
-    const ProgramInstance& program = module_.programs[p];
+  void addRun(std::vector<Step>& steps, uint32_t number) {
+    const ProgramInstance& program = module_.programs[number];
     if (program.run)
-      addCall(steps, program.run);
+      addCallOf(steps, program.run);
     else if (program.body)
-      steps.push_back({Step::CallOn, program.body, blocks_.program_block[p]});
+      steps.push_back({Step::CallOn, program.body, blocks_.program_block[number]});
   }
 
   const Module& module_;
@@ -219,15 +219,15 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   }
   setPhaseSubject("", 0);
 
-  EntryTranslator entries(module, blocks, translator);
+  Entries entries(module, blocks, translator);
   init = entries.init();
-  if (module.exit) {
-    exit = entries.call(module.exit);
-    is.exit = runExit;
-  }
-  if (module.safe) {
-    safe = entries.call(module.safe);
-    is.safe = runSafe;
+  if (module.exit) exit = entries.callOf(module.exit);
+  if (module.exit) is.exit = runExit;
+  if (module.safe) safe = entries.callOf(module.safe);
+  if (module.safe) is.safe = runSafe;
+  for (const Description::Initialiser& row : description->initialisers) {
+    initialisers.push_back({row.type, runInitialiser});
+    of_initialiser.push_back(entries.callOnSelf(row.body));
   }
   for (uint32_t i = 0; i < module.tasks.size(); ++i) of_task.push_back(entries.task(i));
   for (const Description::Test& test : description->tests) {
@@ -263,25 +263,25 @@ void Program::Parts::describe() {
   is.compiler = "rung";
   is.strings = from.strings.bytes().c_str();
   is.layout_hash = from.layout_hash;
-  const auto table = [](const auto& rows, auto& to, uint32_t& count) {
-    to = rows.data();
-    count = static_cast<uint32_t>(rows.size());
+  const auto table = [](const auto& rows) {
+    return rung_table{rows.data(), static_cast<uint32_t>(rows.size()), sizeof rows[0]};
   };
-  table(from.blocks, is.blocks, is.block_count);
-  table(from.areas, is.areas, is.area_count);
-  table(from.resources, is.resources, is.resource_count);
-  table(tasks, is.tasks, is.task_count);
-  table(from.writes, is.writes, is.write_count);
-  table(from.io_modules, is.io_modules, is.io_module_count);
-  table(from.symbols, is.symbols, is.symbol_count);
-  table(from.types, is.types, is.type_count);
-  table(from.fields, is.fields, is.field_count);
-  table(from.enum_items, is.enum_items, is.enum_item_count);
-  table(from.dimensions, is.dimensions, is.dimension_count);
-  table(from.retain, is.retain, is.retain_count);
-  table(from.persistent, is.persistent, is.persistent_count);
-  table(code.sites, is.sites, is.site_count);
-  table(tests, is.tests, is.test_count);
+  is.blocks = table(from.blocks);
+  is.areas = table(from.areas);
+  is.resources = table(from.resources);
+  is.tasks = table(tasks);
+  is.writes = table(from.writes);
+  is.io_modules = table(from.io_modules);
+  is.symbols = table(from.symbols);
+  is.types = table(from.types);
+  is.fields = table(from.fields);
+  is.enum_items = table(from.enum_items);
+  is.dimensions = table(from.dimensions);
+  is.retain = table(from.retain);
+  is.persistent = table(from.persistent);
+  is.sites = table(code.sites);
+  is.initialisers = table(initialisers);
+  is.tests = table(tests);
   is.init = runInit;
   is.find_callers = findCallers;
 }

@@ -115,13 +115,16 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
   const Ref instance = slot();
   const Address self{Base::Pointer, instance, 0, 0, kNoBit};
   for (const Step& step : steps) {
-    if (step.kind != Step::CallOf) emit(blockHandler(), instance, {step.block, false});
+    if (step.kind == Step::Clear || step.kind == Step::CallOn) emit(blockHandler(), instance, {step.block, false});
     if (step.kind == Step::Clear) {
       emit(clearHandler(Base::Pointer), instance, {},
            {static_cast<uint32_t>(info(blocks_.blocks[step.block].record).size), false});
     } else if (step.kind == Step::CallOn) {
       traceCall(step.body, &self);
       emitCall(step.body, &self, 0);
+    } else if (step.kind == Step::CallOnSelf) {
+      const Address given{Base::Self, {}, 0, 0, kNoBit};
+      emitCall(step.body, &given, 0);
     } else {
       // A test that is a function: its parameters are zero, its results dropped.
       const Body& callee = module_.body(step.body);

@@ -30,7 +30,7 @@ class BodyTranslator : RecordedCode {
   void translate(BodyId id);
   // Code that an entry of the module runs: calls of initialisers, bodies and functions, then Halt.
   struct Step {
-    enum Kind : uint8_t { Clear, CallOn, CallOf } kind;
+    enum Kind : uint8_t { Clear, CallOn, CallOnSelf, CallOf } kind;
     BodyId body;
     uint32_t block = 0;
   };

@@ -25,35 +25,36 @@ static uint8_t was_true[MAX_TASKS];       /* triggers of event tasks at the last
 /* Puts each block at its alignment; 0 when the memory or an area is too small. */
 static int allocate(const rung_module *module) {
   size_t next = 0;
-  for (uint32_t i = 0; i < module->block_count; ++i) {
-    const rung_block *block = &module->blocks[i];
+  for (uint32_t i = 0; i < module->blocks.count; ++i) {
+    const rung_block *block = rung_block_at(module, i);
     next = (next + block->align - 1) / block->align * block->align;
     if (i >= MAX_BLOCKS || next + block->size > sizeof memory) return 0;
     blocks[i] = (uint8_t *)memory + next;
     next += block->size;
   }
-  for (uint32_t i = 0; i < module->area_count; ++i)
-    if (i >= 3 || module->areas[i].size > sizeof inputs) return 0;
-  return module->task_count <= MAX_TASKS && rung_retain_bytes(module) <= sizeof fram[0];
+  for (uint32_t i = 0; i < module->areas.count; ++i)
+    if (i >= 3 || rung_area_at(module, i)->size > sizeof inputs) return 0;
+  return module->tasks.count <= MAX_TASKS && rung_retain_bytes(module) <= sizeof fram[0];
 }
 
 /* Finds a global variable (`isFull`) or a variable of a program (`Main.level`): its type, or null. */
 static const rung_type *find(const rung_module *module, const char *path, const uint8_t **value, uint8_t *bit) {
   const char *dot = strchr(path, '.');
-  for (uint32_t i = 0; i < module->symbol_count; ++i) {
-    const rung_symbol *symbol = &module->symbols[i];
-    const rung_type *type = &module->types[symbol->type];
+  for (uint32_t i = 0; i < module->symbols.count; ++i) {
+    const rung_symbol *symbol = rung_symbol_at(module, i);
+    const rung_type *type = rung_type_at(module, symbol->type);
     const char *name = module->strings + symbol->name;
-    uint32_t f = 0;
     *value = (symbol->storage == RUNG_IN_AREA ? areas[symbol->index] : (uint8_t *)blocks[symbol->index]) +
              symbol->offset;
     *bit = symbol->bit;
     if (strcmp(name, path) == 0) return type;
     if (dot == NULL || strlen(name) != (size_t)(dot - path) || memcmp(name, path, strlen(name)) != 0) continue;
-    while (f < type->count && strcmp(module->strings + module->fields[type->first + f].name, dot + 1) != 0) ++f;
-    if (f == type->count) continue;
-    *value += module->fields[type->first + f].offset;
-    return &module->types[module->fields[type->first + f].type];
+    for (uint32_t f = 0; f < type->count; ++f) {
+      const rung_field *field = rung_field_at(module, type->first + f);
+      if (strcmp(module->strings + field->name, dot + 1) != 0) continue;
+      *value += field->offset;
+      return rung_type_at(module, field->type);
+    }
   }
   return NULL;
 }
@@ -81,7 +82,7 @@ static int is_true(const rung_module *module, const char *path) {
 
 /* Whether a task runs in the cycle that begins at `now`. */
 static int is_due(const rung_module *module, uint32_t t, int64_t now) {
-  const rung_task *task = &module->tasks[t];
+  const rung_task *task = rung_task_at(module, t);
   uint8_t before = was_true[t];
   if (task->kind == RUNG_CYCLIC) return (now - started_at) % task->interval_ns == 0;
   if (task->kind == RUNG_FREEWHEELING) return 1;
@@ -100,15 +101,15 @@ static void make_outputs_safe(rung_context *context) {
 static int run_cycle(rung_context *context, int64_t now) {
   const rung_module *module = context->module;
   uint8_t due[MAX_TASKS];
-  for (uint32_t t = 0; t < module->task_count; ++t) due[t] = (uint8_t)is_due(module, t, now);
+  for (uint32_t t = 0; t < module->tasks.count; ++t) due[t] = (uint8_t)is_due(module, t, now);
   for (uint32_t priority = 0; priority < 32; ++priority) {
-    for (uint32_t t = 0; t < module->task_count; ++t) {
-      if (!due[t] || module->tasks[t].priority != priority) continue;
+    for (uint32_t t = 0; t < module->tasks.count; ++t) {
+      if (!due[t] || rung_task_at(module, t)->priority != priority) continue;
       context->now_ns = now;
       context->task = t + 1;
       context->activation = states[t].activations + 1;
-      if (rung_guarded(context, module->tasks[t].run) != RUNG_FAULT_NONE) {
-        const rung_site *site = &module->sites[context->fault.site];
+      if (rung_guarded(context, rung_task_at(module, t)->run) != RUNG_FAULT_NONE) {
+        const rung_site *site = rung_site_at(module, context->fault.site);
         printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
         return 0;
       }
@@ -163,8 +164,8 @@ int main(void) {
   }
   make_outputs_safe(&context);
   printf("safe outputs: %u; activations:", (unsigned)areas[1][0]);
-  for (uint32_t t = 0; t < module->task_count; ++t)
-    printf(" %s %u", module->strings + module->tasks[t].name, (unsigned)states[t].activations);
+  for (uint32_t t = 0; t < module->tasks.count; ++t)
+    printf(" %s %u", module->strings + rung_task_at(module, t)->name, (unsigned)states[t].activations);
   printf("\n");
   return 0;
 }

@@ -36,24 +36,24 @@ const rung_context* plant_context(void) { return &start_context; }
 /* Puts each block at its alignment; false when the memory or an area is too small. */
 static bool allocate(const rung_module* module) {
   size_t next = 0;
-  for (uint32_t i = 0; i < module->block_count; ++i) {
-    const rung_block* block = &module->blocks[i];
+  for (uint32_t i = 0; i < module->blocks.count; ++i) {
+    const rung_block* block = rung_block_at(module, i);
     next = (next + block->align - 1) / block->align * block->align;
     if (i >= PLANT_BLOCKS || next + block->size > sizeof memory) return false;
     blocks[i] = (uint8_t*)memory + next;
     next += block->size;
   }
-  for (uint32_t i = 0; i < module->area_count; ++i) {
-    if (i >= PLANT_AREAS || module->areas[i].size > sizeof images[i]) return false;
+  for (uint32_t i = 0; i < module->areas.count; ++i) {
+    if (i >= PLANT_AREAS || rung_area_at(module, i)->size > sizeof images[i]) return false;
     areas[i] = (uint8_t*)images[i];
   }
-  return module->task_count <= PLANT_TASKS;
+  return module->tasks.count <= PLANT_TASKS;
 }
 
 /* Where a trigger is: a global variable, or one that a program locates at an address. */
 static bool find_trigger(const rung_module* module, plant_task* self, const char* path) {
-  for (uint32_t i = 0; i < module->symbol_count; ++i) {
-    const rung_symbol* symbol = &module->symbols[i];
+  for (uint32_t i = 0; i < module->symbols.count; ++i) {
+    const rung_symbol* symbol = rung_symbol_at(module, i);
     if (strcmp(module->strings + symbol->name, path) != 0) continue;
     self->trigger =
         (symbol->storage == RUNG_IN_AREA ? areas[symbol->index] : (uint8_t*)blocks[symbol->index]) + symbol->offset;
@@ -68,8 +68,8 @@ static bool find_trigger(const rung_module* module, plant_task* self, const char
 static unsigned rtos_priority(const rung_module* module, uint32_t priority) {
   unsigned less_urgent = 0;
   for (uint32_t other = priority + 1; other < 32; ++other)
-    for (uint32_t t = 0; t < module->task_count; ++t)
-      if (module->tasks[t].priority == other) {
+    for (uint32_t t = 0; t < module->tasks.count; ++t)
+      if (rung_task_at(module, t)->priority == other) {
         ++less_urgent;
         break;
       }
@@ -80,19 +80,19 @@ static unsigned rtos_priority(const rung_module* module, uint32_t priority) {
 static void stop(void) {
   const rung_module* module = start_context.module;
   stopped = true;
-  memset(areas[1], 0, module->areas[1].size);
+  memset(areas[1], 0, rung_area_at(module, 1)->size);
   if (module->safe != NULL) rung_guarded(&start_context, module->safe);
-  board_write(areas[1], module->areas[1].size);
+  board_write(areas[1], rung_area_at(module, 1)->size);
 }
 
 /* One activation, on a copy of the areas: inputs do not change under it, and what it wrote leaves together. */
 static void activate(plant_task* self) {
   const rung_module* module = start_context.module;
   const uint32_t t = (uint32_t)(self - tasks);
-  const rung_task* task = &module->tasks[t];
+  const rung_task* task = rung_task_at(module, t);
   uint8_t fault;
   rtos_lock();
-  if (t == bus_task) board_read(areas[0], module->areas[0].size);
+  if (t == bus_task) board_read(areas[0], rung_area_at(module, 0)->size);
   memcpy(self->images, images, sizeof images);
   rtos_unlock();
   self->context.now_ns = (int64_t)rtos_now() * RTOS_TICK_NS;
@@ -103,7 +103,7 @@ static void activate(plant_task* self) {
     if (!stopped) stop();
   } else if (!stopped) {
     for (uint32_t w = task->first_write; w < task->first_write + task->write_count; ++w) {
-      const rung_write* write = &module->writes[w];
+      const rung_write* write = rung_write_at(module, w);
       uint8_t* to = areas[write->area] + write->offset;
       const uint8_t* from = self->areas[write->area] + write->offset;
       if (write->mask == 255)
@@ -112,7 +112,7 @@ static void activate(plant_task* self) {
         *to = (uint8_t)((*to & ~write->mask) | (*from & write->mask));
     }
     ++states[t].activations;
-    if (t == bus_task) board_write(areas[1], module->areas[1].size);
+    if (t == bus_task) board_write(areas[1], rung_area_at(module, 1)->size);
   }
   rtos_unlock();
 }
@@ -120,7 +120,7 @@ static void activate(plant_task* self) {
 static void run_cyclic(void* argument) {
   plant_task* self = argument;
   const uint32_t t = (uint32_t)(self - tasks);
-  const uint32_t period = (uint32_t)(start_context.module->tasks[t].interval_ns / RTOS_TICK_NS);
+  const uint32_t period = (uint32_t)(rung_task_at(start_context.module, t)->interval_ns / RTOS_TICK_NS);
   for (uint32_t next = 0; !stopped;) {
     rtos_sleep_until(next);
     activate(self);
@@ -140,12 +140,12 @@ static void run_on_event(void* argument) {
 
 void plant_tick(void) {
   const rung_module* module = start_context.module;
-  for (uint32_t t = 0; t < module->task_count; ++t) {
+  for (uint32_t t = 0; t < module->tasks.count; ++t) {
     plant_task* self = &tasks[t];
     uint8_t is_true;
     if (self->trigger == NULL) continue;
     is_true = (*self->trigger & self->trigger_mask) != 0;
-    if (is_true && (module->tasks[t].kind == RUNG_STATUS || !self->was_true)) rtos_notify(&self->rtos);
+    if (is_true && (rung_task_at(module, t)->kind == RUNG_STATUS || !self->was_true)) rtos_notify(&self->rtos);
     self->was_true = is_true;
   }
 }
@@ -155,19 +155,19 @@ bool plant_start(void) {
   bool has_bus_task = false;
   if (module->abi != RUNG_MODULE_ABI || !allocate(module)) return false;
   /* Copies of the global variables (docs/embedding.md) are more than this sample does. */
-  if ((module->flags & RUNG_ALIGNED_GLOBALS) != 0 || module->resource_count > 1) return false;
+  if ((module->flags & RUNG_ALIGNED_GLOBALS) != 0 || module->resources.count > 1) return false;
   start_context.module = module;
   if (rung_guarded(&start_context, module->init) != RUNG_FAULT_NONE) return false;
 
-  for (uint32_t t = 0; t < module->task_count; ++t) {
-    const rung_task* task = &module->tasks[t];
+  for (uint32_t t = 0; t < module->tasks.count; ++t) {
+    const rung_task* task = rung_task_at(module, t);
     plant_task* self = &tasks[t];
     const unsigned priority = rtos_priority(module, task->priority);
     const bool is_cyclic = task->kind == RUNG_CYCLIC;
     if (priority >= RTOS_PRIORITIES) return false;
     if (is_cyclic && (task->interval_ns < RTOS_TICK_NS || task->interval_ns % RTOS_TICK_NS != 0)) return false;
     if (!is_cyclic && !find_trigger(module, self, module->strings + task->trigger)) return false;
-    if (is_cyclic && (!has_bus_task || task->interval_ns < module->tasks[bus_task].interval_ns)) {
+    if (is_cyclic && (!has_bus_task || task->interval_ns < rung_task_at(module, bus_task)->interval_ns)) {
       bus_task = t;
       has_bus_task = true;
     }

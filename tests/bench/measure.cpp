@@ -38,10 +38,10 @@ class Unit {
     void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) fail(dlerror());
     module_ = reinterpret_cast<rung_module_function>(dlsym(library, "plc_module"))();
-    for (uint32_t i = 0; i < module_->block_count; ++i)
-      blocks_.push_back(aligned_alloc(64, (module_->blocks[i].size + 63) / 64 * 64 + 64));
-    for (uint32_t i = 0; i < module_->area_count; ++i)
-      areas_.push_back(static_cast<uint8_t*>(calloc(1, module_->areas[i].size + 8)));
+    for (uint32_t i = 0; i < module_->blocks.count; ++i)
+      blocks_.push_back(aligned_alloc(64, (rung_block_at(module_, i)->size + 63) / 64 * 64 + 64));
+    for (uint32_t i = 0; i < module_->areas.count; ++i)
+      areas_.push_back(static_cast<uint8_t*>(calloc(1, rung_area_at(module_, i)->size + 8)));
     context_.blocks = blocks_.data();
     context_.areas = areas_.data();
     context_.module = module_;
@@ -55,8 +55,9 @@ class Unit {
   // Runs a kernel; every run starts from the same memory. Returns its CPU time.
   double run(const std::string& name, int32_t rounds, int32_t& check) {
     const rung_task* task = nullptr;
-    for (uint32_t t = 0; t < module_->task_count; ++t)
-      if (strcasecmp(module_->strings + module_->tasks[t].name, ("T_" + name).c_str()) == 0) task = &module_->tasks[t];
+    for (uint32_t t = 0; t < module_->tasks.count; ++t)
+      if (strcasecmp(module_->strings + rung_task_at(module_, t)->name, ("T_" + name).c_str()) == 0)
+        task = rung_task_at(module_, t);
     int32_t* const in = field("P_" + name, "rounds");
     const int32_t* const out = field("P_" + name, "check");
     if (task == nullptr || in == nullptr || out == nullptr) fail("module `" + who_ + "` has no kernel `" + name + "`");
@@ -73,14 +74,14 @@ class Unit {
  private:
   // The address of a field of a program instance; null when there is none.
   int32_t* field(const std::string& program, const char* name) {
-    for (uint32_t s = 0; s < module_->symbol_count; ++s) {
-      const rung_symbol& symbol = module_->symbols[s];
+    for (uint32_t s = 0; s < module_->symbols.count; ++s) {
+      const rung_symbol& symbol = *rung_symbol_at(module_, s);
       if (strcasecmp(module_->strings + symbol.name, program.c_str()) != 0) continue;
-      const rung_type& type = module_->types[symbol.type];
+      const rung_type& type = *rung_type_at(module_, symbol.type);
       for (uint32_t f = type.first; f < type.first + type.count; ++f)
-        if (strcasecmp(module_->strings + module_->fields[f].name, name) == 0)
+        if (strcasecmp(module_->strings + rung_field_at(module_, f)->name, name) == 0)
           return reinterpret_cast<int32_t*>(static_cast<char*>(context_.blocks[symbol.index]) + symbol.offset +
-                                            module_->fields[f].offset);
+                                            rung_field_at(module_, f)->offset);
     }
     return nullptr;
   }

@@ -38,9 +38,9 @@ static void run(rung_context* context, void (*code)(rung_context*)) {
 }
 
 static const rung_task* task_named(const rung_module* module, char kind, const char* name) {
-  for (uint32_t t = 0; t < module->task_count; ++t) {
-    const char* const task = module->strings + module->tasks[t].name;
-    if (task[0] == kind && strcmp(task + 1, name) == 0) return &module->tasks[t];
+  for (uint32_t t = 0; t < module->tasks.count; ++t) {
+    const char* const task = module->strings + rung_task_at(module, t)->name;
+    if (task[0] == kind && strcmp(task + 1, name) == 0) return rung_task_at(module, t);
   }
   fprintf(stderr, "no task %c%s\n", kind, name);
   exit(2);
@@ -58,17 +58,17 @@ int main(int argc, char** argv) {
   rung_context context;
   memset(&host, 0, sizeof host);
   memset(&context, 0, sizeof context);
-  context.blocks = memory(module->block_count * sizeof(void*));
-  context.areas = memory(module->area_count * sizeof(void*));
-  for (uint32_t i = 0; i < module->block_count; ++i) context.blocks[i] = memory(module->blocks[i].size);
-  for (uint32_t i = 0; i < module->area_count; ++i) context.areas[i] = memory(module->areas[i].size + 8);
+  context.blocks = memory(module->blocks.count * sizeof(void*));
+  context.areas = memory(module->areas.count * sizeof(void*));
+  for (uint32_t i = 0; i < module->blocks.count; ++i) context.blocks[i] = memory(rung_block_at(module, i)->size);
+  for (uint32_t i = 0; i < module->areas.count; ++i) context.areas[i] = memory(rung_area_at(module, i)->size + 8);
   context.module = module;
   context.host = &host;
   run(&context, module->init);
 
   int too_slow = 0;
-  for (uint32_t t = 0; t < module->task_count; ++t) {
-    const char* const name = module->strings + module->tasks[t].name;
+  for (uint32_t t = 0; t < module->tasks.count; ++t) {
+    const char* const name = module->strings + rung_task_at(module, t)->name;
     if (name[0] != 'T') continue;
     const rung_task* const setting = task_named(module, 'S', name + 1);
     static double cycles[CYCLES];
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
       context.now_ns = cycle * INT64_C(10000000);
       run(&context, setting->run);
       const double begin = cpu_microseconds();
-      run(&context, module->tasks[t].run);
+      run(&context, rung_task_at(module, t)->run);
       cycles[cycle] = cpu_microseconds() - begin;
     }
     qsort(cycles, CYCLES, sizeof cycles[0], compared);

@@ -315,8 +315,8 @@ class Tester {
       return kInternal;
     }
     const uint32_t passed = results.passed, failed = results.failed;
-    for (uint32_t i = 0; i < description->test_count; ++i)
-      tests_.emplace_back(description->strings + description->tests[i].name);
+    for (uint32_t i = 0; i < description->tests.count; ++i)
+      tests_.emplace_back(description->strings + rung_test_at(description, i)->name);
     test_options_.skipped = module.skipped;
     test_options_.paths = module.paths;
     if (module.program && options_.counts()) {

@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 runtime=$here/stdlib/runtime
 mkdir "$folder/host"
-flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime/host -I $here/stdlib/nct -I $here"
+flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime -I $runtime/host -I $here/stdlib/nct -I $here"
 ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp "$here"/stdlib/nct/control/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
   'g++ '"$flags"' -c {} -o '"$folder"'/host/$(basename $(dirname {}))_$(basename {} .cpp).o'
 gcc -std=c99 -shared -fPIC -I "$runtime/include" "$here/tests/programs/tasks/log_driver.c" -o "$folder/log.so"

@@ -29,21 +29,24 @@ static void print(const rung_context* context, const char* path) {
   const rung_module* module = context->module;
   const char* dot = strchr(path, '.');
   char text[RUNG_FORMATTED_SCALAR];
-  for (uint32_t i = 0; i < module->symbol_count; ++i) {
-    const rung_symbol* symbol = &module->symbols[i];
-    const rung_type* type = &module->types[symbol->type];
+  for (uint32_t i = 0; i < module->symbols.count; ++i) {
+    const rung_symbol* symbol = rung_symbol_at(module, i);
+    const rung_type* type = rung_type_at(module, symbol->type);
     const char* name = module->strings + symbol->name;
     const uint8_t* memory =
         symbol->storage == RUNG_IN_AREA ? context->areas[symbol->index] : context->blocks[symbol->index];
     const uint8_t* value = memory + symbol->offset;
     uint8_t bit;
     if (strcmp(name, path) != 0) {
-      uint32_t f = 0;
+      const rung_field* field = NULL;
       if (dot == NULL || strlen(name) != (size_t)(dot - path) || memcmp(name, path, strlen(name)) != 0) continue;
-      while (f < type->count && strcmp(module->strings + module->fields[type->first + f].name, dot + 1) != 0) ++f;
-      if (f == type->count) continue;
-      value += module->fields[type->first + f].offset;
-      type = &module->types[module->fields[type->first + f].type];
+      for (uint32_t f = 0; f < type->count && field == NULL; ++f) {
+        const rung_field* candidate = rung_field_at(module, type->first + f);
+        if (strcmp(module->strings + candidate->name, dot + 1) == 0) field = candidate;
+      }
+      if (field == NULL) continue;
+      value += field->offset;
+      type = rung_type_at(module, field->type);
     } else if (symbol->bit < 8) {
       bit = *value >> symbol->bit & 1;
       value = &bit;

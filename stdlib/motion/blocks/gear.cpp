@@ -47,7 +47,7 @@ void runGear(MC_GearIn_type& block, Call& call) {
     const double position = block.slave_zero_ + block.ratio_ * (master.position - block.master_zero_);
     return follow(slave, {position, velocity, block.ratio_ * master.acceleration});
   }
-  Profile profile;
+  Profile profile = {};
   Request ramp = {};
   ramp.kind_ = static_cast<uint8_t>(Motion::Velocity);
   ramp.end_velocity_ = velocity;

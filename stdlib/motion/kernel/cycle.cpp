@@ -44,8 +44,8 @@ void commit(Axis& a) {
 void takeTaskCycle(const rung_context* ctx, Axis& a) {
   const int64_t passed = ctx->now_ns - a.now_;
   a.now_ = ctx->now_ns;
-  if (ctx->task == 0 || ctx->task > ctx->module->task_count) return;
-  const rung_task& task = ctx->module->tasks[ctx->task - 1];
+  if (ctx->task == 0 || ctx->task > ctx->module->tasks.count) return;
+  const rung_task& task = *rung_task_at(ctx->module, ctx->task - 1);
   if (task.interval_ns > 0)
     a.fTaskCycle_ = static_cast<double>(task.interval_ns) / 1e9;
   else if (a.cycle_ > 1 && passed > 0)

@@ -445,7 +445,7 @@ bool begin(Axis& a, Command& command, const Request& request) {
   Request wanted = request;
   const State from = startState(a);
   const bool after_end = a.ended_cycle_ == a.cycle_ && a.owner_ == 0 && a.advanced_ == a.cycle_;
-  Profile profile;
+  Profile profile = {};
   if (!waits) {
     if (wanted.is_relative_ != 0) wanted.target_ += from.position;
     wanted.is_relative_ = 0;
@@ -502,7 +502,7 @@ bool renew(Axis& a, const Command& command, const Request& request) {
       renewed.acceleration_ == request.acceleration_ && renewed.deceleration_ == request.deceleration_ &&
       renewed.jerk_ == request.jerk_)
     return true;
-  Profile profile;
+  Profile profile = {};
   if (plan(a, request, startState(a), profile) != Result::Ok) return false;
   const int16_t mode = renewed.buffer_mode_;
   renewed = request;
@@ -519,7 +519,7 @@ bool renew(Axis& a, const Command& command, const Request& request) {
 }
 
 static bool beginAdded(Axis& a, Added& added, Command& command, const Request& request) {
-  Profile profile;
+  Profile profile = {};
   const State from = {added.base_position_, added.base_velocity_, added.base_acceleration_};
   if (plan(a, request, from, profile) != Result::Ok) return false;
   added.owner_ = adopt(a, command);

@@ -209,7 +209,7 @@ Result planPosition(Profile& profile, const State& start, double position, doubl
   if (start.velocity != 0 || request.acceleration != 0 || end_velocity != 0) {
     request.tolerance = roundingOf(position, start);
   }
-  Profile plan;
+  Profile plan = {};
   begin(plan, start, ramp);
   if (isJerkLimited(limits, ramp)) {
     sCurveToPosition(plan, request, limits);
@@ -225,7 +225,7 @@ Result planVelocity(Profile& profile, const State& start, double velocity, const
   if (Result result = checkNumbers(velocity, 0, 0); result != Result::Ok) return result;
   if (Result result = checkLimits(limits); result != Result::Ok) return result;
   Request request{start.velocity, isJerkLimited(limits, ramp) ? start.acceleration : 0, 0, velocity, 0};
-  Profile plan;
+  Profile plan = {};
   begin(plan, start, ramp);
   if (isJerkLimited(limits, ramp)) {
     sCurveToVelocity(plan, request, limits);
@@ -238,7 +238,7 @@ Result planVelocity(Profile& profile, const State& start, double velocity, const
 Result planContinuous(Profile& profile, const State& start, double position, double end_velocity, const Limits& limits,
                       Ramp ramp) {
   if (Result result = checkRequest(start, position, end_velocity, limits); result != Result::Ok) return result;
-  Profile ramp_only;
+  Profile ramp_only = {};
   if (Result result = planVelocity(ramp_only, start, end_velocity, limits, ramp); result != Result::Ok) return result;
   // Both in the direction of the end velocity.
   const double sign = end_velocity < 0 ? -1 : 1;

@@ -36,6 +36,11 @@ class Axes {
   double position(uint32_t axis) const { return axes_[axis].position; }
   void setAlarm(uint32_t axis, bool alarm) { axes_[axis].has_alarm = alarm; }
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.value(axes_);
+  }
+
  private:
   struct Command {
     int32_t code = -1;  // -1: none

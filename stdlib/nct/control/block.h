@@ -56,6 +56,16 @@ class Block {
   }
   bool isWritten(uint32_t at) const { return written_[at]; }
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.list(words_);
+    archive.sequence(written_, false, [&](std::vector<bool>::reference is) {
+      bool value = is;
+      archive.value(value);
+      is = value;
+    });
+  }
+
  private:
   std::vector<uint32_t> words_;
   std::vector<bool> written_;

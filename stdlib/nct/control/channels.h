@@ -62,6 +62,16 @@ class Channels {
   }
   bool isInterrupted(uint32_t channel) const { return channels_[channel].interrupted; }
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    for (Channel& it : channels_) {
+      archive.sequence(it.blocks, PartBlock{}, [&](PartBlock& block) { archive.value(block); });
+      archive.values(it.mode, it.block, it.asked, it.executes, it.started, it.stopped, it.interrupted, it.strobes);
+      archive.values(it.is_test, it.is_locked, it.is_dry, it.has_no_functions, it.restarts, it.returns, it.requests);
+      archive.values(it.start, it.stop, it.reset, it.parts, it.part_target, it.counted, it.finished, it.block_before);
+    }
+  }
+
  private:
   // Functions by the bits of their strobes in CN_1 and of their acknowledgements in CP_3.
   using Functions = uint32_t;

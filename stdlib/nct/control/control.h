@@ -37,6 +37,22 @@ class Control {
   // Called with each message that appears.
   std::function<void(const Message&)> on_message;
 
+  // Saves or restores everything but its connections to the network; in the host of one program.
+  template <class Archive>
+  void transfer(Archive& archive) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    words_.transfer(archive);
+    parameters_.transfer(archive);
+    channels_.transfer(archive);
+    spindles_.transfer(archive);
+    axes_.transfer(archive);
+    tools_.transfer(archive);
+    pallets_.transfer(archive);
+    mailbox_.transfer(archive);
+    messages_.transfer(archive);
+    transferOwn(archive);
+  }
+
  private:
   static const rung_nc kFunctions;
 
@@ -81,6 +97,24 @@ class Control {
   Simulation simulateTools(int32_t what, const Settings& settings, double& result);
   Simulation simulateDevices(int32_t what, const Settings& settings, double& result);
   uint32_t text(int32_t place, int32_t row, char* to) const;
+
+  template <class Archive>
+  void transferOwn(Archive& archive) {
+    archive.values(has_begun_, last_ns_, last_cycle_ns_, cycles_, nonvolatile_, last_request_, latency_, assigned_);
+    archive.values(display_ready_, window_, drive_values_, drive_errors_, drive_enabled_, machine_on_);
+    archive.values(machine_forbidden_, handwheels_, inputs_, has_slices_);
+    const Request blank{0, false, 0, 0, Block({}), 0};
+    archive.sequence(requests_, blank, [&](Request& it) {
+      archive.values(it.number, it.is_write, it.function, it.address, it.due, it.code);
+      it.block.transfer(archive);
+    });
+    archive.list(macros_);
+    archive.set(programs_);
+    archive.sequence(titles_, {}, [&](std::pair<uint32_t, std::string>& title) {
+      archive.value(title.first);
+      archive.text(title.second);
+    });
+  }
 
   mutable std::mutex mutex_;  // tasks may be threads
   Words words_;

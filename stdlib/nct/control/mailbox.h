@@ -23,6 +23,15 @@ class Mailbox {
   bool setError(uint32_t index, uint32_t error, bool times_out);
   bool setObject(uint32_t index, uint32_t protocol, uint32_t object, uint64_t value, uint32_t bytes, uint32_t element);
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.map(devices_, [&](Device& device) {
+      archive.set(device.protocols);
+      archive.map(device.objects, [&](Bytes& bytes) { archive.list(bytes); });
+      archive.values(device.error, device.times_out);
+    });
+  }
+
  private:
   using Bytes = std::vector<uint8_t>;
   struct Device {

@@ -30,6 +30,17 @@ class Messages {
   // Tells whether the operator has deleted messages since the last call.
   bool takeCleared();
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    const auto message = [&](Message& it) {
+      archive.value(it.code);
+      archive.text(it.text);
+    };
+    archive.sequence(screen_, Message{}, message);
+    archive.sequence(log_, Message{}, message);
+    archive.values(rows_, cleared_);
+  }
+
  private:
   std::vector<Message> screen_, log_;
   uint32_t rows_ = 8;

@@ -41,6 +41,11 @@ class Pallets {
   void setEdited(bool edited) { is_edited_ = edited; }
   bool isEdited() const { return is_edited_; }
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.values(pallets_, is_edited_);
+  }
+
  private:
   static constexpr uint32_t kRows = 128, kPrograms = 64, kLastItem = static_cast<uint32_t>(PalletItem::LastCustom);
   struct Pallet {

@@ -28,6 +28,12 @@ class Parameters {
   Code writeWords(const Block& block);  // MW34
   Code writeReals(const Block& block);  // MW35
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    for (Parameter& parameter : all_) archive.list(parameter.values);
+    archive.value(checksum_wrong_);
+  }
+
  private:
   enum class Format : uint8_t { Bits, Word, Real };
   enum class Basis : uint8_t { Global, Channel, Axis, Spindle };

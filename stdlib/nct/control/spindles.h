@@ -23,6 +23,11 @@ class Spindles {
   bool read(uint32_t item, uint32_t spindle, double& value) const;
   void setAlarm(uint32_t spindle, bool alarm) { spindles_[spindle].has_alarm = alarm; }
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.value(spindles_);
+  }
+
  private:
   // A spindle does one of these; a command that comes first here prevails over those after it.
   enum class Task : uint8_t { Stop, Turn, Orient, Synchronous, Close };

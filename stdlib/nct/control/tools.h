@@ -70,6 +70,15 @@ class Tools {
   bool item(uint32_t data_number, uint32_t item, double& value) const;
   bool resetLife(uint32_t data_number);
 
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.values(tools_, spindle_pots_, patterns_, lives_, use_, is_modified_);
+    for (Magazine& magazine : magazines_) {
+      archive.values(magazine.first, magazine.columns);
+      archive.list(magazine.pots);
+    }
+  }
+
  private:
   static constexpr uint32_t kMagazines = 4, kPatterns = 20, kItems = static_cast<uint32_t>(ToolItem::LastUser);
   using Tool = std::array<double, kItems>;

@@ -37,6 +37,12 @@ class Words {
     tell(symbol.word + 2 * unit + 1, both[1]);
   }
 
+  // Saves or restores what the control has told; each part of it has such a function (host/state_archive.h).
+  template <class Archive>
+  void transfer(Archive& archive) {
+    archive.value(told_);
+  }
+
  private:
   void tell(uint32_t at, uint32_t value) {
     const uint32_t changed = told_[at] ^ value;

@@ -14,8 +14,8 @@ const rung_nc* controlOf(const rung_context* ctx) { return ctx->host == nullptr 
 
 uint32_t* areaOf(const rung_context* ctx, char letter) {
   const rung_module& module = *ctx->module;
-  for (uint32_t i = 0; i < module.area_count; ++i) {
-    const char* const name = module.strings + module.areas[i].name;
+  for (uint32_t i = 0; i < module.areas.count; ++i) {
+    const char* const name = module.strings + rung_area_at(&module, i)->name;
     if (name[0] == letter && name[1] == '\0') return reinterpret_cast<uint32_t*>(ctx->areas[i]);
   }
   return nullptr;

@@ -30,7 +30,7 @@ std::string CallTrace::line(int64_t cycle) {
 // An instance in a variable of a function has no path: only its type is printed.
 std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
   if (instance == nullptr) return pou;
-  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+  for (uint32_t i = 0; i < module_.symbols.size(); ++i) {
     const rung_symbol& symbol = module_.symbols[i];
     if (symbol.storage != RUNG_IN_BLOCK) continue;
     const rung_type& type = module_.types[symbol.type];

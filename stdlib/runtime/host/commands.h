@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A user asks this of a running program (--control): `stop`, `start`, `cycle`, `reset warm|cold|origin`, `event NAME`,
 // `status`, `quit`, a line each. In virtual time each line begins with the cycle before which it counts; in real time
-// it may. In: a file, or in real time a pipe that stays open. Out: commands in their order. Called by run.cpp.
+// it may. In: a file, or in real time a pipe that stays open. Out: commands in their order. Called by run.cpp; obeyed
+// by session.cpp.
 #pragma once
 
 #include <deque>

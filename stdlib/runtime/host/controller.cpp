@@ -2,6 +2,7 @@
 // The simulated controller: see controller.h.
 #include "controller.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace rung::host {
@@ -24,6 +25,21 @@ bool Controller::setNetwork(uint32_t port, const rung_network& addresses) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ports_[port - 1] = addresses;
   return true;
+}
+
+void Controller::reset() {
+  ahead_ns_.store(0);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::copy_n(kFactorySetting, kPorts, ports_);
+  diagnosis_ = {};
+}
+
+void Controller::transfer(StateArchive& archive) {
+  int64_t ahead_ns = ahead_ns_.load();
+  archive.value(ahead_ns);
+  ahead_ns_.store(ahead_ns);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  archive.values(ports_, diagnosis_);
 }
 
 std::string Controller::faults() const {

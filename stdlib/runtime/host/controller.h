@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program asks and sets this of the controller that runs it: the clock, the addresses of the Ethernet ports,
 // current faults. All of it is simulated: nothing changes on this machine. In: calls of the program. Out: the services
-// of a rung_host. Calls may come from several tasks. Called by run.cpp and test.cpp.
+// of a rung_host. Calls may come from several tasks. Called by session.cpp.
 #pragma once
 
 #include <atomic>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "rung/diagnosis.h"
+#include "state_archive.h"
 
 namespace rung::host {
 
@@ -24,13 +25,18 @@ class Controller {
   rung_diagnosis& diagnosis() { return diagnosis_; }
   // A line for each current fault.
   std::string faults() const;
+  // As it is when it is switched on.
+  void reset();
+  void transfer(StateArchive& archive);
 
  private:
   static constexpr uint32_t kPorts = 2;
   std::atomic<int64_t> ahead_ns_{0};  // of the clock that the program set
   std::mutex mutex_;                  // guards the ports
   // The factory setting of AX 2.2, and a segment that is not that of its USB network, 192.168.2.
-  rung_network ports_[kPorts] = {{0xc0a8010a, 0xffffff00, 0xc0a80101}, {0xc0a8030a, 0xffffff00, 0xc0a80301}};
+  static constexpr rung_network kFactorySetting[kPorts] = {{0xc0a8010a, 0xffffff00, 0xc0a80101},
+                                                           {0xc0a8030a, 0xffffff00, 0xc0a80301}};
+  rung_network ports_[kPorts] = {kFactorySetting[0], kFactorySetting[1]};
   rung_diagnosis diagnosis_{};
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr uint32_t kInputs = 0, kOutputs = 1;
 
-bool fits(const rung_module& module, uint32_t area, uint32_t offset, uint32_t size) {
-  return size == 0 || (area < module.area_count && uint64_t{offset} + size <= module.areas[area].size);
+bool fits(const LoadedModule& module, uint32_t area, uint32_t offset, uint32_t size) {
+  return size == 0 || (area < module.areas.size() && uint64_t{offset} + size <= module.areas[area].size);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void Drivers::serve(rung_host& host) const {
 }
 
 void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis) {
-  for (uint32_t i = 0; i < module_.io_module_count; ++i) {
+  for (uint32_t i = 0; i < module_.io_modules.size(); ++i) {
     const rung_io_module& row = module_.io_modules[i];
     const char* const name = module_.strings + row.name;
     const auto serves = [&](const Bound& bound) { return strcasecmp(bound.driver->name, name) == 0; };
@@ -101,7 +101,7 @@ bool Drivers::bind(uint32_t fastest, std::string& error) {
     bound.task = fastest == RUNG_NONE ? 0 : fastest;
     if (driver.task == nullptr) continue;
     bound.task = RUNG_NONE;
-    for (uint32_t i = 0; i < module_.task_count; ++i)
+    for (uint32_t i = 0; i < module_.tasks.size(); ++i)
       if (strcasecmp(module_.strings + module_.tasks[i].name, driver.task) == 0) bound.task = i;
     if (bound.task == RUNG_NONE)
       return error = std::string("driver `") + driver.name + "`: there is no task `" + driver.task + "`", false;
@@ -110,7 +110,7 @@ bool Drivers::bind(uint32_t fastest, std::string& error) {
 }
 
 std::string Drivers::readAll(int64_t now_ns) const {
-  for (uint32_t task = 0; task < module_.task_count; ++task)
+  for (uint32_t task = 0; task < module_.tasks.size(); ++task)
     if (std::string lost = read(task, now_ns); !lost.empty()) return lost;
   return {};
 }

@@ -16,7 +16,7 @@ namespace rung::host {
 
 class Drivers {
  public:
-  Drivers(const rung_module& module, Memory& memory) : module_(module), memory_(memory) {}
+  Drivers(const LoadedModule& module, Memory& memory) : module_(module), memory_(memory) {}
 
   // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`,
   // that of drives, or that of a control. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
@@ -38,6 +38,10 @@ class Drivers {
   std::string readAll(int64_t now_ns) const;
   // All outputs, after a stop, and that it is one. A driver that fails is not asked again; the others are.
   void writeAll(int64_t now_ns) const;
+  // Of the simulated modules.
+  void transfer(StateArchive& archive) {
+    for (const std::unique_ptr<SimulatedModule>& module : modules_) module->transfer(archive);
+  }
   // `di, ad`; empty: none.
   std::string simulatedNames() const;
 
@@ -46,7 +50,7 @@ class Drivers {
     const rung_driver* driver;
     uint32_t task;
   };
-  const rung_module& module_;
+  const LoadedModule& module_;
   Memory& memory_;
   std::vector<Bound> drivers_;
   const rung_drives* drives_ = nullptr;

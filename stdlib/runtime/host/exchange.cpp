@@ -26,17 +26,17 @@ void copyBits(uint8_t* to, const uint8_t* from, const rung_write& part) {
 
 Exchange::Exchange(const Symbols& symbols, Memory& memory) : module_(symbols.module()), memory_(memory) {
   const auto takes_time = [](const rung_task& task) { return task.duration_ns > 0; };
-  if (module_.task_count < 2 && !std::any_of(module_.tasks, module_.tasks + module_.task_count, takes_time)) return;
-  if ((module_.flags & RUNG_ALIGNED_GLOBALS) != 0 || module_.resource_count > 1) findGlobals(symbols);
-  copies_.resize(module_.task_count);
+  if (module_.tasks.size() < 2 && !std::any_of(module_.tasks.begin(), module_.tasks.end(), takes_time)) return;
+  if ((module_.description.flags & RUNG_ALIGNED_GLOBALS) != 0 || module_.resources.size() > 1) findGlobals(symbols);
+  copies_.resize(module_.tasks.size());
   for (Copy& copy : copies_) {
-    for (uint32_t i = 0; i < module_.area_count; ++i) {
+    for (uint32_t i = 0; i < module_.areas.size(); ++i) {
       copy.storage.emplace_back(words(module_.areas[i].size));
       copy.areas.push_back(reinterpret_cast<uint8_t*>(copy.storage.back().data()));
       const bool is_shared = module_.areas[i].owner == RUNG_AREA_SHARED;
       copy.taken.emplace_back(is_shared ? copy.storage.back().size() : 0);
     }
-    for (uint32_t i = 0; i < module_.block_count; ++i) copy.blocks.push_back(memory.block(i));
+    for (uint32_t i = 0; i < module_.blocks.size(); ++i) copy.blocks.push_back(memory.block(i));
     for (const Globals& globals : globals_) {
       copy.storage.emplace_back(words(module_.blocks[globals.block].size));
       copy.blocks[globals.block] = copy.storage.back().data();
@@ -50,7 +50,7 @@ Exchange::Exchange(const Symbols& symbols, Memory& memory) : module_(symbols.mod
 void Exchange::findGlobals(const Symbols& symbols) {
   std::vector<Variable> leaves;
   std::vector<std::pair<uint32_t, Run>> runs;
-  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+  for (uint32_t i = 0; i < module_.symbols.size(); ++i) {
     const rung_symbol& symbol = module_.symbols[i];
     if (symbol.storage != RUNG_IN_BLOCK || symbol.is_program != 0 || (symbol.flags & RUNG_FIELD_CONSTANT) != 0)
       continue;
@@ -91,12 +91,24 @@ void Exchange::closeGlobals() {
   if (!globals_.empty()) addRun({module_.blocks[globals_.back().block].size, 1, 0});
 }
 
+void Exchange::transfer(StateArchive& archive) {
+  const auto contents = [&](std::vector<std::vector<uint64_t>>& all) {
+    for (std::vector<uint64_t>& one : all) archive.bytes(one.data(), one.size() * sizeof one[0]);
+  };
+  for (Copy& copy : copies_) {
+    contents(copy.storage);
+    contents(copy.taken);
+    contents(copy.before);
+  }
+}
+
 void Exchange::take(uint32_t task, rung_context& context) {
   if (copies_.empty()) return;
   Copy& copy = copies_[task];
   const std::lock_guard<PriorityMutex> lock(mutex_);
-  for (uint32_t i = 0; i < module_.area_count; ++i) std::copy_n(memory_.area(i), module_.areas[i].size, copy.areas[i]);
-  for (uint32_t i = 0; i < module_.area_count; ++i)
+  for (uint32_t i = 0; i < module_.areas.size(); ++i)
+    std::copy_n(memory_.area(i), module_.areas[i].size, copy.areas[i]);
+  for (uint32_t i = 0; i < module_.areas.size(); ++i)
     if (!copy.taken[i].empty()) memcpy(copy.taken[i].data(), memory_.area(i), module_.areas[i].size);
   for (size_t i = 0; i < globals_.size(); ++i) {
     const uint32_t block = globals_[i].block;
@@ -123,7 +135,7 @@ void Exchange::give(uint32_t task, rung_context& context) {
 
 // The bits that the task has changed, whatever other tasks did meanwhile. Most chunks of a large area have none.
 void Exchange::giveShared(const Copy& copy) {
-  for (uint32_t i = 0; i < module_.area_count; ++i) {
+  for (uint32_t i = 0; i < module_.areas.size(); ++i) {
     if (copy.taken[i].empty()) continue;
     uint8_t* const common = memory_.area(i);
     const uint8_t* const mine = copy.areas[i];

@@ -26,6 +26,9 @@ class Exchange {
   // Sets what the task may write of outputs to the safe values.
   void makeSafe(uint32_t task);
 
+  // The copies of activations that have not ended.
+  void transfer(StateArchive& archive);
+
   // For std::lock_guard: the common image and globals do not change while one holds it.
   void lock() { mutex_.lock(); }
   void unlock() { mutex_.unlock(); }
@@ -52,7 +55,7 @@ class Exchange {
   void giveShared(const Copy& copy);
   void giveGlobals(const Copy& copy);
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   Memory& memory_;
   std::vector<Globals> globals_;
   std::vector<Copy> copies_;  // by task; empty: all work on the common memory

@@ -30,12 +30,12 @@ class InstanceSearch {
 
   // The path; '': there is none, such as for a variable of a function.
   std::string find(const void* instance) {
-    for (uint32_t i = 0; i < module_.symbol_count; ++i) {
-      const rung_symbol& symbol = module_.symbols[i];
+    for (uint32_t i = 0; i < module_.symbols.count; ++i) {
+      const rung_symbol& symbol = *rung_symbol_at(&module_, i);
       if (symbol.storage != RUNG_IN_BLOCK || (symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) continue;
       const uintptr_t at = reinterpret_cast<uintptr_t>(context_.blocks[symbol.index]) + symbol.offset;
       const uintptr_t distance = reinterpret_cast<uintptr_t>(instance) - at;
-      if (distance >= module_.types[symbol.type].size) continue;
+      if (distance >= rung_type_at(&module_, symbol.type)->size) continue;
       enter(symbol.type, static_cast<uint32_t>(distance), text(symbol.name));
       if (!found_.empty()) break;
     }
@@ -46,15 +46,15 @@ class InstanceSearch {
   const char* text(uint32_t offset) const { return module_.strings + offset; }
 
   void enter(uint32_t number, uint32_t distance, const std::string& path) {
-    const rung_type& type = module_.types[number];
+    const rung_type& type = *rung_type_at(&module_, number);
     if (type.kind == RUNG_ARRAY) return enterElement(type, distance, path);
     if (type.kind != RUNG_RECORD) return;
     if (distance == 0 && first_.empty()) first_ = path;
     if (distance == 0 && isSame(text(type.name), pou_)) found_ = path;
     for (uint32_t i = 0; i < type.count && found_.empty(); ++i) {
-      const rung_field& field = module_.fields[type.first + i];
+      const rung_field& field = *rung_field_at(&module_, type.first + i);
       if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0 || distance < field.offset ||
-          distance - field.offset >= module_.types[field.type].size)
+          distance - field.offset >= rung_type_at(&module_, field.type)->size)
         continue;
       const bool is_base = (field.flags & RUNG_FIELD_BASE) != 0;
       enter(field.type, distance - field.offset, is_base ? path : path + '.' + text(field.name));
@@ -62,12 +62,12 @@ class InstanceSearch {
   }
 
   void enterElement(const rung_type& type, uint32_t distance, const std::string& path) {
-    const uint32_t size = module_.types[type.element].size;
+    const uint32_t size = rung_type_at(&module_, type.element)->size;
     if (size == 0) return;
     int64_t number = distance / size;
     std::string indices;
     for (uint32_t i = type.count; i > 0; --i) {
-      const rung_dimension& dimension = module_.dimensions[type.first + i - 1];
+      const rung_dimension& dimension = *rung_dimension_at(&module_, type.first + i - 1);
       const int64_t extent = dimension.high - dimension.low + 1;
       indices = std::to_string(dimension.low + number % extent) + (indices.empty() ? "" : ",") + indices;
       number /= extent;
@@ -85,15 +85,15 @@ class InstanceSearch {
 std::string describeCallers(const rung_context& context, const rung_fault& fault, const ShownPaths& paths) {
   const rung_module& module = *context.module;
   const auto pouOf = [&](uint32_t site) {
-    return site < module.site_count ? module.strings + module.sites[site].pou : "";
+    return site < module.sites.count ? module.strings + rung_site_at(&module, site)->pou : "";
   };
   const bool is_last = context.fault.kind == fault.kind && context.fault.site == fault.site;
   const uint32_t count = is_last ? std::min<uint32_t>(context.caller_count, RUNG_CALLERS) : 0;
   std::string text, callee = pouOf(fault.site);
   for (uint32_t i = 0; i < count; ++i) {
     const rung_caller& caller = context.callers[i];
-    if (caller.site >= module.site_count) continue;
-    const rung_site& site = module.sites[caller.site];
+    if (caller.site >= module.sites.count) continue;
+    const rung_site& site = *rung_site_at(&module, caller.site);
     if (site.line == 0) continue;  // the host's call, not the program's
     const std::string instance =
         caller.instance == nullptr ? std::string() : InstanceSearch(context, callee).find(caller.instance);
@@ -134,8 +134,8 @@ std::string describeCppBody(const rung_context& context, const ShownPaths& paths
 std::string describeFault(const rung_context& context, const rung_fault& fault, const ShownPaths& paths) {
   const rung_module& module = *context.module;
   static const rung_site nowhere{};
-  const bool known = fault.site < module.site_count;
-  const rung_site& site = known ? module.sites[fault.site] : nowhere;
+  const bool known = fault.site < module.sites.count;
+  const rung_site& site = known ? *rung_site_at(&module, fault.site) : nowhere;
   const std::string value = std::to_string(fault.value);
   const std::string range = std::to_string(site.low) + ".." + std::to_string(site.high);
   std::string word = "unknown", what = "number " + std::to_string(fault.kind);

@@ -10,6 +10,18 @@ void Hsio::serve(rung_host& host) {
   host.hsio_data = this;
 }
 
+void Hsio::reset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  rung_hsio_reset(&model_, true);
+  is_used_ = false;
+  pending_ = 0;
+}
+
+void Hsio::transfer(StateArchive& archive) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  archive.values(model_, is_used_, pending_);
+}
+
 void Hsio::catchUp(int64_t now_ns) {
   do {
     rung_hsio_advance(&model_, now_ns);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulated high-speed inputs and outputs (rung/hsio.h): the model that rung_host.hsio reaches, with signals that
 // programs and tests describe. In: registers, and the program's time. Out: registers, and interrupts at the times at
-// which they occur. Calls may come from several tasks. Called by run.cpp, test.cpp and schedule.cpp.
+// which they occur. Calls may come from several tasks. Called by session.cpp and schedule.cpp.
 #pragma once
 
 #include <mutex>
 
 #include "rung/hsio.h"
+#include "state_archive.h"
 
 namespace rung::host {
 
 class Hsio {
  public:
-  Hsio() { rung_hsio_reset(&model_, true); }
+  Hsio() { reset(); }
+  // As it is when it is switched on.
+  void reset();
+  void transfer(StateArchive& archive);
 
   void serve(rung_host& host);
 

@@ -6,17 +6,19 @@
 #include <memory>
 #include <vector>
 
-#include "rung/module.h"
+#include "loaded_module.h"
+#include "state_archive.h"
 
 namespace rung::host {
 
 class Memory {
  public:
-  explicit Memory(const rung_module& module);
+  explicit Memory(const LoadedModule& module);
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
   rung_context& context() { return context_; }
+  const rung_context& context() const { return context_; }
   uint8_t* block(uint32_t index) const { return blocks_[index]; }
   uint8_t* area(uint32_t index) const { return areas_[index]; }
   // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised. `keeps_inputs`: the
@@ -27,11 +29,15 @@ class Memory {
   // Sets outputs to their safe values when the program stops; restoreOutputs gives them back, where it goes on.
   void makeOutputsSafe();
   void restoreOutputs();
+  // All blocks and areas, and what the context says of the last activation.
+  void transfer(StateArchive& archive);
   // Areas with the safe values of all outputs.
   void safeOutputs(std::vector<std::vector<uint8_t>>& areas) const;
 
  private:
-  const rung_module& module_;
+  uint8_t run(void (*function)(rung_context*));  // of the module; null: it has none
+
+  const LoadedModule& module_;
   rung_context context_{};
   std::vector<std::unique_ptr<uint8_t[]>> storage_;
   std::vector<uint8_t*> blocks_;

@@ -10,9 +10,9 @@
 
 namespace rung::host {
 
-bool isNct(const rung_module& module) {
+bool isNct(const LoadedModule& module) {
   const auto has = [&](std::string_view name) {
-    return std::any_of(module.areas, module.areas + module.area_count,
+    return std::any_of(module.areas.begin(), module.areas.end(),
                        [&](const rung_area& area) { return module.strings + area.name == name; });
   };
   return has("N") && has("T");
@@ -21,7 +21,7 @@ bool isNct(const rung_module& module) {
 NumericalControl::NumericalControl() = default;
 NumericalControl::~NumericalControl() = default;
 
-void NumericalControl::serve(const rung_module& module, rung_host& host,
+void NumericalControl::serve(const LoadedModule& module, rung_host& host,
                              std::function<void(const std::string&)> on_message) {
   if (!isNct(module)) return;
   const bool is_simulated = simulated_ != nullptr && host.nc_data == simulated_.get();
@@ -34,6 +34,10 @@ void NumericalControl::serve(const rung_module& module, rung_host& host,
       on_message(code + message.text);
     };
   simulated_->serve(host);
+}
+
+void NumericalControl::transfer(StateArchive& archive) {
+  if (simulated_ != nullptr) simulated_->transfer(archive);
 }
 
 }  // namespace rung::host

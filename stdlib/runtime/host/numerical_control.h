@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "loaded_module.h"
 #include "rung/nc.h"
+#include "state_archive.h"
 
 namespace rung::nct {
 class Control;
@@ -16,7 +18,7 @@ class Control;
 namespace rung::host {
 
 // Tells whether the module has the memories of an NCT program.
-bool isNct(const rung_module& module);
+bool isNct(const LoadedModule& module);
 
 class NumericalControl {
  public:
@@ -24,7 +26,9 @@ class NumericalControl {
   ~NumericalControl();
   // A control as it is when it is switched on. Does nothing for other programs, and where the host has a control.
   // `on_message` gets `00002000 door open` when a message of the program appears.
-  void serve(const rung_module& module, rung_host& host, std::function<void(const std::string&)> on_message);
+  void serve(const LoadedModule& module, rung_host& host, std::function<void(const std::string&)> on_message);
+  // Of the simulated one, if there is one.
+  void transfer(StateArchive& archive);
 
  private:
   std::unique_ptr<nct::Control> simulated_;

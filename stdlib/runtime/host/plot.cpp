@@ -12,7 +12,7 @@ namespace {
 
 constexpr int64_t kMaxColumns = 2000;
 
-PlotLane laneOf(const rung_module& module, const Variable& variable) {
+PlotLane laneOf(const LoadedModule& module, const Variable& variable) {
   const rung_type& type = *variable.type;
   PlotLane lane;
   lane.name = variable.path;

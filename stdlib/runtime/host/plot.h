@@ -16,7 +16,7 @@ namespace rung::host {
 
 class Plot {
  public:
-  explicit Plot(const rung_module& module) : module_(module) {}
+  explicit Plot(const LoadedModule& module) : module_(module) {}
   // Takes the numbers, times, enumerations and BOOLs among the variables. False: `error` has the message.
   bool open(const std::string& path, std::FILE* out, const std::vector<Variable>& variables, std::string& error);
   void row();
@@ -28,7 +28,7 @@ class Plot {
   void add(const std::vector<double>& values);
   void halve();
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   std::vector<Variable> variables_;
   std::vector<PlotLane> lanes_;  // of the same number
   std::vector<double> values_;   // of the last row

@@ -49,7 +49,7 @@ Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& o
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
   tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
-  resources_ = std::max(1u, context.module->resource_count);
+  resources_ = std::max(1u, context.module->resources.count);
   processors_ = std::make_unique<Processor[]>(resources_);
 }
 
@@ -70,18 +70,10 @@ int Realtime::waitForOthers(void*) {
 
 int64_t Realtime::programNs() const { return options_.base_ns + monotonicNs() - start_ns_; }
 
-void Realtime::stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker) {
+// The first reason counts. After a signal only a task that did not end by itself is one.
+void Realtime::stopBecause(const Ending& ending) {
   const std::lock_guard<PriorityMutex> held(activity_);
-  // The first reason counts; but a task that did not end by itself after a signal is a fault.
-  const bool was_ended = worker != nullptr && worker->context.fault.kind == RUNG_FAULT_STOP;
-  if (result_.kind == RealtimeResult::Complete || (result_.kind == RealtimeResult::Signal && was_ended)) {
-    result_.kind = kind;
-    result_.name = name;
-    if (worker != nullptr) {
-      result_.fault = worker->context.fault;
-      result_.context = &worker->context;
-    }
-  }
+  if (result_.ending.isComplete() && (!has_signal_ || ending.fault.kind == RUNG_FAULT_STOP)) result_.ending = ending;
   stop_.store(true);
 }
 
@@ -130,20 +122,19 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
   const int64_t now_ns = monotonicNs();
   if (fault == RUNG_FAULT_NONE) {
     goes_on = tasks_.end(*worker.task, worker.context, program_ns, now_ns - began_ns);
-    if (!goes_on) stopBecause(RealtimeResult::Watchdog, tasks_.nameOf(*worker.task));
+    if (!goes_on) stopBecause({Ending::Watchdog, {}, nullptr, tasks_.nameOf(*worker.task)});
   } else if (options_.others_go_on && fault != RUNG_FAULT_STOP) {
     tasks_.stopOne(*worker.task, worker.context);
   } else {
-    if (!waited) stopBecause(RealtimeResult::Faulted, "", &worker);
+    if (!waited) stopBecause(Ending::faulted(worker.context));
     goes_on = false;
   }
   const std::string lost = tasks_.lostDriver();
-  if (!lost.empty()) stopBecause(RealtimeResult::Driver, lost);
+  if (!lost.empty()) stopBecause({Ending::Driver, {}, nullptr, lost});
   worker.running_since.store(0);
   if (row >= 0 && fault == RUNG_FAULT_NONE) hooks_.after(row);
   const std::lock_guard<PriorityMutex> held(activity_);
-  const bool ends_well = result_.kind == RealtimeResult::Complete || result_.kind == RealtimeResult::Signal;
-  if (--active_ == 0 && ends_well && hooks_.complete) {
+  if (--active_ == 0 && result_.ending.isComplete() && hooks_.complete) {
     hooks_.complete(program_ns);
     complete_ns_ = now_ns;
   }
@@ -309,8 +300,9 @@ bool Realtime::endActivations(uint8_t reason) {
 
 bool Realtime::isTooLong() {
   const std::lock_guard<PriorityMutex> held(activity_);
-  const bool out_of_time = result_.kind == RealtimeResult::Faulted && result_.fault.kind == RUNG_FAULT_STOP;
-  return out_of_time || result_.kind == RealtimeResult::Watchdog;
+  const Ending& ending = result_.ending;
+  const bool out_of_time = ending.kind == Ending::Faulted && ending.fault.kind == RUNG_FAULT_STOP;
+  return out_of_time || ending.kind == Ending::Watchdog;
 }
 
 // ---- the caller's thread
@@ -318,17 +310,12 @@ bool Realtime::isTooLong() {
 // Tasks that do not end by themselves.
 void Realtime::watch(int64_t now_ns) {
   if (options_.timeout_ns > 0 && now_ns - start_ns_ >= options_.timeout_ns) {
-    const std::lock_guard<PriorityMutex> held(activity_);
-    if (result_.kind == RealtimeResult::Complete) {
-      result_.kind = RealtimeResult::Faulted;
-      result_.fault = {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME};
-    }
-    stop_.store(true);
+    stopBecause({Ending::Faulted, {RUNG_FAULT_STOP, RUNG_NONE, RUNG_STOP_TIME}, nullptr, ""});
   }
   for (const std::unique_ptr<Worker>& worker : workers_) {
     const int64_t since = worker->running_since.load(), limit = Tasks::limitOf(*worker->task);
     if (since == 0 || limit <= 0 || now_ns - since <= limit) continue;
-    stopBecause(RealtimeResult::Watchdog, tasks_.nameOf(*worker->task));
+    stopBecause({Ending::Watchdog, {}, nullptr, tasks_.nameOf(*worker->task)});
     worker->context.stop = RUNG_STOP_TIME;
   }
 }
@@ -370,7 +357,8 @@ void Realtime::supervise() {
     }
     const timespec wait = timeOf(std::max<int64_t>(0, next - monotonicNs()));
     if (sigtimedwait(&signals, nullptr, &wait) > 0) {
-      stopBecause(RealtimeResult::Signal, "");
+      const std::lock_guard<PriorityMutex> held(activity_);
+      has_signal_ = true;
       return;
     }
     if (makes_rows) {

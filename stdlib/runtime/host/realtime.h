@@ -36,13 +36,10 @@ struct RealtimeHooks {
 };
 
 struct RealtimeResult {
-  enum Kind : uint8_t { Complete, Faulted, Watchdog, Driver, Signal } kind = Complete;
+  Ending ending;  // Faulted without a context: the time is over
   int64_t rows = 0;
-  rung_fault fault{};
-  const rung_context* context = nullptr;  // of the task that faulted
-  bool hung = false;                      // a thread is still inside the program: it could not be ended
-  std::string name;                       // of the task whose watchdog, or of the driver that ended the run
-  std::string missing;                    // rights, for the user
+  bool hung = false;    // a thread is still inside the program: it could not be ended
+  std::string missing;  // rights, for the user
   int64_t elapsed_ns = 0;
 };
 
@@ -103,7 +100,7 @@ class Realtime {
   void makeRow(int64_t row);
   bool activate(Worker& worker, int64_t row, int64_t due_ns, int64_t program_ns);
   bool complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t program_ns, int64_t row);
-  void stopBecause(RealtimeResult::Kind kind, const std::string& name, const Worker* worker = nullptr);
+  void stopBecause(const Ending& ending);
   void watch(int64_t now_ns);
   void makeComplete(int64_t now_ns);
   bool endActivations(uint8_t reason);
@@ -114,7 +111,7 @@ class Realtime {
 
   Tasks& tasks_;
   const RealtimeOptions options_;
-  const RealtimeHooks& hooks_;
+  const RealtimeHooks hooks_;
   rung_context& common_;
   rung_host host_{};
   std::vector<std::unique_ptr<Worker>> workers_;
@@ -133,6 +130,7 @@ class Realtime {
   PriorityMutex activity_;   // guards the next two
   uint32_t active_ = 0;      // activations between begin and end
   int64_t complete_ns_ = 0;  // when the hook was called last; also guarded
+  bool has_signal_ = false;  // a signal has ended the run; also guarded
   RealtimeResult result_;
 };
 

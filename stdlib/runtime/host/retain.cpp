@@ -40,7 +40,7 @@ Retain::Retain(const Symbols& symbols, Memory& memory, std::string path)
       symbols_(symbols),
       memory_(memory),
       file_(std::move(path)),
-      latest_(rung_retain_bytes(&symbols.module())) {}
+      latest_(rung_retain_bytes(&module_.description)) {}
 
 bool Retain::open(std::string& error) {
   if (!file_.open(error)) return false;
@@ -62,9 +62,8 @@ std::string Retain::directory() const {
   };
   std::vector<Range> ranges, bits;
   uint32_t offset = 0;
-  const auto add = [&](const rung_range* list, uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i) {
-      const rung_range& range = list[i];
+  const auto add = [&](const Table<rung_range>& list) {
+    for (const rung_range& range : list) {
       const uint32_t index = range.block & ~(RUNG_RANGE_AREA | RUNG_RANGE_BIT);
       const uint8_t* const memory = (range.block & RUNG_RANGE_AREA) != 0 ? memory_.area(index) : memory_.block(index);
       const bool is_bit = (range.block & RUNG_RANGE_BIT) != 0;
@@ -75,8 +74,8 @@ std::string Retain::directory() const {
       offset += range.size;
     }
   };
-  add(module_.retain, module_.retain_count);
-  add(module_.persistent, module_.persistent_count);
+  add(module_.retain);
+  add(module_.persistent);
   if (ranges.empty() && bits.empty()) return "";
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
 
@@ -109,7 +108,7 @@ std::string Retain::directory() const {
 }
 
 bool Retain::isInArea(const uint8_t* at) const {
-  for (uint32_t i = 0; i < module_.area_count; ++i)
+  for (uint32_t i = 0; i < module_.areas.size(); ++i)
     if (at >= memory_.area(i) && at < memory_.area(i) + module_.areas[i].size) return true;
   return false;
 }
@@ -150,9 +149,9 @@ void Retain::restoreByName(rung_start start) {
   forEachEntry(directory_, [&](const std::string& path, const Entry& entry) {
     now.emplace(lowerCase(path), std::make_pair(path, entry));
   });
-  const uint32_t retain_bytes = rung_retain_bytes(&module_);
+  const uint32_t retain_bytes = rung_retain_bytes(&module_.description);
   uint32_t persistent_from = 0;
-  for (uint32_t i = 0; i < module_.retain_count; ++i) persistent_from += module_.retain[i].size;
+  for (uint32_t i = 0; i < module_.retain.size(); ++i) persistent_from += module_.retain[i].size;
   forEachEntry(then, [&](const std::string& path, const Entry& before) {
     if (start == RUNG_COLD && before.offset < header.retain_bytes) return;
     if (size_t{before.offset} + before.size > header.value_bytes) return;

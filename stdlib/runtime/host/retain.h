@@ -47,7 +47,7 @@ class Retain {
   void note(const std::string& path, const std::string& what);
   void restoreVariable(const std::string& path, const Entry& before, const Entry& now);
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   const Symbols& symbols_;
   Memory& memory_;
   RetainFile file_;

@@ -11,9 +11,18 @@ Schedule::Schedule(Tasks& tasks, rung_context& context, Hsio& hsio, bool others_
     : tasks_(tasks), context_(context), hsio_(hsio), others_go_on_(others_go_on), states_(tasks.all().size()) {}
 
 void Schedule::restart(int64_t now_ns) {
+  is_in_row_ = false;
   jobs_.clear();
   interrupts_.clear();
   for (State& state : states_) state = {now_ns, false, false};
+}
+
+void Schedule::transfer(StateArchive& archive) {
+  for (State& state : states_) archive.value(state);
+  archive.values(is_in_row_, ends_first_, now_ns_, end_ns_, next_due_);
+  archive.list(due_);
+  archive.list(interrupts_);
+  archive.list(jobs_);
 }
 
 bool Schedule::raise(const std::string& event) {
@@ -84,13 +93,14 @@ bool Schedule::isFirstOfResource(size_t job) const {
   return true;
 }
 
-bool Schedule::begin(size_t job, int64_t now_ns, Ending& ending) {
+bool Schedule::begin(size_t job, Ending& ending) {
   Job& chosen = jobs_[job];
   Task& task = tasks_.all()[chosen.task];
-  chosen.start_ns = now_ns;
+  chosen.start_ns = now_ns_;
   chosen.left_ns = task.row->duration_ns;
-  if (tasks_.begin(task, context_, chosen.release_ns, now_ns - chosen.release_ns) == RUNG_FAULT_NONE) {
-    if (chosen.left_ns > 0) tasks_.exchange().drop(context_);  // its copies stay until its end
+  if (tasks_.begin(task, context_, chosen.release_ns, now_ns_ - chosen.release_ns) == RUNG_FAULT_NONE) {
+    if (chosen.left_ns == 0) return finish(job, ending);
+    tasks_.exchange().drop(context_);  // its copies stay until its end
     return true;
   }
   if (others_go_on_ && context_.fault.kind != RUNG_FAULT_STOP) {
@@ -98,33 +108,33 @@ bool Schedule::begin(size_t job, int64_t now_ns, Ending& ending) {
     jobs_.erase(jobs_.begin() + static_cast<ptrdiff_t>(job));
     return true;
   }
-  ending = Ending::Faulted;
+  ending = Ending::faulted(context_);
   return false;
 }
 
-bool Schedule::finish(size_t job, int64_t now_ns, Ending& ending) {
+bool Schedule::finish(size_t job, Ending& ending) {
   Task& task = tasks_.all()[jobs_[job].task];
-  const int64_t took_ns = now_ns - jobs_[job].start_ns;
+  const int64_t took_ns = now_ns_ - jobs_[job].start_ns;
   jobs_.erase(jobs_.begin() + static_cast<ptrdiff_t>(job));
-  if (tasks_.end(task, context_, now_ns, took_ns)) return true;
-  stopped_ = &task;
-  ending = Ending::Watchdog;
+  if (tasks_.end(task, context_, now_ns_, took_ns)) return true;
+  ending.kind = Ending::Watchdog;
+  ending.name = tasks_.nameOf(task);
   return false;
 }
 
-bool Schedule::advance(int64_t now_ns, Ending& ending) {
+bool Schedule::advance(Ending& ending) {
   for (size_t i = 0; i < jobs_.size(); ++i) {
     if (!isFirstOfResource(i)) continue;
-    if (jobs_[i].start_ns >= 0 && jobs_[i].left_ns == 0) return finish(i, now_ns, ending);
-    if (jobs_[i].start_ns < 0) return begin(i, now_ns, ending);
+    if (jobs_[i].start_ns >= 0 && jobs_[i].left_ns == 0) return finish(i, ending);
+    if (jobs_[i].start_ns < 0) return begin(i, ending);
   }
   return false;
 }
 
 // When the next job is complete, or `until_ns`.
-int64_t Schedule::firstEnd(int64_t now_ns, int64_t until_ns) const {
+int64_t Schedule::firstEnd(int64_t until_ns) const {
   for (size_t i = 0; i < jobs_.size(); ++i)
-    if (isFirstOfResource(i)) until_ns = std::min(until_ns, now_ns + jobs_[i].left_ns);
+    if (isFirstOfResource(i)) until_ns = std::min(until_ns, now_ns_ + jobs_[i].left_ns);
   return until_ns;
 }
 
@@ -143,32 +153,49 @@ int64_t Schedule::firstInterrupt(int64_t until_ns) {
 }
 
 // Lets the first job of each resource run.
-void Schedule::spend(int64_t now_ns, int64_t until_ns) {
+void Schedule::spend(int64_t until_ns) {
   for (size_t i = 0; i < jobs_.size(); ++i)
-    if (isFirstOfResource(i)) jobs_[i].left_ns -= until_ns - now_ns;
+    if (isFirstOfResource(i)) jobs_[i].left_ns -= until_ns - now_ns_;
 }
 
-Schedule::Ending Schedule::run(int64_t begin_ns) {
-  const int64_t end_ns = begin_ns + tasks_.rowNs();
-  release(begin_ns, end_ns);
-  Ending ending = Ending::Complete;
-  size_t next = 0;
-  for (int64_t now = begin_ns;;) {
-    // What ends now leaves before what becomes due now.
-    while (
-        std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.start_ns >= 0 && job.left_ns == 0; }))
-      if (!advance(now, ending)) return ending;
-    for (const Release& interrupt : interrupts_) enter(interrupt);
-    interrupts_.clear();
-    for (; next < due_.size() && due_[next].time_ns <= now; ++next) enter(due_[next]);
-    while (advance(now, ending)) {
-    }
-    if (ending != Ending::Complete) return ending;
-    const int64_t then = std::max(now, firstInterrupt(firstEnd(now, next < due_.size() ? due_[next].time_ns : end_ns)));
-    spend(now, then);
-    if (then >= end_ns) return ending;
-    now = then;
+// To the next moment at which something begins or ends, or to the end of the row.
+void Schedule::passTime() {
+  const int64_t next_ns = next_due_ < due_.size() ? due_[next_due_].time_ns : end_ns_;
+  const int64_t then = std::max(now_ns_, firstInterrupt(firstEnd(next_ns)));
+  spend(then);
+  is_in_row_ = then < end_ns_;
+  now_ns_ = then;
+  ends_first_ = true;
+}
+
+bool Schedule::hasCompleteJob() const {
+  return std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.start_ns >= 0 && job.left_ns == 0; });
+}
+
+void Schedule::enterDue() {
+  for (const Release& interrupt : interrupts_) enter(interrupt);
+  interrupts_.clear();
+  for (; next_due_ < due_.size() && due_[next_due_].time_ns <= now_ns_; ++next_due_) enter(due_[next_due_]);
+  ends_first_ = false;
+}
+
+void Schedule::beginRow(int64_t begin_ns) {
+  now_ns_ = begin_ns;
+  end_ns_ = begin_ns + tasks_.rowNs();
+  release(begin_ns, end_ns_);
+  next_due_ = 0;
+  is_in_row_ = ends_first_ = true;
+}
+
+bool Schedule::step(Ending& ending) {
+  while (is_in_row_) {
+    if (ends_first_ && hasCompleteJob()) return advance(ending);
+    if (ends_first_) enterDue();
+    if (advance(ending)) return true;
+    if (!ending.isComplete()) return false;
+    passTime();
   }
+  return false;
 }
 
 }  // namespace rung::host

@@ -19,16 +19,21 @@ class Schedule {
   // occur.
   Schedule(Tasks& tasks, rung_context& context, Hsio& hsio, bool others_go_on);
 
-  enum class Ending : uint8_t { Complete, Faulted, Watchdog };
-  // Runs all activations of row k, whose time begins at `begin_ns`. Faulted: the context has the fault.
-  Ending run(int64_t begin_ns);
+  // Begins the row whose time begins at `begin_ns`: finds the activations that become due in it.
+  void beginRow(int64_t begin_ns);
+  // Tells whether a row has begun and is not complete.
+  bool isInRow() const { return is_in_row_; }
+  // The next activation of the row: its code, and unless it takes time its end. False: the row is complete, or `ending`
+  // says why it is not.
+  bool step(Ending& ending);
   // The named host event that starts an external task; false: no task waits for it.
   bool raise(const std::string& event);
-  // After Watchdog: whose.
-  const Task* stoppedTask() const { return stopped_; }
   // True when no activation is between its begin and its end.
   bool isIdle() const { return jobs_.empty(); }
-  // Forgets all activations and starts the periods again at `now_ns`: after a reset.
+  // The periods, the triggers, and the activations of the row that has begun.
+  void transfer(StateArchive& archive);
+  // Forgets all activations, also those of the row that has begun, and starts the periods again at `now_ns`: after a
+  // reset.
   void restart(int64_t now_ns);
 
  private:
@@ -50,21 +55,27 @@ class Schedule {
   void releasePeriods(uint32_t task, int64_t end_ns);
   bool isFirstOfResource(size_t job) const;
   void enter(const Release& release);
+  bool hasCompleteJob() const;
+  void enterDue();
   // Begins the job that waits at the front, or ends the one that is complete. False: none does.
-  bool advance(int64_t now_ns, Ending& ending);
-  bool begin(size_t job, int64_t now_ns, Ending& ending);
-  bool finish(size_t job, int64_t now_ns, Ending& ending);
-  int64_t firstEnd(int64_t now_ns, int64_t until_ns) const;
+  bool advance(Ending& ending);
+  bool begin(size_t job, Ending& ending);
+  bool finish(size_t job, Ending& ending);
+  void passTime();
+  int64_t firstEnd(int64_t until_ns) const;
   int64_t firstInterrupt(int64_t until_ns);
-  void spend(int64_t now_ns, int64_t until_ns);
+  void spend(int64_t until_ns);
 
   Tasks& tasks_;
   rung_context& context_;
   Hsio& hsio_;
   bool others_go_on_;
-  const Task* stopped_ = nullptr;
   std::vector<State> states_;
+  bool is_in_row_ = false;
+  bool ends_first_ = false;  // what ends now leaves before what becomes due now
+  int64_t now_ns_ = 0, end_ns_ = 0;
   std::vector<Release> due_;
+  size_t next_due_ = 0;
   std::vector<Release> interrupts_;  // that occurred and have no job yet
   std::vector<Job> jobs_;            // by priority; of equal priority in the order in which they came
 };

@@ -16,7 +16,7 @@ bool mayWrite(uint8_t function) { return function >= 5; }
 
 }  // namespace
 
-ServedImage::ServedImage(const rung_module& module)
+ServedImage::ServedImage(const LoadedModule& module)
     : module_(module),
       inputs_{0, std::vector<uint8_t>(RUNG_MODBUS_INPUT_BYTES), {}},
       outputs_{1, std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES), std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES)},

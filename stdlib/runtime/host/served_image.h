@@ -8,15 +8,15 @@
 #include <atomic>
 #include <vector>
 
+#include "loaded_module.h"
 #include "priority_mutex.h"
 #include "rung/modbus.h"
-#include "rung/module.h"
 
 namespace rung::host {
 
 class ServedImage {
  public:
-  explicit ServedImage(const rung_module& module);
+  explicit ServedImage(const LoadedModule& module);
   ServedImage(const ServedImage&) = delete;
   ServedImage& operator=(const ServedImage&) = delete;
 
@@ -48,7 +48,7 @@ class ServedImage {
   rung_modbus_image imageOf(const Server& server);
   void applyWritten(Part& part, uint8_t* common, uint32_t size) const;
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   std::atomic<bool> is_used_{false}, is_ready_{false};
   PriorityMutex mutex_;  // guards all below
   bool has_written_ = false;

@@ -2,7 +2,7 @@
 // Channels in tests: a network and serial lines inside the test, in virtual time. A test holds the other end of a
 // serial line (RUNG_CHANNEL_SERIAL_PEER), and of TCP and UDP ports by ordinary channels at any address: a client finds
 // the server with its address and port. In: the time of the context. Out: the table for the host. Nothing outside is
-// opened, so a test runs alike everywhere. Called by test.cpp.
+// opened, so a test runs alike everywhere. Called by session.cpp.
 #pragma once
 
 #include <cstdint>

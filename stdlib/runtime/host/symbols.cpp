@@ -95,8 +95,8 @@ std::vector<std::string> splitList(std::string_view list) {
   return parts;
 }
 
-Symbols::Symbols(const rung_module& module, const Memory& memory) : module_(module), memory_(memory) {
-  for (uint32_t i = 0; i < module.symbol_count; ++i) {
+Symbols::Symbols(const LoadedModule& module, const Memory& memory) : module_(module), memory_(memory) {
+  for (uint32_t i = 0; i < module.symbols.size(); ++i) {
     const std::string name = lowerCase(text(module.symbols[i].name));
     if (name.empty()) continue;
     const auto [first, is_first] = roots_.emplace(name, i);
@@ -139,7 +139,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   const std::string lower = lowerCase(path);
   size_t at = 0;
   uint32_t index = 0;
-  for (; index < module_.area_count; ++index) {
+  for (; index < module_.areas.size(); ++index) {
     const std::string prefix = lowerCase(text(module_.areas[index].prefix));
     if (prefix.empty() || lower.compare(0, prefix.size(), prefix) != 0) continue;
     at = prefix.size();
@@ -294,7 +294,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
 
 // `Main.x` for an `x` of the program Main; empty when no program has such a variable.
 std::string Symbols::inPrograms(std::string_view path) const {
-  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+  for (uint32_t i = 0; i < module_.symbols.size(); ++i) {
     if (!module_.symbols[i].is_program) continue;
     const std::string inside = std::string(text(module_.symbols[i].name)) + '.' + std::string(path);
     Variable variable;
@@ -325,7 +325,7 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
     if (const std::string inside = inPrograms(path); !inside.empty())
       return error = "unknown variable " + backquoted(path) + "; did you mean " + backquoted(inside) + "?", false;
     std::vector<std::string_view> names;
-    for (uint32_t i = 0; i < module_.symbol_count; ++i) names.push_back(text(module_.symbols[i].name));
+    for (uint32_t i = 0; i < module_.symbols.size(); ++i) names.push_back(text(module_.symbols[i].name));
     const std::string_view first = path.substr(0, path.find_first_of(".[^"));
     error = "unknown variable " + backquoted(path) + didYouMean(first, names);
     return false;
@@ -425,12 +425,12 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail
 
 std::vector<Variable> Symbols::programRoots() const {
   std::vector<Variable> all;
-  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+  for (uint32_t i = 0; i < module_.symbols.size(); ++i) {
     if (!module_.symbols[i].is_program) continue;
     all.push_back(root(i));
     // Its located variables are separate roots: `Main.valve`.
     const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
-    for (uint32_t j = 0; j < module_.symbol_count; ++j)
+    for (uint32_t j = 0; j < module_.symbols.size(); ++j)
       if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)
         all.push_back(root(j));
   }
@@ -439,7 +439,7 @@ std::vector<Variable> Symbols::programRoots() const {
 
 std::vector<Variable> Symbols::roots() const {
   std::vector<Variable> all;
-  for (uint32_t i = 0; i < module_.symbol_count; ++i) all.push_back(root(i));
+  for (uint32_t i = 0; i < module_.symbols.size(); ++i) all.push_back(root(i));
   return all;
 }
 

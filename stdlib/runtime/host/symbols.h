@@ -43,7 +43,7 @@ struct Variable {
 
 class Symbols {
  public:
-  Symbols(const rung_module& module, const Memory& memory);
+  Symbols(const LoadedModule& module, const Memory& memory);
 
   // False: `error` has the message ("did you mean" included).
   bool find(std::string_view path, Variable& variable, std::string& error) const;
@@ -67,7 +67,7 @@ class Symbols {
   std::vector<Variable> roots() const;
   Variable root(uint32_t symbol) const;
 
-  const rung_module& module() const { return module_; }
+  const LoadedModule& module() const { return module_; }
   const char* text(uint32_t offset) const { return module_.strings + offset; }
 
  private:
@@ -77,7 +77,7 @@ class Symbols {
   bool isListed(const rung_type& type, const rung_field& field, Detail detail) const;
   std::string inPrograms(std::string_view path) const;
 
-  const rung_module& module_;
+  const LoadedModule& module_;
   const Memory& memory_;
   std::unordered_map<std::string, uint32_t> roots_;      // lower case, with and without their prefixes
   std::unordered_map<std::string, Variable> terminals_;  // by path in lower case

@@ -41,10 +41,10 @@ Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t i
       memory_(memory),
       drivers_(drivers),
       exchange_(symbols, memory),
-      tasks_(symbols.module().task_count),
-      states_(symbols.module().task_count) {
-  const rung_module& module = symbols.module();
-  for (uint32_t i = 0; i < module.task_count; ++i) {
+      tasks_(symbols.module().tasks.size()),
+      states_(symbols.module().tasks.size()) {
+  const LoadedModule& module = symbols.module();
+  for (uint32_t i = 0; i < module.tasks.size(); ++i) {
     const rung_task& row = module.tasks[i];
     tasks_[i].row = &row;
     tasks_[i].index = i;
@@ -54,7 +54,6 @@ Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t i
     if (fastest_ == RUNG_NONE || tasks_[i].interval_ns < tasks_[fastest_].interval_ns) fastest_ = i;
   }
   row_ns_ = fastest_ == RUNG_NONE ? interval_ns : tasks_[fastest_].interval_ns;
-  memory.context().task_states = states_.data();
 }
 
 std::string Tasks::nameOf(const Task& task) const {
@@ -63,6 +62,7 @@ std::string Tasks::nameOf(const Task& task) const {
 }
 
 bool Tasks::prepare(std::string& error) {
+  memory_.context().task_states = states_.data();
   for (Task& task : tasks_) {
     if (task.row->kind != RUNG_EVENT && task.row->kind != RUNG_STATUS) continue;
     const std::string name = symbols_.text(task.row->name);
@@ -105,13 +105,12 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
   {
     const std::lock_guard<Exchange> lock(exchange_);
     noteStart(task, now_ns + late_ns, late_ns);
-    const std::string lost = drivers_.read(task.index, now_ns);
-    if (!lost.empty()) lost_driver_ = lost;
+    noteLost(drivers_.read(task.index, now_ns));
     exchangeServed();
   }
   exchange_.take(task.index, context);
   context.now_ns = now_ns;
-  context.entry = task.row;
+  context.entry = rung_task_at(context.module, task.index);
   context.task = task.index + 1;
   context.activation = ++task.activation;
   const uint8_t fault = guarded(&context, task.row->run);
@@ -133,8 +132,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   noteEnd(task, took_ns);
   if (!goes_on) return false;
   exchangeServed();
-  const std::string lost = drivers_.write(task.index, now_ns);
-  if (!lost.empty()) lost_driver_ = lost;
+  noteLost(drivers_.write(task.index, now_ns));
   return true;
 }
 
@@ -146,6 +144,18 @@ void Tasks::stopOne(Task& task, const rung_context& context) {
   exchange_.makeSafe(task.index);
   const std::lock_guard<Exchange> lock(exchange_);
   drivers_.write(task.index, states_[task.index].last_start_ns);
+}
+
+void Tasks::switchOn() {
+  for (Task& task : tasks_) {
+    Task fresh;
+    fresh.row = task.row;
+    fresh.index = task.index;
+    fresh.interval_ns = task.interval_ns;
+    fresh.trigger = task.trigger;
+    task = fresh;
+  }
+  std::fill(states_.begin(), states_.end(), rung_task_state{});
 }
 
 void Tasks::restart() {
@@ -165,6 +175,18 @@ void Tasks::restoreOutputs() {
   for (Task& task : tasks_) task.is_first = true;
   const std::lock_guard<Exchange> lock(exchange_);
   memory_.restoreOutputs();
+}
+
+void Tasks::transfer(StateArchive& archive) {
+  for (Task& task : tasks_) {
+    archive.values(task.activation, task.too_long, task.is_first, task.stopped, task.fault, task.caller_count);
+    archive.list(task.callers);
+    archive.values(task.lateness, task.latest_start);
+  }
+  for (rung_task_state& state : states_) archive.value(state);
+  archive.text(lost_driver_);
+  has_lost_driver_.store(!lost_driver_.empty());
+  exchange_.transfer(archive);
 }
 
 int64_t Tasks::limitOf(const Task& task) { return task.row->watchdog_ns * std::max<int64_t>(1, task.row->sensitivity); }

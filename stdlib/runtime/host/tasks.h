@@ -4,6 +4,7 @@
 // In: the tables of a module. Out: activations run, and why one did not end well.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -20,6 +21,17 @@ struct Histogram {
   static constexpr uint32_t kBuckets = 2048;
   uint32_t counts[kBuckets] = {};
   void add(int64_t ns) { ++counts[ns < 0 ? 0 : ns / 1000 < kBuckets ? ns / 1000 : kBuckets - 1]; }
+};
+
+// How an activation, a cycle or a run ended.
+struct Ending {
+  enum Kind : uint8_t { Complete, Faulted, Watchdog, Driver } kind = Complete;
+  rung_fault fault{};
+  const rung_context* context = nullptr;  // of the activation that faulted
+  std::string name;                       // of the task whose watchdog, or of the driver that ended it
+
+  bool isComplete() const { return kind == Complete; }
+  static Ending faulted(const rung_context& context) { return {Faulted, context.fault, &context, ""}; }
 };
 
 struct Task {
@@ -42,7 +54,7 @@ class Tasks {
  public:
   // `interval_ns` is the period of cyclic tasks without one, and of a row when there is no cyclic task.
   Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns);
-  // False: a trigger is not a BOOL; `error` has the message.
+  // The program sees the states of its tasks from now on. False: a trigger is not a BOOL; `error` has the message.
   bool prepare(std::string& error);
 
   // The period of a row: that of the fastest cyclic task.
@@ -57,7 +69,9 @@ class Tasks {
   // Before the first activation: the inputs of all devices.
   void readInputs(int64_t now_ns) {
     const std::lock_guard<Exchange> lock(exchange_);
-    lost_driver_ = drivers_.readAll(now_ns);
+    lost_driver_.clear();
+    has_lost_driver_.store(false);
+    noteLost(drivers_.readAll(now_ns));
   }
   // The code of an activation, from reading the inputs on: RUNG_FAULT_NONE, or a fault, after which nothing that it
   // wrote leaves. `now_ns` is the time that the program sees, `late_ns` how long after its due time it begins.
@@ -77,20 +91,30 @@ class Tasks {
   // The watchdog's limit of one activation, or 0.
   static int64_t limitOf(const Task& task);
 
+  // As at power on: no task has run.
+  void switchOn();
   // After a reset: tasks that a fault stopped run again.
   void restart();
 
   Exchange& exchange() { return exchange_; }
   const rung_task_state& stateOf(const Task& task) const { return states_[task.index]; }
+  // What has become of the tasks, with their statistics; no activation runs.
+  void transfer(StateArchive& archive);
   // A line for each task, `elapsed_ns` after the start.
   std::string statistics(int64_t elapsed_ns);
-  // The last driver that failed, or empty.
+  // The last driver that failed, or empty. Asked after each activation, so it is quick where none did.
   std::string lostDriver() {
+    if (!has_lost_driver_.load(std::memory_order_relaxed)) return {};
     const std::lock_guard<Exchange> lock(exchange_);
     return lost_driver_;
   }
 
  private:
+  void noteLost(const std::string& driver) {
+    if (driver.empty()) return;
+    lost_driver_ = driver;
+    has_lost_driver_.store(true, std::memory_order_relaxed);
+  }
   void noteStart(Task& task, int64_t start_ns, int64_t late_ns);
   void noteEnd(Task& task, int64_t took_ns);
   void exchangeServed() {
@@ -106,6 +130,7 @@ class Tasks {
   std::vector<Task> tasks_;
   std::vector<rung_task_state> states_;
   std::string lost_driver_;
+  std::atomic<bool> has_lost_driver_{false};
   ServedImage* served_ = nullptr;
 };
 

@@ -4,24 +4,20 @@
 #include <fnmatch.h>
 #include <unistd.h>
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
-#include "controller.h"
+#include "clock.h"
 #include "crashes.h"
 #include "faults.h"
-#include "hsio.h"
 #include "junit.h"
 #include "memory.h"
-#include "numerical_control.h"
 #include "output_file.h"
 #include "plot.h"
 #include "rung/host.h"
-#include "served_image.h"
-#include "simulated_channels.h"
+#include "session.h"
 #include "stopper.h"
-#include "symbols.h"
 #include "test_process.h"
 #include "trace.h"
 
@@ -34,33 +30,14 @@ constexpr size_t kMaxMessages = 20;        // of one test
 constexpr int64_t kEndNs = 1'000'000'000;  // for FB_Exit of a test that was stopped
 
 struct Case {
-  rung_context* context;
-  const ShownPaths* paths;
   TestResult result;
   uint64_t failures = 0;
-  Controller controller{};
-  Hsio hsio{};
 
   void fail(TestResult::Kind kind, const std::string& message) {
     if (result.kind < kind) result.kind = kind;
     if (++failures <= kMaxMessages) result.messages += message + '\n';
   }
 };
-
-int64_t testClock(void* data) {
-  const Case& test = *static_cast<Case*>(data);
-  return test.controller.clock(test.context->now_ns);
-}
-bool setTestClock(void* data, int64_t ns) {
-  Case& test = *static_cast<Case*>(data);
-  return test.controller.setClock(test.context->now_ns, ns);
-}
-bool testNetwork(void* data, uint32_t port, rung_network* addresses) {
-  return static_cast<Case*>(data)->controller.network(port, *addresses);
-}
-bool setTestNetwork(void* data, uint32_t port, const rung_network* addresses) {
-  return static_cast<Case*>(data)->controller.setNetwork(port, *addresses);
-}
 
 bool isOfName(char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >= 'a' && (c | 32) <= 'z'); }
 
@@ -79,17 +56,14 @@ std::string excerpt(const rung_assertion& assertion) {
   return ' ' + number + " | " + assertion.source + '\n' + std::string(number.size() + 2, ' ') + "| " + underline;
 }
 
-void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected,
-                     const char* actual) {
-  Case& test = *static_cast<Case*>(data);
-  ++test.result.assertions;
-  if (passed) return;
-  std::string message = shownPath(*test.paths, assertion->file) + ':' + std::to_string(assertion->line);
-  if (assertion->column != 0) message += ':' + std::to_string(assertion->column);
+std::string describeViolated(const rung_assertion& assertion, const ShownPaths& paths, const char* expected,
+                             const char* actual) {
+  std::string message = shownPath(paths, assertion.file) + ':' + std::to_string(assertion.line);
+  if (assertion.column != 0) message += ':' + std::to_string(assertion.column);
   message += std::string(": assertion failed: expected ") + expected + ", got " + actual;
-  if (assertion->message != nullptr) message += std::string(" (") + assertion->message + ')';
-  if (assertion->source != nullptr) message += '\n' + excerpt(*assertion);
-  test.fail(TestResult::Failed, message);
+  if (assertion.message != nullptr) message += std::string(" (") + assertion.message + ')';
+  if (assertion.source != nullptr) message += '\n' + excerpt(assertion);
+  return message;
 }
 
 // The running test, for signal handlers. They allocate, but the interrupted code runs no more: at worst the process
@@ -114,26 +88,22 @@ void onHung(const rung_context* context, uint8_t reason) {
 }
 void onCrash(const char* signal) { noteWhere(runningContext(), std::string("crash: ") + signal); }
 
+SessionOptions sessionOptions(const TestOptions& options) {
+  SessionOptions wanted;
+  wanted.interval_ns = kCycleNs;
+  wanted.max_steps = options.max_steps;
+  wanted.is_isolated = true;
+  return wanted;
+}
+
 class TestRunner {
  public:
   TestRunner(const rung_module& module, const TestOptions& options)
-      : module_(module),
-        options_(options),
-        memory_(module),
-        symbols_(module, memory_),
-        trace_(symbols_),
-        plot_(module),
-        served_(module),
-        channels_(memory_.context(), served_) {
-    channels_.serve(host_);
-    host_.wall_clock = testClock;
-    host_.set_wall_clock = setTestClock;
-    host_.network = testNetwork;
-    host_.set_network = setTestNetwork;
-    host_.assertion = onTestAssertion;
-    memory_.context().host = &host_;
-    memory_.context().step_limit = options.max_steps;
-  }
+      : options_(options),
+        session_(module, sessionOptions(options), hooks()),
+        module_(session_.module()),
+        trace_(session_.symbols()),
+        plot_(module_) {}
 
   TestResult describe(uint32_t number) const {
     const rung_test& test = module_.tests[number];
@@ -159,90 +129,84 @@ class TestRunner {
   }
 
   TestResult run(uint32_t number, char* where) {
-    Case one{&memory_.context(), &options_.paths, describe(number)};
-    memory_.context().host_data = &one;
-    host_.diagnosis = &one.controller.diagnosis();
-    one.hsio.serve(host_);
-    control_.serve(module_, host_, nullptr);
+    Case one{describe(number)};
+    running_ = &one;
     paths_of_test = &options_.paths;
     result_of_test = &one.result;
     where_of_test = where;
-    const auto begin = std::chrono::steady_clock::now();
+    const int64_t begin_ns = monotonicNs();
     {
-      Stopper stopper(memory_.context(), onHung);
+      Stopper stopper(session_.context(), onHung);
       stopper.limitTime(options_.timeout_ns);
-      runCase(module_.tests[number], one, stopper);
+      session_.chooseTest(number);
+      runCase(stopper);
       interrupted_ = stopper.reason() == RUNG_STOP_INTERRUPT;
     }
-    one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    one.result.seconds = static_cast<double>(monotonicNs() - begin_ns) / 1e9;
     if (one.failures > kMaxMessages)
       one.result.messages += "and " + std::to_string(one.failures - kMaxMessages) + " more\n";
     return std::move(one.result);
   }
 
  private:
-  bool faulted(Case& result, uint8_t kind) {
-    rung_context& context = memory_.context();
-    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(context, context.fault, options_.paths));
-    return kind != RUNG_FAULT_NONE;
+  SessionHooks hooks() {
+    SessionHooks hooks;
+    hooks.assertion = [this](const rung_assertion& assertion, bool passed, const char* expected, const char* actual) {
+      ++running_->result.assertions;
+      if (!passed) running_->fail(TestResult::Failed, describeViolated(assertion, options_.paths, expected, actual));
+    };
+    return hooks;
+  }
+
+  bool faulted(const Ending& ending) {
+    if (!ending.isComplete())
+      running_->fail(TestResult::Broken, describeFault(session_.context(), ending.fault, options_.paths));
+    return !ending.isComplete();
   }
 
   // Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
-  void runCase(const rung_test& test, Case& result, Stopper& stopper) {
-    rung_context& context = memory_.context();
-    served_.reset();
-    channels_.reset();
-    if (faulted(result, memory_.reset())) return;
-    context.entry = &test;
-    context.task = context.module->task_count + 1;  // none of the module's: only MUTEX and SEMA look at it
+  void runCase(Stopper& stopper) {
+    if (faulted(session_.init())) return;
     std::string error;
     const bool is_open =
         trace_.open(options_.trace_path, options_.out, error) &&
         (options_.plot_path.empty() || plot_.open(options_.plot_path, options_.out, trace_.variables(), error));
-    if (is_open) runCycles(test, result, stopper);
+    if (is_open) runCycles(stopper);
     if (!is_open || !trace_.close(error) || !plot_.close(kCycleNs, error))
-      result.fail(TestResult::Broken, "error: " + error);
+      running_->fail(TestResult::Broken, "error: " + error);
     if (stopper.reason() != RUNG_STOP_NONE) stopper.limitTime(kEndNs);
-    if (test.exit != nullptr) faulted(result, guarded(&context, test.exit));
-    faulted(result, memory_.end());
+    faulted(session_.endTest());
+    faulted(session_.end());
   }
 
-  void runCycles(const rung_test& test, Case& result, const Stopper& stopper) {
-    rung_context& context = memory_.context();
-    if (test.init != nullptr && faulted(result, guarded(&context, test.init))) return;
-    const bool has_done = test.done_block != RUNG_NONE;
+  void runCycles(const Stopper& stopper) {
+    const rung_context& context = session_.context();
+    if (faulted(session_.begin())) return;
     int64_t advanced = 0;  // rows that the test has skipped
     for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
-      if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
-      context.activation = static_cast<uint32_t>(cycle) + 1;
-      served_.exchange(context.areas);
-      if (faulted(result, guarded(&context, test.run))) return;
-      served_.exchange(context.areas);
-      channels_.answerMasters();
+      if (faulted(session_.cycle())) return;
       trace_.row(cycle, context.now_ns);
       plot_.row();
       plot_.hold(context.now_ns / kCycleNs - cycle - advanced);
       advanced = context.now_ns / kCycleNs - cycle;
+      session_.completeCycle();
       if (stopper.reason() != RUNG_STOP_NONE) {  // seen by no poll
-        result.fail(TestResult::Broken, describeFault(context, stopper.fault(), options_.paths));
+        running_->fail(TestResult::Broken, describeFault(context, stopper.fault(), options_.paths));
         return;
       }
-      if (!has_done || memory_.block(test.done_block)[test.done_offset] != 0) return;
+      if (session_.isDone()) return;
     }
-    result.fail(TestResult::Failed, result.result.shown_file + ':' + std::to_string(test.line) +
-                                        ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
+    const TestResult& result = running_->result;
+    running_->fail(TestResult::Failed, result.shown_file + ':' + std::to_string(result.line) +
+                                           ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
   }
 
-  const rung_module& module_;
   const TestOptions& options_;
-  Memory memory_;
-  Symbols symbols_;
+  Case* running_ = nullptr;
+  Session session_;
+  const LoadedModule& module_;
   Trace trace_;
   Plot plot_;
-  ServedImage served_;
-  SimulatedChannels channels_;
-  NumericalControl control_;
-  rung_host host_{};
   bool interrupted_ = false;
 };
 
@@ -284,8 +248,8 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
   if (results.interrupted) return "";
   TestRunner runner(module, options);
   std::vector<uint32_t> chosen;
-  for (uint32_t i = 0; i < module.test_count; ++i) {
-    const std::string name = module.strings + module.tests[i].name;
+  for (uint32_t i = 0; i < module.tests.count; ++i) {
+    const std::string name = module.strings + rung_test_at(&module, i)->name;
     if (!isChosen(options, name)) continue;
     const auto skip = options.skipped.find(name);
     if (skip == options.skipped.end()) {

@@ -9,17 +9,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <iterator>
 
+#include "clock.h"
 #include "crashes.h"
 
 namespace rung::host {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kEndSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int64_t kGraceNs = 3'000'000'000;  // for code that a signal does not stop
@@ -207,8 +205,7 @@ class Parent {
     while (open) {
       hint();
       if (end_signals != forwarded_) interrupt();
-      const int64_t now = Clock::now().time_since_epoch().count();
-      if (deadline_ != 0 && now >= deadline_ && !killed_) {
+      if (deadline_ns_ != 0 && monotonicNs() >= deadline_ns_ && !killed_) {
         kill(child_, SIGKILL);
         killed_ = true;
       }
@@ -251,13 +248,13 @@ class Parent {
     switch (static_cast<Kind>(message.number())) {
       case Kind::Begin:
         running_ = true;
-        begin_ = Clock::now();
-        deadline_ = options_.timeout_ns > 0 ? begin_.time_since_epoch().count() + options_.timeout_ns + kGraceNs : 0;
+        begin_ns_ = monotonicNs();
+        deadline_ns_ = options_.timeout_ns > 0 ? begin_ns_ + options_.timeout_ns + kGraceNs : 0;
         if (forwarded_ != 0) interruptTest();
         return;
       case Kind::Result:
         running_ = false;
-        deadline_ = 0;
+        deadline_ns_ = 0;
         ++next_;
         process_.report(readResult(message));
         if (forwarded_ != 0) stop();
@@ -272,7 +269,7 @@ class Parent {
   void died(int status) {
     TestResult result = process_.describe(tests_[next_++]);
     result.kind = TestResult::Broken;
-    result.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    result.seconds = secondsHere();
     const std::string where = where_;
     if (killed_ && forwarded_ != 0) {
       result.messages = where.empty() ? "interrupted" : where;
@@ -304,7 +301,7 @@ class Parent {
   }
   void interruptTest() {
     kill(child_, SIGINT);
-    deadline_ = Clock::now().time_since_epoch().count() + kGraceNs;
+    deadline_ns_ = monotonicNs() + kGraceNs;
   }
   void stop() {
     results_.interrupted = true;
@@ -312,10 +309,11 @@ class Parent {
     killed_ = ended_ = true;
   }
 
+  double secondsHere() const { return static_cast<double>(monotonicNs() - begin_ns_) / 1e9; }
+
   void hint() {
     if (results_.hinted || !running_ || options_.hint_when_long.empty() || isatty(2) == 0) return;
-    const double here = std::chrono::duration<double>(Clock::now() - begin_).count();
-    results_.hinted = results_.seconds + here >= kLongSeconds;
+    results_.hinted = results_.seconds + secondsHere() >= kLongSeconds;
     if (results_.hinted) fprintf(options_.err, "%s\n", options_.hint_when_long.c_str());
   }
 
@@ -329,8 +327,7 @@ class Parent {
   int fd_ = -1;
   std::string buffer_;
   bool running_ = false, ended_ = false, killed_ = false;
-  Clock::time_point begin_;
-  int64_t deadline_ = 0;
+  int64_t begin_ns_ = 0, deadline_ns_ = 0;  // of the test that runs
   int forwarded_ = 0;
 };
 

@@ -15,7 +15,7 @@ const char* const kKindNames[] = {
     "UDINT", "ULINT", "REAL",  "LREAL", "TIME",   "LTIME",   "DATE",    "LDATE",       "TOD",   "LTOD",      "DT",
     "LDT",   "CHAR",  "WCHAR", "UCHAR", "STRING", "WSTRING", "USTRING", "enumeration", "array", "structure", "pointer"};
 
-uint8_t integerKind(const rung_module& module, const rung_type& type) {
+uint8_t integerKind(const LoadedModule& module, const rung_type& type) {
   if (type.kind == RUNG_ENUM && type.element != RUNG_NONE) return module.types[type.element].kind;
   return type.kind;
 }
@@ -34,7 +34,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string assignEnum(const rung_module& module, const rung_type& type, std::string_view text, uint8_t* to) {
+std::string assignEnum(const LoadedModule& module, const rung_type& type, std::string_view text, uint8_t* to) {
   std::string_view item = text;
   const size_t separator = item.find_first_of("#.");
   if (separator != std::string_view::npos && (item.empty() || item[0] < '0' || item[0] > '9') &&
@@ -59,12 +59,12 @@ std::string assignEnum(const rung_module& module, const rung_type& type, std::st
 
 }  // namespace
 
-std::string typeName(const rung_module& module, const rung_type& type) {
+std::string typeName(const LoadedModule& module, const rung_type& type) {
   if (type.name != 0 && module.strings[type.name] != 0) return module.strings + type.name;
   return type.kind <= RUNG_POINTER ? kKindNames[type.kind] : "unknown type";
 }
 
-bool integerOf(const rung_module& module, const Variable& variable, Integer& value) {
+bool integerOf(const LoadedModule& module, const Variable& variable, Integer& value) {
   const uint8_t* const at = variable.address();
   const rung_type& type = *variable.type;
   if (at == nullptr || type.kind == RUNG_REAL || type.kind == RUNG_LREAL ||
@@ -80,7 +80,7 @@ bool integerOf(const rung_module& module, const Variable& variable, Integer& val
   return true;
 }
 
-bool numberOf(const rung_module& module, const Variable& variable, double& value) {
+bool numberOf(const LoadedModule& module, const Variable& variable, double& value) {
   const uint8_t* const at = variable.address();
   if (at == nullptr) return false;
   const rung_type& type = *variable.type;
@@ -100,7 +100,7 @@ bool numberOf(const rung_module& module, const Variable& variable, double& value
   return true;
 }
 
-void formatValue(const rung_module& module, const Variable& variable, std::string& to) {
+void formatValue(const LoadedModule& module, const Variable& variable, std::string& to) {
   const uint8_t* const at = variable.address();
   if (at == nullptr) return;
   const rung_type& type = *variable.type;
@@ -172,7 +172,7 @@ void formatValue(const rung_module& module, const Variable& variable, std::strin
   to.append(room, rung_format(type.kind, type.is_signed != 0, at, room, RUNG_FORMATTED_SCALAR));
 }
 
-std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry) {
+std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text, bool dry) {
   text = trimmed(text);
   const rung_type& type = *variable.type;
   if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is a constant";

@@ -8,19 +8,19 @@
 namespace rung::host {
 
 // Appends the value; nothing when a pointer on the path is null.
-void formatValue(const rung_module& module, const Variable& variable, std::string& to);
+void formatValue(const LoadedModule& module, const Variable& variable, std::string& to);
 struct Integer {
   int64_t bits = 0;
   bool is_unsigned = false;
   bool isBeyondSigned() const { return is_unsigned && bits < 0; }
 };
 // The value of types held as an integer: BOOL, numbers, times, dates, characters, enumerations.
-bool integerOf(const rung_module& module, const Variable& variable, Integer& value);
+bool integerOf(const LoadedModule& module, const Variable& variable, Integer& value);
 // The value as a number: BOOL 0 or 1, TIME in its own unit. False: strings, dates, pointers, a null pointer.
-bool numberOf(const rung_module& module, const Variable& variable, double& value);
+bool numberOf(const LoadedModule& module, const Variable& variable, double& value);
 // Sets the variable from a literal; returns an error message, or an empty string. `dry`: only checks.
-std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry = false);
+std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text, bool dry = false);
 // The type as messages name it.
-std::string typeName(const rung_module& module, const rung_type& type);
+std::string typeName(const LoadedModule& module, const rung_type& type);
 
 }  // namespace rung::host

@@ -19,15 +19,42 @@ void activate(void* activation) {
   it->run(it->ctx);
 }
 
-}  // namespace
+struct Initialisation {
+  rung_context* ctx;
+  const rung_initialiser* row;
+  void* instance;
+};
+void initialise(void* initialisation) {
+  const auto* const it = static_cast<const Initialisation*>(initialisation);
+  it->row->init(it->ctx, it->instance);
+}
 
-uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*)) {
-  Activation activation{ctx, run};
+uint8_t guard(rung_context* ctx, void (*run)(void* frame), void* frame) {
   ctx->fault.kind = RUNG_FAULT_NONE;
   ctx->cpp_body = nullptr;
   ctx->caller_count = 0;
   ctx->steps = ctx->step_limit > 0 ? ctx->step_limit : INT64_MAX;
-  return rung_try(ctx, activate, &activation);
+  return rung_try(ctx, run, frame);
+}
+
+}  // namespace
+
+uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*)) {
+  Activation activation{ctx, run};
+  return guard(ctx, activate, &activation);
+}
+
+uint8_t rung_init_instance(rung_context* ctx, uint32_t type, void* instance) {
+  const rung_module* const module = ctx->module;
+  memset(instance, 0, rung_type_at(module, type)->size);
+  for (uint32_t i = 0; i < module->initialisers.count; ++i) {
+    const auto* const row = static_cast<const rung_initialiser*>(rung_row(&module->initialisers, i));
+    if (row->type != type) continue;
+    ctx->entry = row;
+    Initialisation initialisation{ctx, row, instance};
+    return guard(ctx, initialise, &initialisation);
+  }
+  return RUNG_FAULT_NONE;
 }
 
 [[noreturn]] static void leave(rung_context* ctx) {

@@ -37,13 +37,13 @@ class Walk {
       : module_(module), axes_(axes), capacity_(capacity) {}
 
   uint32_t run() {
-    for (uint32_t i = 0; i < module_.symbol_count; ++i) {
-      const rung_symbol& symbol = module_.symbols[i];
+    for (uint32_t i = 0; i < module_.symbols.count; ++i) {
+      const rung_symbol& symbol = *rung_symbol_at(&module_, i);
       if (symbol.storage != RUNG_IN_BLOCK || (symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) continue;
       Path path = {};
       path.append(module_.strings + symbol.name);
       block_ = symbol.index;
-      visit(module_.types[symbol.type], symbol.offset, path, path);
+      visit(*rung_type_at(&module_, symbol.type), symbol.offset, path, path);
     }
     return count_;
   }
@@ -55,8 +55,8 @@ class Walk {
     if (type.kind != RUNG_RECORD) return;
     if (rung_equal_names("RUNG_DRIVE", strlen("RUNG_DRIVE"), module_.strings + type.name)) return found(offset, holder);
     for (uint32_t i = 0; i < type.count; ++i) {
-      const rung_field& field = module_.fields[type.first + i];
-      const rung_type& of = module_.types[field.type];
+      const rung_field& field = *rung_field_at(&module_, type.first + i);
+      const rung_type& of = *rung_type_at(&module_, field.type);
       if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0 || (of.kind != RUNG_RECORD && of.kind != RUNG_ARRAY)) continue;
       Path inner = path;
       if ((field.flags & RUNG_FIELD_BASE) == 0) {
@@ -68,7 +68,7 @@ class Walk {
   }
 
   void visitElements(const rung_type& type, uint32_t offset, const Path& path) {
-    const rung_type& element = module_.types[type.element];
+    const rung_type& element = *rung_type_at(&module_, type.element);
     if ((element.kind != RUNG_RECORD && element.kind != RUNG_ARRAY) || element.size == 0) return;
     const uint32_t elements = type.size / element.size;
     for (uint32_t i = 0; i < elements; ++i) {
@@ -86,12 +86,13 @@ class Walk {
       uint64_t below = 1;
       for (uint32_t inner = d + 1; inner < type.count; ++inner) below *= extent(type, inner);
       path.append(d == 0 ? "[" : ",");
-      path.append(module_.dimensions[type.first + d].low + static_cast<int64_t>(element / below % extent(type, d)));
+      path.append(rung_dimension_at(&module_, type.first + d)->low +
+                  static_cast<int64_t>(element / below % extent(type, d)));
     }
     path.append("]");
   }
   uint64_t extent(const rung_type& type, uint32_t d) const {
-    const rung_dimension& dimension = module_.dimensions[type.first + d];
+    const rung_dimension& dimension = *rung_dimension_at(&module_, type.first + d);
     return static_cast<uint64_t>(dimension.high - dimension.low) + 1;
   }
 

@@ -13,9 +13,13 @@ constexpr uint32_t kCrc[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0
                                0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
                                0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
 
-uint32_t sizeOf(const rung_range* ranges, uint32_t count) {
+const rung_range& rangeOf(const rung_table& ranges, uint32_t index) {
+  return *static_cast<const rung_range*>(rung_row(&ranges, index));
+}
+
+uint32_t sizeOf(const rung_table& ranges) {
   uint32_t total = 0;
-  for (uint32_t i = 0; i < count; ++i) total += ranges[i].size;
+  for (uint32_t i = 0; i < ranges.count; ++i) total += rangeOf(ranges, i).size;
   return total;
 }
 
@@ -29,29 +33,30 @@ uint8_t* beginOf(const rung_context* context, const rung_range& range) {
   return memory + (isBit(range) ? range.offset / 8 : range.offset);
 }
 
-uint8_t* pack(const rung_context* context, const rung_range* ranges, uint32_t count, uint8_t* to) {
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint8_t* const from = beginOf(context, ranges[i]);
-    if (isBit(ranges[i]))
-      *to = *from >> ranges[i].offset % 8 & 1;
+uint8_t* pack(const rung_context* context, const rung_table& ranges, uint8_t* to) {
+  for (uint32_t i = 0; i < ranges.count; ++i) {
+    const rung_range& range = rangeOf(ranges, i);
+    const uint8_t* const from = beginOf(context, range);
+    if (isBit(range))
+      *to = *from >> range.offset % 8 & 1;
     else
-      memcpy(to, from, ranges[i].size);
-    to += ranges[i].size;
+      memcpy(to, from, range.size);
+    to += range.size;
   }
   return to;
 }
 
-const uint8_t* unpack(rung_context* context, const rung_range* ranges, uint32_t count, const uint8_t* from) {
-  for (uint32_t i = 0; i < count; ++i) {
-    uint8_t* const to = beginOf(context, ranges[i]);
-    const auto mask = static_cast<uint8_t>(1u << ranges[i].offset % 8);
-    if (isBit(ranges[i]))
+void unpack(rung_context* context, const rung_table& ranges, const uint8_t* from) {
+  for (uint32_t i = 0; i < ranges.count; ++i) {
+    const rung_range& range = rangeOf(ranges, i);
+    uint8_t* const to = beginOf(context, range);
+    const auto mask = static_cast<uint8_t>(1u << range.offset % 8);
+    if (isBit(range))
       *to = static_cast<uint8_t>(*from != 0 ? *to | mask : *to & ~mask);
     else
-      memcpy(to, from, ranges[i].size);
-    from += ranges[i].size;
+      memcpy(to, from, range.size);
+    from += range.size;
   }
-  return from;
 }
 
 uint32_t sumOf(const rung_slot& header, const void* slot) {
@@ -75,8 +80,7 @@ uint32_t rung_crc32(const void* data, size_t size, uint32_t crc) {
 }
 
 uint32_t rung_retain_bytes(const rung_module* module) {
-  return static_cast<uint32_t>(sizeof(rung_slot)) + sizeOf(module->retain, module->retain_count) +
-         sizeOf(module->persistent, module->persistent_count);
+  return static_cast<uint32_t>(sizeof(rung_slot)) + sizeOf(module->retain) + sizeOf(module->persistent);
 }
 
 void rung_retain_pack(const rung_context* context, void* slot) {
@@ -86,12 +90,12 @@ void rung_retain_pack(const rung_context* context, void* slot) {
   memcpy(header.magic, kMagic, sizeof kMagic);
   header.layout_hash = module.layout_hash;
   header.time_ns = context->now_ns;
-  header.retain_bytes = sizeOf(module.retain, module.retain_count);
+  header.retain_bytes = sizeOf(module.retain);
   header.value_bytes = header.length = rung_retain_bytes(&module) - static_cast<uint32_t>(sizeof header);
   memcpy(slot, &header, sizeof header);
   uint8_t* to = static_cast<uint8_t*>(slot) + sizeof header;
-  to = pack(context, module.retain, module.retain_count, to);
-  pack(context, module.persistent, module.persistent_count, to);
+  to = pack(context, module.retain, to);
+  pack(context, module.persistent, to);
 }
 
 void rung_retain_seal(void* slot, uint64_t sequence) {
@@ -132,9 +136,9 @@ bool rung_retain_unpack(rung_context* context, const void* slot, rung_start star
     return false;
   if (start == RUNG_ORIGIN) return true;
   const uint8_t* const values = static_cast<const uint8_t*>(slot) + sizeof header;
-  if (start == RUNG_WARM) unpack(context, module.retain, module.retain_count, values);
-  unpack(context, module.persistent, module.persistent_count, values + header.retain_bytes);
-  if (start == RUNG_WARM || module.persistent_count > 0) context->now_ns = header.time_ns;
+  if (start == RUNG_WARM) unpack(context, module.retain, values);
+  unpack(context, module.persistent, values + header.retain_bytes);
+  if (start == RUNG_WARM || module.persistent.count > 0) context->now_ns = header.time_ns;
   return true;
 }
 

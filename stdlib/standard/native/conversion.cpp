@@ -40,8 +40,10 @@ uint32_t stringOfInteger(T value, char* out, uint32_t capacity) {
 // answer when the module does not have the type.
 bool isSigned(const rung_context* ctx, rung_type_kind kind, bool unknown) {
   if (ctx->module == nullptr) return unknown;
-  for (uint32_t i = 0; i < ctx->module->type_count; ++i)
-    if (ctx->module->types[i].kind == kind) return ctx->module->types[i].is_signed != 0;
+  for (uint32_t i = 0; i < ctx->module->types.count; ++i) {
+    const rung_type& type = *rung_type_at(ctx->module, i);
+    if (type.kind == kind) return type.is_signed != 0;
+  }
   return unknown;
 }
 

@@ -20,14 +20,15 @@ uint32_t rung_system_HOST_TASK(rung_context* ctx) { return ctx->task; }
 uint32_t rung_system_HOST_ACTIVATION(rung_context* ctx) { return ctx->activation; }
 
 int64_t rung_system_HOST_INTERVAL(rung_context* ctx) {
-  return ctx->task == 0 || ctx->task > ctx->module->task_count ? 0 : ctx->module->tasks[ctx->task - 1].interval_ns;
+  return ctx->task == 0 || ctx->task > ctx->module->tasks.count ? 0
+                                                                : rung_task_at(ctx->module, ctx->task - 1)->interval_ns;
 }
 
 uint8_t rung_system_HOST_TASK_STATISTICS(rung_context* ctx, uint32_t task, uint32_t* activations, uint32_t* overruns,
                                          int64_t* last, int64_t* shortest, int64_t* average, int64_t* longest,
                                          int64_t* earliest, int64_t* latest) {
   rung_task_state state = {};
-  const bool known = ctx->task_states != nullptr && task > 0 && task <= ctx->module->task_count;
+  const bool known = ctx->task_states != nullptr && task > 0 && task <= ctx->module->tasks.count;
   if (known) state = ctx->task_states[task - 1];
   *activations = state.activations;
   *overruns = state.overruns;

@@ -66,9 +66,9 @@ struct Plant {
     return memory.back().get();
   }
   Plant() {
-    for (uint32_t i = 0; i < module->block_count; ++i) blocks.push_back(take(module->blocks[i].size));
-    for (uint32_t i = 0; i < module->area_count; ++i)
-      areas.push_back(static_cast<uint8_t*>(take(module->areas[i].size + 8)));
+    for (uint32_t i = 0; i < module->blocks.count; ++i) blocks.push_back(take(rung_block_at(module, i)->size));
+    for (uint32_t i = 0; i < module->areas.count; ++i)
+      areas.push_back(static_cast<uint8_t*>(take(rung_area_at(module, i)->size + 8)));
     host.channels = &kChannels;
     context.module = module;
     context.host = &host;
@@ -79,7 +79,7 @@ struct Plant {
     if (rung_guarded(&context, module->init) != RUNG_FAULT_NONE) abort();
     for (int cycle = 0; cycle < 20; ++cycle) {
       context.now_ns = cycle * INT64_C(10000000);
-      if (rung_guarded(&context, module->tasks[0].run) != RUNG_FAULT_NONE) abort();
+      if (rung_guarded(&context, rung_task_at(module, 0)->run) != RUNG_FAULT_NONE) abort();
     }
   }
 };
@@ -91,9 +91,9 @@ void serve(const uint8_t* bytes, size_t count, uint8_t piece) {
                                {0, 0, sizeof memory, RUNG_AREA_MEMORY}};
   static uint8_t* pointers[3] = {inputs, outputs, memory};
   rung_module module{};
-  module.areas = areas;
-  module.area_count = 3;
-  ServedImage image(module);
+  module.areas = {areas, 3, sizeof areas[0]};
+  const LoadedModule loaded(module);
+  ServedImage image(loaded);
   image.use();
   image.exchange(pointers);
   ServedImage::Server server;

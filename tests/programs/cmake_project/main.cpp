@@ -12,13 +12,13 @@ namespace {
 
 // The address of a field of the program instance Main.
 void* field(const rung_module& module, rung_context& context, const char* name) {
-  for (uint32_t s = 0; s < module.symbol_count; ++s) {
-    const rung_symbol& symbol = module.symbols[s];
+  for (uint32_t s = 0; s < module.symbols.count; ++s) {
+    const rung_symbol& symbol = *rung_symbol_at(&module, s);
     if (strcmp(module.strings + symbol.name, "Main") != 0) continue;
-    const rung_type& type = module.types[symbol.type];
+    const rung_type& type = *rung_type_at(&module, symbol.type);
     for (uint32_t f = type.first; f < type.first + type.count; ++f)
-      if (strcmp(module.strings + module.fields[f].name, name) == 0)
-        return static_cast<char*>(context.blocks[symbol.index]) + symbol.offset + module.fields[f].offset;
+      if (strcmp(module.strings + rung_field_at(&module, f)->name, name) == 0)
+        return static_cast<char*>(context.blocks[symbol.index]) + symbol.offset + rung_field_at(&module, f)->offset;
   }
   return nullptr;
 }
@@ -29,8 +29,8 @@ int main() {
   const rung_module& module = *press_module();
   std::vector<std::vector<uint64_t>> memory;
   std::vector<void*> blocks;
-  for (uint32_t b = 0; b < module.block_count; ++b) {
-    memory.emplace_back(module.blocks[b].size / 8 + 1);
+  for (uint32_t b = 0; b < module.blocks.count; ++b) {
+    memory.emplace_back(rung_block_at(&module, b)->size / 8 + 1);
     blocks.push_back(memory.back().data());
   }
   rung_host host = {};
@@ -45,8 +45,8 @@ int main() {
   if (closed == nullptr || strokes == nullptr) return 2;
   for (int cycle = 0; cycle < 10; ++cycle) {
     *closed = cycle % 2;
-    context.now_ns = cycle * module.tasks[0].interval_ns;
-    if (rung_guarded(&context, module.tasks[0].run) != RUNG_FAULT_NONE) return 3;
+    context.now_ns = cycle * rung_task_at(&module, 0)->interval_ns;
+    if (rung_guarded(&context, rung_task_at(&module, 0)->run) != RUNG_FAULT_NONE) return 3;
   }
   std::printf("strokes %d\n", *strokes);
   return 0;

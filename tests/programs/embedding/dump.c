@@ -22,16 +22,16 @@ int main(void) {
   rung_context context = {.blocks = blocks, .areas = areas, .module = module};
   for (int i = 0; i < 16; ++i) blocks[i] = memory[i];
   for (int i = 0; i < 3; ++i) areas[i] = (uint8_t *)images[i];
-  if (module->block_count > 16 || module->area_count != 3 || module->task_count != 1) return 2;
+  if (module->blocks.count > 16 || module->areas.count != 3 || module->tasks.count != 1) return 2;
   if (rung_guarded(&context, module->init) != RUNG_FAULT_NONE) return 3;
-  if (rung_guarded(&context, module->tasks[0].run) != RUNG_FAULT_NONE) return 3;
-  for (uint32_t i = 0; i < module->block_count; ++i) {
+  if (rung_guarded(&context, rung_task_at(module, 0)->run) != RUNG_FAULT_NONE) return 3;
+  for (uint32_t i = 0; i < module->blocks.count; ++i) {
     snprintf(name, sizeof name, "block%u", (unsigned)i);
-    write_file(name, blocks[i], module->blocks[i].size);
+    write_file(name, blocks[i], rung_block_at(module, i)->size);
   }
   for (uint32_t i = 0; i < 3; ++i) {
-    snprintf(name, sizeof name, "area%s", module->strings + module->areas[i].name);
-    write_file(name, areas[i], module->areas[i].size);
+    snprintf(name, sizeof name, "area%s", module->strings + rung_area_at(module, i)->name);
+    write_file(name, areas[i], rung_area_at(module, i)->size);
   }
   return 0;
 }

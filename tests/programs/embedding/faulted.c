@@ -14,7 +14,7 @@ static uintptr_t top; /* of the stack, where the task was called */
 
 static void told(void *data, const rung_context *context) {
   const rung_module *module = context->module;
-  const rung_site *site = &module->sites[context->fault.site];
+  const rung_site *site = rung_site_at(module, context->fault.site);
   char here;
   *(unsigned *)data += 1;
   printf("told: kind %u in %s, line %u, value %lld; the task %s, %s its stack\n", context->fault.kind,
@@ -37,20 +37,20 @@ int main(void) {
   context.host_data = &count;
   context.areas = areas;
   context.blocks = blocks;
-  for (uint32_t i = 0; i < module->block_count; ++i) blocks[i] = aligned_alloc(64, (module->blocks[i].size + 63) / 64 * 64);
+  for (uint32_t i = 0; i < module->blocks.count; ++i) blocks[i] = aligned_alloc(64, (rung_block_at(module, i)->size + 63) / 64 * 64);
   if (rung_guarded(&context, module->init) != RUNG_FAULT_NONE) return 1;
   top = (uintptr_t)&mark;
   for (int cycle = 0; cycle < 4; ++cycle) {
     inside = 1;
-    const uint8_t fault = rung_guarded(&context, module->tasks[0].run);
+    const uint8_t fault = rung_guarded(&context, rung_task_at(module, 0)->run);
     inside = 0;
     printf("cycle %d: fault %u, told %u times\n", cycle, fault, count);
     if (fault == RUNG_FAULT_NONE) continue;
     for (uint32_t k = 0; k < context.caller_count; ++k) {
-      const rung_site *site = &module->sites[context.callers[k].site];
+      const rung_site *site = rung_site_at(module, context.callers[k].site);
       printf("  called in %s, line %u\n", module->strings + site->pou, site->line);
     }
   }
-  for (uint32_t i = 0; i < module->block_count; ++i) free(blocks[i]);
+  for (uint32_t i = 0; i < module->blocks.count; ++i) free(blocks[i]);
   return 0;
 }

@@ -31,10 +31,10 @@ static void run_all(const char* path) {
   module = function();
   memset(&host, 0, sizeof host);
   memset(&context, 0, sizeof context);
-  context.blocks = memory(module->block_count * sizeof(void*));
-  context.areas = memory(module->area_count * sizeof(void*));
-  for (uint32_t i = 0; i < module->block_count; ++i) context.blocks[i] = memory(module->blocks[i].size);
-  for (uint32_t i = 0; i < module->area_count; ++i) context.areas[i] = memory(module->areas[i].size + 8);
+  context.blocks = memory(module->blocks.count * sizeof(void*));
+  context.areas = memory(module->areas.count * sizeof(void*));
+  for (uint32_t i = 0; i < module->blocks.count; ++i) context.blocks[i] = memory(rung_block_at(module, i)->size);
+  for (uint32_t i = 0; i < module->areas.count; ++i) context.areas[i] = memory(rung_area_at(module, i)->size + 8);
   context.module = module;
   context.host = &host;
   calls = 0;
@@ -42,12 +42,12 @@ static void run_all(const char* path) {
   int faults = rung_guarded(&context, module->init) != RUNG_FAULT_NONE;
   for (int cycle = 0; cycle < CYCLES && faults == 0; ++cycle) {
     context.now_ns = cycle * INT64_C(10000000);
-    for (uint32_t t = 0; t < module->task_count; ++t)
-      faults += rung_guarded(&context, module->tasks[t].run) != RUNG_FAULT_NONE;
+    for (uint32_t t = 0; t < module->tasks.count; ++t)
+      faults += rung_guarded(&context, rung_task_at(module, t)->run) != RUNG_FAULT_NONE;
   }
   in_cycle = 0;
   if (faults != 0) {
-    const rung_site* const site = &module->sites[context.fault.site];
+    const rung_site* const site = rung_site_at(module, context.fault.site);
     printf("%s: fault in %s\n", path, module->strings + site->pou);
   }
   printf("%s: %u calls of malloc and free\n", path, calls);

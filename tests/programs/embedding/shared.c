@@ -13,6 +13,6 @@ int main(int argc, char **argv) {
   void *symbol = dlsym(library, "plant_module");
   if (symbol == NULL) return printf("%s\n", dlerror()), 1;
   const rung_module *module = (*(module_function *)&symbol)();
-  printf("abi %u, %u tasks, interval %lld ms\n", module->abi, module->task_count, (long long)(module->tasks[0].interval_ns / 1000000));
+  printf("abi %u, %u tasks, interval %lld ms\n", module->abi, module->tasks.count, (long long)(rung_task_at(module, 0)->interval_ns / 1000000));
   return 0;
 }

@@ -17,14 +17,15 @@ typedef struct unit {
 
 static int start(unit *u, const rung_module *module) {
   size_t next = 0;
-  if (module->block_count > 8) return 0;
-  for (uint32_t i = 0; i < module->block_count; ++i) {
-    next = (next + module->blocks[i].align - 1) / module->blocks[i].align * module->blocks[i].align;
+  if (module->blocks.count > 8) return 0;
+  for (uint32_t i = 0; i < module->blocks.count; ++i) {
+    const rung_block *block = rung_block_at(module, i);
+    next = (next + block->align - 1) / block->align * block->align;
     u->blocks[i] = u->memory + next;
-    next += module->blocks[i].size;
+    next += block->size;
   }
-  for (uint32_t area = 0; area < module->area_count; ++area) {
-    if (area >= 3 || module->areas[area].size > sizeof u->images[area]) return 0;
+  for (uint32_t area = 0; area < module->areas.count; ++area) {
+    if (area >= 3 || rung_area_at(module, area)->size > sizeof u->images[area]) return 0;
     u->areas[area] = u->images[area];
   }
   u->context.areas = u->areas;
@@ -41,10 +42,10 @@ int main(void) {
   if (!start(&plant, plant_module()) || !start(&cooler, cooler_module())) return 2;
   for (int cycle = 0; cycle < 4; ++cycle) {
     plant.images[0][0] = 1;
-    plant.context.now_ns = cycle * plant.context.module->tasks[0].interval_ns;
+    plant.context.now_ns = cycle * rung_task_at(plant.context.module, 0)->interval_ns;
     cooler.context.now_ns = plant.context.now_ns;
-    if (rung_guarded(&plant.context, plant.context.module->tasks[0].run) != RUNG_FAULT_NONE) return 3;
-    if (rung_guarded(&cooler.context, cooler.context.module->tasks[0].run) != RUNG_FAULT_NONE) return 3;
+    if (rung_guarded(&plant.context, rung_task_at(plant.context.module, 0)->run) != RUNG_FAULT_NONE) return 3;
+    if (rung_guarded(&cooler.context, rung_task_at(cooler.context.module, 0)->run) != RUNG_FAULT_NONE) return 3;
     printf("%d: plant %d, cooler %d\n", cycle, plant.images[1][0], cooler.images[1][0]);
   }
   return 0;

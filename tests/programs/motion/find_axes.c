@@ -13,7 +13,7 @@ int main(void) {
   rung_axis axes[8];
   const uint32_t count = rung_find_axes(module, axes, 8);
   for (uint32_t i = 0; i < count && i < 8; ++i) {
-    const rung_block *const block = &module->blocks[axes[i].block];
+    const rung_block *const block = rung_block_at(module, axes[i].block);
     printf("%s: %s\n", axes[i].name,
            axes[i].offset % 4 == 0 && axes[i].offset + sizeof(rung_drive) <= block->size ? "inside" : "outside");
   }

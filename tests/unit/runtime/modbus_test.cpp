@@ -28,10 +28,14 @@ struct Module {
       {0, 0, RUNG_MODBUS_INPUT_BYTES, RUNG_AREA_INPUT}, {0, 0, 600, RUNG_AREA_OUTPUT}, {0, 0, 100, RUNG_AREA_MEMORY}};
   Bytes inputs = Bytes(RUNG_MODBUS_INPUT_BYTES), outputs = Bytes(600), memory = Bytes(100);
   uint8_t* pointers[3] = {inputs.data(), outputs.data(), memory.data()};
-  rung_module module{};
-  Module() {
-    module.areas = areas;
-    module.area_count = 3;
+  rung_module description{};
+  LoadedModule module;
+  Module() : module(withAreas()) {}
+
+ private:
+  const rung_module& withAreas() {
+    description.areas = {areas, 3, sizeof areas[0]};
+    return description;
   }
 };
 

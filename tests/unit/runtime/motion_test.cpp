@@ -37,11 +37,10 @@ class Layout {
   std::vector<std::string> find(uint32_t capacity = 16) {
     rung_module module = {};
     module.strings = strings_.data();
-    module.types = types_.data();
-    module.fields = fields_.data();
-    module.dimensions = dimensions_.data();
-    module.symbols = symbols_.data();
-    module.symbol_count = static_cast<uint32_t>(symbols_.size());
+    module.types = table(types_);
+    module.fields = table(fields_);
+    module.dimensions = table(dimensions_);
+    module.symbols = table(symbols_);
     rung_axis axes[16];
     count = rung_find_axes(&module, axes, capacity);
     std::vector<std::string> found;
@@ -53,6 +52,10 @@ class Layout {
   uint32_t count = 0;
 
  private:
+  template <class Row>
+  static rung_table table(const std::vector<Row>& rows) {
+    return {rows.data(), static_cast<uint32_t>(rows.size()), sizeof(Row)};
+  }
   uint32_t add(const rung_type& type) {
     types_.push_back(type);
     return static_cast<uint32_t>(types_.size() - 1);

@@ -17,11 +17,12 @@ using namespace rung::host;
 namespace {
 
 struct State {
+  LoadedModule loaded;
   Memory memory;
   Symbols symbols;
   Retain retain;
   State(const rung_module& module, const std::string& path)
-      : memory(module), symbols(module, memory), retain(symbols, memory, path) {
+      : loaded(module), memory(loaded), symbols(loaded, memory), retain(symbols, memory, path) {
     memory.reset();
   }
   sample::Main& main() { return *reinterpret_cast<sample::Main*>(memory.block(0)); }

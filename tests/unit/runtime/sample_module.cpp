@@ -86,6 +86,11 @@ rung_type plain(rung_type_kind kind, uint32_t size) {
   return {static_cast<uint8_t>(kind), 0, 0, 0, size, RUNG_NONE, 0, 0, 0};
 }
 
+template <class Row>
+rung_table table(const std::vector<Row>& rows) {
+  return {rows.data(), static_cast<uint32_t>(rows.size()), sizeof(Row)};
+}
+
 struct Tables {
   std::vector<rung_type> types;
   std::vector<rung_field> fields;
@@ -155,34 +160,21 @@ struct Tables {
     module.compiler = "by hand";
     module.strings = text.c_str();
     module.layout_hash = 1;
-    module.blocks = &block;
-    module.block_count = 1;
+    module.blocks = {&block, 1, sizeof block};
     static const rung_area areas[] = {{t("I"), t("%I"), 4, RUNG_AREA_INPUT}, {t("Q"), t("%Q"), 1, RUNG_AREA_OUTPUT}};
-    module.areas = areas;
+    module.areas = {areas, 2, sizeof areas[0]};
     static const rung_write writes[] = {{1, 255, 0, 1}};  // of Fast
-    module.writes = writes;
-    module.write_count = 1;
-    module.area_count = 2;
-    module.tasks = tasks.data();
-    module.task_count = static_cast<uint32_t>(tasks.size());
-    module.symbols = symbols.data();
-    module.symbol_count = static_cast<uint32_t>(symbols.size());
-    module.types = types.data();
-    module.type_count = static_cast<uint32_t>(types.size());
-    module.fields = fields.data();
-    module.field_count = static_cast<uint32_t>(fields.size());
-    module.enum_items = items.data();
-    module.enum_item_count = static_cast<uint32_t>(items.size());
-    module.dimensions = dimensions.data();
-    module.dimension_count = static_cast<uint32_t>(dimensions.size());
-    module.retain = &retain;
-    module.retain_count = 1;
-    module.persistent = &persistent;
-    module.persistent_count = 1;
-    module.sites = sites;
-    module.site_count = 2;
-    module.tests = tests.data();
-    module.test_count = static_cast<uint32_t>(tests.size());
+    module.writes = {writes, 1, sizeof writes[0]};
+    module.tasks = table(tasks);
+    module.symbols = table(symbols);
+    module.types = table(types);
+    module.fields = table(fields);
+    module.enum_items = table(items);
+    module.dimensions = table(dimensions);
+    module.retain = {&retain, 1, sizeof retain};
+    module.persistent = {&persistent, 1, sizeof persistent};
+    module.sites = {sites, 2, sizeof sites[0]};
+    module.tests = table(tests);
     module.init = init;
     changed = module;
     changed.layout_hash = 2;

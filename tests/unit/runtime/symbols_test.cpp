@@ -12,21 +12,22 @@ using namespace rung::host;
 namespace {
 
 struct Paths : testing::Test {
-  Memory memory{sample::module()};
-  Symbols symbols{sample::module(), memory};
+  LoadedModule module{sample::module()};
+  Memory memory{module};
+  Symbols symbols{module, memory};
   Paths() { memory.reset(); }
 
   std::string value(const std::string& path) {
     Variable variable;
     std::string text;
-    if (symbols.find(path, variable, text)) formatValue(sample::module(), variable, text);
+    if (symbols.find(path, variable, text)) formatValue(module, variable, text);
     return text;
   }
   std::string set(const std::string& path, const std::string& literal) {
     Variable variable;
     std::string error;
     if (!symbols.find(path, variable, error)) return error;
-    return assignValue(sample::module(), variable, literal);
+    return assignValue(module, variable, literal);
   }
 };
 

@@ -126,6 +126,7 @@ class AnalogInput final : public SimulatedModule {
     }
   }
   void driveSafeSignals(const uint8_t*, int64_t) override {}
+  void transferMemory(StateArchive& archive) override { archive.values(converters_, settings_, current_); }
 
   const Channels words_ = channels("CH#"), filter_ = channels("FP"), times_ = channels("FP#");
   const Channels codes_ = channels("IN#"), faults_ = channels("IN#_Fault_Code");

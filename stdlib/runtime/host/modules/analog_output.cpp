@@ -90,6 +90,7 @@ class AnalogOutput final : public SimulatedModule {
       if (faults_.size > 0) input(faults_, i, code);
     }
   }
+  void transferMemory(StateArchive& archive) override { archive.values(current_, no_power_fault_); }
 
   const Channels words_ = channels("Configuration_CH#"), codes_ = channels("Data_CH#");
   const Channels presets_ = channels("Data_Default#"), faults_ = channels("INT#_Fault_Code");

@@ -53,6 +53,7 @@ class Digital final : public SimulatedModule {
   void driveSafeSignals(const uint8_t* safe_outputs, int64_t) override {
     for (uint32_t i = 0; i < driven_count_; ++i) drive(i, valueOf(safe_outputs, states_, i / 8));
   }
+  void transferMemory(StateArchive& archive) override { archive.list(filters_); }
   void drive(uint32_t port, uint32_t byte) { driven_[port].state = (byte >> port % 8 & 1) != 0; }
 
   const Channels levels_ = {0, 1}, states_ = {0, 1};  // bytes: the first channels

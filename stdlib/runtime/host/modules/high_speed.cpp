@@ -38,6 +38,7 @@ class HighSpeed final : public SimulatedModule {
       if (output(functions_, i) == 0) hsio_.write(RUNG_HSIO_OUTPUT_LEVEL, i, safe >> i & 1, now_ns);
     showOutputs(now_ns);
   }
+  void transferMemory(StateArchive& archive) override { archive.value(levels_); }
 
   void showOutputs(int64_t now_ns) {
     for (uint32_t i = 0; i < RUNG_HSIO_OUTPUTS; ++i)

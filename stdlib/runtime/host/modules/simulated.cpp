@@ -34,6 +34,14 @@ void SimulatedModule::write(const uint8_t* outputs, int64_t now_ns) {
   driveSignals(now_ns);
 }
 
+void SimulatedModule::transfer(StateArchive& archive) {
+  archive.bytes(inputs_.data(), inputs_.size());
+  archive.bytes(outputs_.data(), outputs_.size());
+  for (Terminal& wire : terminals_) archive.values(wire.value, wire.state);
+  archive.value(has_stopped_);
+  transferMemory(archive);
+}
+
 SimulatedModule::Channels SimulatedModule::channels(const char* name) const {
   uint32_t input_end = input_offset_, output_end = output_offset_;
   const std::vector<Channel> all = channelsOf(type_, input_end, output_end);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../state_archive.h"
 #include "rung/diagnosis.h"
 #include "types.h"
 
@@ -48,6 +49,7 @@ class SimulatedModule {
   }
   // The program has stopped: the next outputs are the safe ones.
   void stopped() { has_stopped_ = true; }
+  void transfer(StateArchive& archive);
 
  protected:
   // Channels of one row of the type, one after the other.
@@ -73,6 +75,8 @@ class SimulatedModule {
   virtual void driveSignals(int64_t now_ns) = 0;
   // The same with safe outputs. The settings of the channels are among the outputs and stay as the program left them.
   virtual void driveSafeSignals(const uint8_t* safe_outputs, int64_t now_ns) = 0;
+  // Saves or restores what the module remembers beside its channels and terminals.
+  virtual void transferMemory(StateArchive& archive) = 0;
 
   const ModuleType& type_;
   uint32_t input_offset_, output_offset_;

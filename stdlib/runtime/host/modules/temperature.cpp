@@ -125,6 +125,7 @@ class Temperature final : public SimulatedModule {
     }
   }
   void driveSafeSignals(const uint8_t*, int64_t) override {}
+  void transferMemory(StateArchive& archive) override { archive.values(samplers_, settings_); }
 
   const Channels words_ = channels("Config_Word#");  // of the remote form; the next ones of the local form
   const Channels flags_ = channels("Basic_Set_#"), types_ = channels("Sensor_type_#");

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,12 +20,48 @@ extern "C" {
 #define RUNG_HIDDEN __attribute__((visibility("hidden")))
 
 /* Two versions, promised in docs/embedding.md. ABI: of the structures and functions in this header; a host runs modules
- * of its own number. LAYOUT: of the rules by which the variables of a program lie in the blocks. */
-#define RUNG_MODULE_ABI 15u
+ * of its own number. What later headers may add without raising it is said at rung_table and rung_extension. LAYOUT: of
+ * the rules by which the variables of a program lie in the blocks. */
+#define RUNG_MODULE_ABI 16u
 #define RUNG_MODULE_LAYOUT 1u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
+
+/* ---- tables. A later header may add columns at the end of a row, and its modules run on older hosts: a table is
+ * walked by its own row size, never by the size of the structure. */
+typedef struct rung_table {
+  const void* rows;
+  uint32_t count, row_size; /* bytes of a row */
+} rung_table;
+
+/* The row with this index, where it lies. Every module has the columns of the first header with RUNG_MODULE_ABI. */
+static inline const void* rung_row(const rung_table* table, uint32_t index) {
+  return (const char*)table->rows + (size_t)index * table->row_size;
+}
+
+/* Copies a row of a structure with `size` bytes. Columns that the module does not have are 0. */
+static inline void rung_copy_row(const rung_table* table, uint32_t index, void* row, size_t size) {
+  memset(row, 0, size);
+  memcpy(row, rung_row(table, index), size < table->row_size ? size : table->row_size);
+}
+
+/* What a later header adds beside the tables and functions of a module, or beside the services of a host. A receiver
+ * ignores names that it does not know. A structure may grow at its end: its size says what is there. */
+typedef struct rung_extension {
+  const char* name;
+  const void* data; /* a structure of `size` bytes */
+  uint32_t size;
+} rung_extension;
+
+/* The extension of this name in a table of rung_extension; null: there is none. */
+static inline const rung_extension* rung_find_extension(const rung_table* extensions, const char* name) {
+  for (uint32_t i = 0; i < extensions->count; ++i) {
+    const rung_extension* extension = (const rung_extension*)rung_row(extensions, i);
+    if (strcmp(extension->name, name) == 0) return extension;
+  }
+  return NULL;
+}
 
 /* ---- types, for monitoring, forcing and traces. Index 0 of every table is a valid entry. */
 typedef enum rung_type_kind {
@@ -98,6 +135,13 @@ typedef struct rung_enum_item {
 typedef struct rung_dimension {
   int64_t low, high;
 } rung_dimension;
+
+/* The initial values of a record that does not begin with zeros. `init` sets them in an instance whose memory is 0, the
+ * instances in it included; rung_init_instance calls it. */
+typedef struct rung_initialiser {
+  uint32_t type; /* of kind RUNG_RECORD; rows are in ascending order */
+  void (*init)(rung_context*, void* instance);
+} rung_initialiser;
 
 /* A root of the symbol map: a program instance, a global variable or a located variable. */
 enum rung_storage { RUNG_IN_BLOCK = 0, RUNG_IN_AREA = 1 };
@@ -459,6 +503,7 @@ typedef struct rung_host {
   /* Default (null): instructions that ask the control set FL_ER. */
   const rung_nc* nc;
   void* nc_data;
+  rung_table extensions; /* services that later headers describe */
 } rung_host;
 
 struct rung_context {
@@ -470,8 +515,8 @@ struct rung_context {
   void* host_data;
   rung_fault fault;   /* of the last run that faulted */
   void* fault_target; /* jmp_buf of the innermost rung_guarded call or __TRY */
-  /* The rung_task or rung_test whose function runs, set by a host that runs interpreted modules: one function serves
-   * all of them. Compiled modules do not read it. */
+  /* The row of rung_task, rung_test or rung_initialiser whose function runs, set by a host that runs interpreted
+   * modules: one function serves all of them. Compiled modules do not read it. */
   const void* entry;
   uint32_t task;                      /* the number of the task that runs, from 1; 0 outside of tasks */
   uint32_t activation;                /* of that task: 1 the first time */
@@ -500,39 +545,26 @@ typedef struct rung_module {
   uint32_t pointer_size;
   uint32_t flags; /* rung_module_flags */
   const char* name;
-  const char* compiler; /* version of rung */
-  const char* strings;  /* all names, NUL-terminated, by offset */
-  uint64_t layout_hash; /* of blocks, offsets and types: retained data of another hash does not fit */
-  const rung_block* blocks;
-  uint32_t block_count;
-  const rung_area* areas;
-  uint32_t area_count;
-  const uint32_t* resources; /* names: offsets in strings */
-  uint32_t resource_count;
-  const rung_task* tasks;
-  uint32_t task_count;
-  const rung_write* writes;
-  uint32_t write_count;
-  const rung_io_module* io_modules;
-  uint32_t io_module_count;
-  const rung_symbol* symbols;
-  uint32_t symbol_count;
-  const rung_type* types;
-  uint32_t type_count;
-  const rung_field* fields;
-  uint32_t field_count;
-  const rung_enum_item* enum_items;
-  uint32_t enum_item_count;
-  const rung_dimension* dimensions;
-  uint32_t dimension_count;
-  const rung_range* retain;
-  uint32_t retain_count;
-  const rung_range* persistent;
-  uint32_t persistent_count;
-  const rung_site* sites;
-  uint32_t site_count;
-  const rung_test* tests;
-  uint32_t test_count;
+  const char* compiler;    /* version of rung */
+  const char* strings;     /* all names, NUL-terminated, by offset */
+  uint64_t layout_hash;    /* of blocks, offsets and types: retained data of another hash does not fit */
+  rung_table blocks;       /* rung_block */
+  rung_table areas;        /* rung_area */
+  rung_table resources;    /* uint32_t: names, offsets in strings */
+  rung_table tasks;        /* rung_task */
+  rung_table writes;       /* rung_write */
+  rung_table io_modules;   /* rung_io_module */
+  rung_table symbols;      /* rung_symbol */
+  rung_table types;        /* rung_type */
+  rung_table fields;       /* rung_field */
+  rung_table enum_items;   /* rung_enum_item */
+  rung_table dimensions;   /* rung_dimension */
+  rung_table retain;       /* rung_range */
+  rung_table persistent;   /* rung_range */
+  rung_table sites;        /* rung_site */
+  rung_table initialisers; /* rung_initialiser */
+  rung_table tests;        /* rung_test */
+  rung_table extensions;   /* rung_extension */
   /* Sets every variable to its initial value; located variables without one leave the image as it is. */
   void (*init)(rung_context*);
   /* Ends all objects (FB_Exit); called once, before the memory is released or init is called again. May be null. */
@@ -547,6 +579,44 @@ typedef struct rung_module {
   void (*throw_fault)(void);
 } rung_module;
 
+/* Rows of the tables, as rung_row gives them. */
+static inline const rung_block* rung_block_at(const rung_module* module, uint32_t index) {
+  return (const rung_block*)rung_row(&module->blocks, index);
+}
+static inline const rung_area* rung_area_at(const rung_module* module, uint32_t index) {
+  return (const rung_area*)rung_row(&module->areas, index);
+}
+static inline const rung_task* rung_task_at(const rung_module* module, uint32_t index) {
+  return (const rung_task*)rung_row(&module->tasks, index);
+}
+static inline const rung_write* rung_write_at(const rung_module* module, uint32_t index) {
+  return (const rung_write*)rung_row(&module->writes, index);
+}
+static inline const rung_io_module* rung_io_module_at(const rung_module* module, uint32_t index) {
+  return (const rung_io_module*)rung_row(&module->io_modules, index);
+}
+static inline const rung_symbol* rung_symbol_at(const rung_module* module, uint32_t index) {
+  return (const rung_symbol*)rung_row(&module->symbols, index);
+}
+static inline const rung_type* rung_type_at(const rung_module* module, uint32_t index) {
+  return (const rung_type*)rung_row(&module->types, index);
+}
+static inline const rung_field* rung_field_at(const rung_module* module, uint32_t index) {
+  return (const rung_field*)rung_row(&module->fields, index);
+}
+static inline const rung_enum_item* rung_enum_item_at(const rung_module* module, uint32_t index) {
+  return (const rung_enum_item*)rung_row(&module->enum_items, index);
+}
+static inline const rung_dimension* rung_dimension_at(const rung_module* module, uint32_t index) {
+  return (const rung_dimension*)rung_row(&module->dimensions, index);
+}
+static inline const rung_site* rung_site_at(const rung_module* module, uint32_t index) {
+  return (const rung_site*)rung_row(&module->sites, index);
+}
+static inline const rung_test* rung_test_at(const rung_module* module, uint32_t index) {
+  return (const rung_test*)rung_row(&module->tests, index);
+}
+
 /* Every module exports one function, <name>_module, that returns its description. */
 typedef const rung_module* (*rung_module_function)(void);
 
@@ -554,6 +624,11 @@ typedef const rung_module* (*rung_module_function)(void);
 
 /* Runs `run` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. */
 uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*));
+
+/* Sets an instance to the initial values of its type, a record: zeros, then what rung_initialiser says, guarded in the
+ * same way. Of a block with FB_Init it does not call that of the instance itself, whose arguments its declaration has.
+ */
+uint8_t rung_init_instance(rung_context* ctx, uint32_t type, void* instance);
 
 /* Leaves generated code. Called by checks. */
 #if defined(__GNUC__)

@@ -65,8 +65,9 @@ class Bench {
   }
 
   void run() {
-    context.entry = &program->description().tasks[0];
-    ASSERT_EQ(rung_guarded(&context, program->description().tasks[0].run), RUNG_FAULT_NONE);
+    const rung_task* const task = rung_task_at(&program->description(), 0);
+    context.entry = task;
+    ASSERT_EQ(rung_guarded(&context, task->run), RUNG_FAULT_NONE);
   }
 
   uint8_t* at(uint32_t number) {

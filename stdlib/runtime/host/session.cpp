@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that is loaded and can run: see session.h.
+#include "session.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <ctime>
+
+#include "clock.h"
+#include "crashes.h"
+#include "rung/retain.h"
+#include "sockets.h"
+
+namespace rung::host {
+namespace {
+
+int64_t systemNs() {
+  timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+}  // namespace
+
+Session::Session(const rung_module& module, const SessionOptions& options, SessionHooks hooks)
+    : options_(options),
+      hooks_(std::move(hooks)),
+      module_(module),
+      memory_(module_),
+      symbols_(module_, memory_),
+      drivers_(module_, memory_),
+      tasks_(symbols_, memory_, drivers_, options.interval_ns),
+      schedule_(tasks_, memory_.context(), hsio_, options.others_go_on),
+      served_(module_) {
+  if (options.is_isolated) {
+    simulated_channels_.emplace(memory_.context(), served_);
+  } else {
+    files_.emplace(options.files_root, options.realtime);
+    channels_.emplace(options.serial, served_);
+  }
+  memory_.context().host = &host_;
+  memory_.context().host_data = this;
+  memory_.context().step_limit = options.max_steps;
+  serve();
+}
+
+// ---- services of the host
+
+int64_t Session::unsetClock() const { return options_.realtime ? systemNs() : memory_.context().now_ns; }
+
+int64_t Session::onClock(void* data) {
+  const Session& session = *static_cast<Session*>(data);
+  return session.controller_.clock(session.unsetClock());
+}
+bool Session::onSetClock(void* data, int64_t ns) {
+  Session& session = *static_cast<Session*>(data);
+  return session.controller_.setClock(session.unsetClock(), ns);
+}
+bool Session::onNetwork(void* data, uint32_t port, rung_network* addresses) {
+  return static_cast<Session*>(data)->controller_.network(port, *addresses);
+}
+bool Session::onSetNetwork(void* data, uint32_t port, const rung_network* addresses) {
+  return static_cast<Session*>(data)->controller_.setNetwork(port, *addresses);
+}
+void Session::onMessage(void* data, uint8_t severity, const char* text) {
+  static_cast<Session*>(data)->hooks_.message(severity, text);
+}
+void Session::onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected,
+                          const char* actual) {
+  static_cast<Session*>(data)->hooks_.assertion(*assertion, passed, expected, actual);
+}
+void Session::onCall(void* data, const char* pou, const void* instance) {
+  static_cast<Session*>(data)->hooks_.called(pou, instance);
+}
+
+void Session::serve() {
+  host_.wall_clock = onClock;
+  host_.set_wall_clock = onSetClock;
+  host_.network = onNetwork;
+  host_.set_network = onSetNetwork;
+  host_.diagnosis = &controller_.diagnosis();
+  if (hooks_.message) host_.message = onMessage;
+  if (hooks_.assertion) host_.assertion = onAssertion;
+  hsio_.serve(host_);
+  if (simulated_channels_) simulated_channels_->serve(host_);
+  if (channels_) channels_->serve(host_);
+  if (files_) files_->serve(host_);
+  if (options_.is_isolated) return;
+  if (gethostname(machine_name_, sizeof machine_name_ - 1) == 0) host_.name = machine_name_;
+  host_.address = findOwnAddress(machine_address_, sizeof machine_address_);
+}
+
+// ---- the beginning and the end
+
+bool Session::load(std::string& error) {
+  for (const std::string& driver : options_.drivers)
+    if (!drivers_.load(driver, error)) return error.insert(0, "--driver: "), false;
+  drivers_.serve(host_);
+  drivers_.simulateModules(symbols_, hsio_, controller_.diagnosis());
+  tasks_.serveImage(served_);
+  if (!tasks_.prepare(error)) return false;
+  // A cycle of an NCT program is one of its main program: T_PLC.
+  if (isNct(module_)) {
+    for (const Task& task : tasks_.all())
+      if (tasks_.nameOf(task) == "Main") rows_per_cycle_ = std::max<int64_t>(task.interval_ns / tasks_.rowNs(), 1);
+  }
+  return true;
+}
+
+void Session::switchOn() {
+  tasks_.switchOn();
+  controller_.reset();
+  hsio_.reset();
+  served_.reset();
+  if (channels_) channels_->closeAll();
+  if (simulated_channels_) simulated_channels_->reset();
+  std::function<void(const std::string&)> on_message;
+  if (hooks_.message) on_message = [this](const std::string& text) { hooks_.message(RUNG_MESSAGE_NOTE, text.c_str()); };
+  control_.serve(module_, host_, on_message);
+}
+
+Ending Session::init() {
+  switchOn();
+  return endingOf(memory_.reset());
+}
+
+Ending Session::begin() {
+  rung_context& context = memory_.context();
+  if (hooks_.called) host_.called = onCall;
+  base_ns_ = context.now_ns;
+  cycle_ = row_ = rows_done_ = 0;
+  if (test_ != RUNG_NONE) {
+    context.entry = rung_test_at(context.module, test_);
+    context.task = module_.tasks.size() + 1;  // none of the module's: only MUTEX and SEMA look at it
+    return call(module_.tests[test_].init);
+  }
+  schedule_.restart(base_ns_);
+  tasks_.readInputs(base_ns_);
+  return {};
+}
+
+Ending Session::call(void (*function)(rung_context*)) {
+  return function == nullptr ? Ending{} : endingOf(guarded(&memory_.context(), function));
+}
+
+Ending Session::endTest() { return call(module_.tests[test_].exit); }
+Ending Session::end() { return endingOf(memory_.end()); }
+
+// ---- virtual time
+
+// A program with open channels keeps pace with the clock: peers do.
+void Session::keepPace() {
+  if (!channels_ || !channels_->isUsed()) {
+    pace_ns_ = 0;
+    return;
+  }
+  const int64_t row_ns = tasks_.rowNs();
+  if (pace_ns_ == 0) pace_ns_ = monotonicNs() - (rows_done_ - 1) * row_ns;
+  channels_->runUntil(pace_ns_ + rows_done_ * row_ns);
+}
+
+Ending Session::testCycle() {
+  rung_context& context = memory_.context();
+  if (cycle_ > 0) context.now_ns += options_.interval_ns;  // the test may have moved it: TEST_ADVANCE
+  context.activation = static_cast<uint32_t>(cycle_) + 1;
+  served_.exchange(context.areas);
+  Ending ending = call(module_.tests[test_].run);
+  if (!ending.isComplete()) return ending;
+  served_.exchange(context.areas);
+  if (simulated_channels_) simulated_channels_->answerMasters();
+  return ending;
+}
+
+bool Session::isDone() const {
+  const rung_test& test = module_.tests[test_];
+  return test.done_block == RUNG_NONE || memory_.block(test.done_block)[test.done_offset] != 0;
+}
+
+bool Session::activate(Ending& ending) {
+  const int64_t last_row = cycle_ * rows_per_cycle_;
+  if (row_ == rows_done_ && !schedule_.isInRow()) keepPace();
+  if (is_stopped_) row_ = last_row + 1;
+  for (; row_ <= last_row; ++row_) {
+    if (test_ != RUNG_NONE) {
+      ++row_;
+      ending = testCycle();
+      return ending.isComplete();
+    }
+    if (!schedule_.isInRow()) schedule_.beginRow(base_ns_ + row_ * tasks_.rowNs());
+    if (schedule_.step(ending)) return true;
+    if (!ending.isComplete()) return false;
+  }
+  const std::string lost = tasks_.lostDriver();
+  if (!lost.empty()) ending = {Ending::Driver, {}, nullptr, lost};
+  return false;
+}
+
+Ending Session::cycle() {
+  Ending ending;
+  while (activate(ending)) {
+  }
+  return ending;
+}
+
+void Session::completeCycle() {
+  row_ = rows_done_ = cycle_ * rows_per_cycle_ + 1;
+  ++cycle_;
+}
+
+void Session::stopAfterSingleCycle() {
+  if (!is_single_cycle_) return;
+  is_single_cycle_ = false;
+  stop();
+}
+
+// ---- real time
+
+RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks) {
+  threads_.emplace(tasks_, memory_.context(), options, hooks);
+  channels_->start();
+  files_->work().start();  // not in the first cycle that needs it
+  RealtimeResult result = threads_->run();
+  channels_->stop();
+  rows_done_ = result.rows;
+  return result;
+}
+
+// Interrupts are noticed at the starts of rows and when the caller's thread has time.
+void Session::raiseInterrupts() {
+  uint32_t interrupts = 0;
+  do {
+    hsio_.advance(threads_->programNs(), interrupts);
+    for (uint32_t i = 0; interrupts >> i != 0; ++i)
+      if ((interrupts >> i & 1) != 0) threads_->raise(rung_hsio_event(i));
+  } while (interrupts != 0);
+}
+
+// ---- commands
+
+void Session::stop() {
+  is_stopped_ = true;
+  markStopped();
+  makeOutputsSafe();
+}
+
+void Session::resume() {
+  is_stopped_ = false;
+  controller_.diagnosis().stopped = 0;
+  tasks_.restoreOutputs();
+}
+
+// TM/TP manual 4.1.4: what a reset keeps. The program is stopped after it.
+Ending Session::reset(rung_start kind) {
+  rung_context& context = memory_.context();
+  std::vector<uint64_t> kept(rung_retain_bytes(context.module) / 8 + 1);
+  memory_.end();
+  rung_retain_pack(&context, kept.data());
+  if (channels_) channels_->closeAll();
+  const int64_t now = nowNs();
+  Ending ending = endingOf(memory_.reset(true));
+  if (!ending.isComplete()) return ending;
+  rung_retain_unpack(&context, kept.data(), kind);
+  context.now_ns = now;
+  schedule_.restart(nextRowNs());
+  tasks_.restart();
+  stop();
+  return ending;
+}
+
+// In virtual time the cycle that follows is it.
+bool Session::cycleOnce() {
+  if (!is_stopped_) return true;
+  tasks_.restoreOutputs();
+  if (!threads_) {
+    is_single_cycle_ = true;
+    is_stopped_ = false;
+    return true;
+  }
+  const bool goes_on = threads_->cycle();
+  makeOutputsSafe();
+  return goes_on;
+}
+
+bool Session::raise(const std::string& event) { return threads_ ? threads_->raise(event) : schedule_.raise(event); }
+
+void Session::obeyAtRest(const Command& command, Answer& answer) {
+  switch (command.kind) {
+    case Command::Stop: stop(); break;
+    case Command::Start: resume(); break;
+    case Command::Cycle: answer.goes_on = cycleOnce(); break;
+    case Command::Reset:
+      answer.ending = reset(command.start);
+      answer.goes_on = answer.ending.isComplete();
+      break;
+    case Command::Event:
+      if (!raise(command.event)) answer.warning = "no task waits for the event `" + command.event + "`";
+      break;
+    case Command::Status: answer.text = tasks_.statistics(0) + controller_.faults(); break;
+    case Command::Quit: answer.goes_on = false; break;
+  }
+}
+
+// In real time other tasks rest meanwhile.
+Answer Session::obey(const Command& command) {
+  Answer answer;
+  const bool pauses = threads_ && command.kind != Command::Event && command.kind != Command::Status;
+  if (pauses && !threads_->pause()) {
+    answer.goes_on = false;
+    answer.hangs = true;
+    return answer;
+  }
+  std::unique_lock<std::mutex> rest;
+  if (pauses) rest = threads_->rest();
+  obeyAtRest(command, answer);
+  if (threads_ && answer.goes_on && !is_stopped_) threads_->resume();
+  return answer;
+}
+
+// ---- the state
+
+void Session::transfer(StateArchive& archive) {
+  memory_.transfer(archive);
+  tasks_.transfer(archive);
+  schedule_.transfer(archive);
+  controller_.transfer(archive);
+  hsio_.transfer(archive);
+  drivers_.transfer(archive);
+  control_.transfer(archive);
+  archive.values(cycle_, row_, rows_done_, base_ns_, is_stopped_, is_single_cycle_);
+}
+
+SessionState Session::save() {
+  SessionState state;
+  StateArchive archive = StateArchive::saving(state);
+  transfer(archive);
+  return state;
+}
+
+void Session::restore(const SessionState& state) {
+  StateArchive archive = StateArchive::restoring(state);
+  transfer(archive);
+}
+
+}  // namespace rung::host

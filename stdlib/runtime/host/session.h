@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that is loaded and can run: its module, memory, tasks, clock, devices and faults. In: a module, and what a
+// user asks. Out: values; it prints nothing and ends no process. Driven by `rung run` (run.cpp), `rung test`
+// (test.cpp), and whatever else runs, watches or changes a program.
+//
+//     Session session(module, options, hooks);
+//     session.load(error);               // devices and tasks, as the project describes them
+//     session.init();                    // initial values
+//     session.begin();                   // time begins
+//     while (session.cycle().isComplete()) session.completeCycle();
+//     session.end();                     // FB_Exit
+//
+// Virtual time goes on in cycle() and activate(); in real time runInRealTime() runs the tasks as threads. All other
+// functions are called where no activation runs, from one thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "channels.h"
+#include "commands.h"
+#include "controller.h"
+#include "drivers.h"
+#include "files.h"
+#include "loaded_module.h"
+#include "memory.h"
+#include "numerical_control.h"
+#include "realtime.h"
+#include "schedule.h"
+#include "served_image.h"
+#include "simulated_channels.h"
+#include "symbols.h"
+#include "tasks.h"
+
+namespace rung::host {
+
+struct SessionOptions {
+  int64_t interval_ns = 10'000'000;  // of cyclic tasks without one, and of a cycle when there is no cyclic task
+  int64_t max_steps = 0;             // of an activation; 0: any
+  bool others_go_on = false;         // a fault stops its task alone
+  bool realtime = false;
+  // Of a test: no files, sockets or machine outside; the network is simulated.
+  bool is_isolated = false;
+  std::string files_root = ".";
+  SerialDevices serial;
+  std::vector<std::string> drivers;  // PATH[=ARGUMENT]
+};
+
+// What the program says while it runs, in the thread of the task. Each may be empty.
+struct SessionHooks {
+  std::function<void(uint8_t severity, const char* text)> message;  // to its operator; a rung_severity
+  std::function<void(const rung_assertion& assertion, bool passed, const char* expected, const char* actual)> assertion;
+  std::function<void(const char* pou, const void* instance)> called;  // of interpreted modules that report calls
+};
+
+// The answer to a command.
+struct Answer {
+  bool goes_on = true;  // false: the run ends
+  std::string text;     // what was asked for
+  std::string warning;  // why nothing was done
+  Ending ending;        // of activations that the command began
+  bool hangs = false;   // in real time: a task did not end its activation
+};
+
+// Everything that decides how the program goes on: its memory, time and tasks, the devices and the numerical control
+// that the host simulates. Not in it are open files and bytes on their way to others. It is restored in the session
+// that saved it.
+using SessionState = std::vector<uint8_t>;
+
+class Session {
+ public:
+  // The module runs here (refusal) and outlives the session.
+  Session(const rung_module& module, const SessionOptions& options, SessionHooks hooks);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Loads devices, simulates the modules that none serves, and finds triggers. False: `error` says what is wrong. Not
+  // for a test.
+  bool load(std::string& error);
+  // The program is a test of the module, instead of its tasks.
+  void chooseTest(uint32_t number) { test_ = number; }
+
+  // Everything as at power on, and all variables with their initial values.
+  Ending init();
+  // Time begins at that of the context; devices give the first inputs; a test sets itself up.
+  Ending begin();
+  // The rest of the cycle in virtual time. Nothing while stopped.
+  Ending cycle();
+  // The next activation of the cycle. False: it is complete, or `ending` says why it is not.
+  bool activate(Ending& ending);
+  // The cycle counts, and the next one begins with the next call.
+  void completeCycle();
+  // A command asked for one cycle; after it the program is stopped again.
+  bool isSingleCycle() const { return is_single_cycle_; }
+  void stopAfterSingleCycle();
+  // Of a test: the variable `done` is TRUE, or there is none.
+  bool isDone() const;
+  // A test takes down what it set up; then all objects end (FB_Exit). Outputs stay as they are.
+  Ending endTest();
+  Ending end();
+
+  // Runs until a signal, the last row, a command or a fault ends it. Not for a test.
+  RealtimeResult runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks);
+  void endThreads() { threads_->end(); }  // from a hook
+  // Where interrupts of simulated devices start tasks in real time: from the hook `idle`.
+  void raiseInterrupts();
+
+  // From the hook `idle` in real time; tasks rest meanwhile.
+  Answer obey(const Command& command);
+  bool isStopped() const { return is_stopped_; }
+  // All outputs get their safe values.
+  void makeOutputsSafe() { tasks_.makeOutputsSafe(nowNs()); }
+  void markStopped() { controller_.diagnosis().stopped = 1; }
+
+  SessionState save();
+  void restore(const SessionState& state);
+
+  int64_t cyclesDone() const { return (rows_done_ + rows_per_cycle_ - 1) / rows_per_cycle_; }
+  // A cycle is one row, the period of the fastest cyclic task; of an NCT program the period of T_PLC.
+  int64_t rowsPerCycle() const { return rows_per_cycle_; }
+  int64_t cycleNs() const { return rows_per_cycle_ * tasks_.rowNs(); }
+  int64_t beginNs() const { return base_ns_; }
+  // The program's time at which the next row begins.
+  int64_t nextRowNs() const { return base_ns_ + rows_done_ * tasks_.rowNs(); }
+  // The program's time now.
+  int64_t nowNs() const { return threads_ ? threads_->programNs() : memory_.context().now_ns; }
+  // No activation is between its begin and its end.
+  bool isIdle() const { return schedule_.isIdle(); }
+
+  const LoadedModule& module() const { return module_; }
+  rung_context& context() { return memory_.context(); }
+  Memory& memory() { return memory_; }
+  Symbols& symbols() { return symbols_; }
+  Tasks& tasks() { return tasks_; }
+  const Drivers& drivers() const { return drivers_; }
+
+ private:
+  void serve();
+  void switchOn();
+  Ending reset(rung_start kind);
+  void stop();
+  void resume();
+  bool cycleOnce();
+  bool raise(const std::string& event);
+  void obeyAtRest(const Command& command, Answer& answer);
+  Ending testCycle();
+  Ending call(void (*function)(rung_context*));  // of the module; null: it has none
+  Ending endingOf(uint8_t fault) { return fault == RUNG_FAULT_NONE ? Ending{} : Ending::faulted(memory_.context()); }
+  void keepPace();
+  int64_t unsetClock() const;
+  void transfer(StateArchive& archive);
+
+  // The services of rung_host.
+  static int64_t onClock(void* data);
+  static bool onSetClock(void* data, int64_t ns);
+  static bool onNetwork(void* data, uint32_t port, rung_network* addresses);
+  static bool onSetNetwork(void* data, uint32_t port, const rung_network* addresses);
+  static void onMessage(void* data, uint8_t severity, const char* text);
+  static void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected,
+                          const char* actual);
+  static void onCall(void* data, const char* pou, const void* instance);
+
+  const SessionOptions options_;
+  const SessionHooks hooks_;
+  const LoadedModule module_;
+  Memory memory_;
+  Symbols symbols_;
+  Drivers drivers_;
+  Tasks tasks_;
+  Hsio hsio_;
+  Schedule schedule_;
+  Controller controller_;
+  ServedImage served_;
+  NumericalControl control_;
+  std::optional<Files> files_;
+  std::optional<Channels> channels_;
+  std::optional<SimulatedChannels> simulated_channels_;
+  std::optional<Realtime> threads_;  // since the run in real time began
+  rung_host host_{};
+  char machine_name_[256] = {}, machine_address_[32] = {};
+
+  uint32_t test_ = RUNG_NONE;
+  int64_t cycle_ = 0;           // the number of the cycle that runs, or runs next
+  int64_t row_ = 0;             // the same of the row
+  int64_t rows_done_ = 0;       // of complete cycles
+  int64_t rows_per_cycle_ = 1;  // the last of them is the cycle's time; cycle 0 has one
+  int64_t base_ns_ = 0;         // the program's time at row 0
+  int64_t pace_ns_ = 0;         // in virtual time: the clock at row 0, while a channel is open
+  bool is_stopped_ = false;     // by a command
+  bool is_single_cycle_ = false;
+};
+
+}  // namespace rung::host

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions of real programs, interpreted and compiled: what goes on from a restored state is what went on the first
+// time, between cycles and between two activations, with random inputs; new instances get their initial values.
+#include "stdlib/runtime/host/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <tuple>
+
+#include "stdlib/runtime/host/value_format.h"
+#include "tests/unit/tools/text_sink.h"
+#include "tools/driver/compile.h"
+#include "tools/driver/module_library.h"
+
+namespace rung::driver {
+namespace {
+
+using host::Ending;
+using host::Session;
+using host::SessionState;
+using host::Variable;
+
+uint32_t setting(const char* name, uint32_t otherwise) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? otherwise : static_cast<uint32_t>(std::strtoul(value, nullptr, 10));
+}
+
+// A project in this process.
+struct Loaded {
+  TextSink sink;
+  PhaseTimes times;
+  std::unique_ptr<Compilation> compilation;
+  std::unique_ptr<ir::interpreter::Program> program;
+  ModuleLibrary library;
+  const rung_module* module = nullptr;
+
+  Loaded(const std::string& project, Engine engine, bool with_tests = false) {
+    Options options;
+    options.inputs = {std::string(RUNG_SOURCE) + "/" + project};
+    options.engine = engine;
+    options.with_tests = with_tests;
+    options.counts_steps = true;
+    compilation = std::make_unique<Compilation>(options, times, sink);
+    std::string why;
+    if (compilation->translate(with_tests, program, why)) load(with_tests);
+    if (module == nullptr) {
+      compilation->finish();
+      ADD_FAILURE() << project << ": " << sink.messages << why;
+    }
+  }
+
+ private:
+  void load(bool with_tests) {
+    if (program) {
+      module = &program->description();
+      return;
+    }
+    NativeRequest request;
+    request.parts.resize(1);
+    if (!compilation->emit(with_tests, request.parts[0].files)) return;
+    Cache cache;
+    const NativeResult native = makeShared(cache, request, sink);
+    std::string error = native.exit == kSuccess ? library.open(native.path) : native.message;
+    if (error.empty()) module = library.find(compilation->options.moduleName(), error);
+    if (module == nullptr) ADD_FAILURE() << error;
+  }
+};
+
+// A session whose inputs and commands depend on the seed and the cycle alone.
+class Machine {
+ public:
+  Machine(const rung_module& module, const std::vector<std::string>& inputs, uint32_t seed)
+      : seed_(seed), session_(module, {}, {}) {
+    std::string error;
+    EXPECT_TRUE(session_.load(error)) << error;
+    for (const std::string& path : inputs)
+      EXPECT_TRUE(session_.symbols().find(path, inputs_.emplace_back(), error)) << error;
+    for (const Variable& root : session_.symbols().programRoots()) session_.symbols().expand(root, leaves_);
+    EXPECT_TRUE(session_.init().isComplete());
+    EXPECT_TRUE(session_.begin().isComplete());
+  }
+
+  Session& session() { return session_; }
+
+  // What a user does before a cycle.
+  void drive(int64_t cycle) {
+    std::mt19937 random(seed_ * 7919u + static_cast<uint32_t>(cycle));
+    if (random() % 8 == 0) command(random());
+    for (const Variable& input : inputs_) {
+      if (random() % 3 != 0) continue;
+      const uint32_t value = random() % 30;
+      std::string text = std::to_string(value);
+      if (input.type->kind == RUNG_BOOL) text = value % 2 != 0 ? "TRUE" : "FALSE";
+      if (input.type->kind == RUNG_LREAL) text += ".5";
+      EXPECT_EQ(host::assignValue(session_.module(), input, text), "") << input.path;
+    }
+  }
+
+  // The rest of a cycle, and what programs have after it.
+  std::string finishCycle(int64_t number) {
+    const Ending ending = session_.cycle();
+    EXPECT_TRUE(ending.isComplete()) << "cycle " << number << ": fault " << int{ending.fault.kind};
+    std::string row = "cycle " + std::to_string(number) + ", " + std::to_string(session_.nowNs()) + " ns";
+    for (const Variable& leaf : leaves_) {
+      row += ' ' + leaf.path + '=';
+      host::formatValue(session_.module(), leaf, row);
+    }
+    session_.completeCycle();
+    session_.stopAfterSingleCycle();
+    return row + '\n' + session_.tasks().statistics(0);
+  }
+
+  std::string memory() {
+    std::string bytes;
+    const host::LoadedModule& module = session_.module();
+    for (uint32_t i = 0; i < module.blocks.size(); ++i)
+      bytes.append(reinterpret_cast<const char*>(session_.memory().block(i)), module.blocks[i].size);
+    for (uint32_t i = 0; i < module.areas.size(); ++i)
+      bytes.append(reinterpret_cast<const char*>(session_.memory().area(i)), module.areas[i].size);
+    return bytes;
+  }
+
+ private:
+  void command(uint32_t random) {
+    host::Command command;
+    const bool is_stopped = session_.isStopped();
+    command.kind = !is_stopped ? host::Command::Stop : random % 3 == 0 ? host::Command::Cycle : host::Command::Start;
+    if (is_stopped && random % 7 == 0) command.kind = host::Command::Reset;
+    command.start = static_cast<rung_start>(random / 7 % 3);
+    EXPECT_TRUE(session_.obey(command).goes_on);
+  }
+
+  const uint32_t seed_;
+  Session session_;
+  std::vector<Variable> inputs_, leaves_;
+};
+
+// ---- save and restore
+
+struct Project {
+  const char* folder;
+  std::vector<std::string> inputs;
+};
+const Project kProjects[] = {
+    {"tests/unit/tools/sessions/timers", {"Main.button", "Main.other", "Main.level"}},
+    {"tests/unit/tools/sessions/tasks", {"f.go"}},
+    {"tests/unit/tools/sessions/steps", {"Main.start", "Main.done"}},
+    {"tests/unit/tools/sessions/devices", {"di.X8", "ad.V0", "ptc.T0"}},
+    {"tests/unit/tools/sessions/interrupts", {}},
+    {"samples/conveyor", {"Main.belt.start", "Main.belt.stop", "Main.belt.reset", "Main.belt.part"}},
+    {"samples/traffic_light", {"Crossing.button"}},
+    {"samples/packaging_line", {"Main.run"}},
+    {"samples/milling_machine", {"Machine.DoorOpen", "Machine.StopPressed", "Machine.AirMissing"}},
+};
+
+// The first words of two rows that are not equal.
+std::string firstDifference(const std::string& is, const std::string& was) {
+  std::istringstream left(is), right(was);
+  for (std::string a, b;;) {
+    const bool has_left = static_cast<bool>(left >> a), has_right = static_cast<bool>(right >> b);
+    if (!has_left && !has_right) return "";
+    if (has_left != has_right || a != b) return a + " instead of " + b;
+  }
+}
+
+struct Restored : testing::TestWithParam<std::tuple<size_t, Engine>> {};
+
+// A moment of a run: before a cycle, or between two activations of it.
+struct Moment {
+  int64_t cycle;
+  bool is_inside;
+  SessionState state;
+  std::string memory;
+};
+
+TEST_P(Restored, ARunGoesOnAsItDidTheFirstTime) {
+  constexpr int64_t kCycles = 80;
+  const auto& [number, engine] = GetParam();
+  const Project& project = kProjects[number];
+  const Loaded loaded(project.folder, engine);
+  ASSERT_NE(loaded.module, nullptr);
+  const uint32_t first = setting("RUNG_TEST_SEED", 1), runs = setting("RUNG_TEST_RUNS", 6);
+  for (uint32_t seed = first; seed < first + runs; ++seed) {
+    SCOPED_TRACE("RUNG_TEST_SEED=" + std::to_string(seed));
+    Machine machine(*loaded.module, project.inputs, seed);
+    std::mt19937 random(seed);
+    std::vector<std::string> rows, memories;
+    std::vector<Moment> moments;
+    const auto remember = [&](bool is_inside) {
+      if (random() % 16 == 0)
+        moments.push_back({static_cast<int64_t>(rows.size()), is_inside, machine.session().save(), machine.memory()});
+    };
+    for (int64_t cycle = 0; cycle < kCycles; ++cycle) {
+      remember(false);
+      machine.drive(cycle);
+      Ending ending;
+      while (machine.session().activate(ending)) remember(true);
+      rows.push_back(machine.finishCycle(cycle));
+      memories.push_back(machine.memory());
+    }
+    std::shuffle(moments.begin(), moments.end(), random);
+    for (const Moment& moment : moments) {
+      machine.session().restore(moment.state);
+      EXPECT_TRUE(machine.memory() == moment.memory);
+      for (int64_t cycle = moment.cycle; cycle < kCycles; ++cycle) {
+        if (cycle > moment.cycle || !moment.is_inside) machine.drive(cycle);
+        ASSERT_EQ(firstDifference(machine.finishCycle(cycle), rows[static_cast<size_t>(cycle)]), "")
+            << "cycle " << cycle << " after a state of cycle " << moment.cycle;
+        ASSERT_TRUE(machine.memory() == memories[static_cast<size_t>(cycle)]) << "memory after cycle " << cycle;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Restored,
+                         testing::Combine(testing::Range(size_t{0}, std::size(kProjects)),
+                                          testing::Values(Engine::Interpreter, Engine::Native)),
+                         [](const auto& test) {
+                           const std::string folder = kProjects[std::get<0>(test.param)].folder;
+                           const bool is_native = std::get<1>(test.param) == Engine::Native;
+                           return folder.substr(folder.rfind('/') + 1) + (is_native ? "_native" : "_interpreted");
+                         });
+
+// ---- one engine at a time
+
+struct Engines : testing::TestWithParam<Engine> {};
+
+TEST_P(Engines, ATestIsRestoredAsAProgramIs) {
+  const Loaded loaded("tests/unit/tools/sessions/testing", GetParam(), true);
+  ASSERT_NE(loaded.module, nullptr);
+  uint32_t failures = 0;
+  host::SessionOptions options;
+  options.is_isolated = true;
+  host::SessionHooks hooks;
+  hooks.assertion = [&](const rung_assertion&, bool passed, const char*, const char*) { failures += passed ? 0 : 1; };
+  Session session(*loaded.module, options, hooks);
+  session.chooseTest(0);
+  ASSERT_TRUE(session.init().isComplete());
+  ASSERT_TRUE(session.begin().isComplete());
+  SessionState third;
+  int64_t ends[2] = {};
+  for (int64_t& end : ends) {
+    int64_t cycle = 0;
+    if (!third.empty()) {
+      session.restore(third);
+      cycle = 3;
+    }
+    for (; cycle == 0 || !session.isDone(); ++cycle) {
+      if (cycle == 3) third = session.save();
+      ASSERT_LT(cycle, 1000);
+      ASSERT_TRUE(session.cycle().isComplete());
+      session.completeCycle();
+    }
+    end = session.nowNs();
+  }
+  // The lamp is on from the fourth cycle, 30 ms, and the twentieth, 190 ms, moves the time by 900 ms.
+  EXPECT_EQ(ends[0], 1'100'000'000);
+  EXPECT_EQ(ends[1], ends[0]);
+  EXPECT_EQ(failures, 0u);
+  EXPECT_TRUE(session.endTest().isComplete());
+  EXPECT_TRUE(session.end().isComplete());
+}
+
+TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
+  const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  Session session(*loaded.module, {}, {});
+  ASSERT_TRUE(session.init().isComplete());
+  uint32_t checked = 0;
+  for (const char* const path : {"Main.base", "Main.cell", "Main.holder", "Main.empty", "Main.limits", "Main.t"}) {
+    Variable declared;
+    std::string error;
+    ASSERT_TRUE(session.symbols().find(path, declared, error)) << error;
+    const auto type = static_cast<uint32_t>(declared.type - rung_type_at(loaded.module, 0));
+    std::vector<uint64_t> made(declared.type->size / 8 + 1, 0xa5a5a5a5a5a5a5a5u);
+    EXPECT_EQ(rung_init_instance(&session.context(), type, made.data()), RUNG_FAULT_NONE);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(made.data()), declared.type->size),
+              std::string(reinterpret_cast<const char*>(declared.address()), declared.type->size))
+        << path;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 6u);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Engines, testing::Values(Engine::Interpreter, Engine::Native), [](const auto& test) {
+  return std::string(test.param == Engine::Native ? "native" : "interpreted");
+});
+
+}  // namespace
+}  // namespace rung::driver
