@@ -37,16 +37,6 @@ Slice<FieldInit> Parser::parseLoneFieldInits() {
   return tree_.addList<FieldInit>(fields);
 }
 
-// {section}, and nothing after it
-Slice<DeclId> Parser::parseLoneSections() {
-  std::vector<DeclId> sections;
-  while (atSection()) sections.push_back(parseSection());
-  return tree_.addList<DeclId>(sections);
-}
-
-// statements
-Slice<StmtId> Parser::parseLoneStatements() { return parseStatements(0); }
-
 // file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL … | NAMESPACE … | USING …}
 void Parser::parseTopLevel(std::vector<DeclId>& out) {
   panic_ = false;
@@ -364,20 +354,6 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
   Parser parser(tree, names, sources, sources.fileOf(begin), dialect, diagnostics);
   parser.readBetween(begin, end);
   return parser.parseDecls();
-}
-
-Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                            Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.readAll();
-  return parser.parseLoneSections();
-}
-
-Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                              Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.readAll();
-  return parser.parseLoneStatements();
 }
 
 Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,

@@ -494,10 +494,9 @@ struct PouDecl {
   Slice<DeclId> hidden;  // annotation: sections that a chart or networks need and the source does not declare
   Slice<StmtId> body;    // of a body in ST as written; of a scheduled body an annotation
   Slice<IlInstruction> il;
-  Diagram diagram;                    // of a body of networks
-  Slice<SfcStep> steps;               // the chart of a body in SFC
-  Slice<SfcTransition> transitions;   // in other bodies: conditions used by the charts of their actions
-  FileId chart_sections, chart_body;  // annotation: the ST made from the chart
+  Diagram diagram;                   // of a body of networks
+  Slice<SfcStep> steps;              // the chart of a body in SFC
+  Slice<SfcTransition> transitions;  // in other bodies: conditions used by the charts of their actions
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
@@ -533,8 +532,17 @@ struct UsingDecl {
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
 // kHidden: of variables that a scheduler needs and the source does not declare.
-// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives.
-enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16, kGeneric = 32 };
+// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives. kOfChart: the state of a chart, likewise made by
+// its scheduler.
+enum SectionBits : uint8_t {
+  kConstant = 1,
+  kRetain = 2,
+  kPersistent = 4,
+  kNonRetain = 8,
+  kHidden = 16,
+  kGeneric = 32,
+  kOfChart = 64
+};
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
   SectionKind section;

@@ -172,30 +172,32 @@ ExprId Tree::base(ExprId step) const {
   return firstOperand(*this, step);
 }
 
+// A node without an end is not written: it has a location, and an empty range there.
+static Range rangeFrom(Loc begin, Loc end) { return {begin, end < begin ? begin : end}; }
+
+const Tree::Parens* Tree::parensOf(ExprId id) const {
+  if (expr(id).in_parens == 0) return nullptr;
+  const auto found = std::lower_bound(parens_.begin(), parens_.end(), id.word,
+                                      [](const Parens& p, uint32_t word) { return p.of.word < word; });
+  return found != parens_.end() && found->of == id ? &*found : nullptr;
+}
+
 Range Tree::range(ExprId id) const {
   id = written(id);
   if (!id) return {};
-  Range range{{}, expr(id).end};
-  for (ExprId at = id; !range.begin;) {
-    if (expr(at).in_parens != 0) {
-      const auto found = std::lower_bound(parens_.begin(), parens_.end(), at.word,
-                                          [](const Parens& p, uint32_t word) { return p.of.word < word; });
-      if (found != parens_.end() && found->of == at) {
-        range.begin = found->open;
-        if (at == id) range.end = found->end;
-        break;
-      }
-    }
-    const ExprId first = written(firstOperand(*this, at));
-    if (!first) range.begin = beginOfLeaf(*this, at);
-    at = first;
-  }
-  if (range.end < range.begin) range.end = range.begin;
-  return range;
+  if (const Parens* parens = parensOf(id)) return {parens->open, parens->end};
+  return bareRange(id);
 }
 
-// A node without an end is not written: it has a location, and an empty range there.
-static Range rangeFrom(Loc begin, Loc end) { return {begin, end < begin ? begin : end}; }
+Range Tree::bareRange(ExprId id) const {
+  id = written(id);
+  ExprId at = id;
+  while (const ExprId first = written(firstOperand(*this, at))) {
+    if (const Parens* parens = parensOf(first)) return rangeFrom(parens->open, expr(id).end);
+    at = first;
+  }
+  return rangeFrom(beginOfLeaf(*this, at), expr(id).end);
+}
 
 Range Tree::range(StmtId id) const {
   const StmtHeader& h = stmt(id);

@@ -76,6 +76,7 @@ class Tree {
   ExprId base(ExprId step) const;
   // The source range of a node as written, with parentheses around it. Empty: nothing was written here.
   Range range(ExprId id) const;
+  Range bareRange(ExprId id) const;  // … without parentheses around it
   Range range(StmtId id) const;
   Range range(TypeExprId id) const;
   Range range(DeclId id) const;
@@ -183,6 +184,8 @@ class Tree {
     ExprId of;
     Loc open, end;
   };
+  const Parens* parensOf(ExprId id) const;
+
   std::vector<uint32_t*> chunks_;  // some point into a larger block
   std::vector<uint32_t*> blocks_;  // owned
   uint32_t next_word_ = 0;

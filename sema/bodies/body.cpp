@@ -40,7 +40,9 @@ static void schedule(Context& context, PouDecl& decl) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
-    if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;
+    const auto body = text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou));
+    if (!body) return;
+    decl.body = *body;
   }
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }

@@ -214,7 +214,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     named.region = context.region;
   }
   if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty())
-    text::declareSfc(chartsOf(context), context.tree().as<PouDecl>(id), chartContextOf(context, pou_id));
+    context.tree().as<PouDecl>(id).hidden = text::declareSfc(chartsOf(context), decl, chartContextOf(context, pou_id));
   if (library == kNoLibrary) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);

@@ -83,7 +83,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   if (owner.kind == PouKind::Interface) member.object.modifiers |= kAbstract;
   owner.members.push_back(member_id);
   if (decl.body_kind == BodyKind::Sfc)
-    text::declareSfc(chartsOf(there), context.tree().as<PouDecl>(id), chartContextOf(there, member_id));
+    context.tree().as<PouDecl>(id).hidden = text::declareSfc(chartsOf(there), decl, chartContextOf(there, member_id));
   for (uint32_t i = 0; i < decl.members.count; ++i)
     addMember(context, owner_id, context.tree().list(decl.members)[i], "", member_id);
   return member_id;

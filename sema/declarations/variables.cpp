@@ -647,7 +647,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
   }
   checkModifiers(there, section);
   if ((section.h.bits & kGeneric) != 0) giveGenericsValues(there, section);
-  const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
+  const bool of_chart = (section.h.bits & kOfChart) != 0;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {

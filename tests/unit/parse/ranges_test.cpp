@@ -104,8 +104,9 @@ class RangeCheck {
   }
   void check(TypeExprId id, Range range) {
     if (tree_.kind(id) == TypeExprKind::Error) return;
-    reparse("VAR x : " + std::string(textOf(range)) + "; END_VAR", [&](FileId file) {
-      const auto sections = text::parseSections(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
+    reparse("PROGRAM p VAR x : " + std::string(textOf(range)) + "; END_VAR END_PROGRAM", [&](FileId file) {
+      const FileUnit unit = text::parseFile(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
+      const Slice<DeclId> sections = tree_.as<PouDecl>(tree_.list(unit.decls)[0]).sections;
       ASSERT_EQ(sections.count, 1u) << where(range);
       const SectionDecl& section = tree_.as<SectionDecl>(tree_.list(sections)[0]);
       ASSERT_EQ(section.vars.count, 1u) << where(range);
