@@ -27,6 +27,7 @@ namespace rung {
 struct FileUnit {
   FileId file;
   Slice<DeclId> decls;
+  Slice<Range> skipped = {};  // what recovery from syntax errors skipped and no error node holds, in source order
 };
 
 // The kind of a node struct, which Tree::as() checks in debug builds.
@@ -193,8 +194,8 @@ class Tree {
 };
 
 // The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
-// As written: without what a check of the program inserted.
-std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
+// As written: without what a check of the program inserted, and with the source of what could not be parsed.
+std::string printTree(const Tree& tree, const Names& names, const Sources& sources, const FileUnit& unit);
 std::string printExpression(const Tree& tree, const Names& names, ExprId expr);
 
 }  // namespace rung
