@@ -358,6 +358,7 @@ void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members)
     accept(Tok::Semicolon);  // a condition of a drawing may end with its own
     if (!t.from.empty()) return;
     const StmtId id = build_.assign(AssignOp::Assign, target(), t.condition.value, t.condition.begin);
+    tree_.stmt(id).end = t.condition.end;
     d.body = tree_.addList<StmtId>({&id, 1});
     d.body_kind = BodyKind::St;
     d.body_begin = t.condition.begin;

@@ -202,7 +202,8 @@ Range Tree::bareRange(ExprId id) const {
 Range Tree::range(StmtId id) const {
   const StmtHeader& h = stmt(id);
   Loc begin = h.loc;
-  if (h.kind == StmtKind::Assign) begin = range(as<AssignStmt>(id).target).begin;
+  if (h.kind == StmtKind::Assign)
+    if (const Range target = range(as<AssignStmt>(id).target); target.begin < target.end) begin = target.begin;
   if (h.kind == StmtKind::Call) begin = range(as<CallStmt>(id).call).begin;
   return rangeFrom(begin, h.end);
 }
@@ -212,6 +213,8 @@ Range Tree::range(TypeExprId id) const {
   Loc begin = h.loc;
   if (h.kind == TypeExprKind::Enum)  // INT (a, b), but not (a, b) INT
     if (const TypeExprId base = as<EnumTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
+  if (h.kind == TypeExprKind::Struct)  // a EXTENDS b : STRUCT
+    if (const TypeExprId base = as<StructTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
   return rangeFrom(begin, h.end);
 }
 
