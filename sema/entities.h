@@ -146,7 +146,6 @@ struct Pou {
   // ---- the body: its statements as written or as a scheduler made them, and the code that is made of them
   Slice<StmtId> statements, code;
   bool scheduled = false;
-  FileId chart_sections, chart_body;  // of a chart: the ST made of it
   bool library = false;
   bool excluded = false;           // a test, or only for tests, and not part of this program: checked, not lowered
   bool cpp = false;                // its body is in C++

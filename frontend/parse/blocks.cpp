@@ -8,7 +8,9 @@ namespace rung::text {
 // expr connective, where the connective is THEN, DO or OF: the header of a block.
 ExprId StatementParser::parseHeader(Tok connective) {
   const ExprId condition = parseCompared(parseExpr());
+  const Token* const end = t_;
   finishHeader(connective);
+  holdSkipped(condition, end);
   return condition;
 }
 
@@ -41,7 +43,11 @@ void StatementParser::finishHeader(Tok connective) {
     panic_ = false;
     return;
   }
-  // If the keyword still follows, the tokens before it are wrong; otherwise it is missing here.
+  skipHeader(connective);
+}
+
+// If the keyword still follows, the tokens before it are wrong; otherwise it is missing here.
+void StatementParser::skipHeader(Tok connective) {
   const Token* t = t_;
   while (t->kind != connective && t->kind != Tok::Semicolon && !isEndWord(t->kind) && !isStatementWord(t->kind) &&
          !isAssign(t->kind) && t - t_ < 500)
@@ -53,7 +59,11 @@ void StatementParser::finishHeader(Tok connective) {
       fail(diag::MissingOperator, t_, {describe(t_)});
     else
       fail(diag::WrongKeyword, t_, {textOf(t_), spelling(connective)});
-    t_ = const_cast<Token*>(t) + 1;
+    {
+      const Skipping skipping(*this);
+      t_ = const_cast<Token*>(t);
+    }
+    advance();
     panic_ = false;
     return;
   }
@@ -63,6 +73,7 @@ void StatementParser::finishHeader(Tok connective) {
     else
       slip(diag::MissingToken, t_, {spelling(connective), describe(t_)});
   }
+  const Skipping skipping(*this);
   while (!atBlockEnd() && !at(Tok::Semicolon) && !atLineStart() && !isStatementWord(kind()) && !startsStatement(t_) &&
          !at(Tok::Else))
     advance();
@@ -75,6 +86,7 @@ bool StatementParser::enterBlock() {
   if (++stmt_depth_ <= kMaxStmtDepth) return true;
   tooDeep("statements", kMaxStmtDepth);
   uint32_t open = 0;
+  const Skipping skipping(*this);
   do {
     const Tok k = kind();
     if (beginsBlock(k)) ++open;
@@ -285,6 +297,7 @@ void StatementParser::parseRepeat() {
       if (!panic_ && !atLineStart() && !atBlockEnd())
         fail(at(Tok::RightParen) ? diag::StrayParen : diag::StrayToken, t_,
              {at(Tok::RightParen) ? std::string(")") : describe(t_)});
+      const Skipping skipping(*this);
       while (!at(Tok::EndRepeat) && !atBlockEnd() && !atLineStart()) advance();
     }
     panic_ = false;

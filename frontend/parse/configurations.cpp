@@ -7,6 +7,7 @@ namespace rung::text {
 
 // After an error: the rest of the line.
 void Parser::skipLine() {
+  const Skipping skipping(*this);
   while (!at(Tok::End) && !atLineStart() && !at(Tok::Semicolon)) advance();
 }
 

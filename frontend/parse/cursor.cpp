@@ -4,6 +4,8 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/recover.h"
+#include "frontend/source/scanner.h"
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/diagnostics.h"
 
 namespace rung::text {
@@ -25,6 +27,54 @@ void Cursor::read(uint32_t begin, uint32_t end, std::vector<Comment>* comments) 
   balanceBlocks(stream_, names_, sources_, file_, profile_.dialect, diagnostics_);
   tokens_ = std::move(stream_.tokens);
   t_ = tokens_.data();
+}
+
+// ---- what recovery skips
+
+void Cursor::noteSkipped(const Token* first) {
+  if (t_ <= first) return;
+  Range range{loc(first), endWithoutSemicolon(loc(first))};
+  if (!(range.begin < range.end)) return;
+  holdSkipped(range.begin);  // it is a part of this
+  if (!skipped_.empty() && range.begin <= skipped_.back().end) {
+    range.begin = skipped_.back().begin;
+    skipped_.pop_back();
+  }
+  skipped_.push_back(range);
+}
+
+// The end of the last token that was read, without the `;` that ends a statement or declaration.
+Loc Cursor::endWithoutSemicolon(Loc begin) const {
+  const Loc end = endOfPrevious();
+  if (!(begin < end)) return begin;
+  std::string_view text = source_.substr(begin.offset - base_, end.offset - begin.offset);
+  if (text.ends_with(';')) text.remove_suffix(1);
+  while (!text.empty() && isBlankCharacter(text.back())) text.remove_suffix(1);
+  return {begin.offset + static_cast<uint32_t>(text.size())};
+}
+
+void Cursor::holdSkipped(ExprId expr, const Token* first) {
+  if (skipped_.empty() || skipped_.back().begin != loc(first)) return;
+  const Loc end = skipped_.back().end;
+  std::vector<ExprId> path;  // to the last leaf
+  for (ExprId at = expr; at;) {
+    if (tree_.expr(at).in_parens != 0) return;  // it ends before them
+    path.push_back(at);
+    at = {};
+    forEachOperand(tree_, path.back(), [&](ExprId operand) { at = operand; });
+  }
+  const ExprHeader& error = tree_.expr(path.back());
+  if (error.kind != ExprKind::Error || (!error.end && error.loc != loc(first))) return;
+  for (const ExprId id : path) tree_.expr(id).end = end;
+  holdSkipped(loc(first));
+}
+
+void Cursor::holdSkipped(TypeExprId error, Loc begin) {
+  const Loc end = endWithoutSemicolon(begin);
+  if (!(begin < end)) return;
+  tree_.typeExpr(error).loc = begin;
+  tree_.typeExpr(error).end = end;
+  holdSkipped(begin);
 }
 
 // ---- tokens

@@ -27,6 +27,8 @@ class Cursor {
 
   // Lexes [begin, end) of the file and balances its blocks.
   void read(uint32_t begin, uint32_t end, std::vector<Comment>* comments = nullptr);
+  // What recovery skipped and no error node holds.
+  std::span<const Range> skipped() const { return skipped_; }
 
  protected:
   // ---- tokens
@@ -90,6 +92,32 @@ class Cursor {
   void skipStructOfC();
   void missingEnd(std::string_view end, const Token* open, std::string_view word);
 
+  // ---- what recovery skips
+  // Notes the tokens that are read while it lives.
+  class Skipping {
+   public:
+    explicit Skipping(Cursor& cursor) : cursor_(cursor), first_(cursor.t_) {}
+    ~Skipping() { cursor_.noteSkipped(first_); }
+    Skipping(const Skipping&) = delete;
+    Skipping& operator=(const Skipping&) = delete;
+
+   private:
+    Cursor& cursor_;
+    const Token* first_;
+  };
+  void skip() {
+    const Skipping skipping(*this);
+    advance();
+  }
+  // What was skipped from `begin` on is in an error node. Those are statements, …
+  void holdSkipped(Loc begin) {
+    while (!skipped_.empty() && skipped_.back().begin >= begin) skipped_.pop_back();
+  }
+  // … errors at the end of an expression, which recovery from `first` on follows, …
+  void holdSkipped(ExprId expr, const Token* first);
+  // … and types in place of what begins at `begin`.
+  void holdSkipped(TypeExprId error, Loc begin);
+
   // ---- nodes
   // The end of the last token that was read.
   Loc endOfPrevious() const {
@@ -148,12 +176,16 @@ class Cursor {
   const Token* last_error_ = nullptr;
 
  private:
+  void noteSkipped(const Token* first);
+  Loc endWithoutSemicolon(Loc begin) const;
   bool inBrackets(const Token* t, bool otherwise) const;
   const Token* lineOf(const Token* t) const;
   uint32_t columnOf(const Token* t) const;
   Report reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, bool& unfinished);
   uint32_t lengthOfRareName(const Token* t) const;  // one that recovery made, or a very long one
   Loc endOfRead() const;                            // where tokens that recovery inserted are in between
+
+  std::vector<Range> skipped_;
 };
 
 }  // namespace rung::text

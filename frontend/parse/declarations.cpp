@@ -58,7 +58,7 @@ void DeclarationParser::skipStray(bool fits_after, Diag diag) {
     last_error_ = t_;
   else
     slip(diag, t_, {describe(t_)});
-  advance();
+  skip();
 }
 
 bool DeclarationParser::beginsType(const Token* t) const {
@@ -152,6 +152,7 @@ DeclId DeclarationParser::parseSection() {
 void DeclarationParser::syncDeclaration(Tok end) {
   panic_ = false;
   if (atUnfinished()) return;
+  const Skipping skipping(*this);
   uint32_t structures = 0;  // their fields are not declarations of this list
   for (;; advance()) {
     if (at(Tok::Struct) || at(Tok::Union)) ++structures;

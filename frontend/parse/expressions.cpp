@@ -244,7 +244,7 @@ ExprId ExpressionParser::missingOperand() {
     last_error_ = t_;
     advance();
     panic_ = true;
-    return build_.error(start);
+    return ended(build_.error(start));
   }
   if (begins(t_) == Begins::Element) {  // the list goes on
     slip(diag::MissingValue, t_, {describe(t_)});

@@ -471,6 +471,7 @@ void IlParser::closeIlParen(Tok close) {
     else
       fail(diag::NotInArguments, t_, {describe(t_)});
   }
+  const Skipping skipping(*this);
   while (!atBlockEnd() && !at(Tok::RightParen) && !(atLineStart() && isInstruction(t_))) advance();
   if (at(Tok::RightParen)) advance();
   panic_ = false;

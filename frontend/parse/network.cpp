@@ -314,6 +314,7 @@ void NetworkParser::parseNetworks(PouDecl& d) {
     }
     if (!panic_) expect(Tok::Semicolon);
     if (panic_ && (!atUnfinished() || t_ == first)) {
+      const Skipping skipping(*this);
       while (!at(Tok::Semicolon) && !at(Tok::EndNetwork) && !at(Tok::End) && !endsPart(kind())) advance();
       accept(Tok::Semicolon);
     }

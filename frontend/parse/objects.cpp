@@ -101,6 +101,7 @@ Ident Parser::parsePropertyHeader(PropertyDecl& d) {
   }
   declares_ = false;
   if (panic_) {
+    const Skipping skipping(*this);
     while (!atLineStart() && !at(Tok::End)) advance();
     panic_ = false;
   }

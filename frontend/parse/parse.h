@@ -26,12 +26,6 @@ FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file
 Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                 Diagnostics& diagnostics);
 
-// Parse the sections, or the statements, that a scheduler wrote; `file` contains nothing else.
-Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                            Diagnostics& diagnostics);
-Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                              Diagnostics& diagnostics);
-
 // Parses `a := 1, b := [2, 3]` in [begin, end) of its file, the content of a {case …}.
 Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                  Diagnostics& diagnostics);

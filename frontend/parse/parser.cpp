@@ -37,16 +37,6 @@ Slice<FieldInit> Parser::parseLoneFieldInits() {
   return tree_.addList<FieldInit>(fields);
 }
 
-// {section}, and nothing after it
-Slice<DeclId> Parser::parseLoneSections() {
-  std::vector<DeclId> sections;
-  while (atSection()) sections.push_back(parseSection());
-  return tree_.addList<DeclId>(sections);
-}
-
-// statements
-Slice<StmtId> Parser::parseLoneStatements() { return parseStatements(0); }
-
 // file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL … | NAMESPACE … | USING …}
 void Parser::parseTopLevel(std::vector<DeclId>& out) {
   panic_ = false;
@@ -77,6 +67,7 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
 void Parser::parseStrayExternal() {
   slip(diag::ExternalOutside, t_);
   tree_.lost_names = true;
+  const Skipping skipping(*this);
   parseSection();
 }
 
@@ -98,6 +89,7 @@ void Parser::parseUnknownTopLevel() {
     slip(diag::NotAtFileLevel, t_, {describe(t_)});
   }
   tree_.lost_names = true;
+  const Skipping skipping(*this);
   advance();
   skipToTopLevel();
 }
@@ -112,6 +104,7 @@ bool Parser::enterDecl(Tok end) {
   tooDeep("declarations", kMaxDeclDepth);
   const Tok begin = kind();
   uint32_t open = 0;
+  const Skipping skipping(*this);
   do {
     if (at(begin)) ++open;
     if (at(end)) --open;
@@ -195,6 +188,7 @@ void Parser::parsePouName(PouDecl& d) {
     name = {names_.intern(textOf(t_)), here()};
     advance();
   } else if (!parseNewName(name)) {
+    const Skipping skipping(*this);
     while (!atLineStart() && !at(Tok::Colon) && !at(Tok::Semicolon)) advance();
     panic_ = false;
     tree_.lost_names = true;
@@ -209,7 +203,7 @@ void Parser::parsePouResult(PouDecl& d, Tok word) {
   if (word != Tok::Action && !atLineStart() && !at(Tok::Colon) && !isTypeWord(kind()) && peek() == Tok::Colon &&
       (t_[1].flags & kLineStart) == 0) {
     slip(diag::StrayToken, t_, {describe(t_)});
-    advance();
+    skip();
   }
   if (word == Tok::Action) {
     accept(Tok::Colon);
@@ -224,6 +218,7 @@ void Parser::parsePouResult(PouDecl& d, Tok word) {
     d.result = parseType();
   }
   if (panic_) {
+    const Skipping skipping(*this);
     while (!atLineStart() && !at(Tok::End) && !atSection() && !at(Tok::Semicolon)) advance();
     panic_ = false;
   }
@@ -232,7 +227,7 @@ void Parser::parsePouResult(PouDecl& d, Tok word) {
   if (!atLineStart() && !at(Tok::End) && (t_[1].flags & kLineStart) != 0 && !atBlockEnd() && !atSection() &&
       !atMember()) {
     slip(diag::StrayToken, t_, {describe(t_)});
-    advance();
+    skip();
   }
 }
 
@@ -258,6 +253,7 @@ void Parser::closePou(PouDecl& d, const Token* open, Tok word, Tok end) {
         slip(diag::AfterCppBody, t_, {describe(t_)});
       else
         slip(diag::StrayEnd, t_, {textOf(t_)});
+      const Skipping skipping(*this);
       advance();
       if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest does not belong to file level
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
@@ -354,7 +350,8 @@ FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file
   std::vector<Comment> kept;
   parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()), comments != nullptr ? &kept : nullptr);
   if (comments != nullptr) comments->add(kept);
-  const FileUnit unit{file, parser.parseDecls()};
+  FileUnit unit{file, parser.parseDecls()};
+  unit.skipped = tree.addList<Range>(parser.skipped());
   tree.files.push_back(unit);
   return unit;
 }
@@ -364,20 +361,6 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
   Parser parser(tree, names, sources, sources.fileOf(begin), dialect, diagnostics);
   parser.readBetween(begin, end);
   return parser.parseDecls();
-}
-
-Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                            Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.readAll();
-  return parser.parseLoneSections();
-}
-
-Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
-                              Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.readAll();
-  return parser.parseLoneStatements();
 }
 
 Slice<FieldInit> parseFieldInits(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,

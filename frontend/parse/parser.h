@@ -17,8 +17,6 @@ class Parser final : public ChartParser {
   Slice<DeclId> parseDecls();
   ExprId parseLoneExpression();
   Slice<FieldInit> parseLoneFieldInits();
-  Slice<DeclId> parseLoneSections();
-  Slice<StmtId> parseLoneStatements();
 
  private:
   // ---- files and POUs

@@ -105,6 +105,7 @@ void ChartParser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector
       break;
     } else {
       slip(diag::SfcNotInChart, t_, {describe(t_)});
+      const Skipping skipping(*this);
       do advance();
       while (!atSfc() && !atMember() && !atBlockEnd() && !atMacroEnd());
     }
@@ -131,6 +132,7 @@ void ChartParser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector
 void ChartParser::syncChart(Tok end) {
   const Token* open = t_;
   panic_ = false;
+  const Skipping skipping(*this);
   while (!at(end) && !atSfc() && !atMacroEnd() && !(atMember() && t_ != open) && !at(Tok::EndStep) &&
          !at(Tok::EndTransition) && !at(Tok::End) && kind() != pou_end_)
     advance();
@@ -356,6 +358,7 @@ void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members)
     accept(Tok::Semicolon);  // a condition of a drawing may end with its own
     if (!t.from.empty()) return;
     const StmtId id = build_.assign(AssignOp::Assign, target(), t.condition.value, t.condition.begin);
+    tree_.stmt(id).end = t.condition.end;
     d.body = tree_.addList<StmtId>({&id, 1});
     d.body_kind = BodyKind::St;
     d.body_begin = t.condition.begin;

@@ -61,6 +61,7 @@ bool StatementParser::atAccessor() const {
 
 // After one error for a body in two languages: the rest of it.
 void StatementParser::skipBody() {
+  const Skipping skipping(*this);
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
 }
 
@@ -88,10 +89,17 @@ Slice<StmtId> StatementParser::parseStatements(uint8_t stops) {
     const Token* before = t_;
     const size_t pushed = stmts_.size();
     parseStatement();
-    for (size_t k = pushed; k < stmts_.size(); ++k) tree_.stmt(stmts_[k]).end = endOfPrevious();
-    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0) advance();  // guarantees progress
+    for (size_t k = pushed; k < stmts_.size(); ++k) endOne(stmts_[k]);
+    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0) skip();  // guarantees progress
   }
   return listFrom(stmts_, first);
+}
+
+// A statement ends with the last token that was read.
+void StatementParser::endOne(StmtId id) {
+  StmtHeader& h = tree_.stmt(id);
+  h.end = endOfPrevious();
+  if (h.kind == StmtKind::Error) holdSkipped(h.loc);
 }
 
 bool StatementParser::atListEnd(uint8_t stops) {
@@ -119,6 +127,7 @@ void StatementParser::parseStatement() {
   if (atSection()) {
     if (!declared_in_body_) slip(diag::DeclarationInBody, t_);
     declared_in_body_ = true;
+    const Skipping skipping(*this);
     parseSection();
     return;
   }
@@ -186,6 +195,7 @@ void StatementParser::parseStray(Loc start) {
   } else if (at(Tok::Else) || at(Tok::Elsif) || at(Tok::Until) || at(Tok::Then) || at(Tok::Do) || at(Tok::Of)) {
     const Tok word = kind();
     slip(diag::StrayEnd, t_, {textOf(t_)});
+    const Skipping skipping(*this);
     advance();
     // A lone ELSIF keeps its branch; its condition is parsed and dropped.
     if (word == Tok::Elsif) parseHeader(Tok::Then);
@@ -481,10 +491,10 @@ void StatementParser::endStatement() {
     panic_ = false;
     return;
   }
-  if (panic_) return syncStatement();
+  if (panic_) return skipStatement();
   if (at(Tok::RightParen) || at(Tok::RightBracket)) {
     fail(diag::StrayParen, t_, {textOf(t_)});
-    advance();
+    skip();
     if (accept(Tok::Semicolon)) {
       panic_ = false;
       return;
@@ -503,9 +513,20 @@ void StatementParser::endStatement() {
   syncStatement();
 }
 
+// After an error in the statement that was made last.
+void StatementParser::skipStatement() {
+  const Token* first = t_;
+  syncStatement();
+  if (stmts_.empty() || tree_.loc(stmts_.back()) < loc(statement_start_)) return;
+  const StmtId last = stmts_.back();
+  if (tree_.kind(last) == StmtKind::Assign) holdSkipped(tree_.as<AssignStmt>(last).value, first);
+  if (tree_.kind(last) == StmtKind::Call) holdSkipped(tree_.as<CallStmt>(last).call, first);
+}
+
 void StatementParser::syncStatement() {
   panic_ = false;
   if (atUnfinished()) return;
+  const Skipping skipping(*this);
   // A list without its `(`, perhaps over several lines: up to its `;`.
   if (at(Tok::Comma)) {
     const Token* t = t_;

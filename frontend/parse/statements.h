@@ -23,6 +23,8 @@ class StatementParser : public DeclarationParser {
   bool startsStatement(const Token* t) const override;
   void endStatement();
   void syncStatement();
+  void skipStatement();
+  void endOne(StmtId id);
 
   // ---- where a body ends
   bool atBlockEnd();
@@ -70,6 +72,7 @@ class StatementParser : public DeclarationParser {
   void parseCaseLabels(std::vector<ExprId>& out);
   ExprId parseHeader(Tok connective);
   void finishHeader(Tok connective);
+  void skipHeader(Tok connective);
   bool enterBlock();
   void closeBlock(const Token* open, Tok end);
   template <class Stmt>

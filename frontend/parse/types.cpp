@@ -48,6 +48,7 @@ void DeclarationParser::parseTypes(std::vector<DeclId>& out) {
 void Cursor::skipStructOfC() {
   slip(diag::StructForm, t_, {textOf(t_ + 1)});
   tree_.lost_names = true;
+  const Skipping skipping(*this);
   while (!at(Tok::End) && !at(Tok::EndStruct) && !at(Tok::EndType)) advance();
   accept(Tok::EndStruct);
   accept(Tok::Semicolon);
@@ -83,9 +84,11 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
   if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, diag::StrayToken);
   if (!panic_) expect(Tok::Colon);
   in_variable_ = false;
+  const Loc type_begin = here();
   if (!panic_) d.type = parseType();
   if (panic_ || !d.type || lost_) tree_.lost_names = true;
-  if (!d.type) d.type = build_.errorType(d.h.loc);
+  const bool no_type = !d.type;
+  if (no_type) d.type = build_.errorType(d.h.loc);
   const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
   if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
   if (!panic_) {
@@ -103,6 +106,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
     tree_.lost_names = true;  // another declaration may have been skipped
     syncDeclaration(Tok::EndType);
   }
+  if (no_type) holdSkipped(d.type, type_begin);
   return finish(d);
 }
 

@@ -19,7 +19,7 @@ void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<Decl
     skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), diag::NotADeclaration);
     const DeclId var = parseVar(section);
     if (var) out.push_back(var);
-    if (t_ == before) advance();
+    if (t_ == before) skip();
   }
   declares_ = outer;
 }
@@ -37,10 +37,13 @@ DeclId DeclarationParser::parseVar(SectionKind section) {
   lost_ = lost_ || panic_;
   if (idents_.size() > first) d.h.loc = idents_[first].loc;
   d.names = listFrom(idents_, first);
+  const Loc type_begin = here();
   if (!panic_) parseVarType(d, section);
-  if (!d.type) d.type = build_.errorType(d.h.loc);
+  const bool no_type = !d.type;
+  if (no_type) d.type = build_.errorType(d.h.loc);
   if (!panic_) parseVarInit(d);
   endVar(d);
+  if (no_type) holdSkipped(d.type, type_begin);
   return finish(d);
 }
 

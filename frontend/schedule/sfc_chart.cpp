@@ -39,13 +39,6 @@ const char* keywordOf(SfcQualifier q) {
   }
   return "";
 }
-std::string literalOf(uint64_t word) {
-  static const char* const kHex = "0123456789ABCDEF";
-  std::string digits;
-  do digits.insert(digits.begin(), kHex[word & 15]);
-  while ((word >>= 4) != 0);
-  return "LWORD#16#" + digits;
-}
 
 // In the order of the alphabet; `by_name`: the key of each action, with its new number.
 static void sortByName(const Names& names, std::vector<Ident>& actions,
@@ -113,15 +106,17 @@ void Chart::nameControls() {
   }
 }
 
-std::string Chart::initialSteps() const {
-  std::string list;
-  for (uint32_t first = 0; first < steps_.size(); first += kWord) {
-    uint64_t word = 0;
-    for (uint32_t i = first; i < steps_.size() && i < first + kWord; ++i)
-      if (steps_[i].initial) word |= uint64_t{1} << (i % kWord);
-    list += (list.empty() ? "" : ", ") + literalOf(word);
-  }
-  return list;
+uint64_t Chart::initialSteps(uint32_t word) const {
+  uint64_t bits = 0;
+  for (uint32_t i = word * kWord; i < steps_.size() && i < (word + 1) * kWord; ++i)
+    if (steps_[i].initial) bits |= bitOf(i);
+  return bits;
+}
+
+std::string_view Chart::sourceOf(Range range) const {
+  const FileId file = charts_.sources.fileOf(range.begin);
+  const uint32_t base = charts_.sources.begin(file).offset;
+  return charts_.sources.sourceText(file).substr(range.begin.offset - base, range.end.offset - range.begin.offset);
 }
 
 const char* keywordOf(SfcFlag flag) {

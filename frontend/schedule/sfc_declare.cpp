@@ -2,66 +2,137 @@
 // The variables of a chart; see sfc_schedule.h. Those of a chart in an action are VAR_INST, so that it keeps its state.
 // Flags from other declarations are not known yet: the variables they need are declared where their name occurs
 // anywhere in the project.
+#include "frontend/schedule/sfc_builder.h"
 #include "frontend/schedule/sfc_chart.h"
 #include "frontend/syntax/sfc.h"
 
 namespace rung::text {
 namespace {
 
-void writeSections(const Chart& chart, Writer& out) {
-  const auto set = [&](const char* name, size_t count, std::string_view initial) {
-    const uint32_t words = chart.words(count);
-    if (words <= 1)
-      out.line(1, name, " : LWORD", initial.empty() ? "" : " := ", initial, ";");
-    else
-      out.line(1, name, " : ARRAY[0..", std::to_string(words - 1), "] OF LWORD", initial.empty() ? "" : " := [",
-               initial, initial.empty() ? ";" : "];");
-  };
-  out.line(0, chart.context_.around.empty() ? "VAR" : "VAR_INST");
-  for (uint32_t i = 0; i < chart.steps_.size(); ++i) {
-    const SfcStep& step = chart.steps_[i];
-    out.at(step.name.loc);
-    out.line(1, step.name, " : SFCStepType;");
+class SfcDeclarer {
+ public:
+  explicit SfcDeclarer(const Chart& chart)
+      : chart_(chart),
+        tree_(chart.charts_.tree),
+        names_(chart.charts_.names),
+        make_(tree_, names_),
+        loc_(chart.pou_.body_begin) {}
+
+  Slice<DeclId> run();
+
+ private:
+  bool occurs(const char* flag) const { return static_cast<bool>(names_.find(flag)); }
+  void declareSteps();
+  void declareConditions();
+  void declareSets();
+  void declareTemporaries();
+  void declareSet(const char* name, size_t members, bool starts = false);
+  // name, name : type := init;
+  void declare(std::span<const Ident> names, TypeExprId type, ExprId init);
+  void declare(const Ident& name, const char* type, ExprId init = {}) { declare({&name, 1}, named(type), init); }
+  void declare(const char* name, const char* type, ExprId init = {}) { declare(here(name), type, init); }
+  void declarePair(const char* first, const char* second, const char* type) {
+    const Ident names[] = {here(first), here(second)};
+    declare(names, named(type), {});
   }
-  for (uint32_t i = 0; i < chart.actions_.size(); ++i) {
-    out.at(chart.actions_[i].loc);
-    out.line(1, chart.controlOf(i), " : SFCActionControl",
-             chart.context_.final_scan ? ";" : " := (final_scan := FALSE);");
+  Ident here(std::string_view name) { return {names_.intern(name), loc_}; }
+  TypeExprId named(const char* type);
+  DeclId section(SectionKind kind);
+
+  const Chart& chart_;
+  Tree& tree_;
+  Names& names_;
+  SfcBuilder make_;
+  TreeBuilder build_{tree_};
+  Loc loc_;
+  std::vector<DeclId> vars_;  // of the current section
+};
+
+TypeExprId SfcDeclarer::named(const char* type) {
+  const Ident name = here(type);
+  return build_.namedType({&name, 1}, loc_);
+}
+
+void SfcDeclarer::declare(std::span<const Ident> names, TypeExprId type, ExprId init) {
+  vars_.push_back(build_.variable(names, type, init));
+}
+
+DeclId SfcDeclarer::section(SectionKind kind) {
+  const DeclId made = build_.section(kind, vars_, chart_.pou_.body_begin, kOfChart);
+  vars_.clear();
+  return made;
+}
+
+// A set of steps or actions; it `starts` with the initial steps.
+void SfcDeclarer::declareSet(const char* name, size_t members, bool starts) {
+  const uint32_t words = chart_.words(members);
+  if (words <= 1) return declare(name, "LWORD", starts ? make_.bits(chart_.initialSteps(0)) : ExprId{});
+  std::vector<ExprId> initial;
+  for (uint32_t i = 0; starts && i < words; ++i) initial.push_back(make_.bits(chart_.initialSteps(i)));
+  const ArrayBound bound{make_.number(0), make_.number(words - 1)};
+  const Ident set = here(name);
+  declare({&set, 1}, build_.arrayType({&bound, 1}, named("LWORD"), loc_),
+          starts ? build_.arrayInit(tree_.addList<ExprId>(initial), loc_) : ExprId{});
+}
+
+void SfcDeclarer::declareSteps() {
+  for (const SfcStep& step : chart_.steps_) {
+    loc_ = step.name.loc;
+    declare(step.name, "SFCStepType");
   }
-  for (size_t i = 0; i < chart.transitions_.size(); ++i) {
-    const SfcTransition& t = chart.transitions_[i];
-    if (!chart.keepsCondition(t)) continue;
-    out.at(t.target.loc);
-    out.line(1, t.target, " : BOOL;");
+  for (uint32_t i = 0; i < chart_.actions_.size(); ++i) {
+    loc_ = chart_.actions_[i].loc;
+    make_.at(loc_);
+    const FieldInit no_final_scan{here("final_scan"), make_.boolean(false)};
+    declare(here(chart_.controlOf(i)), "SFCActionControl",
+            chart_.context_.final_scan ? ExprId{} : build_.structInit({&no_final_scan, 1}, loc_));
   }
-  if (chart.pou_.body_kind != BodyKind::Sfc) return out.line(0, "END_VAR");
-  out.at(chart.pou_.body_begin);
-  set("sfc_steps", chart.steps_.size(), "");
-  set("sfc_left", chart.steps_.size(), "");
-  set("sfc_entered", chart.steps_.size(), chart.initialSteps());
-  if (!chart.actions_.empty()) set("sfc_actions", chart.actions_.size(), "");
-  out.line(1, "sfc_fired : BOOL := TRUE;");
-  if (chart.charts_.names.find("SFCTipMode")) out.line(1, "sfc_tip, sfc_tip_before : BOOL;");
-  if (chart.charts_.names.find("SFCPause") || chart.charts_.names.find("SFCQuitError"))
-    out.line(1, "sfc_paused, sfc_last : TIME;");
-  out.line(0, "END_VAR");
-  out.line(0, "VAR_TEMP");
-  out.line(1, "sfc_now : TIME;");
-  out.line(1, "sfc_set : LWORD;");
-  if (chart.charts_.names.find("SFCErrorAnalyzationTable")) out.line(1, "sfc_row : DINT;");
-  if (chart.words(chart.steps_.size()) > 1 || chart.words(chart.actions_.size()) > 1) out.line(1, "sfc_word : INT;");
-  out.line(0, "END_VAR");
+}
+
+void SfcDeclarer::declareConditions() {
+  for (const SfcTransition& t : chart_.transitions_) {
+    if (!chart_.keepsCondition(t)) continue;
+    loc_ = t.target.loc;
+    declare(t.target, "BOOL");
+  }
+}
+
+void SfcDeclarer::declareSets() {
+  loc_ = chart_.pou_.body_begin;
+  make_.at(loc_);
+  declareSet("sfc_steps", chart_.steps_.size());
+  declareSet("sfc_left", chart_.steps_.size());
+  declareSet("sfc_entered", chart_.steps_.size(), true);
+  if (!chart_.actions_.empty()) declareSet("sfc_actions", chart_.actions_.size());
+  declare("sfc_fired", "BOOL", make_.boolean(true));
+  if (occurs("SFCTipMode")) declarePair("sfc_tip", "sfc_tip_before", "BOOL");
+  if (occurs("SFCPause") || occurs("SFCQuitError")) declarePair("sfc_paused", "sfc_last", "TIME");
+}
+
+void SfcDeclarer::declareTemporaries() {
+  declare("sfc_now", "TIME");
+  declare("sfc_set", "LWORD");
+  if (occurs("SFCErrorAnalyzationTable")) declare("sfc_row", "DINT");
+  if (chart_.words(chart_.steps_.size()) > 1 || chart_.words(chart_.actions_.size()) > 1) declare("sfc_word", "INT");
+}
+
+Slice<DeclId> SfcDeclarer::run() {
+  const bool is_chart = chart_.pou_.body_kind == BodyKind::Sfc;
+  declareSteps();
+  declareConditions();
+  if (is_chart) declareSets();
+  std::vector<DeclId> sections = {section(chart_.context_.around.empty() ? SectionKind::Local : SectionKind::Inst)};
+  if (is_chart) {
+    declareTemporaries();
+    sections.push_back(section(SectionKind::Temp));
+  }
+  return tree_.addList<DeclId>(sections);
 }
 
 }  // namespace
 
-ChartSections declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context) {
-  const Chart chart(charts, pou, context);
-  Writer out(charts, pou.body_begin);
-  writeSections(chart, out);
-  const FileId text = out.finish();
-  return {parseSections(charts.tree, charts.names, charts.sources, text, charts.profile.dialect, charts.diagnostics),
-          text};
+Slice<DeclId> declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context) {
+  return SfcDeclarer(Chart(charts, pou, context)).run();
 }
 
 }  // namespace rung::text

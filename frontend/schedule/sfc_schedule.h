@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scheduler of Sequential Function Charts: a chart becomes declarations and statements, written as source-mapped
-// ST, so that conditions and times are quoted with their locations in the chart and `rung convert` prints exactly the
-// ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements, and the ST of
-// both. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is about to check the
-// body and knows which actions are variables. The behaviour of qualifiers is in the library (stdlib/iecsfc/sfc.st), not
-// here.
+// The scheduler of Sequential Function Charts: a chart becomes declarations and statements with locations in the chart.
+// Conditions and times are copied, so that what was written stays as it is. In: steps, transitions and associations of
+// a POU. Out: sections and statements. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is
+// about to check the body and knows which actions are variables. The behaviour of qualifiers is in the library
+// (stdlib/iecsfc/sfc.st), not here.
 //
 // The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name with the prefix `_`,
 // each named condition a BOOL. Sets of 64 steps per LWORD hold the active steps (sfc_steps), those left and those
@@ -12,10 +11,10 @@
 // hold the control blocks with work to do (sfc_actions).
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "frontend/parse/parse.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/signatures.h"
@@ -26,7 +25,7 @@ namespace rung::text {
 struct Charts {
   Tree& tree;
   Names& names;
-  Sources& sources;
+  const Sources& sources;
   Diagnostics& diagnostics;
   const LanguageProfile& profile;
 };
@@ -38,23 +37,14 @@ struct ChartContext {
   std::vector<const PouDecl*> around;
 };
 
-// The sections of the chart's variables; of a POU without a chart those of its conditions, which charts of its actions
-// use. `text`: the ST made of them.
-struct ChartSections {
-  Slice<DeclId> sections;
-  FileId text;
-};
-ChartSections declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context);
+// The sections of the chart's variables (kOfChart); of a POU without a chart those of its conditions, which charts of
+// its actions use.
+Slice<DeclId> declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context);
 // The name of a variable with which a chart is controlled, such as SFCInit.
 bool isSfcFlag(std::string_view name);
-// The statements of the chart, and the ST made of it; none: the chart has errors, which were reported. `made`: its
-// sections.
-struct ScheduledChart {
-  Slice<StmtId> body;
-  FileId text;
-};
-std::optional<ScheduledChart> scheduleSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou,
-                                          std::span<const DeclId> made, const ChartContext& context);
+// The statements of a cycle. None: the chart has errors, which were reported.
+std::optional<Slice<StmtId>> scheduleSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou,
+                                         const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).
 struct ChartCheck {
   bool ok;       // false: errors were reported

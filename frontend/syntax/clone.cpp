@@ -37,6 +37,10 @@ struct CopyLists {
 ExprId clone(Tree& tree, ExprId expr) {
   RUNG_INVARIANT(shape(tree.kind(expr)) != ExprShape::Inserted, "only what a parser made is copied");
   const ExprId copy = copyNode(tree, expr);
+  if (tree.expr(expr).in_parens != 0) {
+    const Range range = tree.range(expr);
+    tree.parenthesize(copy, range.begin, range.end);
+  }
   forEachField(tree, copy, CopyLists{tree});
   forEachOperand(tree, copy, [&](ExprId& operand) { operand = clone(tree, operand); });
   return copy;

@@ -506,8 +506,17 @@ struct UsingDecl {
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
 // kHidden: of variables that a scheduler needs and the source does not declare.
-// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives.
-enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16, kGeneric = 32 };
+// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives. kOfChart: the state of a chart, likewise made by
+// its scheduler.
+enum SectionBits : uint8_t {
+  kConstant = 1,
+  kRetain = 2,
+  kPersistent = 4,
+  kNonRetain = 8,
+  kHidden = 16,
+  kGeneric = 32,
+  kOfChart = 64
+};
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
   SectionKind section;

@@ -39,17 +39,42 @@ int precedenceOf(BinaryOp op) {
   return 0;
 }
 
+// Where a chart comes from.
+struct ChartSource {
+  const Sources& sources;
+  std::vector<Ident> members;  // sorted by location
+
+  std::string_view textOf(Range range) const {
+    const FileId file = sources.fileOf(range.begin);
+    return sources.sourceText(file).substr(range.begin.offset - sources.begin(file).offset,
+                                           range.end.offset - range.begin.offset);
+  }
+  NameId memberAt(Loc loc) const {
+    const auto found = std::lower_bound(members.begin(), members.end(), loc,
+                                        [](const Ident& member, Loc wanted) { return member.loc < wanted; });
+    return found != members.end() && found->loc == loc ? found->name : NameId{};
+  }
+};
+
 class StPrinter {
  public:
-  StPrinter(const Tree& tree, const Names& names, std::span<const StComment> comments)
-      : tree_(tree), names_(names), comments_(comments) {}
+  StPrinter(const Tree& tree, const Names& names, std::span<const StComment> comments,
+            const ChartSource* chart = nullptr)
+      : tree_(tree), names_(names), comments_(comments), chart_(chart) {}
   std::string out;
+  std::vector<ChartText::Line> lines;  // of a chart
 
   void stmts(Slice<StmtId> list, uint32_t indent) {
     for (const StmtId id : tree_.list(list)) stmt(id, indent);
   }
   void rest(uint32_t indent) { comments({~0u}, indent); }
-  void expr(ExprId id, int least);
+  void expr(ExprId id, int least) {
+    if (chart_ != nullptr)
+      chartExpr(id, least);
+    else
+      node(id, least);
+  }
+  void variable(const VarDecl& d);
 
  private:
   void line(uint32_t indent) { out.append(indent, ' '); }
@@ -78,6 +103,9 @@ class StPrinter {
   void ifStmt(const IfStmt& s, uint32_t indent);
   void caseStmt(const CaseStmt& s, uint32_t indent);
   void loops(StmtId id, uint32_t indent);
+  void node(ExprId id, int least);
+  void chartExpr(ExprId id, int least);
+  void quote(Range range);
   void operand(ExprId id, int least, bool always);
   void list(const char* before, Slice<ExprId> ids, const char* after);
   void arguments(Slice<Argument> arguments);
@@ -98,6 +126,7 @@ class StPrinter {
   const Tree& tree_;
   const Names& names_;
   std::span<const StComment> comments_;
+  const ChartSource* chart_;
 };
 
 // ---- literals
@@ -329,7 +358,8 @@ void StPrinter::unary(ExprId id, int least) {
   out += spelling(e.op());
   if (e.op() == UnaryOp::Not) out += ' ';
   const ExprKind inner = tree_.kind(e.operand);
-  return operand(e.operand, kPrimary, inner == ExprKind::Binary || inner == ExprKind::Unary);
+  const bool apart = chart_ == nullptr && (inner == ExprKind::Binary || inner == ExprKind::Unary);
+  return operand(e.operand, kPrimary, apart);
 }
 
 void StPrinter::binary(ExprId id, int least) {
@@ -339,7 +369,7 @@ void StPrinter::binary(ExprId id, int least) {
   // Mixed comparisons, logic and powers are easier to read with parentheses.
   const auto apart = [&](ExprId side, bool right) {
     if (tree_.kind(side) == ExprKind::Unary) return e.op() == BinaryOp::Power || (right && own > 3);
-    if (tree_.kind(side) != ExprKind::Binary) return false;
+    if (tree_.kind(side) != ExprKind::Binary || chart_ != nullptr) return false;
     const BinaryOp op = tree_.as<BinaryExpr>(side).op();
     return own <= 5 && op != e.op() && precedenceOf(op) <= 5;
   };
@@ -360,7 +390,31 @@ void StPrinter::structInit(const StructInitExpr& e) {
   out += ')';
 }
 
-void StPrinter::expr(ExprId id, int least) {
+// The source as it is, over several lines if need be.
+void StPrinter::quote(Range range) {
+  for (uint32_t at = range.begin.offset; const char c : chart_->textOf(range)) {
+    out += c;
+    ++at;
+    if (c == '\n') lines.push_back({{at}, out.size()});
+  }
+}
+
+// An expression of a chart: quoted if it is written there.
+void StPrinter::chartExpr(ExprId id, int least) {
+  const Range range = tree_.range(id), bare = tree_.bareRange(id);
+  const bool is_quoted = bare.begin != bare.end;
+  const bool binds_less =
+      is_quoted && tree_.kind(id) == ExprKind::Binary && precedenceOf(tree_.as<BinaryExpr>(id).op()) < least;
+  const bool parens = range == bare && (binds_less || tree_.expr(id).in_parens != 0);
+  if (parens) out += '(';
+  if (is_quoted)
+    quote(range);
+  else
+    node(id, parens ? 0 : least);
+  if (parens) out += ')';
+}
+
+void StPrinter::node(ExprId id, int least) {
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
     case ExprKind::Name:
@@ -431,6 +485,18 @@ void StPrinter::expr(ExprId id, int least) {
   RUNG_INVARIANT(false, "statements are printed where they have no errors");
 }
 
+void StPrinter::variable(const VarDecl& d) {
+  bool first = true;
+  for (const Ident& ident : tree_.list(d.names)) {
+    comma(first);
+    name(ident.name);
+  }
+  out += " : ";
+  type(d.type);
+  if (d.init) between(" := ", d.init, "");
+  out += ';';
+}
+
 // ---- statements
 
 void StPrinter::comments(Loc before, uint32_t indent) {
@@ -469,7 +535,10 @@ void StPrinter::caseStmt(const CaseStmt& s, uint32_t indent) {
   between("CASE ", s.selector, " OF\n");
   for (const CaseBranch& branch : tree_.list(s.branches)) {
     line(indent + 2);
-    list("", branch.labels, ":\n");
+    list("", branch.labels, ":");
+    if (const NameId member = chart_ != nullptr ? chart_->memberAt(tree_.loc(tree_.list(branch.labels)[0])) : NameId{})
+      out.append("  // ").append(names_.string(member));
+    out += '\n';
     stmts(branch.body, indent + 4);
   }
   if (s.has_else) section(indent + 2, "ELSE\n", s.otherwise);
@@ -522,6 +591,7 @@ void StPrinter::loops(StmtId id, uint32_t indent) {
 
 void StPrinter::stmt(StmtId id, uint32_t indent) {
   comments(tree_.loc(id), indent);
+  if (chart_ != nullptr) lines.push_back({tree_.loc(id), out.size()});
   line(indent);
   switch (tree_.kind(id)) {
     case StmtKind::Error:
@@ -573,6 +643,21 @@ std::string printSt(const Tree& tree, const Names& names, ExprId expr) {
   StPrinter printer(tree, names, {});
   printer.expr(expr, 0);
   return std::move(printer.out);
+}
+
+std::string printSt(const Tree& tree, const Names& names, const VarDecl& variable) {
+  StPrinter printer(tree, names, {});
+  printer.variable(variable);
+  return std::move(printer.out);
+}
+
+ChartText printChart(const Tree& tree, const Names& names, const Sources& sources, Slice<StmtId> statements,
+                     std::span<const Ident> members) {
+  ChartSource source{sources, {members.begin(), members.end()}};
+  std::sort(source.members.begin(), source.members.end(), [](const Ident& a, const Ident& b) { return a.loc < b.loc; });
+  StPrinter printer(tree, names, {}, &source);
+  printer.stmts(statements, 0);
+  return {std::move(printer.out), std::move(printer.lines)};
 }
 
 }  // namespace rung

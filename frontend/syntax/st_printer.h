@@ -5,7 +5,10 @@
 
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "frontend/source/files.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung {
@@ -22,5 +25,21 @@ std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statemen
                     std::span<const StComment> comments);
 // One expression or initial value.
 std::string printSt(const Tree& tree, const Names& names, ExprId expr);
+// `name : type := value;` of a variable that a scheduler declares.
+std::string printSt(const Tree& tree, const Names& names, const VarDecl& variable);
+
+// The statements of a chart. What the chart quotes is printed as it is in the source, and in parentheses where the
+// scheduler says so.
+struct ChartText {
+  struct Line {  // a line that begins with a statement or continues what is quoted
+    Loc origin;
+    size_t begin;
+  };
+  std::string text;
+  std::vector<Line> lines;
+};
+// `members`: the steps and actions, by whose locations the labels of the scheduler's CASE statements get their names.
+ChartText printChart(const Tree& tree, const Names& names, const Sources& sources, Slice<StmtId> statements,
+                     std::span<const Ident> members);
 
 }  // namespace rung

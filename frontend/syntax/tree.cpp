@@ -152,33 +152,35 @@ ExprId Tree::base(ExprId step) const {
   return firstOperand(*this, step);
 }
 
-Range Tree::range(ExprId id) const {
-  Range range{{}, expr(id).end};
-  for (ExprId at = id; !range.begin;) {
-    if (expr(at).in_parens != 0) {
-      const auto found = std::lower_bound(parens_.begin(), parens_.end(), at.word,
-                                          [](const Parens& p, uint32_t word) { return p.of.word < word; });
-      if (found != parens_.end() && found->of == at) {
-        range.begin = found->open;
-        if (at == id) range.end = found->end;
-        break;
-      }
-    }
-    const ExprId first = firstOperand(*this, at);
-    if (!first) range.begin = beginOfLeaf(*this, at);
-    at = first;
-  }
-  if (range.end < range.begin) range.end = range.begin;
-  return range;
-}
-
 // A node without an end is not written: it has a location, and an empty range there.
 static Range rangeFrom(Loc begin, Loc end) { return {begin, end < begin ? begin : end}; }
+
+const Tree::Parens* Tree::parensOf(ExprId id) const {
+  if (expr(id).in_parens == 0) return nullptr;
+  const auto found = std::lower_bound(parens_.begin(), parens_.end(), id.word,
+                                      [](const Parens& p, uint32_t word) { return p.of.word < word; });
+  return found != parens_.end() && found->of == id ? &*found : nullptr;
+}
+
+Range Tree::range(ExprId id) const {
+  if (const Parens* parens = parensOf(id)) return {parens->open, parens->end};
+  return bareRange(id);
+}
+
+Range Tree::bareRange(ExprId id) const {
+  ExprId at = id;
+  while (const ExprId first = firstOperand(*this, at)) {
+    if (const Parens* parens = parensOf(first)) return rangeFrom(parens->open, expr(id).end);
+    at = first;
+  }
+  return rangeFrom(beginOfLeaf(*this, at), expr(id).end);
+}
 
 Range Tree::range(StmtId id) const {
   const StmtHeader& h = stmt(id);
   Loc begin = h.loc;
-  if (h.kind == StmtKind::Assign) begin = range(as<AssignStmt>(id).target).begin;
+  if (h.kind == StmtKind::Assign)
+    if (const Range target = range(as<AssignStmt>(id).target); target.begin < target.end) begin = target.begin;
   if (h.kind == StmtKind::Call) begin = range(as<CallStmt>(id).call).begin;
   return rangeFrom(begin, h.end);
 }
@@ -188,6 +190,8 @@ Range Tree::range(TypeExprId id) const {
   Loc begin = h.loc;
   if (h.kind == TypeExprKind::Enum)  // INT (a, b), but not (a, b) INT
     if (const TypeExprId base = as<EnumTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
+  if (h.kind == TypeExprKind::Struct)  // a EXTENDS b : STRUCT
+    if (const TypeExprId base = as<StructTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
   return rangeFrom(begin, h.end);
 }
 

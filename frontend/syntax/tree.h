@@ -24,6 +24,7 @@ namespace rung {
 struct FileUnit {
   FileId file;
   Slice<DeclId> decls;
+  Slice<Range> skipped = {};  // what recovery from syntax errors skipped and no error node holds, in source order
 };
 
 // The kind of a node struct, which Tree::as() checks in debug builds.
@@ -73,6 +74,7 @@ class Tree {
   ExprId base(ExprId step) const;
   // The source range of a node as written, with parentheses around it. Empty: nothing was written here.
   Range range(ExprId id) const;
+  Range bareRange(ExprId id) const;  // … without parentheses around it
   Range range(StmtId id) const;
   Range range(TypeExprId id) const;
   Range range(DeclId id) const;
@@ -171,6 +173,8 @@ class Tree {
     ExprId of;
     Loc open, end;
   };
+  const Parens* parensOf(ExprId id) const;
+
   std::vector<uint32_t*> chunks_;  // some point into a larger block
   std::vector<uint32_t*> blocks_;  // owned
   uint32_t next_word_ = 0;
@@ -178,7 +182,8 @@ class Tree {
 };
 
 // The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
-std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
+// As written, with the source of what could not be parsed.
+std::string printTree(const Tree& tree, const Names& names, const Sources& sources, const FileUnit& unit);
 std::string printExpression(const Tree& tree, const Names& names, ExprId expr);
 
 }  // namespace rung

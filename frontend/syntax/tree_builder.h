@@ -109,6 +109,16 @@ class TreeBuilder {
     const IfBranch branch{condition, tree_.addList<StmtId>(body)};
     return ifStatement(tree_.addList<IfBranch>({&branch, 1}), {}, loc, op);
   }
+  StmtId caseStatement(ExprId selector, Slice<CaseBranch> branches, Loc loc) {
+    return tree_.add<StmtId>(CaseStmt{header(StmtKind::Case, loc), selector, branches, {}, false});
+  }
+  // FOR control := from TO to DO body
+  StmtId forStatement(ExprId control, ExprId from, ExprId to, Slice<StmtId> body, Loc loc) {
+    return tree_.add<StmtId>(ForStmt{header(StmtKind::For, loc), control, from, to, {}, body});
+  }
+  StmtId whileStatement(ExprId condition, Slice<StmtId> body, Loc loc) {
+    return tree_.add<StmtId>(WhileStmt{header(StmtKind::While, loc), condition, body});
+  }
   StmtId exit(Loc loc) { return tree_.add<StmtId>(ExitStmt{header(StmtKind::Exit, loc)}); }
   StmtId loopContinue(Loc loc) { return tree_.add<StmtId>(ContinueStmt{header(StmtKind::Continue, loc)}); }
   StmtId returnStatement(Loc loc) { return tree_.add<StmtId>(ReturnStmt{header(StmtKind::Return, loc)}); }
@@ -121,10 +131,22 @@ class TreeBuilder {
         NamedTypeExpr{header(TypeExprKind::Named, loc), tree_.addList<Ident>(path), {}, false, {}, {}});
   }
   TypeExprId errorType(Loc loc) { return tree_.add<TypeExprId>(ErrorTypeExpr{header(TypeExprKind::Error, loc)}); }
+  TypeExprId arrayType(std::span<const ArrayBound> bounds, TypeExprId element, Loc loc) {
+    return tree_.add<TypeExprId>(
+        ArrayTypeExpr{header(TypeExprKind::Array, loc), tree_.addList<ArrayBound>(bounds), element});
+  }
   // name : type;  Without a type: a temporary.
-  DeclId variable(const Ident& name, TypeExprId type) {
-    return tree_.add<DeclId>(VarDecl{
-        header(DeclKind::Var, name.loc), tree_.addList<Ident>({&name, 1}), type, {}, EdgeKind::None, false, {}, {}});
+  DeclId variable(const Ident& name, TypeExprId type) { return variable({&name, 1}, type, {}); }
+  // name, name : type := init;
+  DeclId variable(std::span<const Ident> names, TypeExprId type, ExprId init) {
+    return tree_.add<DeclId>(VarDecl{header(DeclKind::Var, names.front().loc),
+                                     tree_.addList<Ident>(names),
+                                     type,
+                                     init,
+                                     EdgeKind::None,
+                                     false,
+                                     {},
+                                     {}});
   }
   DeclId section(SectionKind kind, std::span<const DeclId> variables, Loc loc, uint8_t bits = 0) {
     SectionDecl node{header(DeclKind::Section, loc), kind, AccessLevel::None, tree_.addList<DeclId>(variables)};

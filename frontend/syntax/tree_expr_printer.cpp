@@ -20,6 +20,15 @@ void TreeExprPrinter::quoted(std::string_view s) {
   out += '\'';
 }
 
+// The source of a range, after a blank; nothing for an empty one.
+void TreeExprPrinter::source(Range range) {
+  if (sources_ == nullptr || !(range.begin < range.end)) return;
+  const FileId file = sources_->fileOf(range.begin);
+  out += ' ';
+  quoted(sources_->sourceText(file).substr(range.begin.offset - sources_->begin(file).offset,
+                                           range.end.offset - range.begin.offset));
+}
+
 void TreeExprPrinter::address(const DirectAddress& a) {
   out += '%';
   if (a.area != '\0') out += a.area;  // none: relative to a structure
@@ -116,7 +125,10 @@ void TreeExprPrinter::expr(ExprId id, int depth) {
   out += ')';
 }
 
-void TreeExprPrinter::print(const ErrorExpr&, int) { out.pop_back(); }
+void TreeExprPrinter::print(const ErrorExpr& e, int) {
+  out.pop_back();
+  source({e.h.loc, e.h.end});
+}
 
 void TreeExprPrinter::print(const LiteralExpr& e, int) { literal(e); }
 

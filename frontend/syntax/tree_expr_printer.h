@@ -11,7 +11,9 @@ namespace rung {
 
 class TreeExprPrinter {
  public:
-  TreeExprPrinter(const Tree& tree, const Names& names) : tree_(tree), names_(names) {}
+  // With `sources` the source of what could not be parsed is printed.
+  TreeExprPrinter(const Tree& tree, const Names& names, const Sources* sources)
+      : tree_(tree), names_(names), sources_(sources) {}
   std::string out;
 
  protected:
@@ -30,6 +32,7 @@ class TreeExprPrinter {
   }
   void number(uint64_t n) { out += std::to_string(n); }
   void quoted(std::string_view s);
+  void source(Range range);
   void path(Slice<Ident> idents, const char* between) {
     bool first = true;
     for (const Ident& ident : tree_.list(idents)) {
@@ -59,11 +62,12 @@ class TreeExprPrinter {
 
   const Tree& tree_;
   const Names& names_;
+  const Sources* sources_;
 
  private:
   void literal(const LiteralExpr& e);
   // The rest of a node, after its word.
-  void print(const ErrorExpr&, int);
+  void print(const ErrorExpr& e, int);
   void print(const LiteralExpr& e, int);
   void print(const NameExpr& e, int);
   void print(const TypedNameExpr& e, int);

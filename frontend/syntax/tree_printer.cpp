@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree as text, as it was written: what a check of the program inserted is left out. A line per declaration,
-// statement and type; expressions in parentheses on the line of their statement.
+// statement and type; expressions in parentheses on the line of their statement. Errors print the source that they
+// hold, and what recovery skipped is a line in the innermost declaration or statement around it.
 #include <string>
 
 #include "frontend/syntax/diagram.h"
@@ -29,10 +30,18 @@ const char* word(DeclKind kind) { return kDeclWords[static_cast<size_t>(kind)]; 
 
 class Printer : public TreeExprPrinter {
  public:
-  using TreeExprPrinter::TreeExprPrinter;
+  Printer(const Tree& tree, const Names& names, const Sources* sources, Slice<Range> skipped = {})
+      : TreeExprPrinter(tree, names, sources), skipped_(tree.list(skipped)) {}
 
   void decl(DeclId id, int depth);
   void expression(ExprId id) { expr(id); }
+  // What was skipped before a location, and not printed yet.
+  void skippedBefore(Loc end, int depth) {
+    for (; !skipped_.empty() && skipped_.front().begin < end; skipped_ = skipped_.subspan(1)) {
+      line(depth, "skipped");
+      source(skipped_.front());
+    }
+  }
 
  private:
   void pragmas(const DeclHeader& h);
@@ -55,7 +64,7 @@ class Printer : public TreeExprPrinter {
   void idents(const char* before, Slice<Ident> list);
   void typeExpr(TypeExprId id, int depth) override;
   // The rest of a node, after its word.
-  void print(const ErrorStmt&, int) {}
+  void print(const ErrorStmt& s, int) { source({s.h.loc, s.h.end}); }
   void print(const EmptyStmt&, int) {}
   void print(const ExitStmt&, int) {}
   void print(const ContinueStmt&, int) {}
@@ -70,7 +79,7 @@ class Printer : public TreeExprPrinter {
   void print(const TryStmt& s, int depth);
   void print(const JumpStmt& s, int);
   void print(const LabelStmt& s, int);
-  void print(const ErrorTypeExpr&, int) {}
+  void print(const ErrorTypeExpr& t, int) { source({t.h.loc, t.h.end}); }
   void print(const NamedTypeExpr& t, int);
   void print(const StringTypeExpr& t, int);
   void print(const SubrangeTypeExpr& t, int depth);
@@ -89,6 +98,8 @@ class Printer : public TreeExprPrinter {
   void print(const ResourceDecl& d, int depth);
   void print(const TaskDecl& d, int);
   void print(const ProgramInstanceDecl& d, int);
+
+  std::span<const Range> skipped_;
 };
 
 void Printer::modifiers(AccessLevel access, uint8_t bits) {
@@ -118,14 +129,17 @@ void Printer::pragmas(const DeclHeader& h) {
 }
 
 void Printer::stmt(StmtId id, int depth) {
+  const Range range = tree_.range(id);
+  skippedBefore(range.begin, depth);
   line(depth, word(tree_.kind(id)));
   // clang-format off
   switch (tree_.kind(id)) {
 #define RUNG_STMT(kind, word, ...) \
-  case StmtKind::kind: return print(tree_.as<kind##Stmt>(id), depth);
+  case StmtKind::kind: print(tree_.as<kind##Stmt>(id), depth); break;
 #include "frontend/syntax/nodes.def"
   }
   // clang-format on
+  skippedBefore(range.end, depth + 1);
 }
 
 void Printer::print(const AssignStmt& s, int) {
@@ -297,14 +311,17 @@ void Printer::sectionBits(uint8_t b) {
 }
 
 void Printer::decl(DeclId id, int depth) {
+  const Range range = tree_.range(id);
+  skippedBefore(range.begin, depth);
   line(depth, word(tree_.kind(id)));
   // clang-format off
   switch (tree_.kind(id)) {
 #define RUNG_DECL(kind, word, ...) \
-  case DeclKind::kind: return print(tree_.as<kind##Decl>(id), depth);
+  case DeclKind::kind: print(tree_.as<kind##Decl>(id), depth); break;
 #include "frontend/syntax/nodes.def"
   }
   // clang-format on
+  skippedBefore(range.end, depth + 1);
 }
 
 void Printer::print(const TypeDecl& d, int depth) {
@@ -500,14 +517,15 @@ void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth
 }  // namespace
 
 std::string printExpression(const Tree& tree, const Names& names, ExprId expr) {
-  Printer printer(tree, names);
+  Printer printer(tree, names, nullptr);
   printer.expression(expr);
   return std::move(printer.out);
 }
 
-std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit) {
-  Printer printer(tree, names);
+std::string printTree(const Tree& tree, const Names& names, const Sources& sources, const FileUnit& unit) {
+  Printer printer(tree, names, &sources, unit.skipped);
   for (DeclId d : tree.list(unit.decls)) printer.decl(d, 0);
+  printer.skippedBefore({~0u}, 0);
   printer.out += '\n';
   return std::move(printer.out);
 }

@@ -41,11 +41,9 @@ static void schedule(Context& context, const PouDecl& decl) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
-    const auto made = text::scheduleSfc(chartsOf(context), signatures, decl, context.project.madeSections(decl),
-                                        chartContextOf(context, context.pou));
-    if (!made) return;
-    pou.statements = made->body;
-    pou.chart_body = made->text;
+    const auto body = text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou));
+    if (!body) return;
+    pou.statements = *body;
   }
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }

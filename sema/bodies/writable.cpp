@@ -66,8 +66,8 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
 bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) {
   const Var& var = context.symbols.var(id);
   if (!var.of_chart || !var.type || context.types().kind(var.type) != types::TypeKind::Record) return true;
-  const Pou& own = context.symbols.pou(context.pou);
-  if (own.chart_body && context.symbols.sources.fileOf(loc) == own.chart_body) return true;
+  const PouDecl& own = context.tree().as<PouDecl>(context.symbols.pou(context.pou).decl);
+  if (own.body_kind == BodyKind::Sfc) return true;
   std::string what(string(context, var.name));
   if (!member.empty()) what += "." + std::string(member);
   context.report(diag::StepWritten, loc, {what});

@@ -25,12 +25,10 @@ text::ChartContext chartContextOf(const Context& context, PouId pou) {
 }
 
 void declareChart(Context& context, PouId id) {
-  Pou& pou = context.symbols.pou(id);
-  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  const text::ChartSections made = text::declareSfc(chartsOf(context), decl, chartContextOf(context, id));
-  const std::span<const DeclId> sections = context.tree().list(made.sections);
+  const PouDecl& decl = context.tree().as<PouDecl>(context.symbols.pou(id).decl);
+  const Slice<DeclId> made = text::declareSfc(chartsOf(context), decl, chartContextOf(context, id));
+  const std::span<const DeclId> sections = context.tree().list(made);
   context.project.made_sections[&decl].assign(sections.begin(), sections.end());
-  pou.chart_sections = made.text;
 }
 
 }  // namespace rung::sema

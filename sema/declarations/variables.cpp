@@ -642,8 +642,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
   checkModifiers(there, section);
-  const bool of_chart =
-      symbols.pou(id).chart_sections && symbols.sources.fileOf(section.h.loc) == symbols.pou(id).chart_sections;
+  const bool of_chart = (section.h.bits & kOfChart) != 0;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {

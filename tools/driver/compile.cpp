@@ -196,7 +196,7 @@ bool Compilation::parse() {
   setPhaseSubject("", 0);
   times_.end();
   if (options.code.dump_after == "parse")
-    for (const FileUnit& unit : tree.files) dump(printTree(tree, names, unit));
+    for (const FileUnit& unit : tree.files) dump(printTree(tree, names, sources, unit));
   return true;
 }
 

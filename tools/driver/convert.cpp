@@ -86,18 +86,15 @@ std::vector<std::pair<Loc, std::string>> drawnComments(const Tree& tree, const D
   return drawn;
 }
 
-// The lines `name : type;` of the sections of a chart, and whether they are in VAR_TEMP.
+// The sections that a chart needs.
 template <class Visit>
-void forEachVariableLine(std::string_view sections, const Visit& visit) {
-  bool temporary = false;
-  for (size_t p = 0, end = 0; p < sections.size(); p = end) {
-    end = std::min(sections.find('\n', p), sections.size() - 1) + 1;
-    const std::string_view line = sections.substr(p, end - p);
-    if (line.starts_with("VAR")) temporary = line.starts_with("VAR_TEMP");
-    const size_t colon = line.find(" : ");
-    if (line.starts_with("  ") && colon != std::string_view::npos)
-      visit(upper(line.substr(2, colon - 2)), line, temporary);
-  }
+void forEachSectionOfChart(const sema::Project& project, const PouDecl& decl, const Visit& visit) {
+  for (const DeclId id : project.madeSections(decl))
+    if (const SectionDecl& section = project.tree.as<SectionDecl>(id); (section.h.bits & kOfChart) != 0) visit(section);
+}
+
+std::string_view wordOf(SectionKind kind) {
+  return kind == SectionKind::Temp ? "VAR_TEMP" : kind == SectionKind::Inst ? "VAR_INST" : "VAR";
 }
 
 class Converter {
@@ -117,11 +114,16 @@ class Converter {
   void printChart(sema::PouId id, const PouDecl& decl);
   void printConditions(sema::PouId id);
   std::vector<StComment> chartComments(const PouDecl& decl) const;
-  std::string withComments(FileId created, std::span<const StComment> comments) const;
+  std::string withComments(const ChartText& chart, std::span<const StComment> comments) const;
+  std::string statementsOfChart(const sema::Pou& pou, const PouDecl& decl) const;
+  std::string nameOf(DeclId variable) const;
+  std::string declarationOf(DeclId variable) const;
+  std::string sectionsOfChart(const PouDecl& decl, const std::map<std::string, std::string>& inherited,
+                              std::vector<std::string>& taken) const;
   std::string temporaries(const Body& body) const;
   void printHidden(sema::PouId id);
   std::string typeOf(sema::PouId id, NameId variable) const;
-  std::map<std::string, std::string_view> chartVariablesOfBases(sema::PouId id) const;
+  std::map<std::string, std::string> chartVariablesOfBases(sema::PouId id) const;
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
   std::string action(DeclId id) const;
@@ -135,16 +137,50 @@ class Converter {
   bool is_split_ = false;                         // some file became a folder
 };
 
+// In upper case.
+std::string Converter::nameOf(DeclId variable) const {
+  const VarDecl& decl = compilation_.tree.as<VarDecl>(variable);
+  return upper(compilation_.names.string(compilation_.tree.list(decl.names)[0].name));
+}
+
+// `  name : type := value;`
+std::string Converter::declarationOf(DeclId variable) const {
+  return "  " + printSt(compilation_.tree, compilation_.names, compilation_.tree.as<VarDecl>(variable)) + "\n";
+}
+
 // The variables of charts in the blocks that it extends, by name; the first one that declares it counts.
-std::map<std::string, std::string_view> Converter::chartVariablesOfBases(sema::PouId id) const {
-  std::map<std::string, std::string_view> lines;
+std::map<std::string, std::string> Converter::chartVariablesOfBases(sema::PouId id) const {
+  std::map<std::string, std::string> lines;
   const sema::Project& project = *compilation_.project;
+  const Tree& tree = compilation_.tree;
   for (sema::PouId base = project.pou(id).base; base; base = project.pou(base).base) {
-    if (!project.pou(base).chart_sections) continue;
-    forEachVariableLine(sources_.original(project.pou(base).chart_sections),
-                        [&](const std::string& name, std::string_view line, bool) { lines[name] = line; });
+    if (!project.pou(base).decl) continue;
+    forEachSectionOfChart(project, tree.as<PouDecl>(project.pou(base).decl), [&](const SectionDecl& section) {
+      for (const DeclId variable : tree.list(section.vars)) lines[nameOf(variable)] = declarationOf(variable);
+    });
   }
   return lines;
+}
+
+// The sections of a chart without the variables that a base has: the same variable does for both, because only one of
+// the charts runs. Another variable of the same name is `taken`.
+std::string Converter::sectionsOfChart(const PouDecl& decl, const std::map<std::string, std::string>& inherited,
+                                       std::vector<std::string>& taken) const {
+  std::string text;
+  forEachSectionOfChart(*compilation_.project, decl, [&](const SectionDecl& section) {
+    text.append(wordOf(section.section)).append("\n");
+    for (const DeclId variable : compilation_.tree.list(section.vars)) {
+      const std::string line = declarationOf(variable);
+      const auto known = inherited.find(nameOf(variable));
+      const bool is_inherited = known != inherited.end() && known->second == line;
+      if (is_inherited && section.section != SectionKind::Temp) continue;
+      if (known != inherited.end()) taken.push_back(known->first);
+      text += line;
+    }
+    text += "END_VAR\n";
+  });
+  std::sort(taken.begin(), taken.end());
+  return text;
 }
 
 // `A.x` as `A_Derived.x`, for each of these names.
@@ -172,7 +208,7 @@ void Converter::print(sema::PouId id) {
   if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
   printHidden(pou.kind == PouKind::Action ? pou.owner : id);
-  if (pou.chart_body) return printChart(id, decl);
+  if (decl.body_kind == BodyKind::Sfc) return printChart(id, decl);
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
   const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
@@ -249,18 +285,17 @@ std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
 
 // Puts each comment in front of the first line made from its location or a later one; for a step that is where its
 // active cycles begin.
-std::string Converter::withComments(FileId created, std::span<const StComment> comments) const {
-  const std::string_view text = sources_.original(created);
-  std::vector<std::pair<Loc, size_t>> lines;  // the origin of each line
-  const size_t first = std::min(text.find("sfc_set := sfc_steps"), text.size());
-  for (size_t p = first; p < text.size(); p = std::min(text.find('\n', p), text.size() - 1) + 1)
-    lines.push_back({sources_.originalLocation({sources_.begin(created).offset + static_cast<uint32_t>(p)}), p});
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+std::string Converter::withComments(const ChartText& chart, std::span<const StComment> comments) const {
+  const std::string_view text = chart.text;
+  const size_t first = lineOf(text, std::min(text.find("sfc_set := sfc_steps"), text.size()));
+  std::vector<ChartText::Line> lines = chart.lines;
+  std::erase_if(lines, [&](const ChartText::Line& line) { return line.begin < first; });
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.origin < b.origin; });
   std::vector<std::pair<size_t, std::string_view>> places;
   for (const StComment& comment : comments) {
     const auto line =
-        std::lower_bound(lines.begin(), lines.end(), comment.at, [](const auto& a, Loc at) { return a.first < at; });
-    places.push_back({line == lines.end() ? text.size() : line->second, comment.text});
+        std::lower_bound(lines.begin(), lines.end(), comment.at, [](const auto& a, Loc at) { return a.origin < at; });
+    places.push_back({line == lines.end() ? text.size() : line->begin, comment.text});
   }
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::string out;
@@ -275,24 +310,21 @@ std::string Converter::withComments(FileId created, std::span<const StComment> c
   return out + std::string(text.substr(done));
 }
 
+std::string Converter::statementsOfChart(const sema::Pou& pou, const PouDecl& decl) const {
+  const Tree& tree = compilation_.tree;
+  std::vector<Ident> members;
+  for (const SfcStep& step : tree.list(decl.steps)) {
+    members.push_back(step.name);
+    for (const SfcAssociation& association : tree.list(step.actions)) members.push_back(association.action);
+  }
+  return withComments(rung::printChart(tree, compilation_.names, sources_, pou.statements, members), chartComments(decl));
+}
+
 // The ST of a chart; its actions go between the variables and the statements.
 void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   const sema::Pou& pou = compilation_.project->pou(id);
-  Body body{
-      id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(pou.chart_body, chartComments(decl))};
-  body.sections = sources_.original(pou.chart_sections);
-  const auto inherited = chartVariablesOfBases(id);
-  std::string sections(body.sections);
-  forEachVariableLine(body.sections, [&](const std::string& name, std::string_view line, bool temporary) {
-    const auto known = inherited.find(name);
-    if (known == inherited.end()) return;
-    if (known->second == line && !temporary)  // the same variable does for both: only one of the charts runs
-      sections.erase(sections.find(line), line.size());
-    else
-      body.taken.push_back(name);
-  });
-  body.sections = std::move(sections);
-  std::sort(body.taken.begin(), body.taken.end());
+  Body body{id, decl.body_begin, decl.body_end, decl.body_begin, true, statementsOfChart(pou, decl)};
+  body.sections = sectionsOfChart(decl, chartVariablesOfBases(id), body.taken);
   body.suffix = compilation_.names.string(decl.name);
   body.text = renamed(body.text, body.taken, body.suffix);
   body.sections = renamed(body.sections, body.taken, body.suffix);
@@ -324,7 +356,7 @@ void Converter::printConditions(sema::PouId id) {
     bodies_.push_back(std::move(body));
   }
   variables.end = variables.declarations = variables.begin;
-  variables.text = sources_.original(pou.chart_sections);
+  variables.text = sectionsOfChart(decl, {}, variables.taken);
   bodies_.push_back(std::move(variables));
 }
 

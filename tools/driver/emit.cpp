@@ -98,7 +98,8 @@ int emitText(Compilation& compilation, EmitKind kind, Sink& sink) {
   std::string out;
   if (kind == EmitKind::Tree) {  // also of a file with errors, whose nodes are `error`
     if (compilation.parse())
-      for (const FileUnit& unit : compilation.tree.files) out += printTree(compilation.tree, compilation.names, unit);
+      for (const FileUnit& unit : compilation.tree.files)
+        out += printTree(compilation.tree, compilation.names, compilation.sources, unit);
     const int printed = out.empty() ? kSuccess : printResult(sink, out);
     const int exit = compilation.finish();
     return exit == kSuccess ? printed : exit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One wrong token, one error, on its line: valid programs are corrupted token by token and checked, parser and sema
-// together. The seed is fixed; RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try others, RUNG_MUTATION_SHOW=1 prints each
-// mutant that has its first error elsewhere, or more than one.
+// together; the tree of each still prints its source. The seed is fixed; RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try
+// others, RUNG_MUTATION_SHOW=1 prints each mutant that has its first error elsewhere, or more than one.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,6 +13,7 @@
 
 #include "frontend/parse/lexer.h"
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/source_view.h"
 #include "sema/check.h"
 
 namespace rung {
@@ -93,7 +94,8 @@ Outcome check(const std::string& program) {
   sema::Options options;
   options.libraries = libraryFiles();
   const FileId file = sources.add("mutant.st", program);
-  text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
+  const FileUnit unit = text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
+  EXPECT_EQ(printSource(tree, unit, sources), program);
   sema::Project project(sources, names, diagnostics, tree, options);
   sema::check(project);
   diagnostics.sort();

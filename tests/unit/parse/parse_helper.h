@@ -14,7 +14,7 @@ struct Parsed {
     diagnostics.max_errors = 1000000;
     const FileId file = sources.add("test.st", source);
     const FileUnit unit = parseFile(tree, names, sources, file, dialect, diagnostics);
-    printed = printTree(tree, names, unit);
+    printed = printTree(tree, names, sources, unit);
     diagnostics.sort();
   }
   // "3:7 E0201 5:1 W0250"

@@ -60,10 +60,6 @@ class RangeCheck {
   bool isShared(DeclId parent, TypeExprId child) const {
     return tree_.kind(parent) != DeclKind::Property && !(tree_.decl(parent).begin <= tree_.typeExpr(child).loc);
   }
-  // TYPE a EXTENDS b : STRUCT: the base precedes the structure.
-  bool isShared(TypeExprId parent, TypeExprId child) const {
-    return tree_.kind(parent) == TypeExprKind::Struct && child == tree_.as<StructTypeExpr>(parent).base;
-  }
   // Members that follow the END_… of their block, and the second half of a property of edition 4.
   bool isShared(DeclId parent, DeclId child) const {
     const bool in_halves = tree_.kind(parent) == DeclKind::Property && tree_.decl(parent).bits == kInHalves;
@@ -88,11 +84,14 @@ class RangeCheck {
       EXPECT_EQ(printExpression(tree_, names_, again), printExpression(tree_, names_, id)) << where(range);
     });
   }
+  bool isWritten(ExprId id) const { return tree_.range(id).begin < tree_.range(id).end; }
   void check(StmtId id, Range range) {
     const std::string_view text = textOf(range);
     const StmtKind kind = tree_.kind(id);
     if (kind == StmtKind::Label) {
       EXPECT_EQ(text.back(), ':') << where(range);
+    } else if (kind == StmtKind::Assign && !isWritten(tree_.as<AssignStmt>(id).target)) {
+      // the condition of a named transition, which is assigned to its name
     } else if (kind == StmtKind::Assign && text.back() != ';' &&
                (text.find("R=") != text.npos || text.find("S=") != text.npos)) {
       // a part of a row, `a S= b R= c;`
@@ -104,8 +103,10 @@ class RangeCheck {
   }
   void check(TypeExprId id, Range range) {
     if (tree_.kind(id) == TypeExprKind::Error) return;
-    reparse("VAR x : " + std::string(textOf(range)) + "; END_VAR", [&](FileId file) {
-      const auto sections = text::parseSections(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
+    if (tree_.kind(id) == TypeExprKind::Struct && tree_.as<StructTypeExpr>(id).base) return;  // only in TYPE
+    reparse("PROGRAM p VAR x : " + std::string(textOf(range)) + "; END_VAR END_PROGRAM", [&](FileId file) {
+      const FileUnit unit = text::parseFile(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
+      const Slice<DeclId> sections = tree_.as<PouDecl>(tree_.list(unit.decls)[0]).sections;
       ASSERT_EQ(sections.count, 1u) << where(range);
       const SectionDecl& section = tree_.as<SectionDecl>(tree_.list(sections)[0]);
       ASSERT_EQ(section.vars.count, 1u) << where(range);

@@ -43,9 +43,9 @@ const std::vector<sema::LibraryFile>& libraryFiles() {
   return files;
 }
 
-std::string printFiles(const Tree& tree, const Names& names, size_t count) {
+std::string printFiles(const Tree& tree, const Names& names, const Sources& sources, size_t count) {
   std::string out;
-  for (size_t i = 0; i < count; ++i) out += printTree(tree, names, tree.files[i]);
+  for (size_t i = 0; i < count; ++i) out += printTree(tree, names, sources, tree.files[i]);
   return out;
 }
 
@@ -60,10 +60,10 @@ bool checkProgram(const std::string& path, Dialect dialect) {
   options.libraries = libraryFiles();
   text::parseFile(tree, names, sources, sources.add(path, readFile(path).content), dialect, diagnostics);
   const size_t files = tree.files.size();
-  const std::string before = printFiles(tree, names, files);
+  const std::string before = printFiles(tree, names, sources, files);
   sema::Project project(sources, names, diagnostics, tree, options);
   sema::check(project);
-  EXPECT_EQ(printFiles(tree, names, files), before) << path;
+  EXPECT_EQ(printFiles(tree, names, sources, files), before) << path;
   return !diagnostics.hasErrors();
 }
 

@@ -40,14 +40,17 @@ struct Loaded {
   const rung_module* module = nullptr;
 
   Loaded(const std::string& project, Engine engine, bool with_tests = false) {
-    Options options;
+    ProjectOptions options;
     options.inputs = {std::string(RUNG_SOURCE) + "/" + project};
-    options.engine = engine;
-    options.with_tests = with_tests;
-    options.counts_steps = true;
+    options.code.with_tests = with_tests;
+    options.code.counts_steps = true;
     compilation = std::make_unique<Compilation>(options, times, sink);
     std::string why;
-    if (compilation->translate(with_tests, program, why)) load(with_tests);
+    if (engine != Engine::Native && compilation->translate(program, why)) {
+      module = &program->description();
+    } else if (engine == Engine::Native) {
+      loadNative();
+    }
     if (module == nullptr) {
       compilation->finish();
       ADD_FAILURE() << project << ": " << sink.messages << why;
@@ -55,14 +58,10 @@ struct Loaded {
   }
 
  private:
-  void load(bool with_tests) {
-    if (program) {
-      module = &program->description();
-      return;
-    }
+  void loadNative() {
     NativeRequest request;
     request.parts.resize(1);
-    if (!compilation->emit(with_tests, request.parts[0].files)) return;
+    if (!compilation->emit(request.parts[0].files)) return;
     Cache cache;
     const NativeResult native = makeShared(cache, request, sink);
     std::string error = native.exit == kSuccess ? library.open(native.path) : native.message;
