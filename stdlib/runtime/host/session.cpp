@@ -326,6 +326,8 @@ void Session::transfer(StateArchive& archive) {
   hsio_.transfer(archive);
   drivers_.transfer(archive);
   control_.transfer(archive);
+  served_.transfer(archive);
+  if (simulated_channels_) simulated_channels_->transfer(archive);
   archive.values(cycle_, row_, rows_done_, base_ns_, is_stopped_, is_single_cycle_);
 }
 
