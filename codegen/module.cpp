@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 #include "codegen/names.h"
 #include "codegen/signature.h"
@@ -152,7 +153,12 @@ class Describer {
   void declare(ir::BodyId id) {
     if (std::find(declared_.begin(), declared_.end(), id.index) != declared_.end()) return;
     declared_.push_back(id.index);
-    appendSignature(prototypes_, module_, module_.body(id));
+    const ir::Body& body = module_.body(id);
+    if (body.self && named_records_.insert(types_.resolve(body.self).index).second) {
+      appendRecordType(records_, types_, body.self);
+      records_ += ";\n";
+    }
+    appendSignature(prototypes_, module_, body);
     prototypes_ += ";\n";
   }
 
@@ -347,7 +353,7 @@ class Describer {
     std::string out =
         "// The tables of the module, its tasks and its initial values. The columns are those of rung/module.h; a row\n"
         "// ends with what it is about.\n#include <string.h>\n\n#include \"rung/module.h\"\n\n" +
-        openNamespace(name_space_) + '\n' + prototypes_ + '\n' + textSource();
+        openNamespace(name_space_) + '\n' + records_ + prototypes_ + '\n' + textSource();
     for (const Table* table : {&blocks_, &areas_, &types_rows_, &fields_, &enum_items_, &dimensions_, &symbols_,
                                &retain_, &persistent_, &resources_, &writes_, &io_modules_})
       table->define(out, kExtern);
@@ -412,10 +418,11 @@ class Describer {
   const Facts& facts_;
   const std::string name_space_;
   ir::Description is_;
-  std::string code_, prototypes_, site_numbers_;
+  // `records_` names them in this namespace: `struct rung_type` alone would be that of rung/module.h.
+  std::string code_, records_, prototypes_, site_numbers_;
   Table blocks_{"rung_block", "blocks", "name, size, align"};
   Table areas_{"rung_area", "areas", "name, prefix, size, owner"};
-  Table types_rows_{"rung_type", "types", "kind, is_signed, library, name, size, element, length, first, count"};
+  Table types_rows_{"::rung_type", "types", "kind, is_signed, library, name, size, element, length, first, count"};
   Table fields_{"rung_field", "fields", "name, type, offset, flags"};
   Table enum_items_{"rung_enum_item", "enum_items", "name, value"};
   Table dimensions_{"rung_dimension", "dimensions", "low, high"};
@@ -432,6 +439,7 @@ class Describer {
   Table tests_{"rung_test", "tests", "name, file, line, done_block, done_offset, init, run, exit"};
   Table sites_{"rung_site", "sites", "pou, file, line, column, low, high"};
   std::vector<uint32_t> declared_;
+  std::unordered_set<uint32_t> named_records_;  // by TypeId
 };
 
 }  // namespace

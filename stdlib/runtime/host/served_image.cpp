@@ -32,6 +32,21 @@ void ServedImage::reset() {
   }
 }
 
+void ServedImage::transfer(StateArchive& archive) {
+  bool is_used = is_used_.load(), is_ready = is_ready_.load();
+  archive.values(is_used, is_ready);
+  if (archive.isRestoring()) reset();
+  is_used_.store(is_used);
+  is_ready_.store(is_ready);
+  if (!is_used) return;
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  archive.value(has_written_);
+  for (Part* const part : {&inputs_, &outputs_, &memory_}) {
+    archive.list(part->bytes);
+    archive.list(part->written);
+  }
+}
+
 void ServedImage::applyWritten(Part& part, uint8_t* common, uint32_t size) const {
   for (uint32_t i = 0; i < size; ++i) {
     const uint8_t mask = part.written[i];

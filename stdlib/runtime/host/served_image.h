@@ -11,6 +11,7 @@
 #include "loaded_module.h"
 #include "priority_mutex.h"
 #include "rung/modbus.h"
+#include "state_archive.h"
 
 namespace rung::host {
 
@@ -28,6 +29,9 @@ class ServedImage {
   void exchange(uint8_t* const* areas);
   // Forgets everything: a test begins.
   void reset();
+
+  // What a server has of the image; nothing while there is none.
+  void transfer(StateArchive& archive);
 
   // A server of this image: its number on the line, and registers that stand for its first holding registers.
   struct Server {

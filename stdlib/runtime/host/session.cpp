@@ -117,6 +117,8 @@ void Session::switchOn() {
   std::function<void(const std::string&)> on_message;
   if (hooks_.message) on_message = [this](const std::string& text) { hooks_.message(RUNG_MESSAGE_NOTE, text.c_str()); };
   control_.serve(module_, host_, on_message);
+  is_stopped_ = is_single_cycle_ = false;
+  pace_ns_ = 0;
 }
 
 Ending Session::init() {
@@ -326,6 +328,8 @@ void Session::transfer(StateArchive& archive) {
   hsio_.transfer(archive);
   drivers_.transfer(archive);
   control_.transfer(archive);
+  served_.transfer(archive);
+  if (simulated_channels_) simulated_channels_->transfer(archive);
   archive.values(cycle_, row_, rows_done_, base_ns_, is_stopped_, is_single_cycle_);
 }
 
@@ -339,6 +343,7 @@ SessionState Session::save() {
 void Session::restore(const SessionState& state) {
   StateArchive archive = StateArchive::restoring(state);
   transfer(archive);
+  pace_ns_ = 0;
 }
 
 }  // namespace rung::host

@@ -66,8 +66,8 @@ struct Answer {
 };
 
 // Everything that decides how the program goes on: its memory, time and tasks, the devices and the numerical control
-// that the host simulates. Not in it are open files and bytes on their way to others. It is restored in the session
-// that saved it.
+// that the host simulates, and the simulated network of a test. Not in it is what others hold: open files, sockets and
+// serial lines. It is restored in the session that saved it.
 using SessionState = std::vector<uint8_t>;
 
 class Session {

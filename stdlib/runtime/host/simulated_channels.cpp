@@ -46,6 +46,28 @@ void SimulatedChannels::serve(rung_host& host) {
   host.channels_data = this;
 }
 
+void SimulatedChannels::transferChannel(Channel& it, StateArchive& archive) {
+  archive.values(it.settings, it.address, it.is_closed, it.is_open, it.error, it.decided_ns, it.peer,
+                 it.peer_closed_ns);
+  archive.values(it.line_free_ns, it.server, it.master_of, it.line);
+  archive.sequence(it.arriving, Chunk{}, [&](Chunk& chunk) {
+    archive.values(chunk.arrives_ns, chunk.from);
+    archive.text(chunk.bytes);
+  });
+  archive.sequence(it.waiting, 0, [&](int64_t& handle) { archive.value(handle); });
+  bool is_master = it.master != nullptr;
+  archive.value(is_master);
+  if (archive.isRestoring()) it.master = is_master ? std::make_unique<TcpMaster>() : nullptr;
+  if (is_master) archive.value(*it.master);
+}
+
+void SimulatedChannels::transfer(StateArchive& archive) {
+  size_t count = channels_.size();
+  archive.value(count);
+  channels_.resize(count);
+  for (Channel& channel : channels_) transferChannel(channel, archive);
+}
+
 SimulatedChannels::Channel* SimulatedChannels::find(int64_t handle) {
   if (handle < 1 || handle > static_cast<int64_t>(channels_.size())) return nullptr;
   Channel& channel = channels_[static_cast<size_t>(handle - 1)];

@@ -13,6 +13,7 @@
 
 #include "modbus_server.h"
 #include "served_image.h"
+#include "state_archive.h"
 
 namespace rung::host {
 
@@ -24,6 +25,8 @@ class SimulatedChannels {
   void serve(rung_host& host);
   // Closes everything: a test begins.
   void reset() { channels_.clear(); }
+  // All channels, with the bytes on their way.
+  void transfer(StateArchive& archive);
   // Between two activations: Modbus servers answer.
   void answerMasters();
 
@@ -58,6 +61,7 @@ class SimulatedChannels {
     int64_t master_of = 0;
     RtuLine line;
   };
+  static void transferChannel(Channel& channel, StateArchive& archive);
   Channel* find(int64_t handle);
   int64_t add(const rung_channel_settings& settings);
   void settle();

@@ -125,9 +125,11 @@ TEST_F(Sessions, AStateUndoesAFault) {
 TEST_F(Sessions, InitBeginsAgain) {
   EXPECT_TRUE(cycle().isComplete());
   EXPECT_TRUE(cycle().isComplete());
+  EXPECT_TRUE(session.obey(commandOf(Command::Stop)).goes_on);
   EXPECT_TRUE(session.end().isComplete());
   EXPECT_TRUE(session.init().isComplete());
   EXPECT_TRUE(session.begin().isComplete());
+  EXPECT_FALSE(session.isStopped());
   EXPECT_EQ(session.cyclesDone(), 0);
   EXPECT_EQ(main().count, 0);
   sample::ran.clear();
