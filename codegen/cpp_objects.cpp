@@ -63,6 +63,7 @@ CppFacade::Objects CppFacade::objectsOf(std::string_view name, TypeId type, Ex p
     places = std::move(next);
   }
   std::vector<Ex> list;
+  list.reserve(places.size());
   for (const Ex one : places) list.push_back(tree_.call(object, {context, one}));
   cxx::Variable* const table = tree_.variable(object, "table");
   table->type.extents = tree_.copy(extents);

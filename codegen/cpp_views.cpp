@@ -66,7 +66,7 @@ std::string CppFacade::located(TypeId type) {
   type = types_.resolve(type);
   const TypeInfo& of = types_.info(type);
   if (of.kind == TypeKind::Array) return arrayOf(located(of.base), of);
-  const std::string seen = view(type);
+  std::string seen = view(type);
   if (of.kind == TypeKind::Record) return locatedStructure(type, seen);
   const bool is_bytes = of.size == 1 || (isString(type) && types_.plainKind(type) != TypeKind::WString);
   if (is_bytes) return seen;
@@ -103,7 +103,7 @@ static bool isShown(std::string_view name) {
 
 // The members of the structure `seen` without alignment; those that overlap an earlier one are not shown.
 std::string CppFacade::locatedStructure(TypeId type, const std::string& seen) {
-  const std::string name = seen + "_located";
+  std::string name = seen + "_located";
   if (std::find(located_.begin(), located_.end(), type) != located_.end()) return name;
   located_.push_back(type);
   cxx::Record* const record = alias(name);

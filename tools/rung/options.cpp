@@ -142,7 +142,7 @@ void appendRow(std::string& out, const std::string& left, const char* help) {
 
 // The values of `-O` and `-W` follow without a blank.
 std::string synopsis(const OptionRow& row) {
-  const std::string out = row.name;
+  std::string out = row.name;
   if (row.value == nullptr) return out;
   if (out == "-O" || out == "-W") return out + row.value;
   return out + (out.starts_with("--") ? "=" : " ") + row.value;

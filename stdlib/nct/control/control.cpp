@@ -80,7 +80,7 @@ const rung_nc Control::kFunctions = {
       CONTROL;
       control.requests_.push_back({++control.last_request_, request->is_write != 0, request->function, request->address,
                                    Block({request->block, request->block + request->count}),
-                                   control.cycles_ + control.latency_});
+                                   control.clock_.cycles + control.latency_});
       return control.last_request_;
     },
     // poll
@@ -119,22 +119,22 @@ void Control::serve(rung_host& host) {
 void Control::exchange(uint32_t* slice, uint32_t* nonvolatile, bool is_cycle, int64_t now_ns) {
   words_.beginExchange(slice);
   nonvolatile_ = nonvolatile;
-  if (!has_begun_) begin();
+  if (!clock_.has_begun) begin();
   has_slices_ = has_slices_ || !is_cycle;
-  const double seconds = static_cast<double>(now_ns - last_ns_) / 1e9;
-  last_ns_ = now_ns;
+  const double seconds = static_cast<double>(now_ns - clock_.last_ns) / 1e9;
+  clock_.last_ns = now_ns;
   if (!is_cycle || !has_slices_) takeHandwheels();
   tellInputs();
   if (is_cycle) {
-    ++cycles_;
+    ++clock_.cycles;
     channels_.beginCycle();
     network_.beginCycle();
   }
   spindles_.move(seconds);
   axes_.move(seconds);
   if (!is_cycle) return;
-  tools_.beginCycle(static_cast<double>(now_ns - last_cycle_ns_) / 1e9);
-  last_cycle_ns_ = now_ns;
+  tools_.beginCycle(static_cast<double>(now_ns - clock_.last_cycle_ns) / 1e9);
+  clock_.last_cycle_ns = now_ns;
   spindles_.answer();
   axes_.answer();
   tellCommon();
@@ -149,7 +149,7 @@ uint32_t checksumOf(const uint32_t* words) {
 }
 
 void Control::begin() {
-  has_begun_ = true;
+  clock_.has_begun = true;
   words_.set(nc::N_NVRAMOK, 0, checksumOf(nonvolatile_) == nonvolatile_[RUNG_NC_NONVOLATILE_WORDS]);
   words_.set(nc::N_NCREADY, 0, true);
   words_.set(nc::N_SIMU, 0, true);
@@ -162,11 +162,11 @@ void Control::begin() {
 // NCT manual 7.12.
 void Control::tellCommon() {
   const std::vector<Message>& screen = messages_.screen();
-  words_.set(nc::N_MONDIS, 0, machine_forbidden_);
-  const bool forbidden = machine_forbidden_;
-  if (forbidden) machine_on_ = {};
-  machine_on_.follow(words_.isSet(nc::P_MONREQ), !forbidden);
-  words_.set(nc::N_MONST, 0, machine_on_.is());
+  words_.set(nc::N_MONDIS, 0, drives_.is_forbidden);
+  const bool forbidden = drives_.is_forbidden;
+  if (forbidden) drives_.machine_on = {};
+  drives_.machine_on.follow(words_.isSet(nc::P_MONREQ), !forbidden);
+  words_.set(nc::N_MONST, 0, drives_.machine_on.is());
   words_.set(nc::N_CLRMSG, 0, messages_.takeCleared());
   words_.set(nc::N_PTEDT, 0, pallets_.isEdited());
   words_.set(nc::N_MSGA, 0, !screen.empty());
@@ -186,15 +186,15 @@ void Control::tellConstants() {
 // NCT manual 7.7.
 void Control::tellDrives() {
   for (uint32_t k = 0; k < kDrives; ++k) {
-    if (words_.isSet(nc::DP_ERRCLR, k)) drive_errors_[k] = 0;
-    const bool ready = drive_errors_[k] == 0;
-    if (!ready) drive_enabled_[k] = {};
-    drive_enabled_[k].follow(words_.isSet(nc::DP_ENA2, k) && !words_.isSet(nc::DP_ENA1, k), ready);
+    if (words_.isSet(nc::DP_ERRCLR, k)) drives_.errors[k] = 0;
+    const bool ready = drives_.errors[k] == 0;
+    if (!ready) drives_.enabled[k] = {};
+    drives_.enabled[k].follow(words_.isSet(nc::DP_ENA2, k) && !words_.isSet(nc::DP_ENA1, k), ready);
     words_.set(nc::DN_RDY, k, ready);
-    words_.set(nc::DN_ENA, k, drive_enabled_[k].is());
+    words_.set(nc::DN_ENA, k, drives_.enabled[k].is());
     words_.set(nc::DN_PRM1, k, words_.isSet(nc::DP_PRM1, k));
     words_.set(nc::DN_PRM2, k, words_.isSet(nc::DP_PRM2, k));
-    words_.put(nc::DN_ERR, k, drive_errors_[k] | (ready ? 0u : 1u));
+    words_.put(nc::DN_ERR, k, drives_.errors[k] | (ready ? 0u : 1u));
   }
 }
 
@@ -236,7 +236,7 @@ bool Control::readScope(uint32_t item, int32_t first, int32_t second, double& va
   }
   if (item == scope::NCTDriveMess) {
     if (unit < 1 || unit > kDrives || second > 5) return false;
-    value = drive_values_[unit - 1][second];
+    value = drives_.values[unit - 1][second];
     return true;
   }
   return item >= scope::Measured && item <= scope::TSliceErr;  // times of a control that needs none

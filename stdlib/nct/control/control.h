@@ -128,9 +128,12 @@ class Control {
   Network network_;
   Messages messages_;
 
-  bool has_begun_ = false;
-  int64_t last_ns_ = 0, last_cycle_ns_ = 0;
-  uint64_t cycles_ = 0;
+  struct Clock {
+    bool has_begun = false;
+    int64_t last_ns = 0, last_cycle_ns = 0;  // of exchange() and of a cycle
+    uint64_t cycles = 0;
+  };
+  Clock clock_;
   uint32_t* nonvolatile_ = nullptr;
 
   std::deque<Request> requests_;
@@ -142,11 +145,15 @@ class Control {
   uint32_t assigned_[kChannels] = {};
   bool display_ready_ = true;
   uint32_t window_ = 0;
-  double drive_values_[kDrives][6] = {};
-  uint32_t drive_errors_[kDrives] = {};
-  Answer drive_enabled_[kDrives];
-  Answer machine_on_;
-  bool machine_forbidden_ = false;
+  // What a test sets up of the drives and the machine.
+  struct Drives {
+    double values[kDrives][6] = {};
+    uint32_t errors[kDrives] = {};
+    Answer enabled[kDrives];
+    Answer machine_on;
+    bool is_forbidden = false;
+  };
+  Drives drives_;
   int32_t handwheels_[4] = {};
   uint8_t inputs_[64] = {};  // of interface cards
   bool has_slices_ = false;

@@ -33,7 +33,7 @@ uint32_t checksumOf(const uint32_t* words);
 // The services that are due are done in the order in which they came.
 bool Control::poll(uint32_t number, uint32_t* memory) {
   for (Request& request : requests_)
-    if (request.code == kBusy && request.due <= cycles_) request.code = serve(request, memory);
+    if (request.code == kBusy && request.due <= clock_.cycles) request.code = serve(request, memory);
   const auto at = std::find_if(requests_.begin(), requests_.end(),
                                [&](const Request& request) { return request.number == number; });
   if (at == requests_.end()) return true;
@@ -60,7 +60,7 @@ Code Control::serveRead(Request& request, uint32_t* memory) {
     case 104: return tools_.readTool(block);
     case 107: return tools_.readItem(block);
     case 108: return tools_.findByUserData(block);
-    case 201: return mailbox_.read(block, memory, cycles_ - request.due);
+    case 201: return mailbox_.read(block, memory, clock_.cycles - request.due);
     case 304: return pallets_.readPallet(block);
     case 307: return pallets_.readItem(block);
     case 308: return pallets_.findPallet(block);
@@ -77,7 +77,7 @@ Code Control::serveWrite(Request& request, const uint32_t* memory) {
     case 35: return parameters_.writeReals(block);
     case 40: return assignProgram(block);
     case 41: return assignPalletProgram(block);
-    case 60: return network_.open(block, request.number, cycles_ - request.due);
+    case 60: return network_.open(block, request.number, clock_.cycles - request.due);
     case 61: return network_.close(block);
     case 63: return network_.send(block, memory);
     case 70: return openWindow(block);
@@ -88,7 +88,7 @@ Code Control::serveWrite(Request& request, const uint32_t* memory) {
     case 103: return tools_.writeTool(block);
     case 105: return tools_.deleteTool(block);
     case 106: return tools_.writeItem(block);
-    case 202: return mailbox_.write(block, memory, cycles_ - request.due);
+    case 202: return mailbox_.write(block, memory, clock_.cycles - request.due);
     case 300: return pallets_.exchangePlaces(block);
     case 303: return pallets_.writePallet(block);
     case 306: return pallets_.writeItem(block);
@@ -152,7 +152,7 @@ Code Control::dumpDrive(const Block& block) {
   if (drive >= kDrives) return kDriveAddress;
   if (type > 5) return kDriveData;
   const double value = block.integer(4);
-  drive_values_[drive][type] = type == 1 ? value / 100 : value;  // 10 mA
+  drives_.values[drive][type] = type == 1 ? value / 100 : value;  // 10 mA
   return kDone;
 }
 

@@ -68,9 +68,9 @@ Simulation Control::simulateMachine(int32_t what, const Settings& settings, doub
       return Simulation::Done;
     case Simulated::DriveError:
       if (!settings.unit(0, 0, kDrives, unit)) return Simulation::Refused;
-      drive_errors_[unit] = settings.bits(1);
+      drives_.errors[unit] = settings.bits(1);
       return Simulation::Done;
-    case Simulated::MachineOff: machine_forbidden_ = settings.flag(0); return Simulation::Done;
+    case Simulated::MachineOff: drives_.is_forbidden = settings.flag(0); return Simulation::Done;
     case Simulated::Handwheel:
       if (!settings.unit(0, 1, 4, unit)) return Simulation::Refused;
       handwheels_[unit] += settings.whole(1);
