@@ -155,8 +155,7 @@ class Describer {
     declared_.push_back(id.index);
     const ir::Body& body = module_.body(id);
     if (body.self && named_records_.insert(types_.resolve(body.self).index).second) {
-      appendRecordType(records_, types_, body.self);
-      records_ += ";\n";
+      records_ += recordType(types_, body.self) + ";\n";
     }
     appendSignature(prototypes_, module_, body);
     prototypes_ += ";\n";

@@ -100,9 +100,10 @@ class Control {
 
   template <class Archive>
   void transferOwn(Archive& archive) {
-    archive.values(has_begun_, last_ns_, last_cycle_ns_, cycles_, nonvolatile_, last_request_, latency_, assigned_);
-    archive.values(display_ready_, window_, drive_values_, drive_errors_, drive_enabled_, machine_on_);
-    archive.values(machine_forbidden_, handwheels_, inputs_, has_slices_);
+    archive.values(clock_.has_begun, clock_.last_ns, clock_.last_cycle_ns, clock_.cycles, nonvolatile_, last_request_,
+                   latency_, assigned_);
+    archive.values(display_ready_, window_, drives_.values, drives_.errors, drives_.enabled, drives_.machine_on);
+    archive.values(drives_.is_forbidden, handwheels_, inputs_, has_slices_);
     const Request blank{0, false, 0, 0, Block({}), 0};
     archive.sequence(requests_, blank, [&](Request& it) {
       archive.values(it.number, it.is_write, it.function, it.address, it.due, it.code);
