@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frontend/syntax/tree.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/il.h"
@@ -69,15 +73,31 @@ ExprShape shape(ExprKind kind) {
 Tree::Tree() = default;
 
 Tree::~Tree() {
-  for (const uint32_t* block : blocks_) delete[] block;
+  for (uint32_t* block : blocks_) std::free(block);
+}
+
+// Memory for this many chunks; of a large tree, in huge pages, which the system clears at once.
+void Tree::openBlock(uint32_t chunks) {
+  constexpr size_t kHugePage = size_t{2} << 20, kSmall = 4;
+  size_t bytes = size_t{chunks} * kChunkWords * sizeof(uint32_t);
+  const bool is_large = blocks_.size() >= kSmall;
+  if (is_large) bytes = (bytes + kHugePage - 1) / kHugePage * kHugePage;
+  void* const block = is_large ? std::aligned_alloc(kHugePage, bytes) : std::malloc(bytes);
+  if (block == nullptr) throw std::bad_alloc();
+  if (is_large) madvise(block, bytes, MADV_HUGEPAGE);
+  blocks_.push_back(static_cast<uint32_t*>(block));
+  next_chunk_ = blocks_.back();
+  spare_ = static_cast<uint32_t>(bytes / (kChunkWords * sizeof(uint32_t)));
 }
 
 void Tree::openChunks(uint32_t words) {
   next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
   if (next_word_ == 0) next_word_ = 2;  // 0 means no node
   const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
-  blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
-  for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);
+  if (count > spare_) openBlock(count);
+  for (uint32_t k = 0; k < count; ++k) chunks_.push_back(next_chunk_ + size_t{k} * kChunkWords);
+  next_chunk_ += size_t{count} * kChunkWords;
+  spare_ -= count;
 }
 
 StringId Tree::addString(std::string_view text) {

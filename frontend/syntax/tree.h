@@ -168,6 +168,7 @@ class Tree {
     return word;
   }
   void openChunks(uint32_t words);
+  void openBlock(uint32_t chunks);
 
   struct Parens {
     ExprId of;
@@ -177,6 +178,8 @@ class Tree {
 
   std::vector<uint32_t*> chunks_;  // some point into a larger block
   std::vector<uint32_t*> blocks_;  // owned
+  uint32_t* next_chunk_ = nullptr;  // in the last block, with `spare_` chunks from it on
+  uint32_t spare_ = 0;
   uint32_t next_word_ = 0;
   std::vector<Parens> parens_;  // sorted by `of`
 };
