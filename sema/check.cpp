@@ -37,9 +37,14 @@ void declare(Context& context) {
   resolveDeclarations(context);
 }
 
+bool isCancelled(const Project& project) {
+  return project.options.cancelled != nullptr && project.options.cancelled->load(std::memory_order_relaxed);
+}
+
 void checkBodies(Context& context) {
   Project& project = context.project;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {  // grows while bodies use library POUs
+    if (isCancelled(project)) break;
     if (!project.pous[i].generic) ensureBody(context, PouId{i});
   }
   setPhaseSubject("", 0);
@@ -92,6 +97,7 @@ void check(Project& project) {
     if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});
   context.rules->declarations(context);
   checkBodies(context);
+  if (isCancelled(project)) return;
   addFreeProgram(context);
   setTaskDurations(context);
   setIoModules(context);

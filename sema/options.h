@@ -2,6 +2,7 @@
 // The driver's options for sema: dialect, libraries, mocks, and its callbacks.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -73,6 +74,7 @@ struct Options {
   diagram::EdgeCoils edge_coils = diagram::EdgeCoils::Pulse;  // of LD
   std::string_view name = "plc";                              // of the module: instance paths begin with it
   std::span<const LibraryFile> libraries;  // sources that outlive the project; declarations are parsed on first use
+  const std::atomic<bool>* cancelled = nullptr;  // asked before each body: when it is true the rest is not checked
   std::vector<LibraryProject> library_projects;
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;

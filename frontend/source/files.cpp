@@ -112,7 +112,7 @@ uint32_t countCharacters(std::string_view utf8) {
   return static_cast<uint32_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return !isContinuation(c); }));
 }
 
-Sources::Sources() { files_.push_back({{}, {}, 0, {}, {}, {}, true}); }
+Sources::Sources() { files_.emplace_back(); }
 
 FileId Sources::add(std::string path, std::string source) {
   if (source.starts_with("\xef\xbb\xbf")) source.erase(0, 3);
@@ -124,8 +124,11 @@ FileId Sources::addSourceMapped(std::string path, std::string source, std::vecto
   // One past the NUL: the end of a file has its own location.
   const uint64_t base = uint64_t{last.base} + last.source.size() + 1;
   if (base + source.size() + 1 > UINT32_MAX) return {};
-  files_.push_back(
-      {std::move(path), std::move(source), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
+  File& file = files_.emplace_back();
+  file.path = std::move(path);
+  file.source = std::move(source);
+  file.base = static_cast<uint32_t>(base);
+  file.segments = std::move(segments);
   return {static_cast<uint32_t>(files_.size() - 1)};
 }
 
@@ -140,12 +143,12 @@ FileId Sources::fileOf(Loc loc) const {
   const auto holds = [&](uint32_t i) {
     return loc.offset >= files_[i].base && loc.offset - files_[i].base <= files_[i].source.size();
   };
-  if (last_file_ != 0 && holds(last_file_)) return {last_file_};
+  if (const uint32_t last = last_file_.load(std::memory_order_relaxed); last != 0 && holds(last)) return {last};
   const auto after = std::upper_bound(files_.begin() + 1, files_.end(), loc.offset,
                                       [](uint32_t offset, const File& file) { return offset < file.base; });
   const auto index = static_cast<uint32_t>(after - files_.begin() - 1);
   if (index == 0 || !holds(index)) return {};
-  last_file_ = index;
+  last_file_.store(index, std::memory_order_relaxed);
   return {index};
 }
 
@@ -162,10 +165,10 @@ Loc Sources::originalLocation(Loc loc) const {
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
-  if (file.line_starts.empty()) {
+  std::call_once(file.lines_known, [&] {
     file.line_starts = findLineStarts(file.source);
     file.ascii = isAscii(file.source);
-  }
+  });
   return file.line_starts;
 }
 
@@ -177,22 +180,27 @@ uint32_t Sources::lineNumber(Loc loc) const {
   const std::vector<uint32_t>& starts = lineStarts(file);
   const uint32_t at = loc.offset - file.base;
   // Most lookups come in order: try the last line and the next one before searching.
-  for (uint32_t line = last_line_; line <= last_line_ + 1 && line != 0 && line <= starts.size(); ++line) {
-    if (starts[line - 1] <= at && (line == starts.size() || at < starts[line])) return last_line_ = line;
-  }
-  return last_line_ = static_cast<uint32_t>(std::upper_bound(starts.begin(), starts.end(), at) - starts.begin());
+  const uint32_t last = last_line_.load(std::memory_order_relaxed);
+  uint32_t line = last;
+  const auto holds = [&] { return starts[line - 1] <= at && (line == starts.size() || at < starts[line]); };
+  while (line != 0 && line <= last + 1 && line <= starts.size() && !holds()) ++line;
+  if (line == 0 || line > last + 1 || line > starts.size())
+    line = static_cast<uint32_t>(std::upper_bound(starts.begin(), starts.end(), at) - starts.begin());
+  last_line_.store(line, std::memory_order_relaxed);
+  return line;
 }
 
 SourceLocation Sources::location(Loc loc) const {
   loc = originalLocation(loc);
   const uint32_t line = lineNumber(loc);
   if (line == 0) return {};
-  const FileId id{last_file_};
+  const FileId id = fileOf(loc);
   const File& file = files_[id.index];
   const uint32_t start = file.line_starts[line - 1];
   const uint32_t at = loc.offset - file.base;
   if (file.ascii) return {id, line, at - start + 1};
   // Counting resumes at the last location on the same line, so that one very long line does not cost quadratic time.
+  const std::lock_guard guard(last_mutex_);
   const bool resume = last_location_.file == id && last_location_.line == line && last_location_at_ <= at;
   const uint32_t from = resume ? last_location_at_ : start;
   const uint32_t column = resume ? last_location_.column : 1;

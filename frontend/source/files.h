@@ -5,8 +5,10 @@
 // Lookups of locations fill caches: one thread at a time.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,18 +95,21 @@ class Sources {
   struct File {
     std::string path;
     std::string source;
-    uint32_t base;
+    uint32_t base = 0;
     std::vector<Segment> segments;  // of source-mapped text
     std::string display_path;
-    mutable std::vector<uint32_t> line_starts;  // filled on first use
-    mutable bool ascii;                         // valid once line_starts is filled
+    mutable std::once_flag lines_known;
+    mutable std::vector<uint32_t> line_starts;  // when `lines_known`, as `ascii`
+    mutable bool ascii = false;
     std::string active = {};
     bool any_underscores = false;
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
 
   std::deque<File> files_;
-  mutable uint32_t last_file_ = 0, last_line_ = 0;  // result of the last lookup: the next one is likely near
+  // Results of the last look-up: the next one is likely near. Several threads may read the same sources.
+  mutable std::atomic<uint32_t> last_file_ = 0, last_line_ = 0;
+  mutable std::mutex last_mutex_;
   mutable SourceLocation last_location_;
   mutable uint32_t last_location_at_ = 0;
 };

@@ -230,6 +230,7 @@ sema::Options Compilation::semaOptions() {
   sema_options.native_width = options.code.native_width;
   sema_options.edge_coils = options.code.edge_coils;
   sema_options.scheduled = scheduled;
+  sema_options.cancelled = cancelled;
   sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                   FunctionRef<bool(sema::PouId)> ready) {
     return ir::interpreter::callConstant(in, function, values, {rung::natives::table, rung::natives::count}, ready);

@@ -5,6 +5,7 @@
 // threads.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -75,9 +76,10 @@ class Compilation {
   std::string diagnosticsText();
   int exitCode() const;
 
-  bool for_pictures = false;     // set before parse() by `rung graph`
-  sema::Scheduled scheduled;     // set before check() by `rung convert`
-  std::function<void()> parsed;  // likewise: called while the tree is as parsed, and has no errors
+  bool for_pictures = false;                     // set before parse() by `rung graph`
+  const std::atomic<bool>* cancelled = nullptr;  // set before check(): sema::Options::cancelled
+  sema::Scheduled scheduled;                     // set before check() by `rung convert`
+  std::function<void()> parsed;                  // likewise: called while the tree is as parsed, and has no errors
   ProjectOptions options;
   Sources sources;
   Names names;

@@ -20,8 +20,8 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     layer["sema/declarations/"] = 8.1; layer["sema/bodies/"] = 8.2; layer["sema/checks/"] = 8.3; layer["sema/check."] = 8.4
     layer["ir/"] = 9
     layer["codegen/"] = 10
-    layer["tools/workspace/"] = 10.5
-    layer["tools/driver/"] = 11
+    layer["tools/driver/"] = 10.5
+    layer["tools/workspace/"] = 11
     layer["tools/"] = 12
     layer["stdlib/"] = -1; layer["cam/"] = -2
   }
