@@ -10,38 +10,31 @@
 
 namespace rung::codegen {
 
+using ir::ValueKind;
 using types::TypeTable;
 
 // ---- values
 
 cxx::Ex ExpressionWriter::value(ExprId id) {
   const Expr& e = expr(id);
-  switch (e.kind) {
-    case ExprKind::None: return tree_.number(0);
-    case ExprKind::Const: return constant(e);
-    case ExprKind::Zero: return isString(e.type) ? strings().stringValue(id) : constantOf(e.type, 0);
-    case ExprKind::String: return strings().stringValue(id);
-    case ExprKind::Data: return places().place(id);
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits: return load(id);
-    case ExprKind::Unary: return unary(id);
-    case ExprKind::Binary: return binary(id);
-    case ExprKind::Convert: return convert(id);
-    case ExprKind::Select: {
+  if (ir::isPlace(e.kind)) return load(id);
+  switch (ir::valueKind(e.kind)) {
+    case ValueKind::None: return tree_.number(0);
+    case ValueKind::Const: return constant(e);
+    case ValueKind::Zero: return isString(e.type) ? strings().stringValue(id) : constantOf(e.type, 0);
+    case ValueKind::String: return strings().stringValue(id);
+    case ValueKind::Data: return places().place(id);
+    case ValueKind::Unary: return unary(id);
+    case ValueKind::Binary: return binary(id);
+    case ValueKind::Convert: return convert(id);
+    case ValueKind::Select: {
       if (isString(e.type)) return strings().stringValue(id);
       const auto [decides, yes, no] = e.as<ir::SelectExpr>();
       const Ex test = condition(decides), first = value(yes), second = value(no);
       return tree_.choice(test, first, second);
     }
-    case ExprKind::Call: return calls().callExpr(e);
-    case ExprKind::Address: {
+    case ValueKind::Call: return calls().callExpr(e);
+    case ValueKind::Address: {
       const ExprId target = e.as<ir::AddressExpr>().place;
       const Ex place = places().place(target);
       return tree_.cast("void*", isString(expr(target).type) ? place : addressOf(place));

@@ -260,78 +260,98 @@ class Describer {
     out_.areas.push_back({string(prefix.substr(1)), string(prefix), area.bytes, owner});
   }
 
+  struct SymbolRow {
+    std::string key;  // the name in lower case
+    rung_symbol symbol;
+  };
+  using SymbolRows = std::vector<SymbolRow>;
+
   void addSymbols() {
-    std::vector<std::pair<std::string, rung_symbol>> rows;  // name in lower case
-    const auto add = [&](std::string_view name, rung_symbol row, std::string_view path) {
-      row.name = string(name);
-      row.path = string(path);
-      rows.push_back({foldedIdentifier(name), row});
-    };
-    const auto inBlock = [&](TypeId type_id, uint32_t block, uint64_t offset) {
-      rung_symbol row{};
-      row.type = type(type_id);
-      row.storage = RUNG_IN_BLOCK;
-      row.bit = 255;
-      row.index = block;
-      row.offset = static_cast<uint32_t>(offset);
-      return row;
-    };
+    SymbolRows rows;
+    addPrograms(rows);
+    addLists(rows);
+    for (const Located& located : module_.located) addLocated(located, rows);
+    for (const AccessPath& access : module_.access_paths) addAccessPath(access, rows);
+    // The order of the input files does not show: programs stay first among equal names.
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    for (const SymbolRow& row : rows) out_.symbols.push_back(row.symbol);
+  }
+
+  void add(SymbolRows& rows, rung_symbol symbol, std::string_view name, std::string_view path) {
+    symbol.name = string(name);
+    symbol.path = string(path);
+    rows.push_back({foldedIdentifier(name), symbol});
+  }
+
+  rung_symbol inBlock(TypeId type_id, uint32_t block, uint64_t offset) {
+    rung_symbol symbol{};
+    symbol.type = type(type_id);
+    symbol.storage = RUNG_IN_BLOCK;
+    symbol.bit = 255;
+    symbol.index = block;
+    symbol.offset = static_cast<uint32_t>(offset);
+    return symbol;
+  }
+
+  void addPrograms(SymbolRows& rows) {
     for (uint32_t i = 0; i < module_.programs.size(); ++i) {
       const ProgramInstance& program = module_.programs[i];
-      rung_symbol row = inBlock(program.record, blocks_.program_block[i], 0);
-      row.is_program = 1;
-      add(module_.names.string(program.name), row, programPath(program));
+      rung_symbol symbol = inBlock(program.record, blocks_.program_block[i], 0);
+      symbol.is_program = 1;
+      add(rows, symbol, module_.names.string(program.name), programPath(program));
     }
+  }
+
+  void addLists(SymbolRows& rows) {
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
       const std::string configuration(module_.names.string(module_.lists[i].configuration));
       const std::string path = (configuration.empty() ? "" : configuration + ".") +
                                std::string(module_.names.string(module_.lists[i].name)) + ".";
       for (const Field& field : record.fields) {
-        rung_symbol row = inBlock(field.type, blocks_.list_block[i], field.offset);
-        row.flags = flags(field);
-        add(module_.names.string(field.name), row, path);
+        rung_symbol symbol = inBlock(field.type, blocks_.list_block[i], field.offset);
+        symbol.flags = flags(field);
+        add(rows, symbol, module_.names.string(field.name), path);
       }
     }
-    for (const Located& located : module_.located) {
-      std::string name, path;
-      if (located.owner_program != 0) {
-        const ProgramInstance& owner = module_.programs[located.owner_program - 1];
-        name = module_.names.string(owner.name);
-        name += '.';
-        path = programPath(owner);
-      }
-      for (const NameId prefix : {located.configuration, located.list})
-        if (prefix) path.append(module_.names.string(prefix)).append(".");
-      name += module_.names.string(located.name);
-      rung_symbol row = inBlock(located.type, 0, located.byte);
-      row.storage = RUNG_IN_AREA;
-      row.index = located.area;
-      if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
-      row.flags = accessFlags(located.symbol_access);
-      if (located.retain) row.flags |= RUNG_FIELD_RETAIN;
-      if (located.persistent) row.flags |= RUNG_FIELD_PERSISTENT;
-      keepLocated(located);
-      add(name, row, path);
+  }
+
+  void addLocated(const Located& located, SymbolRows& rows) {
+    std::string name, path;
+    if (located.owner_program != 0) {
+      const ProgramInstance& owner = module_.programs[located.owner_program - 1];
+      name = module_.names.string(owner.name);
+      name += '.';
+      path = programPath(owner);
     }
-    for (const AccessPath& access : module_.access_paths) {
-      std::string name, path;
-      if (access.configuration) path.append(module_.names.string(access.configuration)).append(".");
-      if (access.prefix) name.append(module_.names.string(access.prefix)).append(".");
-      name += module_.names.string(access.name);
-      const bool in_image = access.root == AccessPath::Root::Image;
-      const uint32_t block = in_image                                   ? access.index
-                             : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
-                                                                        : blocks_.list_block[access.index];
-      rung_symbol row = inBlock(access.type, block, access.offset);
-      if (in_image) row.storage = RUNG_IN_AREA;
-      if (access.bit != kNoBit) row.bit = static_cast<uint8_t>(access.bit);
-      if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
-      add(name, row, path);
-    }
-    // The order of the input files does not show: programs stay first among equal names.
-    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& row : rows) out_.symbols.push_back(row.second);
+    for (const NameId prefix : {located.configuration, located.list})
+      if (prefix) path.append(module_.names.string(prefix)).append(".");
+    name += module_.names.string(located.name);
+    rung_symbol symbol = inBlock(located.type, 0, located.byte);
+    symbol.storage = RUNG_IN_AREA;
+    symbol.index = located.area;
+    if (located.bit != kNoBit) symbol.bit = static_cast<uint8_t>(located.bit);
+    symbol.flags = accessFlags(located.symbol_access);
+    if (located.retain) symbol.flags |= RUNG_FIELD_RETAIN;
+    if (located.persistent) symbol.flags |= RUNG_FIELD_PERSISTENT;
+    keepLocated(located);
+    add(rows, symbol, name, path);
+  }
+
+  void addAccessPath(const AccessPath& access, SymbolRows& rows) {
+    std::string name, path;
+    if (access.configuration) path.append(module_.names.string(access.configuration)).append(".");
+    if (access.prefix) name.append(module_.names.string(access.prefix)).append(".");
+    name += module_.names.string(access.name);
+    const bool in_image = access.root == AccessPath::Root::Image;
+    const uint32_t block = in_image                                   ? access.index
+                           : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
+                                                                      : blocks_.list_block[access.index];
+    rung_symbol symbol = inBlock(access.type, block, access.offset);
+    if (in_image) symbol.storage = RUNG_IN_AREA;
+    if (access.bit != kNoBit) symbol.bit = static_cast<uint8_t>(access.bit);
+    if (access.read_only) symbol.flags = RUNG_FIELD_READ_ONLY;
+    add(rows, symbol, name, path);
   }
 
   // ---- tasks and tests

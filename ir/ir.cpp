@@ -13,6 +13,11 @@ using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;
 
+// A row is RUNG_PLACE where its role is that of a place.
+#define RUNG_EXPR(kind, word, role, checks, fields) static_assert(!isPlace(ExprKind::kind));
+#define RUNG_PLACE(kind, word, role, checks, fields) static_assert(isPlace(ExprKind::kind));
+#include "ir/instructions.def"
+
 bool isAggregate(const TypeTable& types, TypeId type) {
   TypeKind kind = types.kind(type);
   return kind == TypeKind::Array || kind == TypeKind::Record || TypeTable::isString(kind);

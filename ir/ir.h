@@ -105,6 +105,18 @@ constexpr bool isPlace(ExprKind kind) {
   const ExprRole role = roleOf(kind);
   return role == ExprRole::Variable || role == ExprRole::Part || role == ExprRole::Target;
 }
+// The kinds in two halves, for switches that have to do with one of them.
+enum class PlaceKind : uint8_t {
+#define RUNG_PLACE(kind, word, role, checks, fields) kind = static_cast<uint8_t>(ExprKind::kind),
+#include "ir/instructions.def"
+};
+enum class ValueKind : uint8_t {
+#define RUNG_EXPR(kind, word, role, checks, fields) kind = static_cast<uint8_t>(ExprKind::kind),
+#define RUNG_PLACE(kind, word, role, checks, fields)
+#include "ir/instructions.def"
+};
+constexpr PlaceKind placeKind(ExprKind place) { return static_cast<PlaceKind>(place); }
+constexpr ValueKind valueKind(ExprKind value) { return static_cast<ValueKind>(value); }  // of what is not a place
 // The checks that an expression of this kind may have.
 constexpr uint8_t checksOf(ExprKind kind) {
   constexpr uint8_t kChecks[] = {

@@ -326,12 +326,12 @@ void Printer::localName(const Local& local) {
 }
 
 void Printer::place(const Expr& e) {
-  switch (e.kind) {
-    case ExprKind::Local: return localName(body_->locals[e.as<LocalExpr>().local]);
-    case ExprKind::Self: return put("self");
-    case ExprKind::Global: put("@"); return name(module_.lists[e.as<GlobalExpr>().list].name);
-    case ExprKind::Program: return programName(e.as<ProgramExpr>().program);
-    case ExprKind::Image: {
+  switch (placeKind(e.kind)) {
+    case PlaceKind::Local: return localName(body_->locals[e.as<LocalExpr>().local]);
+    case PlaceKind::Self: return put("self");
+    case PlaceKind::Global: put("@"); return name(module_.lists[e.as<GlobalExpr>().list].name);
+    case PlaceKind::Program: return programName(e.as<ProgramExpr>().program);
+    case PlaceKind::Image: {
       const ImageExpr& image = e.as<ImageExpr>();
       type(e.type);
       put("%");
@@ -341,7 +341,7 @@ void Printer::place(const Expr& e) {
       put(".");
       return number(image.bit);
     }
-    case ExprKind::Field: {
+    case PlaceKind::Field: {
       const FieldExpr& node = e.as<FieldExpr>();
       const Expr& base = body_->expr(node.base);
       const Field& field = types_.info(types_.resolve(base.type)).fields[node.field];
@@ -351,7 +351,7 @@ void Printer::place(const Expr& e) {
       }
       return name(field.name);
     }
-    case ExprKind::Index: {
+    case PlaceKind::Index: {
       const IndexExpr& node = e.as<IndexExpr>();
       operand(node.base, {});
       for (uint32_t i = 0; i < node.indices.count; ++i) {
@@ -361,22 +361,11 @@ void Printer::place(const Expr& e) {
       }
       return put("]");
     }
-    case ExprKind::Deref: operand(e.as<DerefExpr>().pointer, {}); return put("^");
-    case ExprKind::Bits:
+    case PlaceKind::Deref: operand(e.as<DerefExpr>().pointer, {}); return put("^");
+    case PlaceKind::Bits:
       operand(e.as<BitsExpr>().base, {});
       put(bitsWord(types_.kind(e.type)));
       return number(e.as<BitsExpr>().position);
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return;
   }
 }
 
@@ -392,23 +381,18 @@ void Printer::prefixed(const char* word, const Expr& e, TypeId of) {
 
 void Printer::expr(ExprId id, TypeId expected) {
   const Expr& e = body_->expr(id);
-  switch (e.kind) {
-    case ExprKind::None: return put("none");
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Zero: return constant(e, expected);
-    case ExprKind::Data: put("data "); return number(e.as<DataExpr>().index);
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits: place(e); return checks(e);
-    case ExprKind::Unary: prefixed(types::word(e.op()), e, e.type); return operand(e.as<UnaryExpr>().operand, e.type);
-    case ExprKind::Binary: {
+  if (isPlace(e.kind)) {
+    place(e);
+    return checks(e);
+  }
+  switch (valueKind(e.kind)) {
+    case ValueKind::None: return put("none");
+    case ValueKind::Const:
+    case ValueKind::String:
+    case ValueKind::Zero: return constant(e, expected);
+    case ValueKind::Data: put("data "); return number(e.as<DataExpr>().index);
+    case ValueKind::Unary: prefixed(types::word(e.op()), e, e.type); return operand(e.as<UnaryExpr>().operand, e.type);
+    case ValueKind::Binary: {
       const BinaryExpr& node = e.as<BinaryExpr>();
       const TypeId of = types::isComparison(node.op) ? typeOf(node.left) : e.type;
       prefixed(types::word(node.op), e, of);
@@ -416,16 +400,16 @@ void Printer::expr(ExprId id, TypeId expected) {
       put(", ");
       return operand(node.right, of);
     }
-    case ExprKind::Convert:
+    case ValueKind::Convert:
       if (e.as<ConvertExpr>().rounding == types::Rounding::AwayFromZero) {
         prefixed("round", e, e.type);
         return operand(e.as<ConvertExpr>().operand, {});
       }
       [[fallthrough]];
-    case ExprKind::Address:
+    case ValueKind::Address:
       prefixed(wordOf(e.kind), e, e.type);
       return forEachOperand(*body_, e, [&](ExprId below) { operand(below, {}); });
-    case ExprKind::Select: {
+    case ValueKind::Select: {
       const SelectExpr& node = e.as<SelectExpr>();
       prefixed(wordOf(e.kind), e, e.type);
       operand(node.condition, types::kBool);
@@ -434,7 +418,7 @@ void Printer::expr(ExprId id, TypeId expected) {
       put(", ");
       return operand(node.when_false, e.type);
     }
-    case ExprKind::Call: {
+    case ValueKind::Call: {
       const CallExpr& node = e.as<CallExpr>();
       const Body& callee = module_.body(node.callee);
       put("@");

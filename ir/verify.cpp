@@ -679,49 +679,38 @@ void Verifier::placeNode(const Expr& e) {
   auto names = [&](uint32_t index, const auto& list, const char* what) {
     return require(index < list.size(), 10, what);
   };
-  switch (e.kind) {
-    case ExprKind::Local: {
+  switch (placeKind(e.kind)) {
+    case PlaceKind::Local: {
       const uint32_t local = e.as<LocalExpr>().local;
       if (names(local, body_->locals, "a local that does not exist")) wantType(e, body_->locals[local].type, 10);
       return allowChecks(e, 10);
     }
-    case ExprKind::Self:
+    case PlaceKind::Self:
       if (require(static_cast<bool>(body_->self), 8, "self in a body that has none")) wantType(e, body_->self, 8);
       return allowChecks(e, 10);
-    case ExprKind::Global: {
+    case PlaceKind::Global: {
       const uint32_t list = e.as<GlobalExpr>().list;
       if (names(list, module_.lists, "a list that does not exist")) wantType(e, module_.lists[list].record, 10);
       return allowChecks(e, 10);
     }
-    case ExprKind::Program: {
+    case PlaceKind::Program: {
       const uint32_t program = e.as<ProgramExpr>().program;
       if (names(program, module_.programs, "a program that does not exist"))
         wantType(e, module_.programs[program].record, 10);
       return allowChecks(e, 10);
     }
-    case ExprKind::Image: image(e); return allowChecks(e, 10);
-    case ExprKind::Field: return field(e);
-    case ExprKind::Index: return element(e);
-    case ExprKind::Deref: {
+    case PlaceKind::Image: image(e); return allowChecks(e, 10);
+    case PlaceKind::Field: return field(e);
+    case PlaceKind::Index: return element(e);
+    case PlaceKind::Deref: {
       const TypeInfo& info = types_.info(typeOf(e.as<DerefExpr>().pointer));
       if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
       wantType(e, info.base, 13);
       return allowChecks(e, 13);
     }
-    case ExprKind::Bits:
+    case PlaceKind::Bits:
       if (requireBase(e.as<BitsExpr>().base, 14)) bits(e);
       return allowChecks(e, 15);
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return;
   }
 }
 
@@ -754,53 +743,44 @@ void Verifier::pureCall(const Expr& e) {
 }
 
 void Verifier::node(const Expr& e) {
-  switch (e.kind) {
-    case ExprKind::None: require(false, 5, "an expression without kind"); return;
-    case ExprKind::Const: constant(e); return allowChecks(e, 9);
-    case ExprKind::String:
+  switch (valueKind(e.kind)) {
+    case ValueKind::None: require(false, 5, "an expression without kind"); return;
+    case ValueKind::Const: constant(e); return allowChecks(e, 9);
+    case ValueKind::String:
       require(TypeTable::isString(types_.kind(e.type)), 9, [&] { return "a string constant of " + toString(e.type); });
       return allowChecks(e, 9);
-    case ExprKind::Data: {
+    case ValueKind::Data: {
       const uint32_t index = e.as<DataExpr>().index;
       if (require(index < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[index].type, 9);
       return allowChecks(e, 9);
     }
-    case ExprKind::Zero:
+    case ValueKind::Zero:
       require(isAggregate(types_, e.type), 9, [&] { return "zero of " + toString(e.type); });
       return allowChecks(e, 9);
-    case ExprKind::Unary: {
+    case ValueKind::Unary: {
       const UnaryExpr& node = e.as<UnaryExpr>();
       return operatorNode(e, node.op, node.operand, {});
     }
-    case ExprKind::Binary: {
+    case ValueKind::Binary: {
       const BinaryExpr& node = e.as<BinaryExpr>();
       return operatorNode(e, node.op, node.left, node.right);
     }
-    case ExprKind::Convert: return conversion(e);
-    case ExprKind::Select: {
+    case ValueKind::Convert: return conversion(e);
+    case ValueKind::Select: {
       const SelectExpr& node = e.as<SelectExpr>();
       require(types_.kind(typeOf(node.condition)) == TypeKind::Bool, 17, "the condition of a select is not a BOOL");
       require(fits(e.type, typeOf(node.when_true)) && fits(e.type, typeOf(node.when_false)), 17,
               "a select does not have the type of its operands");
       return allowChecks(e, 15);
     }
-    case ExprKind::Call: pureCall(e); return allowChecks(e, 15);
-    case ExprKind::Address: {
+    case ValueKind::Call: pureCall(e); return allowChecks(e, 15);
+    case ValueKind::Address: {
       const Expr& target = body_->expr(e.as<AddressExpr>().place);
       require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + toString(e.type); });
       require(isPlace(target.kind) && target.kind != ExprKind::Bits && !isImageBit(target), 19,
               "the address of something that has none");
       return allowChecks(e, 15);
     }
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits: return;
   }
 }
 

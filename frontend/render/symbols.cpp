@@ -17,6 +17,31 @@ constexpr int32_t kStub = 10;         // the line of a pin, which holds the circ
 constexpr int32_t kSymbol = 40;       // the width of a contact or coil
 constexpr size_t kCommentWidth = 60;  // characters
 
+// How an element is drawn.
+enum class Form : uint8_t { Rail, Contact, Text, Box, Comment };
+Form formOf(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::Rail:
+    case ElementKind::RightRail: return Form::Rail;
+    case ElementKind::Contact:
+    case ElementKind::Coil: return Form::Contact;
+    case ElementKind::Input:
+    case ElementKind::Output:
+    case ElementKind::InOut:
+    case ElementKind::Connector:
+    case ElementKind::Continuation:
+    case ElementKind::Jump:
+    case ElementKind::Label:
+    case ElementKind::Return: return Form::Text;
+    case ElementKind::Box:
+    case ElementKind::Execute:
+    case ElementKind::Compose:
+    case ElementKind::Select: return Form::Box;
+    case ElementKind::Comment: return Form::Comment;
+  }
+  return Form::Text;
+}
+
 std::string operandText(const Body& body, const DiagramElement& e) {
   if (e.operand) return printSt(body.tree, body.names, e.operand);
   return std::string(body.names.string(e.name.name));
@@ -326,32 +351,20 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
   const DiagramElement& e = body.elements[element];
   Item item{element, {}, {}, {}, {}};
   const int32_t name = textWidth(operandText(body, e));
-  switch (e.kind) {
-    case ElementKind::Rail:
-    case ElementKind::RightRail:
+  switch (formOf(e.kind)) {
+    case Form::Rail:
       item.area = {0, 0, kGrid, 40};
       item.terminals.push_back({{0, 0}, e.kind == ElementKind::Rail, kNone, {}, 40});
       break;
-    case ElementKind::Contact:
-    case ElementKind::Coil: {
+    case Form::Contact: {
       const int32_t half = std::max(kSymbol / 2, roundUp((name + 1) / 2));
       item.area = {-half, -30, 2 * half, 40};
       addLineTerminals(body, e, true, true, item);
       break;
     }
-    case ElementKind::Input:
-    case ElementKind::Output:
-    case ElementKind::InOut:
-    case ElementKind::Connector:
-    case ElementKind::Continuation:
-    case ElementKind::Jump:
-    case ElementKind::Label:
-    case ElementKind::Return: measureForm(body, e, item); break;
-    case ElementKind::Box:
-    case ElementKind::Execute:
-    case ElementKind::Compose:
-    case ElementKind::Select: measureBox(body, e, unlisted_outputs, item); break;
-    case ElementKind::Comment: {
+    case Form::Text: measureForm(body, e, item); break;
+    case Form::Box: measureBox(body, e, unlisted_outputs, item); break;
+    case Form::Comment: {
       const std::vector<std::string> text = textOf(body, e);
       item.frame = {0, 0, roundUp(widthOf(text) + 12), roundUp(static_cast<int32_t>(text.size()) * kLine + 8)};
       item.area = item.frame;
@@ -370,24 +383,12 @@ void drawItem(Svg& svg, const Body& body, const Item& item) {
   if (item.element == kNone) return;
   const DiagramElement& e = body.elements[item.element];
   svg.open("e" + std::to_string(e.number));
-  switch (e.kind) {
-    case ElementKind::Rail:
-    case ElementKind::RightRail: break;
-    case ElementKind::Contact:
-    case ElementKind::Coil: drawContact(svg, body, e, item); break;
-    case ElementKind::Input:
-    case ElementKind::Output:
-    case ElementKind::InOut:
-    case ElementKind::Connector:
-    case ElementKind::Continuation:
-    case ElementKind::Jump:
-    case ElementKind::Label:
-    case ElementKind::Return: drawText(svg, body, e, item); break;
-    case ElementKind::Box:
-    case ElementKind::Execute:
-    case ElementKind::Compose:
-    case ElementKind::Select: drawBox(svg, body, e, item); break;
-    case ElementKind::Comment: drawComment(svg, body, e, item); break;
+  switch (formOf(e.kind)) {
+    case Form::Rail: break;
+    case Form::Contact: drawContact(svg, body, e, item); break;
+    case Form::Text: drawText(svg, body, e, item); break;
+    case Form::Box: drawBox(svg, body, e, item); break;
+    case Form::Comment: drawComment(svg, body, e, item); break;
   }
   svg.close();
 }

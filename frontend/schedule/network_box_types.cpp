@@ -134,53 +134,45 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
 
 TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
   if (!expr || depth > kMaxDepth) return {};
-  switch (tree_.kind(expr)) {
-    case ExprKind::Name: return ofName(tree_.as<NameExpr>(expr).name);
-    case ExprKind::Member: {
-      const MemberExpr& member = tree_.as<MemberExpr>(expr);
-      return ofMember(ofExpr(member.base, depth + 1), member.member, 0);
-    }
-    case ExprKind::Index: {
-      const TypeExprId base = resolved(ofExpr(tree_.as<IndexExpr>(expr).base, depth + 1));
-      const bool array = base && tree_.kind(base) == TypeExprKind::Array;
-      return array ? tree_.as<ArrayTypeExpr>(base).element : TypeExprId{};
-    }
-    case ExprKind::BitAccess: {
-      const bool bit = tree_.as<BitAccessExpr>(expr).width == 1;
-      return bit ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
-    }
-    case ExprKind::Literal: {
-      const LiteralExpr& literal = tree_.as<LiteralExpr>(expr);
-      if (literal.prefix) return named(names_.string(literal.prefix), tree_.loc(expr));
-      return literal.literal() == LiteralKind::Bool ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
-    }
-    case ExprKind::Unary: return ofExpr(tree_.as<UnaryExpr>(expr).operand, depth + 1);
-    case ExprKind::Binary: {
-      const auto op = static_cast<BinaryOp>(tree_.expr(expr).op);
-      if (compares(op)) return named("BOOL", tree_.loc(expr));
-      const BinaryExpr& binary = tree_.as<BinaryExpr>(expr);
-      const TypeExprId left = ofExpr(binary.left, depth + 1);
-      return left ? left : ofExpr(binary.right, depth + 1);
-    }
-    case ExprKind::Error:
-    case ExprKind::TypedName:
-    case ExprKind::Deref:
-    case ExprKind::This:
-    case ExprKind::Super:
-    case ExprKind::Address:
-    case ExprKind::Call:
-    case ExprKind::Range:
-    case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
-    case ExprKind::Convert:
-    case ExprKind::Bound:
-    case ExprKind::AnyValue:
-    case ExprKind::New:
-    case ExprKind::Assign:
-    case ExprKind::AddressOf: break;
+  const ExprKind kind = tree_.kind(expr);
+  switch (shape(kind)) {
+    case ExprShape::Leaf:
+      if (kind == ExprKind::Name) return ofName(tree_.as<NameExpr>(expr).name);
+      return kind == ExprKind::Literal ? ofLiteral(tree_.as<LiteralExpr>(expr)) : TypeExprId{};
+    case ExprShape::Step: return ofStep(expr, depth);
+    case ExprShape::Operation:
+      if (kind == ExprKind::Unary) return ofExpr(tree_.as<UnaryExpr>(expr).operand, depth + 1);
+      return kind == ExprKind::Binary ? ofBinary(tree_.as<BinaryExpr>(expr), depth) : TypeExprId{};
+    case ExprShape::Initializer:
+    case ExprShape::Inserted: break;
   }
   return {};
+}
+
+TypeExprId BoxTypes::ofLiteral(const LiteralExpr& literal) {
+  if (literal.prefix) return named(names_.string(literal.prefix), literal.h.loc);
+  return literal.literal() == LiteralKind::Bool ? named("BOOL", literal.h.loc) : TypeExprId{};
+}
+
+TypeExprId BoxTypes::ofStep(ExprId expr, uint32_t depth) {
+  const ExprKind kind = tree_.kind(expr);
+  if (kind == ExprKind::Member) {
+    const MemberExpr& member = tree_.as<MemberExpr>(expr);
+    return ofMember(ofExpr(member.base, depth + 1), member.member, 0);
+  }
+  if (kind == ExprKind::Index) {
+    const TypeExprId base = resolved(ofExpr(tree_.as<IndexExpr>(expr).base, depth + 1));
+    const bool array = base && tree_.kind(base) == TypeExprKind::Array;
+    return array ? tree_.as<ArrayTypeExpr>(base).element : TypeExprId{};
+  }
+  const bool bit = kind == ExprKind::BitAccess && tree_.as<BitAccessExpr>(expr).width == 1;
+  return bit ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
+}
+
+TypeExprId BoxTypes::ofBinary(const BinaryExpr& binary, uint32_t depth) {
+  if (compares(static_cast<BinaryOp>(binary.h.op))) return named("BOOL", binary.h.loc);
+  const TypeExprId left = ofExpr(binary.left, depth + 1);
+  return left ? left : ofExpr(binary.right, depth + 1);
 }
 
 TypeExprId BoxTypes::ofName(NameId name) {
@@ -260,29 +252,19 @@ DeclId BoxTypes::declared(NameId name) {
 }
 
 void BoxTypes::index(Slice<DeclId> decls) {
+  const auto add = [&](NameId name, DeclId decl) { declared_.emplace_back(names_.key(name).index, decl); };
   for (const DeclId decl : tree_.list(decls)) {
-    switch (tree_.kind(decl)) {
-      case DeclKind::Type: declared_.emplace_back(names_.key(tree_.as<TypeDecl>(decl).name).index, decl); break;
-      case DeclKind::Pou: {
-        const PouDecl& pou = tree_.as<PouDecl>(decl);
-        declared_.emplace_back(names_.key(pou.name).index, decl);
-        if (!pou.members.empty()) pous_.push_back(&pou);
-        break;
-      }
-      case DeclKind::Namespace: index(tree_.as<NamespaceDecl>(decl).decls); break;
-      case DeclKind::Section:
-        for (const DeclId var : tree_.list(tree_.as<SectionDecl>(decl).vars))
-          for (const Ident& ident : tree_.list(tree_.as<VarDecl>(var).names))
-            declared_.emplace_back(names_.key(ident.name).index, var);
-        break;
-      case DeclKind::Property:
-      case DeclKind::Var:
-      case DeclKind::Using:
-      case DeclKind::Configuration:
-      case DeclKind::Resource:
-      case DeclKind::Task:
-      case DeclKind::ProgramInstance: break;
+    const DeclKind kind = tree_.kind(decl);
+    if (kind == DeclKind::Namespace) index(tree_.as<NamespaceDecl>(decl).decls);
+    if (kind == DeclKind::Type) add(tree_.as<TypeDecl>(decl).name, decl);
+    if (kind == DeclKind::Pou) {
+      const PouDecl& pou = tree_.as<PouDecl>(decl);
+      add(pou.name, decl);
+      if (!pou.members.empty()) pous_.push_back(&pou);
     }
+    if (kind != DeclKind::Section) continue;
+    for (const DeclId var : tree_.list(tree_.as<SectionDecl>(decl).vars))
+      for (const Ident& ident : tree_.list(tree_.as<VarDecl>(var).names)) add(ident.name, var);
   }
 }
 

@@ -31,6 +31,9 @@ class BoxTypes {
   TypeExprId ofReaders(uint32_t element);
   TypeExprId ofSource(uint32_t source, uint32_t depth);
   TypeExprId ofExpr(ExprId expr, uint32_t depth);
+  TypeExprId ofLiteral(const LiteralExpr& literal);
+  TypeExprId ofStep(ExprId expr, uint32_t depth);
+  TypeExprId ofBinary(const BinaryExpr& binary, uint32_t depth);
   TypeExprId ofName(NameId name);
   TypeExprId ofMember(TypeExprId type, NameId member, uint32_t depth);
   TypeExprId ofVariable(const PouDecl& pou, NameId name, uint32_t depth);

@@ -52,42 +52,39 @@ void BodyTranslator::valueInto(ExprId id, const Operand& to) { move(scalarOf(id)
 // `want` is where the caller would like the value; the result is where it is.
 Operand BodyTranslator::value(ExprId id, const Operand* want) {
   const Expr& e = expr(id);
-  switch (e.kind) {
-    case ExprKind::None: return {};
-    case ExprKind::Const: return constant(e);
-    case ExprKind::Zero: return {};
-    case ExprKind::Index: {
-      Element at;
-      Operand to;
-      if (loadOfTwo(id, want, to)) return to;
-      if (!element(e, at)) return read(place(id), scalarOf(id), want);
-      to = target(want);
-      emit(loadElementHandler(scalarOf(id), at.index_type, at.base.base, at.index.mode, to.mode), to.ref, at.base.ref,
-           at.index.ref, at.site, at.range);
-      return to;
-    }
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Deref:
-    case ExprKind::Bits: return read(place(id), scalarOf(id), want);
-    case ExprKind::Unary: return unary(e, want);
-    case ExprKind::Binary: return binary(e, want);
-    case ExprKind::Convert: return convert(id, want);
-    case ExprKind::Select: return select(e, want);
-    case ExprKind::Call: return callExpression(e, want);
-    case ExprKind::Address: {
+  if (isPlace(e.kind)) return load(id, want);
+  switch (valueKind(e.kind)) {
+    case ValueKind::None: return {};
+    case ValueKind::Const: return constant(e);
+    case ValueKind::Zero: return {};
+    case ValueKind::Unary: return unary(e, want);
+    case ValueKind::Binary: return binary(e, want);
+    case ValueKind::Convert: return convert(id, want);
+    case ValueKind::Select: return select(e, want);
+    case ValueKind::Call: return callExpression(e, want);
+    case ValueKind::Address: {
       const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
       pointerInto(place(e.as<AddressExpr>().place), to.ref);
       return to;
     }
-    case ExprKind::String:
-    case ExprKind::Data: break;
+    case ValueKind::String:
+    case ValueKind::Data: break;
   }
   return {Mode::Frame, pointerTo(place(id)), 0};
+}
+
+// The value of a place.
+Operand BodyTranslator::load(ExprId id, const Operand* want) {
+  const Expr& e = expr(id);
+  Operand to;
+  Element at;
+  if (e.kind != ExprKind::Index) return read(place(id), scalarOf(id), want);
+  if (loadOfTwo(id, want, to)) return to;
+  if (!element(e, at)) return read(place(id), scalarOf(id), want);
+  to = target(want);
+  emit(loadElementHandler(scalarOf(id), at.index_type, at.base.base, at.index.mode, to.mode), to.ref, at.base.ref,
+       at.index.ref, at.site, at.range);
+  return to;
 }
 
 Operand BodyTranslator::operate(Op op, Scalar type, Operand left, Operand right, const Operand* want, uint32_t site) {

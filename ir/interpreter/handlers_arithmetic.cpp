@@ -313,33 +313,17 @@ Handler overflowOf(Scalar type) {
 }  // namespace
 
 Handler binaryHandler(Op op, Scalar type, Mode left, Mode right, Mode to) {
-  switch (op) {
-    case Op::Add: return modularOrReal<Add>(type, left, right, to);
-    case Op::Sub: return modularOrReal<Sub>(type, left, right, to);
-    case Op::Mul: return modularOrReal<Mul>(type, left, right, to);
-    case Op::Div: return quotient<true>(type, left, right, to);
-    case Op::Mod: return quotient<false>(type, left, right, to);
-    case Op::And: return bitwise<And>(type, left, right, to);
-    case Op::Or: return bitwise<Or>(type, left, right, to);
-    case Op::Xor: return bitwise<Xor>(type, left, right, to);
-    case Op::Min: return ordered<Min>(type, left, right, to);
-    case Op::Max: return ordered<Max>(type, left, right, to);
-    case Op::Power:
-    case Op::Neg:
-    case Op::Not:
-    case Op::Shl:
-    case Op::Shr:
-    case Op::Sar:
-    case Op::Rol:
-    case Op::Ror:
-    case Op::Eq:
-    case Op::Ne:
-    case Op::Lt:
-    case Op::Le:
-    case Op::Gt:
-    case Op::Ge:
-    case Op::Abs: break;
-  }
+  struct Row {
+    Op op;
+    Handler (*handler)(Scalar type, Mode left, Mode right, Mode to);
+  };
+  static constexpr Row kRows[] = {{Op::Add, modularOrReal<Add>}, {Op::Sub, modularOrReal<Sub>},
+                                  {Op::Mul, modularOrReal<Mul>}, {Op::Div, quotient<true>},
+                                  {Op::Mod, quotient<false>},    {Op::And, bitwise<And>},
+                                  {Op::Or, bitwise<Or>},         {Op::Xor, bitwise<Xor>},
+                                  {Op::Min, ordered<Min>},       {Op::Max, ordered<Max>}};
+  for (const Row& row : kRows)
+    if (row.op == op) return row.handler(type, left, right, to);
   return nullptr;
 }
 
@@ -378,34 +362,8 @@ Handler powerHandler(Scalar base, Scalar exponent) {
 }
 
 Handler overflowHandler(Op op, Scalar type) {
-  switch (op) {
-    case Op::Add: return overflowOf<Op::Add>(type);
-    case Op::Sub: return overflowOf<Op::Sub>(type);
-    case Op::Mul: return overflowOf<Op::Mul>(type);
-    case Op::Div: return overflowOf<Op::Div>(type);
-    case Op::Mod: return overflowOf<Op::Mod>(type);
-    case Op::Power: return overflowOf<Op::Power>(type);
-    case Op::Neg: return overflowOf<Op::Neg>(type);
-    case Op::Abs: return overflowOf<Op::Abs>(type);
-    case Op::And:
-    case Op::Or:
-    case Op::Xor:
-    case Op::Not:
-    case Op::Shl:
-    case Op::Shr:
-    case Op::Sar:
-    case Op::Rol:
-    case Op::Ror:
-    case Op::Eq:
-    case Op::Ne:
-    case Op::Lt:
-    case Op::Le:
-    case Op::Gt:
-    case Op::Ge:
-    case Op::Min:
-    case Op::Max: break;
-  }
-  return nullptr;
+  return withOneOf<Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Mod, Op::Power, Op::Neg, Op::Abs>(
+      op, [&](auto o) { return overflowOf<o()>(type); });
 }
 
 Handler rangeHandler(rung_fault_kind kind, bool is_signed) {

@@ -123,34 +123,7 @@ Handler withCompared(Scalar type, F&& f) {
 
 template <class F>
 Handler withComparison(Op op, F&& f) {
-  switch (op) {
-    case Op::Eq: return f(Is<Op::Eq>{});
-    case Op::Ne: return f(Is<Op::Ne>{});
-    case Op::Lt: return f(Is<Op::Lt>{});
-    case Op::Le: return f(Is<Op::Le>{});
-    case Op::Gt: return f(Is<Op::Gt>{});
-    case Op::Ge: return f(Is<Op::Ge>{});
-    case Op::Add:
-    case Op::Sub:
-    case Op::Mul:
-    case Op::Div:
-    case Op::Mod:
-    case Op::Power:
-    case Op::Neg:
-    case Op::And:
-    case Op::Or:
-    case Op::Xor:
-    case Op::Not:
-    case Op::Shl:
-    case Op::Shr:
-    case Op::Sar:
-    case Op::Rol:
-    case Op::Ror:
-    case Op::Min:
-    case Op::Max:
-    case Op::Abs: break;
-  }
-  return nullptr;
+  return withOneOf<Op::Eq, Op::Ne, Op::Lt, Op::Le, Op::Gt, Op::Ge>(op, f);
 }
 
 }  // namespace

@@ -11,6 +11,14 @@ namespace rung::ir::interpreter {
 template <auto V>
 using Is = std::integral_constant<decltype(V), V>;
 
+// A value that is one of those listed; of another there is no handler.
+template <auto... Listed, class T, class F>
+Handler withOneOf(T value, F&& f) {
+  Handler found = nullptr;
+  static_cast<void>(((value == Listed && (found = f(Is<Listed>{}), true)) || ...));
+  return found;
+}
+
 template <class F>
 Handler withUnsigned(uint32_t size, F&& f) {
   if (size == 1) return f(uint8_t{});

@@ -35,19 +35,20 @@ Address BodyTranslator::stringBuffer(TypeId type) {
 // The address of the characters of a string value: read without a copy where they are in memory.
 Address BodyTranslator::string(ExprId id) {
   const Expr& e = expr(id);
-  switch (e.kind) {
-    case ExprKind::String: return literal(e);
-    case ExprKind::Zero: {
+  if (isPlace(e.kind)) return place(id);
+  switch (valueKind(e.kind)) {
+    case ValueKind::String: return literal(e);
+    case ValueKind::Zero: {
       static constexpr char16_t kEmpty[] = u"";
       return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(kEmpty), kNoBit};
     }
-    case ExprKind::Convert: {
+    case ValueKind::Convert: {
       const Address to = stringBuffer(e.type);
       assignString(to, capacityOf(e.type), isWide(e.type), id);
       return to;
     }
-    case ExprKind::Call: return callString(e);
-    case ExprKind::Binary: {  // MIN, MAX
+    case ValueKind::Call: return callString(e);
+    case ValueKind::Binary: {  // MIN, MAX
       const auto [left, right, op] = e.as<BinaryExpr>();
       const Ref a = pointerTo(string(left)), b = pointerTo(string(right));
       const Operand order = temp(), takes_first = temp(), to = temp();
@@ -57,21 +58,12 @@ Address BodyTranslator::string(ExprId id) {
       emit(selectHandler(Scalar::U64), to.ref, a, b, takes_first.ref.offset);
       return {Base::Pointer, to.ref, 0, 0, kNoBit};
     }
-    case ExprKind::Data:
-    case ExprKind::Select:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::Unary:
-    case ExprKind::Address: break;
+    case ValueKind::Data:
+    case ValueKind::Select:
+    case ValueKind::None:
+    case ValueKind::Const:
+    case ValueKind::Unary:
+    case ValueKind::Address: break;
   }
   return place(id);
 }

@@ -56,6 +56,7 @@ class BodyTranslator : RecordedCode {
 
   // ---- expressions.cpp
   Operand value(ExprId id, const Operand* want = nullptr);
+  Operand load(ExprId id, const Operand* want);
   void valueInto(ExprId id, const Operand& to);
   Operand constant(const Expr& e) const;
   Operand unary(const Expr& e, const Operand* want);

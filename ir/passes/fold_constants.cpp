@@ -125,52 +125,16 @@ class Folder {
 
   // Operators with which the operands may change places: `bits` is either of them, `other` the one that stays.
   void eitherIdentity(Expr& e, Op op, ExprId other, uint64_t bits, TypeKind kind) {
-    switch (op) {
-      case Op::Add:
-      case Op::Xor:
-        if (bits == 0) becomeOperand(e, other);
-        break;
-      case Op::Or:
-        if (bits == 0)
-          becomeOperand(e, other);
-        else if (bits == ones(kind))
-          absorb(e, other, bits);
-        break;
-      case Op::And:
-        if (bits == 0)
-          absorb(e, other, 0);
-        else if (bits == ones(kind))
-          becomeOperand(e, other);
-        break;
-      case Op::Mul:
-        if (bits == 1)
-          becomeOperand(e, other);
-        else if (bits == 0)
-          absorb(e, other, 0);
-        break;
-      case Op::Eq:
-      case Op::Ne:
-        if (kind == TypeKind::Bool) compareBool(e, op, other, bits != 0);
-        break;
-      case Op::Sub:
-      case Op::Div:
-      case Op::Mod:
-      case Op::Shl:
-      case Op::Shr:
-      case Op::Sar:
-      case Op::Rol:
-      case Op::Ror:
-      case Op::Power:
-      case Op::Neg:
-      case Op::Not:
-      case Op::Lt:
-      case Op::Le:
-      case Op::Gt:
-      case Op::Ge:
-      case Op::Min:
-      case Op::Max:
-      case Op::Abs: break;
-    }
+    const bool is_all = bits == ones(kind);
+    const bool sums = op == Op::Add || op == Op::Or || op == Op::Xor;
+    const bool keeps_other = (sums && bits == 0) || (op == Op::And && is_all) || (op == Op::Mul && bits == 1);
+    const bool decides = (op == Op::Or && is_all) || ((op == Op::And || op == Op::Mul) && bits == 0);
+    if (keeps_other)
+      becomeOperand(e, other);
+    else if (decides)
+      absorb(e, other, bits);
+    else if (kind == TypeKind::Bool && (op == Op::Eq || op == Op::Ne))
+      compareBool(e, op, other, bits != 0);
   }
 
   void rightIdentity(Expr& e, const BinaryExpr& node, uint64_t b, TypeKind kind) {

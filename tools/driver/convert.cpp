@@ -317,7 +317,8 @@ std::string Converter::statementsOfChart(const sema::Pou& pou, const PouDecl& de
     members.push_back(step.name);
     for (const SfcAssociation& association : tree.list(step.actions)) members.push_back(association.action);
   }
-  return withComments(rung::printChart(tree, compilation_.names, sources_, pou.statements, members), chartComments(decl));
+  return withComments(rung::printChart(tree, compilation_.names, sources_, pou.statements, members),
+                      chartComments(decl));
 }
 
 // The ST of a chart; its actions go between the variables and the statements.

@@ -123,6 +123,56 @@ CppBody cppBodyOf(const rung_context& context, const ShownPaths& paths) {
           " in the C++ body of `" + std::string(text.substr(pou)) + '`'};
 }
 
+// ---- what happened
+
+std::string nullFault(int64_t value) {
+  if (value == 0) return "a pointer, reference or in-out refers to nothing";
+  if (value == RUNG_BAD_ADDRESS) return "a pointer or reference points to memory that the program may not access";
+  return "__DELETE of memory that __NEW did not return, or that was already deleted";
+}
+
+std::string lockFault(int64_t value) {
+  switch (value) {
+    case RUNG_LOCK_HELD: return "another task holds the MUTEX and cannot unlock it while this one waits";
+    case RUNG_LOCK_OWN: return "this task already holds the MUTEX";
+    case RUNG_SEMA_FULL: return "RELEASE of a SEMA that is not acquired";
+    case RUNG_SEMA_EMPTY: return "the SEMA is exhausted, and nothing is released while this task waits";
+    default: return "UNLOCK of a MUTEX that this task has not locked";
+  }
+}
+
+std::string stopFault(int64_t value, int64_t step_limit) {
+  switch (value) {
+    case RUNG_STOP_STEPS: return "[steps]: no end after " + std::to_string(step_limit) + " steps (--max-steps)";
+    case RUNG_STOP_TIME: return "[time]: the time limit is reached (--timeout)";
+    default: return "[interrupt]: interrupted";
+  }
+}
+
+// `[div]: division by zero`: the word of the fault and a sentence. `site` has the bounds of indices and subranges.
+std::string faultText(const rung_fault& fault, const rung_site& site, int64_t step_limit) {
+  const std::string value = std::to_string(fault.value);
+  const std::string range = std::to_string(site.low) + ".." + std::to_string(site.high);
+  switch (static_cast<rung_fault_kind>(fault.kind)) {
+    case RUNG_FAULT_NONE: break;
+    case RUNG_FAULT_DIV: return "[div]: division by zero";
+    case RUNG_FAULT_INDEX:
+      return "[index]: index " + value + " is outside " + (site.low > site.high ? "the bounds of the ARRAY[*]" : range);
+    case RUNG_FAULT_NULL: return "[null]: " + nullFault(fault.value);
+    case RUNG_FAULT_CAST:
+      return fault.value == RUNG_NO_SUCH_METHOD
+                 ? "[cast]: the pointer does not point to an object that can be called here"
+                 : "[cast]: the object is not of the type named in the cast";
+    case RUNG_FAULT_SUBRANGE: return "[subrange]: value " + value + " is outside " + range;
+    case RUNG_FAULT_CONVERT: return "[convert]: value " + value + " does not fit in the type it is converted to";
+    case RUNG_FAULT_OVERFLOW: return "[overflow]: the result does not fit in its type";
+    case RUNG_FAULT_LOCK: return "[lock]: " + lockFault(fault.value);
+    case RUNG_FAULT_STACK: return "[stack]: calls are nested too deeply";
+    case RUNG_FAULT_STOP: return stopFault(fault.value, step_limit);
+  }
+  return "[unknown]: number " + std::to_string(fault.kind);
+}
+
 }  // namespace
 
 std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what) {
@@ -136,66 +186,9 @@ std::string describeFault(const rung_context& context, const rung_fault& fault, 
   static const rung_site nowhere{};
   const bool known = fault.site < module.sites.count;
   const rung_site& site = known ? *rung_site_at(&module, fault.site) : nowhere;
-  const std::string value = std::to_string(fault.value);
-  const std::string range = std::to_string(site.low) + ".." + std::to_string(site.high);
-  std::string word = "unknown", what = "number " + std::to_string(fault.kind);
-  switch (static_cast<rung_fault_kind>(fault.kind)) {
-    case RUNG_FAULT_NONE: break;
-    case RUNG_FAULT_DIV:
-      word = "div";
-      what = "division by zero";
-      break;
-    case RUNG_FAULT_INDEX:
-      word = "index";
-      what = "index " + value + " is outside " + (site.low > site.high ? "the bounds of the ARRAY[*]" : range);
-      break;
-    case RUNG_FAULT_NULL:
-      word = "null";
-      what = fault.value == 0 ? "a pointer, reference or in-out refers to nothing"
-             : fault.value == RUNG_BAD_ADDRESS
-                 ? "a pointer or reference points to memory that the program may not access"
-                 : "__DELETE of memory that __NEW did not return, or that was already deleted";
-      break;
-    case RUNG_FAULT_CAST:
-      word = "cast";
-      what = fault.value == RUNG_NO_SUCH_METHOD ? "the pointer does not point to an object that can be called here"
-                                                : "the object is not of the type named in the cast";
-      break;
-    case RUNG_FAULT_SUBRANGE:
-      word = "subrange";
-      what = "value " + value + " is outside " + range;
-      break;
-    case RUNG_FAULT_CONVERT:
-      word = "convert";
-      what = "value " + value + " does not fit in the type it is converted to";
-      break;
-    case RUNG_FAULT_OVERFLOW:
-      word = "overflow";
-      what = "the result does not fit in its type";
-      break;
-    case RUNG_FAULT_LOCK:
-      word = "lock";
-      what = fault.value == RUNG_LOCK_HELD    ? "another task holds the MUTEX and cannot unlock it while this one waits"
-             : fault.value == RUNG_LOCK_OWN   ? "this task already holds the MUTEX"
-             : fault.value == RUNG_SEMA_FULL  ? "RELEASE of a SEMA that is not acquired"
-             : fault.value == RUNG_SEMA_EMPTY ? "the SEMA is exhausted, and nothing is released while this task waits"
-                                              : "UNLOCK of a MUTEX that this task has not locked";
-      break;
-    case RUNG_FAULT_STACK:
-      word = "stack";
-      what = "calls are nested too deeply";
-      break;
-    case RUNG_FAULT_STOP:
-      word = fault.value == RUNG_STOP_STEPS ? "steps" : fault.value == RUNG_STOP_TIME ? "time" : "interrupt";
-      what = fault.value == RUNG_STOP_STEPS
-                 ? "no end after " + std::to_string(context.step_limit) + " steps (--max-steps)"
-             : fault.value == RUNG_STOP_TIME ? "the time limit is reached (--timeout)"
-                                             : "interrupted";
-      break;
-  }
   std::string text;
   if (known) text = shownPath(paths, module.strings + site.file) + ':' + std::to_string(site.line) + ": ";
-  text += "fault[" + word + "]: " + what;
+  text += "fault" + faultText(fault, site, context.step_limit);
   if (known && module.strings[site.pou] != 0) text += std::string(" in `") + (module.strings + site.pou) + '`';
   if (!known && context.cpp_body != nullptr) return describeCppBody(context, paths, text);
   if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))

@@ -38,6 +38,19 @@ std::string addressOfNct(std::string_view path) {
   return "%NX" + std::to_string(word * 4 + bit / 8) + "." + std::to_string(bit % 8);
 }
 
+// The index `written` of a dimension of the array `path`.
+bool readIndex(const std::string& written, const rung_dimension& dimension, std::string_view path, int64_t& index,
+               std::string& error) {
+  const char* const end = written.data() + written.size();
+  const std::from_chars_result read = std::from_chars(written.data(), end, index);
+  if (read.ec != std::errc{} || read.ptr != end)
+    return error = backquoted(written) + " is not an index; write a number", false;
+  if (index >= dimension.low && index <= dimension.high) return true;
+  error = "index " + written + " of " + backquoted(path) + " is outside " + std::to_string(dimension.low) + ".." +
+          std::to_string(dimension.high);
+  return false;
+}
+
 bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
 
 }  // namespace
@@ -219,75 +232,75 @@ bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::
 
 // One `.field`, `[i,j]`, `^` or `.bit` at the front of `rest`.
 bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
-  const rung_type& type = *variable.type;
-  if (rest.front() == '^') {
-    if (type.kind != RUNG_POINTER) return error = backquoted(variable.path) + " is not a pointer", false;
-    rest.remove_prefix(1);
-    variable.type = &module_.types[type.element];
-    variable.hops.push_back(0);
-    variable.path += '^';
-    return true;
-  }
-  if (rest.front() == '[') {
-    if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is not an array", false;
-    const size_t close = rest.find(']');
-    if (close == std::string_view::npos) return error = "expected `]` after " + backquoted(variable.path) + "[", false;
-    const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
-    if (indices.size() != type.count)
-      return error = backquoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
-                     std::to_string(indices.size()),
-             false;
-    uint64_t element = 0;
-    variable.path += '[';
-    for (uint32_t d = 0; d < type.count; ++d) {
-      const rung_dimension& dimension = module_.dimensions[type.first + d];
-      int64_t index = 0;
-      const std::string& written = indices[d];
-      const std::from_chars_result read = std::from_chars(written.data(), written.data() + written.size(), index);
-      if (read.ec != std::errc{} || read.ptr != written.data() + written.size())
-        return error = backquoted(written) + " is not an index; write a number", false;
-      if (index < dimension.low || index > dimension.high)
-        return error = "index " + written + " of " +
-                       backquoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) +
-                       " is outside " + std::to_string(dimension.low) + ".." + std::to_string(dimension.high),
-               false;
-      element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) +
-                static_cast<uint64_t>(index - dimension.low);
-      variable.path += (d > 0 ? "," : "") + std::to_string(index);
-    }
-    variable.path += ']';
-    variable.type = &module_.types[type.element];
-    variable.lastOffset() += static_cast<uint32_t>(element * variable.type->size);
-    rest.remove_prefix(close + 1);
-    return true;
-  }
+  if (rest.front() == '^') return stepToTarget(variable, rest, error);
+  if (rest.front() == '[') return stepToElement(variable, rest, error);
   if (rest.front() != '.')
     return error = "expected `.field`, `[index]` or nothing after " + backquoted(variable.path), false;
   rest.remove_prefix(1);
   size_t length = 0;
   while (length < rest.size() && isNameCharacter(rest[length])) ++length;
   const std::string_view name = rest.substr(0, length);
-  if (isInteger(type) && variable.bit == 255) {
-    std::string_view digits = name;
-    if (digits.size() > 2 && digits[0] == '%' && (digits[1] == 'x' || digits[1] == 'X')) digits.remove_prefix(2);
-    uint32_t bit = 0;
-    const std::from_chars_result read = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
-    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && bit < type.size * 8) {
-      variable.type = &kBoolType;
-      variable.lastOffset() += bit / 8;  // little-endian
-      variable.bit = static_cast<uint8_t>(bit % 8);
-      variable.path += '.' + std::string(name);
-      rest.remove_prefix(length);
-      return true;
-    }
+  rest.remove_prefix(length);
+  const bool has_bits = isInteger(*variable.type) && variable.bit == 255;
+  return has_bits ? stepToBit(variable, name, error) : stepToField(variable, name, error);
+}
+
+bool Symbols::stepToTarget(Variable& variable, std::string_view& rest, std::string& error) const {
+  if (variable.type->kind != RUNG_POINTER) return error = backquoted(variable.path) + " is not a pointer", false;
+  rest.remove_prefix(1);
+  variable.type = &module_.types[variable.type->element];
+  variable.hops.push_back(0);
+  variable.path += '^';
+  return true;
+}
+
+bool Symbols::stepToElement(Variable& variable, std::string_view& rest, std::string& error) const {
+  const rung_type& type = *variable.type;
+  if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is not an array", false;
+  const size_t close = rest.find(']');
+  if (close == std::string_view::npos) return error = "expected `]` after " + backquoted(variable.path) + "[", false;
+  const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
+  if (indices.size() != type.count)
+    return error = backquoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
+                   std::to_string(indices.size()),
+           false;
+  uint64_t element = 0;
+  std::string path = variable.path + '[';
+  for (uint32_t d = 0; d < type.count; ++d) {
+    const rung_dimension& dimension = module_.dimensions[type.first + d];
+    int64_t index = 0;
+    if (!readIndex(indices[d], dimension, variable.path, index, error)) return false;
+    element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) +
+              static_cast<uint64_t>(index - dimension.low);
+    path += (d > 0 ? "," : "") + std::to_string(index);
+  }
+  variable.path = path + ']';
+  variable.type = &module_.types[type.element];
+  variable.lastOffset() += static_cast<uint32_t>(element * variable.type->size);
+  rest.remove_prefix(close + 1);
+  return true;
+}
+
+// `name`: `3` or `%X3`.
+bool Symbols::stepToBit(Variable& variable, std::string_view name, std::string& error) const {
+  std::string_view digits = name;
+  if (digits.size() > 2 && digits[0] == '%' && (digits[1] == 'x' || digits[1] == 'X')) digits.remove_prefix(2);
+  uint32_t bit = 0;
+  const std::from_chars_result read = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
+  const bool is_number = read.ec == std::errc{} && read.ptr == digits.data() + digits.size();
+  if (!is_number || bit >= variable.type->size * 8)
     return error = backquoted(variable.path) + " has no bit " + backquoted(name), false;
-  }
-  if (type.kind != RUNG_RECORD) return error = backquoted(variable.path) + " has no fields", false;
+  variable.type = &kBoolType;
+  variable.lastOffset() += bit / 8;  // little-endian
+  variable.bit = static_cast<uint8_t>(bit % 8);
+  variable.path += '.' + std::string(name);
+  return true;
+}
+
+bool Symbols::stepToField(Variable& variable, std::string_view name, std::string& error) const {
+  if (variable.type->kind != RUNG_RECORD) return error = backquoted(variable.path) + " has no fields", false;
   std::vector<std::string_view> names;
-  if (enter(variable, name, names)) {
-    rest.remove_prefix(length);
-    return true;
-  }
+  if (enter(variable, name, names)) return true;
   error = backquoted(variable.path) + " has no variable " + backquoted(name) + didYouMean(name, names);
   return false;
 }

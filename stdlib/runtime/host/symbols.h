@@ -74,6 +74,10 @@ class Symbols {
   bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
   bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
   bool step(Variable& variable, std::string_view& rest, std::string& error) const;
+  bool stepToTarget(Variable& variable, std::string_view& rest, std::string& error) const;
+  bool stepToElement(Variable& variable, std::string_view& rest, std::string& error) const;
+  bool stepToBit(Variable& variable, std::string_view name, std::string& error) const;
+  bool stepToField(Variable& variable, std::string_view name, std::string& error) const;
   bool isListed(const rung_type& type, const rung_field& field, Detail detail) const;
   std::string inPrograms(std::string_view path) const;
 

@@ -100,47 +100,60 @@ bool numberOf(const LoadedModule& module, const Variable& variable, double& valu
   return true;
 }
 
+namespace {
+
+// The scalar at `at`, as the runtime prints it.
+void appendScalar(std::string& to, uint8_t kind, bool is_signed, const uint8_t* at) {
+  char room[RUNG_FORMATTED_SCALAR + 1];
+  to.append(room, rung_format(kind, is_signed, at, room, RUNG_FORMATTED_SCALAR));
+}
+
+// The name of the item, or the number where there is none.
+void appendEnum(std::string& to, const LoadedModule& module, const rung_type& type, const uint8_t* at) {
+  const uint8_t kind = integerKind(module, type);
+  const int64_t value = loadInteger(kind, type.size, at);
+  for (uint32_t i = 0; i < type.count; ++i) {
+    const rung_enum_item& item = module.enum_items[type.first + i];
+    if (item.value == value) {
+      to += module.strings + item.name;
+      return;
+    }
+  }
+  appendScalar(to, kind, false, at);
+}
+
+void appendString(std::string& to, const rung_type& type, const uint8_t* at) {
+  const size_t begin = to.size();
+  std::vector<uint8_t> ended(at, at + type.size);  // other variables may overlap its final zero
+  const size_t unit = type.kind == RUNG_WSTRING ? 2 : 1;
+  memset(ended.data() + type.length * unit, 0, unit);
+  to.resize(begin + 5 * size_t{type.length} + 2);
+  to.resize(begin +
+            rung_format(type.kind, false, ended.data(), to.data() + begin, static_cast<uint32_t>(to.size() - begin)));
+}
+
+void appendPointer(std::string& to, const uint8_t* at) {
+  const void* target;
+  memcpy(&target, at, sizeof target);
+  char room[24] = "NULL";
+  if (target != nullptr)
+    snprintf(room, sizeof room, "16#%llX", static_cast<unsigned long long>(reinterpret_cast<uintptr_t>(target)));
+  to += room;
+}
+
+}  // namespace
+
 void formatValue(const LoadedModule& module, const Variable& variable, std::string& to) {
   const uint8_t* const at = variable.address();
   if (at == nullptr) return;
   const rung_type& type = *variable.type;
-  char room[RUNG_FORMATTED_SCALAR + 1];
   switch (static_cast<rung_type_kind>(type.kind)) {
     case RUNG_BOOL: to += (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? "TRUE" : "FALSE"; return;
-    case RUNG_ENUM: {
-      const uint8_t kind = integerKind(module, type);
-      const int64_t value = loadInteger(kind, type.size, at);
-      for (uint32_t i = 0; i < type.count; ++i)
-        if (module.enum_items[type.first + i].value == value) {
-          to += module.strings + module.enum_items[type.first + i].name;
-          return;
-        }
-      to.append(room, rung_format(kind, false, at, room, RUNG_FORMATTED_SCALAR));
-      return;
-    }
+    case RUNG_ENUM: return appendEnum(to, module, type, at);
     case RUNG_STRING:
     case RUNG_WSTRING:
-    case RUNG_USTRING: {
-      const size_t begin = to.size();
-      std::vector<uint8_t> ended(at, at + type.size);  // other variables may overlap its final zero
-      const size_t unit = type.kind == RUNG_WSTRING ? 2 : 1;
-      memset(ended.data() + type.length * unit, 0, unit);
-      to.resize(begin + 5 * size_t{type.length} + 2);
-      to.resize(begin + rung_format(type.kind, false, ended.data(), to.data() + begin,
-                                    static_cast<uint32_t>(to.size() - begin)));
-      return;
-    }
-    case RUNG_POINTER: {
-      const void* target;
-      memcpy(&target, at, sizeof target);
-      if (target == nullptr) {
-        to += "NULL";
-      } else {
-        snprintf(room, sizeof room, "16#%llX", static_cast<unsigned long long>(reinterpret_cast<uintptr_t>(target)));
-        to += room;
-      }
-      return;
-    }
+    case RUNG_USTRING: return appendString(to, type, at);
+    case RUNG_POINTER: return appendPointer(to, at);
     case RUNG_ARRAY:
     case RUNG_RECORD: return;  // their elements are printed
     case RUNG_BYTE:
@@ -169,7 +182,7 @@ void formatValue(const LoadedModule& module, const Variable& variable, std::stri
     case RUNG_WCHAR:
     case RUNG_UCHAR: break;
   }
-  to.append(room, rung_format(type.kind, type.is_signed != 0, at, room, RUNG_FORMATTED_SCALAR));
+  appendScalar(to, type.kind, type.is_signed != 0, at);
 }
 
 std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text, bool dry) {

@@ -437,6 +437,26 @@ bool startCompare(rung_hsio_model& model, uint32_t number, int64_t value) {
   return true;
 }
 
+// A register of the comparison of the count with points.
+bool writeCompare(rung_hsio_model& model, uint32_t number, uint32_t item, int64_t value) {
+  rung_hsio_counter& counter = model.counters[number];
+  switch (item) {
+    case RUNG_HSIO_COMPARE: return startCompare(model, number, value);
+    case RUNG_HSIO_COMPARE_COUNT:
+      return value >= 0 && value <= INT32_MAX && (counter.points = static_cast<int32_t>(value), true);
+    case RUNG_HSIO_COMPARE_START: counter.first = value; return true;
+    case RUNG_HSIO_COMPARE_STEP: counter.distance = value; return true;
+    case RUNG_HSIO_COMPARE_OUTPUT:
+      return value >= -1 && value < RUNG_HSIO_OUTPUTS && (counter.output = static_cast<int8_t>(value), true);
+    case RUNG_HSIO_COMPARE_HOLD: counter.hold = value; return value >= 0;
+    case RUNG_HSIO_COMPARE_HOLD_PULSES: counter.hold_pulses = value; return value >= 0;
+    default:
+      if (item < RUNG_HSIO_COMPARE_VALUE) return false;
+      counter.point[item - RUNG_HSIO_COMPARE_VALUE] = static_cast<int32_t>(value);
+      return true;
+  }
+}
+
 bool writeCounter(rung_hsio_model& model, uint32_t number, uint32_t item, int64_t value) {
   rung_hsio_counter& counter = model.counters[number];
   const auto flag = static_cast<uint8_t>(value != 0 ? 1 : 0);
@@ -487,19 +507,7 @@ bool writeCounter(rung_hsio_model& model, uint32_t number, uint32_t item, int64_
       counter.sample_end = value > 0 ? model.now + value : kNever;
       return true;
     case RUNG_HSIO_BROKEN: counter.broken = flag; return model.has_signals != 0;
-    case RUNG_HSIO_COMPARE: return startCompare(model, number, value);
-    case RUNG_HSIO_COMPARE_COUNT:
-      return value >= 0 && value <= INT32_MAX && (counter.points = static_cast<int32_t>(value), true);
-    case RUNG_HSIO_COMPARE_START: counter.first = value; return true;
-    case RUNG_HSIO_COMPARE_STEP: counter.distance = value; return true;
-    case RUNG_HSIO_COMPARE_OUTPUT:
-      return value >= -1 && value < RUNG_HSIO_OUTPUTS && (counter.output = static_cast<int8_t>(value), true);
-    case RUNG_HSIO_COMPARE_HOLD: counter.hold = value; return value >= 0;
-    case RUNG_HSIO_COMPARE_HOLD_PULSES: counter.hold_pulses = value; return value >= 0;
-    default:
-      if (item < RUNG_HSIO_COMPARE_VALUE) return false;
-      counter.point[item - RUNG_HSIO_COMPARE_VALUE] = static_cast<int32_t>(value);
-      return true;
+    default: return writeCompare(model, number, item, value);
   }
 }
 

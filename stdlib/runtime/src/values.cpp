@@ -206,6 +206,49 @@ void formatWString(Writer& to, const char16_t* text) {
   to.put('"');
 }
 
+void formatTime(Writer& to, bool is_signed, uint32_t ms) {
+  const bool negative = is_signed && ms >> 31 != 0;
+  formatDuration(to, (negative ? 0 - ms : ms) * kNsPerMs, negative, false);
+}
+
+void formatLongTime(Writer& to, bool is_signed, uint64_t ns) {
+  const bool negative = is_signed && ns >> 63 != 0;
+  formatDuration(to, negative ? 0 - ns : ns, negative, true);
+}
+
+void formatDateAndClock(Writer& to, uint64_t ns) {
+  formatDate(to, static_cast<int64_t>(ns / kNsPerDay));
+  to.put('-');
+  formatClock(to, ns % kNsPerDay);
+}
+
+// A date, a time of day, or both, with the prefix of its literal.
+void formatMoment(Writer& to, uint8_t kind, const void* value) {
+  switch (kind) {
+    case RUNG_DATE: to.put("D#"); return formatDate(to, load<uint32_t>(value) / static_cast<int64_t>(kSecondsPerDay));
+    case RUNG_LDATE: to.put("LDATE#"); return formatDate(to, static_cast<int64_t>(load<uint64_t>(value) / kNsPerDay));
+    case RUNG_TOD: to.put("TOD#"); return formatClock(to, load<uint32_t>(value) * kNsPerMs);
+    case RUNG_LTOD: to.put("LTOD#"); return formatClock(to, load<uint64_t>(value));
+    case RUNG_DT: to.put("DT#"); return formatDateAndClock(to, load<uint32_t>(value) * kNsPerSecond);
+    default: to.put("LDT#"); return formatDateAndClock(to, load<uint64_t>(value));
+  }
+}
+
+// A CHAR, WCHAR or UCHAR, as a string of one character.
+void formatCharacter(Writer& to, uint8_t kind, const void* value) {
+  if (kind == RUNG_WCHAR) {
+    const char16_t text[2] = {load<char16_t>(value), 0};
+    return formatWString(to, text);
+  }
+  if (kind == RUNG_CHAR) {
+    const unsigned char text[2] = {load<unsigned char>(value), 0};
+    return formatString(to, text);
+  }
+  char text[5];
+  rung_ustring_of_code(text, 4, load<uint32_t>(value));
+  formatString(to, reinterpret_cast<const unsigned char*>(text));
+}
+
 // ---- parsing
 
 struct Reader {
@@ -547,66 +590,17 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
     case RUNG_LINT: formatSigned(to, load<int64_t>(value)); break;
     case RUNG_REAL: formatReal(to, static_cast<double>(load<float>(value)), true); break;
     case RUNG_LREAL: formatReal(to, load<double>(value), false); break;
-    case RUNG_TIME: {
-      const uint32_t bits = load<uint32_t>(value);
-      const bool negative = is_signed && bits >> 31 != 0;
-      formatDuration(to, (negative ? 0 - bits : bits) * kNsPerMs, negative, false);
-      break;
-    }
-    case RUNG_LTIME: {
-      const uint64_t bits = load<uint64_t>(value);
-      const bool negative = is_signed && bits >> 63 != 0;
-      formatDuration(to, negative ? 0 - bits : bits, negative, true);
-      break;
-    }
+    case RUNG_TIME: formatTime(to, is_signed, load<uint32_t>(value)); break;
+    case RUNG_LTIME: formatLongTime(to, is_signed, load<uint64_t>(value)); break;
     case RUNG_DATE:
-      to.put("D#");
-      formatDate(to, load<uint32_t>(value) / static_cast<int64_t>(kSecondsPerDay));
-      break;
     case RUNG_LDATE:
-      to.put("LDATE#");
-      formatDate(to, static_cast<int64_t>(load<uint64_t>(value) / kNsPerDay));
-      break;
     case RUNG_TOD:
-      to.put("TOD#");
-      formatClock(to, load<uint32_t>(value) * kNsPerMs);
-      break;
     case RUNG_LTOD:
-      to.put("LTOD#");
-      formatClock(to, load<uint64_t>(value));
-      break;
-    case RUNG_DT: {
-      const uint32_t seconds = load<uint32_t>(value);
-      to.put("DT#");
-      formatDate(to, static_cast<int64_t>(seconds / kSecondsPerDay));
-      to.put('-');
-      formatClock(to, seconds % kSecondsPerDay * kNsPerSecond);
-      break;
-    }
-    case RUNG_LDT: {
-      const uint64_t ns = load<uint64_t>(value);
-      to.put("LDT#");
-      formatDate(to, static_cast<int64_t>(ns / kNsPerDay));
-      to.put('-');
-      formatClock(to, ns % kNsPerDay);
-      break;
-    }
-    case RUNG_CHAR: {
-      const unsigned char text[2] = {load<unsigned char>(value), 0};
-      formatString(to, text);
-      break;
-    }
-    case RUNG_WCHAR: {
-      const char16_t text[2] = {load<char16_t>(value), 0};
-      formatWString(to, text);
-      break;
-    }
-    case RUNG_UCHAR: {
-      char text[5];
-      rung_ustring_of_code(text, 4, load<uint32_t>(value));
-      formatString(to, reinterpret_cast<const unsigned char*>(text));
-      break;
-    }
+    case RUNG_DT:
+    case RUNG_LDT: formatMoment(to, kind, value); break;
+    case RUNG_CHAR:
+    case RUNG_WCHAR:
+    case RUNG_UCHAR: formatCharacter(to, kind, value); break;
     case RUNG_STRING:
     case RUNG_USTRING: formatString(to, static_cast<const unsigned char*>(value)); break;
     case RUNG_WSTRING: formatWString(to, static_cast<const char16_t*>(value)); break;
@@ -651,6 +645,43 @@ bool parseDate(uint8_t kind, const Reader& from, void* value) {
   return true;
 }
 
+bool parseTime(bool is_long, bool is_signed, const Reader& from, void* value) {
+  Integer ns;
+  if (!readDuration(from, ns)) return false;
+  if (!is_long) ns.magnitude /= kNsPerMs;
+  return storeInteger(ns, {static_cast<uint8_t>(is_long ? 8 : 4), is_signed}, value);
+}
+
+// Nothing is stored where the text is not of the kind: it is read once only to check it.
+bool parseString(uint8_t kind, const Reader& from, uint32_t length, void* value) {
+  if (kind == RUNG_WSTRING)
+    return readWString(from, length, nullptr) && readWString(from, length, static_cast<char16_t*>(value));
+  char* const string = static_cast<char*>(value);
+  if (!readString(from, length, nullptr)) return false;
+  const bool is_read = readString(from, length, string);
+  if (kind == RUNG_USTRING)
+    rung_ustring_of_string(string, rung_ustring_whole(string, rung_string_length(string)), string);
+  return is_read;
+}
+
+bool parseCharacter(uint8_t kind, const Reader& from, void* value) {
+  if (kind == RUNG_WCHAR) {
+    char16_t one[2];
+    if (!parseString(RUNG_WSTRING, from, 1, one)) return false;
+    store(value, one[0]);
+    return true;
+  }
+  char one[5];
+  if (!parseString(RUNG_STRING, from, kind == RUNG_CHAR ? 1 : 4, one)) return false;
+  if (kind == RUNG_CHAR) {
+    store(value, one[0]);
+    return true;
+  }
+  if (rung_ustring_length(one) > 1) return false;
+  store(value, rung_ustring_code(one));
+  return true;
+}
+
 }  // namespace
 
 bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text, size_t size, void* value) {
@@ -675,53 +706,19 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
     case RUNG_REAL: return parseReal(from, true, value);
     case RUNG_LREAL: return parseReal(from, false, value);
     case RUNG_TIME:
-    case RUNG_LTIME: {
-      Integer ns;
-      if (!readDuration(from, ns)) return false;
-      if (kind == RUNG_TIME) ns.magnitude /= kNsPerMs;
-      return storeInteger(ns, {static_cast<uint8_t>(kind == RUNG_TIME ? 4 : 8), is_signed}, value);
-    }
+    case RUNG_LTIME: return parseTime(kind == RUNG_LTIME, is_signed, from, value);
     case RUNG_DATE:
     case RUNG_LDATE:
     case RUNG_TOD:
     case RUNG_LTOD:
     case RUNG_DT:
     case RUNG_LDT: return parseDate(kind, from, value);
-    case RUNG_CHAR: {
-      char one[2];
-      if (!readString(from, 1, nullptr)) return false;
-      readString(from, 1, one);
-      store(value, one[0]);
-      return true;
-    }
-    case RUNG_WCHAR: {
-      char16_t one[2];
-      if (!readWString(from, 1, nullptr)) return false;
-      readWString(from, 1, one);
-      store(value, one[0]);
-      return true;
-    }
-    case RUNG_UCHAR: {
-      char one[5];
-      if (!readString(from, 4, nullptr)) return false;
-      readString(from, 4, one);
-      if (rung_ustring_length(one) > 1) return false;
-      store(value, rung_ustring_code(one));
-      return true;
-    }
+    case RUNG_CHAR:
+    case RUNG_WCHAR:
+    case RUNG_UCHAR: return parseCharacter(kind, from, value);
     case RUNG_STRING:
-      if (!readString(from, length, nullptr)) return false;
-      return readString(from, length, static_cast<char*>(value));
-    case RUNG_USTRING: {
-      char* const string = static_cast<char*>(value);
-      if (!readString(from, length, nullptr)) return false;
-      readString(from, length, string);
-      rung_ustring_of_string(string, rung_ustring_whole(string, rung_string_length(string)), string);
-      return true;
-    }
-    case RUNG_WSTRING:
-      if (!readWString(from, length, nullptr)) return false;
-      return readWString(from, length, static_cast<char16_t*>(value));
+    case RUNG_USTRING:
+    case RUNG_WSTRING: return parseString(kind, from, length, value);
     case RUNG_ENUM:
     case RUNG_ARRAY:
     case RUNG_RECORD:
