@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
 #include <sys/stat.h>
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <iterator>
 
 #include "crashes.h"
 #include "rung/host.h"
@@ -61,29 +63,151 @@ std::string parseMaxSteps(const std::string& text, int64_t& steps) {
   return readCount(text, steps) ? "" : "--max-steps needs a number, or 0 for none, not `" + text + "`";
 }
 
+namespace {
+
+// Takes the value of an option; what is wrong with it, or "".
+using Take = std::string (*)(const std::string& value, RunOptions& options);
+
+std::string takeSet(const std::string& value, RunOptions& options) {
+  const size_t separator = value.find('=');
+  if (separator == std::string::npos || separator == 0) return "--set needs PATH=VALUE, not `" + value + "`";
+  options.sets.emplace_back(value.substr(0, separator), value.substr(separator + 1));
+  return "";
+}
+
+std::string takeWatch(const std::string& value, RunOptions& options) {
+  options.watch += (options.watch.empty() ? "" : ",") + value;
+  return "";
+}
+
+std::string takeStopOn(const std::string& value, RunOptions& options) {
+  if (!options.stop_on.empty()) return "--stop-on is given twice; join the conditions with OR";
+  if (value.empty()) return "--stop-on needs a condition such as 'Main.n >= 10'";
+  options.stop_on = value;
+  return "";
+}
+
+std::string takeFilesRoot(const std::string& value, RunOptions& options) {
+  struct stat info;
+  if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+    return "--files-root needs an existing folder, not `" + value + "`";
+  options.files_root = value;
+  return "";
+}
+
+std::string takeSerial(const std::string& value, RunOptions& options) {
+  int64_t port = 0;
+  const size_t separator = value.find('=');
+  if (separator == std::string::npos || separator + 1 == value.size() || !readCount(value.substr(0, separator), port) ||
+      port < 1 || port > kMaxSerialPort)
+    return "--serial needs a port and its device, 1=/dev/ttyUSB0, not `" + value + "`";
+  if (!options.serial.emplace(static_cast<uint32_t>(port), value.substr(separator + 1)).second)
+    return "--serial: port " + std::to_string(port) + " is given twice";
+  return "";
+}
+
+std::string takeOnFault(const std::string& value, RunOptions& options) {
+  if (value != "task" && value != "all") return "--on-fault needs `all` or `task`, not `" + value + "`";
+  options.others_go_on = value == "task";
+  return "";
+}
+
+std::string takeStart(const std::string& value, RunOptions& options) {
+  const std::string start = lowerCase(value);
+  if (start == "cold")
+    options.start = RUNG_COLD;
+  else if (start == "warm")
+    options.start = RUNG_WARM;
+  else if (start == "origin")
+    options.start = RUNG_ORIGIN;
+  else
+    return "--start needs cold, warm or origin, not `" + value + "`";
+  return "";
+}
+
+template <std::string RunOptions::*option>
+std::string takePath(const std::string& value, RunOptions& options) {
+  options.*option = value;
+  return "";
+}
+
+struct ValueOption {
+  const char* name;
+  Take take;
+};
+constexpr ValueOption kValueOptions[] = {
+    {"--cycles",
+     [](const std::string& value, RunOptions& options) -> std::string {
+       return readCount(value, options.cycles) ? "" : "--cycles needs a number, not `" + value + "`";
+     }},
+    {"--for",
+     [](const std::string& value, RunOptions& options) -> std::string {
+       return readDuration(value, options.for_ns) ? "" : "--for needs a time such as T#2s, not `" + value + "`";
+     }},
+    {"--interval",
+     [](const std::string& value, RunOptions& options) -> std::string {
+       return readDuration(value, options.interval_ns) ? ""
+                                                       : "--interval needs a time such as T#10ms, not `" + value + "`";
+     }},
+    {"--retain-interval",
+     [](const std::string& value, RunOptions& options) -> std::string {
+       return readDuration(value, options.retain_interval_ns)
+                  ? ""
+                  : "--retain-interval needs a time such as 100ms, not `" + value + "`";
+     }},
+    {"--timeout",
+     [](const std::string& value, RunOptions& options) { return parseTimeout(value, options.timeout_ns); }},
+    {"--max-steps",
+     [](const std::string& value, RunOptions& options) { return parseMaxSteps(value, options.max_steps); }},
+    {"--driver",
+     [](const std::string& value, RunOptions& options) {
+       options.drivers.push_back(value);
+       return std::string();
+     }},
+    {"--inputs", takePath<&RunOptions::inputs_path>},
+    {"--trace", takePath<&RunOptions::trace_path>},
+    {"--plot", takePath<&RunOptions::plot_path>},
+    {"--retain", takePath<&RunOptions::retain_path>},
+    {"--control", takePath<&RunOptions::control_path>},
+    {"--set", takeSet},
+    {"--watch", takeWatch},
+    {"--stop-on", takeStopOn},
+    {"--files-root", takeFilesRoot},
+    {"--serial", takeSerial},
+    {"--on-fault", takeOnFault},
+    {"--start", takeStart},
+};
+
+// Forbids options that exclude each other.
+std::string checkTogether(const RunOptions& options) {
+  if (options.realtime && !options.stop_on.empty()) return "--stop-on works only in virtual time; remove --realtime";
+  if (options.realtime && options.trace_calls) return "--trace-calls works only in virtual time; remove --realtime";
+  if (options.trace_calls && options.trace_path == "-")
+    return "--trace-calls and --trace - would both write to stdout; give --trace a file";
+  return "";
+}
+
+}  // namespace
+
 std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,
                             std::vector<std::string>& rest) {
   for (size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     std::string name = argument, value;
     const size_t equals = argument.find('=');
-    bool has_value = argument.compare(0, 2, "--") == 0 && equals != std::string::npos;
+    const bool has_value = argument.compare(0, 2, "--") == 0 && equals != std::string::npos;
     if (has_value) {
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {
-        "--cycles", "--for",     "--interval", "--inputs",          "--set",        "--watch",   "--trace",
-        "--plot",   "--retain",  "--start",    "--stop-on",         "--files-root", "--timeout", "--max-steps",
-        "--driver", "--control", "--on-fault", "--retain-interval", "--serial"};
-    bool takes_value = false;
-    for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
       if (has_value) return name + " takes no value";
       (name == "--realtime" ? options.realtime : options.trace_calls) = true;
       continue;
     }
-    if (!takes_value) {
+    const auto* const known = std::find_if(std::begin(kValueOptions), std::end(kValueOptions),
+                                           [&](const ValueOption& option) { return name == option.name; });
+    if (known == std::end(kValueOptions)) {
       rest.push_back(argument);
       continue;
     }
@@ -91,75 +215,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       if (i + 1 == arguments.size()) return name + " needs a value";
       value = arguments[++i];
     }
-    if (name == "--cycles") {
-      if (!readCount(value, options.cycles)) return "--cycles needs a number, not `" + value + "`";
-    } else if (name == "--for") {
-      if (!readDuration(value, options.for_ns)) return "--for needs a time such as T#2s, not `" + value + "`";
-    } else if (name == "--interval") {
-      if (!readDuration(value, options.interval_ns))
-        return "--interval needs a time such as T#10ms, not `" + value + "`";
-    } else if (name == "--timeout") {
-      if (const std::string error = parseTimeout(value, options.timeout_ns); !error.empty()) return error;
-    } else if (name == "--max-steps") {
-      if (const std::string error = parseMaxSteps(value, options.max_steps); !error.empty()) return error;
-    } else if (name == "--inputs") {
-      options.inputs_path = value;
-    } else if (name == "--set") {
-      const size_t separator = value.find('=');
-      if (separator == std::string::npos || separator == 0) return "--set needs PATH=VALUE, not `" + value + "`";
-      options.sets.emplace_back(value.substr(0, separator), value.substr(separator + 1));
-    } else if (name == "--watch") {
-      options.watch += (options.watch.empty() ? "" : ",") + value;
-    } else if (name == "--trace") {
-      options.trace_path = value;
-    } else if (name == "--plot") {
-      options.plot_path = value;
-    } else if (name == "--stop-on") {
-      if (!options.stop_on.empty()) return "--stop-on is given twice; join the conditions with OR";
-      if (value.empty()) return "--stop-on needs a condition such as 'Main.n >= 10'";
-      options.stop_on = value;
-    } else if (name == "--files-root") {
-      struct stat info;
-      if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-        return "--files-root needs an existing folder, not `" + value + "`";
-      options.files_root = value;
-    } else if (name == "--retain-interval") {
-      if (!readDuration(value, options.retain_interval_ns))
-        return "--retain-interval needs a time such as 100ms, not `" + value + "`";
-    } else if (name == "--serial") {
-      int64_t port = 0;
-      const size_t separator = value.find('=');
-      if (separator == std::string::npos || separator + 1 == value.size() ||
-          !readCount(value.substr(0, separator), port) || port < 1 || port > kMaxSerialPort)
-        return "--serial needs a port and its device, 1=/dev/ttyUSB0, not `" + value + "`";
-      if (!options.serial.emplace(static_cast<uint32_t>(port), value.substr(separator + 1)).second)
-        return "--serial: port " + std::to_string(port) + " is given twice";
-    } else if (name == "--driver") {
-      options.drivers.push_back(value);
-    } else if (name == "--control") {
-      options.control_path = value;
-    } else if (name == "--on-fault") {
-      if (value != "task" && value != "all") return "--on-fault needs `all` or `task`, not `" + value + "`";
-      options.others_go_on = value == "task";
-    } else if (name == "--retain") {
-      options.retain_path = value;
-    } else {
-      const std::string start = lowerCase(value);
-      if (start == "cold")
-        options.start = RUNG_COLD;
-      else if (start == "warm")
-        options.start = RUNG_WARM;
-      else if (start == "origin")
-        options.start = RUNG_ORIGIN;
-      else
-        return "--start needs cold, warm or origin, not `" + value + "`";
-    }
+    if (const std::string problem = known->take(value, options); !problem.empty()) return problem;
   }
-  if (options.realtime && !options.stop_on.empty()) return "--stop-on works only in virtual time; remove --realtime";
-  if (options.realtime && options.trace_calls) return "--trace-calls works only in virtual time; remove --realtime";
-  if (options.trace_calls && options.trace_path == "-")
-    return "--trace-calls and --trace - would both write to stdout; give --trace a file";
-  return "";
+  return checkTogether(options);
 }
 
 int applicationMain(const rung_module& module, int argc, char** argv) {

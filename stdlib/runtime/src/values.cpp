@@ -522,6 +522,29 @@ bool readWString(Reader from, uint32_t length, char16_t* to) {
   return !bad && from.take('"') && from.done();
 }
 
+// A duration of TIME or LTIME, whose number may be signed.
+template <class T>
+void formatTime(Writer& to, T bits, bool is_signed, uint64_t unit) {
+  const bool negative = is_signed && bits >> (8 * sizeof(T) - 1) != 0;
+  formatDuration(to, static_cast<T>(negative ? 0 - bits : bits) * unit, negative, sizeof(T) == 8);
+}
+
+void formatDay(Writer& to, const char* prefix, uint64_t day) {
+  to.put(prefix);
+  formatDate(to, static_cast<int64_t>(day));
+}
+
+void formatTimeOfDay(Writer& to, const char* prefix, uint64_t ns) {
+  to.put(prefix);
+  formatClock(to, ns);
+}
+
+void formatCharacter(Writer& to, uint32_t code) {
+  char text[5];
+  rung_ustring_of_code(text, 4, code);
+  formatString(to, reinterpret_cast<const unsigned char*>(text));
+}
+
 template <class T>
 void store(void* to, T value) {
   memcpy(to, &value, sizeof value);
@@ -547,50 +570,20 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
     case RUNG_LINT: formatSigned(to, load<int64_t>(value)); break;
     case RUNG_REAL: formatReal(to, static_cast<double>(load<float>(value)), true); break;
     case RUNG_LREAL: formatReal(to, load<double>(value), false); break;
-    case RUNG_TIME: {
-      const uint32_t bits = load<uint32_t>(value);
-      const bool negative = is_signed && bits >> 31 != 0;
-      formatDuration(to, (negative ? 0 - bits : bits) * kNsPerMs, negative, false);
+    case RUNG_TIME: formatTime(to, load<uint32_t>(value), is_signed, kNsPerMs); break;
+    case RUNG_LTIME: formatTime(to, load<uint64_t>(value), is_signed, 1); break;
+    case RUNG_DATE: formatDay(to, "D#", load<uint32_t>(value) / kSecondsPerDay); break;
+    case RUNG_LDATE: formatDay(to, "LDATE#", load<uint64_t>(value) / kNsPerDay); break;
+    case RUNG_TOD: formatTimeOfDay(to, "TOD#", load<uint32_t>(value) * kNsPerMs); break;
+    case RUNG_LTOD: formatTimeOfDay(to, "LTOD#", load<uint64_t>(value)); break;
+    case RUNG_DT:
+      formatDay(to, "DT#", load<uint32_t>(value) / kSecondsPerDay);
+      formatTimeOfDay(to, "-", load<uint32_t>(value) % kSecondsPerDay * kNsPerSecond);
       break;
-    }
-    case RUNG_LTIME: {
-      const uint64_t bits = load<uint64_t>(value);
-      const bool negative = is_signed && bits >> 63 != 0;
-      formatDuration(to, negative ? 0 - bits : bits, negative, true);
+    case RUNG_LDT:
+      formatDay(to, "LDT#", load<uint64_t>(value) / kNsPerDay);
+      formatTimeOfDay(to, "-", load<uint64_t>(value) % kNsPerDay);
       break;
-    }
-    case RUNG_DATE:
-      to.put("D#");
-      formatDate(to, load<uint32_t>(value) / static_cast<int64_t>(kSecondsPerDay));
-      break;
-    case RUNG_LDATE:
-      to.put("LDATE#");
-      formatDate(to, static_cast<int64_t>(load<uint64_t>(value) / kNsPerDay));
-      break;
-    case RUNG_TOD:
-      to.put("TOD#");
-      formatClock(to, load<uint32_t>(value) * kNsPerMs);
-      break;
-    case RUNG_LTOD:
-      to.put("LTOD#");
-      formatClock(to, load<uint64_t>(value));
-      break;
-    case RUNG_DT: {
-      const uint32_t seconds = load<uint32_t>(value);
-      to.put("DT#");
-      formatDate(to, static_cast<int64_t>(seconds / kSecondsPerDay));
-      to.put('-');
-      formatClock(to, seconds % kSecondsPerDay * kNsPerSecond);
-      break;
-    }
-    case RUNG_LDT: {
-      const uint64_t ns = load<uint64_t>(value);
-      to.put("LDT#");
-      formatDate(to, static_cast<int64_t>(ns / kNsPerDay));
-      to.put('-');
-      formatClock(to, ns % kNsPerDay);
-      break;
-    }
     case RUNG_CHAR: {
       const unsigned char text[2] = {load<unsigned char>(value), 0};
       formatString(to, text);
@@ -601,12 +594,7 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
       formatWString(to, text);
       break;
     }
-    case RUNG_UCHAR: {
-      char text[5];
-      rung_ustring_of_code(text, 4, load<uint32_t>(value));
-      formatString(to, reinterpret_cast<const unsigned char*>(text));
-      break;
-    }
+    case RUNG_UCHAR: formatCharacter(to, load<uint32_t>(value)); break;
     case RUNG_STRING:
     case RUNG_USTRING: formatString(to, static_cast<const unsigned char*>(value)); break;
     case RUNG_WSTRING: formatWString(to, static_cast<const char16_t*>(value)); break;
