@@ -78,7 +78,7 @@ sema::PouId ModuleLowering::lowerBodies() {
     const sema::Pou& pou = project.pou(id);
     if (pou.pragmas.native || (pou.owner && (pou.object.modifiers & kAbstract) != 0)) continue;
     if (!pou.progress.checked()) return id;
-    if (pou.cpp) {
+    if (pou.cpp.is_body) {
       lowerCpp(id);
       continue;
     }
@@ -132,7 +132,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (body.self) records.declare(body.self);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& var = project.var(var_id);
-    if (var.storage != sema::Storage::Local || var.shared) continue;
+    if (var.storage != sema::Storage::Local || var.sharing.field) continue;
     LocalKind kind = LocalKind::Variable;
     if (body.kind == BodyKind::Function) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
@@ -224,7 +224,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
     }
     // A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
     if (var.storage != (pou ? sema::Storage::Field : sema::Storage::Global)) return;
-    if (var.section == SectionKind::InOut || var.bits.is_bit || var.holds) return;
+    if (var.section == SectionKind::InOut || var.bits.is_bit || var.sharing.holds) return;
     if (!var.init && records.isZero(var.type)) return;
     lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
                                   var.type, var.init, true);

@@ -15,7 +15,7 @@ void StatementLowering::lowerPou() {
   // Locals of a call, output parameters included, start from their initial values.
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage != sema::Storage::Local || var.shared) continue;
+    if (var.storage != sema::Storage::Local || var.sharing.field) continue;
     if (var.section == SectionKind::InOut || var.open_array.hidden_input || var.temporary != 0 ||
         types_.isOpenArray(var.type))
       continue;
@@ -31,7 +31,7 @@ void StatementLowering::lowerPou() {
       index = *localOf(body_.expr(own)) + 1;
       continue;
     }
-    const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
+    const sema::Var& declared = var.sharing.copy_of ? project_.var(var.sharing.copy_of) : var;
     objects().storeInitial(local(state_.local_of[var.field] - 1, var.loc), strip(var.type), declared.init, false);
   }
   if (state_.result_local != kNoBit) {
@@ -39,7 +39,7 @@ void StatementLowering::lowerPou() {
     objects().storeInitial(local(state_.result_local, result.loc), result.type, {}, false);
   }
   detectEdges();
-  lowerStatements(pou.code);
+  lowerStatements(pou.body.code);
   leaveBody(pou.loc);
   body_.first = build_.block().first;
 }
@@ -48,9 +48,9 @@ void StatementLowering::lowerPou() {
 void StatementLowering::detectEdges() {
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (!var.edge_memory) continue;
+    if (!var.memory.edge) continue;
     auto input = [&] { return field(self(var.loc), var.field, types::kBool, var.loc); };
-    auto memory = [&] { return field(self(var.loc), project_.var(var.edge_memory).field, types::kBool, var.loc); };
+    auto memory = [&] { return field(self(var.loc), project_.var(var.memory.edge).field, types::kBool, var.loc); };
     auto inverse = [&](ExprId value) { return unary(Op::Not, types::kBool, value, var.loc); };
     bool rising = var.edge == EdgeKind::Rising;
     ExprId edge = temp(types::kBool, var.loc);

@@ -24,62 +24,72 @@ namespace rung::sema {
 
 using types::RecordKind;
 
+namespace {
+
+template <typename Names>
+struct KnownName {
+  NameId Names::*name;
+  std::string_view text;
+};
+using Known = Scopes::KnownNames;
+constexpr KnownName<Known> kKnownNames[] = {
+    {&Known::test, "test"},
+    {&Known::test_only, "test_only"},
+    {&Known::replaces, "replaces"},
+    {&Known::mock, "mock"},
+    {&Known::skip, "skip"},
+    {&Known::setup, "setup"},
+    {&Known::teardown, "teardown"},
+    {&Known::test_case, "case"},
+    {&Known::safe_values, "safe_values"},
+    {&Known::before_task, "before_task"},
+    {&Known::after_task, "after_task"},
+    {&Known::alias, "alias"},
+    {&Known::required, "required"},
+    {&Known::optional, "optional"},
+    {&Known::lazy, "lazy"},
+    {&Known::long_time, "long_time"},
+    {&Known::extensible, "extensible"},
+    {&Known::prefix, "prefix"},
+    {&Known::sized, "sized"},
+    {&Known::slice, "slice"},
+    {&Known::pure, "pure"},
+    {&Known::native, "native"},
+    {&Known::op, "operator"},
+    {&Known::std, "std"},
+    {&Known::no_final_scan, "no_final_scan"},
+    {&Known::list, "list"},
+    {&Known::fault, "fault"},
+    {&Known::no_copy, "no_copy"},
+    {&Known::bytes, "bytes"},
+};
+constexpr KnownName<Known::Attributes> kAttributes[] = {
+    {&Known::Attributes::qualified_only, "qualified_only"},
+    {&Known::Attributes::strict, "strict"},
+    {&Known::Attributes::instance_path, "instance-path"},
+    {&Known::Attributes::no_check, "no_check"},
+    {&Known::Attributes::no_virtual_actions, "no_virtual_actions"},
+    {&Known::Attributes::obsolete, "obsolete"},
+    {&Known::Attributes::to_string, "to_string"},
+    {&Known::Attributes::unique_name, "unique_name"},
+    {&Known::Attributes::call_after_init, "call_after_init"},
+    {&Known::Attributes::pack_mode, "pack_mode"},
+    {&Known::Attributes::global_init_slot, "global_init_slot"},
+    {&Known::Attributes::after_globals, "call_after_global_init_slot"},
+    {&Known::Attributes::initialize_on_call, "initialize_on_call"},
+    {&Known::Attributes::is_connected, "is_connected"},
+    {&Known::Attributes::reflection, "reflection"},
+    {&Known::Attributes::no_exit, "no-exit"},
+    {&Known::Attributes::symbol, "symbol"},
+};
+
+}  // namespace
+
 void internKnownNames(Context& context) {
-  struct Row {
-    NameId Scopes::KnownNames::*name;
-    std::string_view text;
-  };
-  using Known = Scopes::KnownNames;
-  static constexpr Row kRows[] = {
-      {&Known::attribute_qualified_only, "qualified_only"},
-      {&Known::attribute_strict, "strict"},
-      {&Known::attribute_instance_path, "instance-path"},
-      {&Known::test, "test"},
-      {&Known::test_only, "test_only"},
-      {&Known::replaces, "replaces"},
-      {&Known::mock, "mock"},
-      {&Known::skip, "skip"},
-      {&Known::setup, "setup"},
-      {&Known::teardown, "teardown"},
-      {&Known::test_case, "case"},
-      {&Known::safe_values, "safe_values"},
-      {&Known::before_task, "before_task"},
-      {&Known::after_task, "after_task"},
-      {&Known::alias, "alias"},
-      {&Known::required, "required"},
-      {&Known::optional, "optional"},
-      {&Known::lazy, "lazy"},
-      {&Known::long_time, "long_time"},
-      {&Known::extensible, "extensible"},
-      {&Known::prefix, "prefix"},
-      {&Known::sized, "sized"},
-      {&Known::slice, "slice"},
-      {&Known::pure, "pure"},
-      {&Known::native, "native"},
-      {&Known::op, "operator"},
-      {&Known::std, "std"},
-      {&Known::no_final_scan, "no_final_scan"},
-      {&Known::list, "list"},
-      {&Known::fault, "fault"},
-      {&Known::no_copy, "no_copy"},
-      {&Known::bytes, "bytes"},
-      {&Known::attribute_no_check, "no_check"},
-      {&Known::attribute_no_virtual_actions, "no_virtual_actions"},
-      {&Known::attribute_obsolete, "obsolete"},
-      {&Known::attribute_to_string, "to_string"},
-      {&Known::attribute_unique_name, "unique_name"},
-      {&Known::attribute_call_after_init, "call_after_init"},
-      {&Known::attribute_pack_mode, "pack_mode"},
-      {&Known::attribute_global_init_slot, "global_init_slot"},
-      {&Known::attribute_after_globals, "call_after_global_init_slot"},
-      {&Known::attribute_initialize_on_call, "initialize_on_call"},
-      {&Known::attribute_is_connected, "is_connected"},
-      {&Known::attribute_reflection, "reflection"},
-      {&Known::attribute_no_exit, "no-exit"},
-      {&Known::attribute_symbol, "symbol"},
-  };
-  for (const Row& row : kRows)
-    context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
+  const auto keyOf = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
+  Known& known = context.scopes.known_names;
+  for (const auto& row : kKnownNames) known.*row.name = keyOf(row.text);
+  for (const auto& row : kAttributes) known.attributes.*row.name = keyOf(row.text);
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -101,11 +111,11 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
 
 NamedType& addNamed(Context& context, TypeId type) {
   Scopes& scopes = context.scopes;
-  if (scopes.named_of_type.size() <= type.index) scopes.named_of_type.resize(type.index + 1, 0);
-  scopes.named_of_type[type.index] = static_cast<uint32_t>(scopes.named_types.size());
-  scopes.named_types.emplace_back();
+  if (scopes.named_types.of_type.size() <= type.index) scopes.named_types.of_type.resize(type.index + 1, 0);
+  scopes.named_types.of_type[type.index] = static_cast<uint32_t>(scopes.named_types.list.size());
+  scopes.named_types.list.emplace_back();
   scopes.declared_types.push_back(type);
-  return scopes.named_types.back();
+  return scopes.named_types.list.back();
 }
 
 namespace {
@@ -189,9 +199,9 @@ void takePragmas(Context& context, const PouDecl& decl, bool of_library, Pou& po
   pou.pragmas.faults = has(known.fault);
   pou.pragmas.no_copy = has(known.no_copy);
   pou.pragmas.bytes = has(known.bytes);
-  pou.pragmas.call_after_init = has(known.attribute_call_after_init);
-  pou.pragmas.no_virtual_actions = has(known.attribute_no_virtual_actions);
-  pou.pragmas.no_check = has(known.attribute_no_check);
+  pou.pragmas.call_after_init = has(known.attributes.call_after_init);
+  pou.pragmas.no_virtual_actions = has(known.attributes.no_virtual_actions);
+  pou.pragmas.no_check = has(known.attributes.no_check);
   takeAttributes(context, decl.h, pou);
   takeTestPragmas(context, decl.h, of_library, pou);
   takeOperator(context, decl.h, pou);
@@ -255,7 +265,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.kind = decl.pou_kind;
   pou.decl = id;
   pou.file = file;
-  pou.cpp = decl.body_kind == BodyKind::Cpp;
+  pou.cpp.is_body = decl.body_kind == BodyKind::Cpp;
   pou.access = decl.access;
   pou.object.modifiers = decl.modifiers;
   takePragmas(context, decl, of_library, pou);
@@ -305,8 +315,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
-    const bool qualified = findPragma(context, decl.h, scopes.known_names.attribute_qualified_only) != nullptr;
-    table.edit(type).strict = findPragma(context, decl.h, scopes.known_names.attribute_strict) != nullptr;
+    const bool qualified = findPragma(context, decl.h, scopes.known_names.attributes.qualified_only) != nullptr;
+    table.edit(type).strict = findPragma(context, decl.h, scopes.known_names.attributes.strict) != nullptr;
     table.edit(type).qualified = qualified;
     NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
     declareItems(context, type, decl.type, qualified ? nullptr : bare, library == kNoLibrary);
@@ -318,11 +328,11 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
 std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
   Scopes& scopes = context.scopes;
   if (const Pragma* pragma = findPragma(context, section.h, scopes.known_names.list)) {
-    scopes.open_list_file = file;
-    scopes.open_list = context.tree().string(pragma->value);
+    scopes.open_list.file = file;
+    scopes.open_list.name = context.tree().string(pragma->value);
   }
-  const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
-  return is_named ? scopes.open_list : listNameOf(context.symbols.sources.path(file));
+  const bool is_named = scopes.open_list.file == file && !scopes.open_list.name.empty();
+  return is_named ? scopes.open_list.name : listNameOf(context.symbols.sources.path(file));
 }
 
 }  // namespace
@@ -378,7 +388,7 @@ static bool hasUniqueName(const Context& context, const Var& var) {
   if (!var.decl) return false;
   const DeclHeader& header = context.tree().decl(var.decl);
   return !header.pragmas.empty() &&
-         findPragma(context, header, context.scopes.known_names.attribute_unique_name) != nullptr;
+         findPragma(context, header, context.scopes.known_names.attributes.unique_name) != nullptr;
 }
 
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
@@ -391,7 +401,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   checkAttributes(context, section.h, Attributed::Globals);
   if (const auto slot = initSlotOf(context, section.h)) list.init_slot = *slot;
   list.symbol_access = symbolAccessOf(context, section.h).value_or(types::SymbolAccess::ReadWrite);
-  const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
+  const bool qualified_only = findPragma(context, section.h, scopes.known_names.attributes.qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();
   for (const DeclId decl : context.tree().list(section.vars)) {
@@ -399,7 +409,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
   }
   for (size_t i = first; context.region && i < list.vars.size(); ++i)
-    scopes.region_of_global[list.vars[i].index] = context.region;
+    scopes.regions.of_global[list.vars[i].index] = context.region;
   if (qualified_only) return;
   for (size_t i = first; i < list.vars.size(); ++i) {
     const Var& var = project.var(list.vars[i]);

@@ -220,28 +220,28 @@ void resolveDeclarations(Context& context) {
   if (scopes.resolving || scopes.depth > 0) return;  // the outermost call resolves everything
   scopes.resolving = true;
   const auto pending = [&] {
-    return scopes.resolved_types < scopes.declared_types.size() || scopes.resolved_pous < project.pous.size() ||
-           scopes.resolved_lists < project.global_lists.size();
+    return scopes.resolved.types < scopes.declared_types.size() || scopes.resolved.pous < project.pous.size() ||
+           scopes.resolved.lists < project.global_lists.size();
   };
   const auto unchecked = [&] {
-    return scopes.checked_types < scopes.declared_types.size() || scopes.checked_pous < project.pous.size() ||
-           scopes.checked_lists < project.global_lists.size();
+    return scopes.checked.types < scopes.declared_types.size() || scopes.checked.pous < project.pous.size() ||
+           scopes.checked.lists < project.global_lists.size();
   };
   while (pending() || unchecked()) {
     while (pending()) {
-      while (scopes.resolved_types < scopes.declared_types.size()) {
-        resolveNamed(context, scopes.declared_types[scopes.resolved_types++]);
+      while (scopes.resolved.types < scopes.declared_types.size()) {
+        resolveNamed(context, scopes.declared_types[scopes.resolved.types++]);
       }
-      while (scopes.resolved_pous < project.pous.size()) {
-        resolvePou(context, PouId{static_cast<uint32_t>(scopes.resolved_pous++)});
+      while (scopes.resolved.pous < project.pous.size()) {
+        resolvePou(context, PouId{static_cast<uint32_t>(scopes.resolved.pous++)});
       }
-      while (scopes.resolved_lists < project.global_lists.size()) {
-        resolveList(context, ListId{static_cast<uint32_t>(scopes.resolved_lists++)});
+      while (scopes.resolved.lists < project.global_lists.size()) {
+        resolveList(context, ListId{static_cast<uint32_t>(scopes.resolved.lists++)});
       }
     }
     const size_t types_end = scopes.declared_types.size(), pous_end = project.pous.size(),
                  lists_end = project.global_lists.size();
-    for (size_t i = scopes.checked_types; i < types_end; ++i) {
+    for (size_t i = scopes.checked.types; i < types_end; ++i) {
       const TypeId type = scopes.declared_types[i];
       resolveHeld(context, type);
       const NamedType& named = *scopes.named(type);
@@ -253,29 +253,29 @@ void resolveDeclarations(Context& context) {
       }
       if (context.types().info(type).kind == TypeKind::Record) checkPacking(context, type);
     }
-    for (size_t i = scopes.checked_pous; i < pous_end; ++i) {
+    for (size_t i = scopes.checked.pous; i < pous_end; ++i) {
       for (const VarId var : project.pous[i].vars) layoutVar(context, var);
       if (project.pous[i].result_var) layoutVar(context, project.pous[i].result_var);
     }
-    for (size_t i = scopes.checked_lists; i < lists_end; ++i) {
+    for (size_t i = scopes.checked.lists; i < lists_end; ++i) {
       for (const VarId var : project.global_lists[i].vars) layoutVar(context, var);
     }
-    while (scopes.checked_types < types_end) {
-      const TypeId type = scopes.declared_types[scopes.checked_types++];
+    while (scopes.checked.types < types_end) {
+      const TypeId type = scopes.declared_types[scopes.checked.types++];
       checkTypeInit(context, type);
       const NamedType& named = *scopes.named(type);
       if (!named.pou && named.type && context.types().info(type).kind == TypeKind::Record) {
         checkFieldInits(context, type);
       }
     }
-    while (scopes.checked_pous < pous_end) {
-      Pou& pou = project.pous[scopes.checked_pous++];
+    while (scopes.checked.pous < pous_end) {
+      Pou& pou = project.pous[scopes.checked.pous++];
       if (pou.generic) continue;  // its instances are checked
       for (size_t v = 0; v < pou.vars.size(); ++v) ensureInitialValue(context, pou.vars[v]);
       if (pou.record) checkFieldInits(context, pou.record);
     }
-    while (scopes.checked_lists < lists_end) {
-      GlobalList& list = project.global_lists[scopes.checked_lists++];
+    while (scopes.checked.lists < lists_end) {
+      GlobalList& list = project.global_lists[scopes.checked.lists++];
       for (size_t v = 0; v < list.vars.size(); ++v) ensureInitialValue(context, list.vars[v]);
       checkFieldInits(context, list.record);
     }

@@ -74,10 +74,10 @@ VarId addHiddenField(Context& context, PouId pou, const std::string& name, TypeI
   hidden.loc = symbols.pou(pou).loc;
   hidden.type = type;
   hidden.storage = Storage::Field;
-  hidden.non_retain = true;
+  hidden.keeping.non_retain = true;
   hidden.symbol_access = types::SymbolAccess::None;
   hidden.pragmas.no_exit = true;
-  hidden.holds = holds;
+  hidden.sharing.holds = holds;
   hidden.pou = pou;
   hidden.use.read = hidden.use.written = true;
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
@@ -118,10 +118,12 @@ void shareTemporaries(Context& context, PouId id) {
   const auto share = [&](VarId var) {
     const std::string name = "__" + toString(context, symbols.var(var).name) + "_temp";
     const VarId field = addHiddenField(context, id, name, symbols.var(var).type, var);
-    symbols.var(var).shared = field;
+    symbols.var(var).sharing.field = field;
   };
   // What the initial value of a temporary reads is used where it is.
-  const auto declared = [&](VarId var) { return symbols.var(var).copy_of ? symbols.var(var).copy_of : var; };
+  const auto declared = [&](VarId var) {
+    return symbols.var(var).sharing.copy_of ? symbols.var(var).sharing.copy_of : var;
+  };
   std::sort(temporaries.begin(), temporaries.end(),
             [&](VarId a, VarId b) { return declared(a).index < declared(b).index; });
   for (size_t i = temporaries.size(); i-- > 0;) {
@@ -132,7 +134,7 @@ void shareTemporaries(Context& context, PouId id) {
     if (body.has(key)) body.add(init);
   }
   for (const VarId var : temporaries) {
-    if (symbols.var(var).shared) continue;  // by a base
+    if (symbols.var(var).sharing.field) continue;  // by a base
     const NameId name = symbols.var(var).name, key = keyOf(context, name);
     const bool in_action = actions.has(key);
     VarId own = var;
@@ -140,10 +142,10 @@ void shareTemporaries(Context& context, PouId id) {
       if (!in_action && !body.has(key)) continue;
       Var copy = symbols.var(var);
       copy.pou = id;
-      copy.copy_of = declared(var);
+      copy.sharing.copy_of = declared(var);
       copy.decl = {};
       copy.use.read = copy.use.written = true;
-      Var& original = symbols.var(copy.copy_of);
+      Var& original = symbols.var(copy.sharing.copy_of);
       original.use.read = original.use.written = true;
       own = {static_cast<uint32_t>(symbols.vars.size())};
       symbols.vars.push_back(copy);
@@ -152,7 +154,7 @@ void shareTemporaries(Context& context, PouId id) {
     }
     if (in_action) share(own);
   }
-  const auto isShared = [&](VarId var) { return static_cast<bool>(symbols.var(var).shared); };
+  const auto isShared = [&](VarId var) { return static_cast<bool>(symbols.var(var).sharing.field); };
   const std::vector<VarId>& vars = symbols.pou(id).vars;
   if (std::any_of(vars.begin(), vars.end(), isShared))
     symbols.pou(id).object.in_body = addHiddenField(context, id, "__in_body", types::kBool);

@@ -73,7 +73,7 @@ const char* kindWord(PouKind kind) {
 bool addressesPerInstance(const Context& context, PouId pou) {
   if (!pou || isFunction(context.symbols.pou(pou).kind)) return false;
   if (context.symbols.pou(pou).kind == PouKind::FunctionBlock) return true;
-  return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.symbols.pou(pou).name)));
+  return static_cast<bool>(context.scopes.instantiated.again.find(keyOf(context, context.symbols.pou(pou).name)));
 }
 
 Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
@@ -94,7 +94,7 @@ Context contextOf(Context& context, VarId id) {
   }
   const NamedType* list = nullptr;
   if (var.list) list = context.scopes.named(context.symbols.global_lists[var.list.index].record);
-  const auto& regions = context.scopes.region_of_global;
+  const auto& regions = context.scopes.regions.of_global;
   const auto region = regions.find(id.index);
   Context there = at(context, {}, context.symbols.sources.fileOf(var.loc), list != nullptr && list->library,
                      region == regions.end() ? RegionId{} : region->second);
@@ -115,7 +115,7 @@ void takePragmas(Context& context, const DeclHeader& header, Var& var) {
   var.pragmas.optional = findPragma(context, header, known.optional) != nullptr;
   var.pragmas.long_time = findPragma(context, header, known.long_time) != nullptr;
   var.pragmas.lazy = findPragma(context, header, known.lazy) != nullptr;
-  var.pragmas.instance_path = findPragma(context, header, known.attribute_instance_path) != nullptr;
+  var.pragmas.instance_path = findPragma(context, header, known.attributes.instance_path) != nullptr;
   takeVariableAttributes(context, header, var);
   if (const auto access = symbolAccessOf(context, header)) var.symbol_access = *access;
   var.pragmas.extensible = findPragma(context, header, known.extensible) != nullptr;
@@ -137,9 +137,9 @@ Var describeVar(Context& context, DeclId decl_id, const SectionDecl& section, Po
   // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
   const bool settable = section.section == SectionKind::Input && context.profile().settable_constant_inputs;
   var.constant = (section.h.bits & kConstant) != 0 && !settable;
-  var.persistent = (section.h.bits & kPersistent) != 0;
-  var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
-  var.non_retain = (section.h.bits & kNonRetain) != 0;
+  var.keeping.persistent = (section.h.bits & kPersistent) != 0;
+  var.keeping.retain = (section.h.bits & kRetain) != 0 || var.keeping.persistent;
+  var.keeping.non_retain = (section.h.bits & kNonRetain) != 0;
   var.generic = (section.h.bits & kGeneric) != 0;
   var.pou = pou;
   var.list = list;
@@ -187,7 +187,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     if (var.name)
       enter(context, *names, id, decl);
     else if (decl.located && !decl.address.incomplete)
-      context.scopes.unnamed_addresses[addressKey(context, decl.address)].push_back(id);
+      context.scopes.addresses.unnamed[addressKey(context, decl.address)].push_back(id);
   }
 }
 
@@ -213,9 +213,9 @@ void addField(Context& context, TypeId record, VarId id) {
     field.type = context.types().pointer(context.types().info(context.types().resolve(var.type)).base);
     field.by_reference = false;
   }
-  field.retain = var.retain;
-  field.non_retain = var.non_retain;
-  field.persistent = var.persistent;
+  field.retain = var.keeping.retain;
+  field.non_retain = var.keeping.non_retain;
+  field.persistent = var.keeping.persistent;
   field.constant = var.constant;
   field.symbol_access = var.symbol_access;
   types::TypeInfo& info = context.types().edit(record);
@@ -817,14 +817,14 @@ void addHiddenVars(Context& there, PouId id, const Accompanied& vars) {
   Symbols& symbols = there.symbols;
   for (const VarId edge : vars.edges) {
     const VarId memory = addHidden(there, id, edge, "_edge", types::kBool);
-    symbols.var(edge).edge_memory = memory;
+    symbols.var(edge).memory.edge = memory;
     // iec: the body of F_TRIG, which F_EDGE stands for, sees an edge in a first call with FALSE.
     if (there.profile().falling_edge_at_start && symbols.var(edge).edge == EdgeKind::Falling)
       symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
   }
   for (const VarId instance : vars.enabled) {
     const VarId memory = addHidden(there, id, instance, "_eno", types::kBool);
-    symbols.var(instance).eno_memory = memory;
+    symbols.var(instance).memory.eno = memory;
     symbols.var(memory).init = makeLiteral(there, LiteralKind::Bool, types::kBool, 1, symbols.var(instance).loc);
   }
   for (const VarId array : vars.open_arrays) {
@@ -876,7 +876,7 @@ void resolveList(Context& context, ListId id) {
     hidden.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, hidden.loc);
     const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(hidden);
-    symbols.var(var).eno_memory = created;
+    symbols.var(var).memory.eno = created;
     symbols.global_lists[id.index].vars.push_back(created);
   }
   scope.resolved = State::Done;
