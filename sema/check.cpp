@@ -94,7 +94,7 @@ void check(Project& project) {
   resolveConfigurations(context);
   resolveTestCases(context);
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});
+    if (project.pous[i].overloads.first.index == i) checkOverloads(context, PouId{i});
   context.rules->declarations(context);
   checkBodies(context);
   if (isCancelled(project)) return;

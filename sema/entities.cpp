@@ -37,7 +37,7 @@ PouId methodLike(const Symbols& symbols, PouId object, PouId like_id) {
     if ((pou.kind != PouKind::Method && !is_action) || pou.object.accessor != like.object.accessor ||
         !symbols.names.same(pou.name, like.name))
       continue;
-    if ((!pou.overloads && !like.overloads) || sameParameters(symbols, member, like_id)) return member;
+    if ((!pou.overloads.first && !like.overloads.first) || sameParameters(symbols, member, like_id)) return member;
   }
   return {};
 }

@@ -44,8 +44,11 @@ struct Var {
   SectionKind section = SectionKind::Local;
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
-  bool constant = false, retain = false, persistent = false;
-  bool non_retain = false;  // NON_RETAIN, which also holds inside of a retained instance
+  bool constant = false;
+  struct Keeping {  // as its section says
+    bool retain = false, persistent = false;
+    bool non_retain = false;  // NON_RETAIN, which also holds inside of a retained instance
+  } keeping;
   types::SymbolAccess symbol_access = types::SymbolAccess::ReadWrite;
   bool generic = false;    // VAR_GENERIC CONSTANT; in the block itself its value only serves the check, so any will do
   bool has_value = false;  // constant scalar or string with a known value: see `value`
@@ -64,13 +67,17 @@ struct Var {
   TypeId any;              // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   bool of_chart = false;   // a step, or other state of a chart
   uint32_t temporary = 0;  // created by the compiler, without declared type: its number in the body; 0: none
-  VarId shared;            // VAR_TEMP that actions use: the hidden field that holds it (shared_temporaries.cpp)
-  VarId holds;             // such a field: its VAR_TEMP
-  VarId copy_of;           // VAR_TEMP of a base, as the body of a derived block has it: the one that was declared
-  VarId tells_input;       // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
-  VarId edge_memory;       // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  VarId eno_memory;        // instance whose ENO is read: the hidden BOOL with ENO of its last call
-  struct Pragmas {         // of the declaration
+  struct Sharing {         // of VAR_TEMP that actions use (shared_temporaries.cpp)
+    VarId field;           // the hidden field that holds it
+    VarId holds;           // of such a field: its VAR_TEMP
+    VarId copy_of;         // VAR_TEMP of a base, as the body of a derived block has it: the one that was declared
+  } sharing;
+  VarId tells_input;  // {attribute 'is_connected' := 'x'}: the input x; TRUE in a call that gives it a value
+  struct Memory {     // of the last call, in a hidden BOOL
+    VarId edge;       // R_EDGE, F_EDGE: the input's value
+    VarId eno;        // instance whose ENO is read: its ENO
+  } memory;
+  struct Pragmas {                                                              // of the declaration
     bool required = false, optional = false, lazy = false, extensible = false;  // pins of library declarations
     bool long_time = false;           // {long_time}: a TIME that takes an LTIME too (iec3)
     bool instance_path = false;       // {attribute 'instance-path'}: holds the path of its instance
@@ -143,15 +150,19 @@ struct Pou {
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
   std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among `vars`; filled by bodies/ at the first call
-  // ---- the body: its statements as written or as a scheduler made them, and the code that is made of them
-  Slice<StmtId> statements, code;
-  bool scheduled = false;
+  struct Body {
+    Slice<StmtId> statements;  // as written, or as a scheduler made them
+    Slice<StmtId> code;        // that is made of them
+    bool scheduled = false;
+  } body;
   bool library = false;
-  bool excluded = false;           // a test, or only for tests, and not part of this program: checked, not lowered
-  bool cpp = false;                // its body is in C++
-  std::vector<PouId> cpp_calls;    // functions that such a body names
-  std::vector<VarId> cpp_globals;  // variables that it names with their list, `GVL.speed`
-  bool extensible = false;         // has an {extensible} pin
+  bool excluded = false;  // a test, or only for tests, and not part of this program: checked, not lowered
+  struct Cpp {
+    bool is_body = false;        // the body is in C++
+    std::vector<PouId> calls;    // functions that such a body names
+    std::vector<VarId> globals;  // variables that it names with their list, `GVL.speed`
+  } cpp;
+  bool extensible = false;  // has an {extensible} pin
   bool may_fault = false;
   // The pragmas of its declaration (collect.cpp).
   struct Pragmas {
@@ -195,8 +206,10 @@ struct Pou {
   // A generic function is never lowered itself: each tuple of types creates an instance, named as in C++ and the IR
   // (`LIMIT__REAL`).
   bool generic = false;
-  PouId generic_of;
-  uint32_t generic_depth = 0;  // of a block with VAR_GENERIC CONSTANT: instances that need this one, in a row
+  struct Instance {
+    PouId of;            // the generic function or block; none: this is no instance
+    uint32_t depth = 0;  // of a block with VAR_GENERIC CONSTANT: instances that need this one, in a row
+  } instance;
   NameId
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
@@ -204,8 +217,10 @@ struct Pou {
   PouId chart;                 // the action or method whose chart contains this action
   PouId base;                  // EXTENDS
   std::vector<PouId> members;  // methods, actions and accessors, in order
-  PouId overloads;             // of functions and methods of one name: the first of them
-  PouId next_overload;         // the next overload, in order of declaration
+  struct Overloads {           // of functions and methods of one name
+    PouId first;
+    PouId next;  // in order of declaration
+  } overloads;
   AccessLevel access = AccessLevel::None;
   struct Object {                   // filled when the header is resolved
     uint32_t base_depth = 0;        // bases of bases

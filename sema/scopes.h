@@ -185,11 +185,15 @@ struct Scopes {
   NameMap items;             // enumeration items by their bare name: the first that was declared
   NameMap qualifiers;        // global lists, program instances
   NameMap resource_globals;  // name -> Project::resource_globals; the entity's kind is unused
-  NameMap programs_with_instance, programs_with_several;  // programs with one, with several instances; a set
-  std::vector<bool> item_is_ambiguous;                    // by index of the first EnumValue
+  struct Instantiated {      // sets of programs
+    NameMap once, again;
+  } instantiated;
+  std::vector<bool> item_is_ambiguous;  // by index of the first EnumValue
 
-  std::vector<uint32_t> named_of_type;  // by TypeId: index into named_types, 0: none
-  std::deque<NamedType> named_types{1};
+  struct NamedTypes {
+    std::deque<NamedType> list{1};
+    std::vector<uint32_t> of_type;  // by TypeId: index into the list, 0: none
+  } named_types;
   std::deque<PouScope> pous{1};
   std::deque<ListScope> lists{1};
   NameMap member_names;  // unique names of methods and actions; a set
@@ -206,10 +210,12 @@ struct Scopes {
     uint64_t bytes = 0, align = 1;
     std::vector<VarId> users;
   };
-  std::vector<HierarchicalAddress> hierarchical;
-  std::unordered_map<uint64_t, std::vector<VarId>> unnamed_addresses;  // VAR AT %QW5 : INT: by addressKey
-  NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
-  struct LiteralStorage {      // whose address is taken (bodies/literal_storage.cpp)
+  struct Addresses {
+    std::vector<HierarchicalAddress> hierarchical;
+    NameMap names;  // address -> Var; the entity's index counts in `hierarchical`
+    std::unordered_map<uint64_t, std::vector<VarId>> unnamed;  // VAR AT %QW5 : INT: by addressKey
+  } addresses;
+  struct LiteralStorage {  // whose address is taken (bodies/literal_storage.cpp)
     struct Entry {
       PouId pou;
       VarId var;
@@ -220,38 +226,44 @@ struct Scopes {
 
   // Everything declared, in order; resolveDeclarations() resolves from these positions on.
   std::vector<TypeId> declared_types;
-  size_t resolved_types = 0, checked_types = 0;
-  size_t resolved_pous = 1, checked_pous = 1;
-  size_t resolved_lists = 1, checked_lists = 1;
+  struct Positions {
+    size_t types = 0, pous = 1, lists = 1;
+  } resolved, checked;
   bool resolving = false;
   std::vector<VarId> reading_inits;  // variables whose initial values, or arguments of FB_Init, may read others
   uint32_t depth = 0;                // of declarations resolved within each other
 
   Libraries libraries;
-  NameMap namespaces;                                       // NAMESPACEs that are not inside another
-  std::deque<Region> regions{1};                            // 0: file level without USING
-  std::unordered_map<uint32_t, RegionId> region_of_file;    // by FileId: of files with USING
-  std::unordered_map<uint32_t, RegionId> region_of_global;  // by VarId: of globals in a region
-  // The list of globals that the last {list 'name'} opened, and its file.
-  std::string open_list;
-  FileId open_list_file;
+  NameMap namespaces;  // NAMESPACEs that are not inside another
+  struct Regions {
+    std::deque<Region> list{1};                        // 0: file level without USING
+    std::unordered_map<uint32_t, RegionId> of_file;    // by FileId: of files with USING
+    std::unordered_map<uint32_t, RegionId> of_global;  // by VarId: of globals in a region
+  } regions;
+  struct OpenList {  // the list of globals that the last {list 'name'} opened, and its file
+    std::string name;
+    FileId file;
+  } open_list;
   // Name keys of pragmas and keywords that declarations look for.
   struct KnownNames {
-    NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, skip,
-        setup, teardown, test_case, safe_values, before_task, after_task, alias, required, optional, lazy, extensible,
-        long_time, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy, bytes,
-        attribute_no_check, attribute_no_virtual_actions, attribute_obsolete, attribute_to_string,
-        attribute_call_after_init, attribute_pack_mode, attribute_global_init_slot, attribute_after_globals,
-        attribute_initialize_on_call, attribute_is_connected, attribute_no_exit, attribute_reflection, attribute_symbol,
-        attribute_unique_name;
+    NameId test, test_only, replaces, mock, skip, setup, teardown, test_case, safe_values, before_task, after_task,
+        alias, required, optional, lazy, extensible, long_time, prefix, sized, slice, pure, native, op, std,
+        no_final_scan, list, fault, no_copy, bytes;
+    struct Attributes {  // {attribute 'name'}
+      NameId qualified_only, strict, instance_path, no_check, no_virtual_actions, obsolete, to_string, call_after_init,
+          pack_mode, global_init_slot, after_globals, initialize_on_call, is_connected, no_exit, reflection, symbol,
+          unique_name;
+    } attributes;
   } known_names;
 
-  std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> implicit_checks;  // the project's functions
-  bool implicit_checks_found = false;
+  struct ImplicitChecks {
+    std::array<PouId, static_cast<size_t>(ImplicitCheck::Count_)> functions;  // of the project
+    bool found = false;
+  } implicit_checks;
 
   NamedType* named(TypeId type) {
-    const uint32_t index = type.index < named_of_type.size() ? named_of_type[type.index] : 0;
-    return index == 0 ? nullptr : &named_types[index];
+    const uint32_t index = type.index < named_types.of_type.size() ? named_types.of_type[type.index] : 0;
+    return index == 0 ? nullptr : &named_types.list[index];
   }
 };
 

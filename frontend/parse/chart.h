@@ -44,6 +44,9 @@ class ChartParser : public NetworkParser {
   bool parseSteps(Slice<Ident>& out);
   SfcExpr parseSfcExpr();
   void parseCondition(SfcTransition& t, std::vector<DeclId>& members);
+  bool parseConditionValue(PouDecl& d, SfcTransition& t);
+  bool parseConditionBody(PouDecl& d, const SfcTransition& t, const Token* first);
+  void storeCondition(PouDecl& d, const SfcTransition& t);
   void syncChart(Tok end);
 };
 

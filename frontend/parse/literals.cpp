@@ -30,11 +30,24 @@ std::string basedForm(std::string_view text) {
   return fits ? std::to_string(base) + '#' + std::string(digits) : std::string();
 }
 
-bool isTimeUnit(std::string_view text) {
-  static constexpr std::string_view kUnits[] = {"d", "h", "m", "s", "ms", "us", "ns"};
-  return std::any_of(std::begin(kUnits), std::end(kUnits),
-                     [&](std::string_view unit) { return sameIdentifier(text, unit); });
+constexpr uint64_t kSecond = 1000000000u, kMinute = 60 * kSecond, kHour = 60 * kMinute, kDay = 24 * kHour;
+
+struct TimeUnit {
+  std::string_view name;
+  uint64_t nanoseconds;
+  uint64_t end;  // of its numbers after another unit: 24 hours are a day
+};
+// In the order in which a duration has them.
+constexpr TimeUnit kUnits[] = {{"d", kDay, UINT64_MAX}, {"h", kHour, 24},   {"m", kMinute, 60}, {"s", kSecond, 60},
+                               {"ms", 1000000, 1000},   {"us", 1000, 1000}, {"ns", 1, 1000}};
+
+// The number of a unit in kUnits, or their count.
+size_t findUnit(std::string_view text) {
+  size_t unit = 0;
+  while (unit < std::size(kUnits) && !sameIdentifier(text, kUnits[unit].name)) ++unit;
+  return unit;
 }
+bool isTimeUnit(std::string_view text) { return findUnit(text) < std::size(kUnits); }
 
 // `_` only between digits; several in a row are left to the caller.
 bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics,
@@ -66,6 +79,14 @@ bool takeNumber(std::string_view& text, uint64_t& value) {
   text.remove_prefix(i);
   return true;
 }
+// The digits at the front of text, which it loses.
+std::string_view takeDigits(std::string_view& text) {
+  size_t n = 0;
+  while (n < text.size() && (isDigit(text[n]) || text[n] == '_')) ++n;
+  const std::string_view digits = text.substr(0, n);
+  text.remove_prefix(n);
+  return digits;
+}
 bool take(std::string_view& text, char c) {
   if (text.empty() || text.front() != c) return false;
   text.remove_prefix(1);
@@ -88,8 +109,6 @@ uint64_t fractionOf(std::string_view digits, uint64_t unit) {
   value = static_cast<uint64_t>(sum / 1000000u);
   return value;
 }
-
-constexpr uint64_t kSecond = 1000000000u, kMinute = 60 * kSecond, kHour = 60 * kMinute, kDay = 24 * kHour;
 
 // Days since 1970-01-01 of the Gregorian calendar (Howard Hinnant's days_from_civil).
 int64_t daysFromCivil(int64_t y, unsigned m, unsigned d) {
@@ -134,11 +153,9 @@ bool takeTime(std::string_view text, std::string_view whole, const char* sample,
   if (ok && take(text, ':')) {
     ok = takeNumber(text, s);
     if (ok && take(text, '.')) {
-      size_t n = 0;
-      while (n < text.size() && (isDigit(text[n]) || text[n] == '_')) ++n;
-      fraction = fractionOf(text.substr(0, n), kSecond);
-      ok = n > 0;
-      text.remove_prefix(n);
+      const std::string_view digits = takeDigits(text);
+      fraction = fractionOf(digits, kSecond);
+      ok = !digits.empty();
     }
   }
   if (!ok || !text.empty() || m > 59 || s > 59 || h > (hours_free ? 1193u : 23u)) {
@@ -150,92 +167,113 @@ bool takeTime(std::string_view text, std::string_view whole, const char* sample,
   return true;
 }
 
+// Appends a digit to a number; false when it does not fit.
+bool appendDigit(uint64_t& number, unsigned base, unsigned digit) {
+  return !__builtin_mul_overflow(number, static_cast<uint64_t>(base), &number) &&
+         !__builtin_add_overflow(number, static_cast<uint64_t>(digit), &number);
+}
+
+// 2, 8, 10 or 16; 0: another base is written.
+unsigned baseOf(std::string_view text) {
+  for (const unsigned base : {2u, 8u, 10u, 16u})
+    if (text == std::to_string(base)) return base;
+  return 0;
+}
+
+// base "#" digits
+bool readBased(std::string_view text, size_t hash, Loc loc, Diagnostics& diagnostics, NumberValue& value) {
+  const std::string_view base_digits = text.substr(0, hash), digits = text.substr(hash + 1);
+  const unsigned base = baseOf(base_digits);
+  if (base == 0) {
+    diagnostics.report(diag::NumberBase, loc, {text});
+    return false;
+  }
+  if (digits.empty()) {
+    diagnostics.report(diag::NumberDigit, loc, {text, base_digits});
+    return false;
+  }
+  value.is_based = true;
+  for (char c : digits) {
+    if (c == '_') continue;
+    const int digit = hexDigit(c);
+    if (digit < 0 || digit >= static_cast<int>(base)) {
+      diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_digits});
+      return false;
+    }
+    if (!appendDigit(value.integer, base, static_cast<unsigned>(digit))) {
+      diagnostics.report(diag::NumberTooLarge, loc, {text});
+      return false;
+    }
+  }
+  return checkUnderscores(digits, text, loc, diagnostics, value);
+}
+
+// Reports what follows the digits of a number: a unit, as in `5s`, or other letters.
+void reportSuffix(std::string_view text, std::string_view suffix, Loc loc, Diagnostics& diagnostics) {
+  if (isTimeUnit(suffix)) {
+    diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
+    return;
+  }
+  const std::string based = basedForm(text);
+  Report report = diagnostics.report(diag::NumberSuffix, loc, {text});
+  if (!based.empty()) report.note({}, Note{"write `{0}`"}, {based});
+}
+
+// digits ["." digits] ["E" ["+"|"-"] digits]
+bool readReal(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value) {
+  value.is_real = true;
+  std::string plain;
+  for (char c : text)
+    if (c != '_') plain += c;
+  const char* const plain_end = plain.data() + plain.size();
+  const auto [end, error] = std::from_chars(plain.data(), plain_end, value.real);
+  if (end != plain_end) {
+    reportSuffix(text, std::string_view(end, plain_end), loc, diagnostics);
+    return false;
+  }
+  if (error == std::errc::result_out_of_range) {
+    // Underflow is zero; overflow is reported here, since later phases could not tell it from infinity.
+    const size_t e = plain.find_first_of("eE");
+    const bool tiny = e != std::string::npos && plain[e + 1] == '-';
+    value.real = 0;
+    if (!tiny) {
+      diagnostics.report(diag::NumberTooLarge, loc, {text});
+      return false;
+    }
+  }
+  return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics, value);
+}
+
+// The everyday case: a few decimal digits, which fit.
+bool readShort(std::string_view text, NumberValue& value) {
+  if (text.size() >= 10) return false;
+  uint64_t number = 0;
+  for (const char c : text) {
+    if (!isDigit(c)) return false;
+    number = number * 10 + static_cast<uint64_t>(c - '0');
+  }
+  value.integer = number;
+  return true;
+}
+
 }  // namespace
 
 bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value) {
   value = {};
-  if (text.size() < 10) {  // the everyday case: a few decimal digits
-    uint64_t n = 0;
-    size_t i = 0;
-    while (i < text.size() && isDigit(text[i])) n = n * 10 + static_cast<uint64_t>(text[i++] - '0');
-    if (i == text.size()) {
-      value.integer = n;
-      return true;
-    }
-  }
-  if (const size_t hash = text.find('#'); hash != std::string_view::npos) {
-    const std::string_view base_digits = text.substr(0, hash), digits = text.substr(hash + 1);
-    const uint32_t base = base_digits == "2"    ? 2
-                          : base_digits == "8"  ? 8
-                          : base_digits == "16" ? 16
-                          : base_digits == "10" ? 10
-                                                : 0;
-    if (base == 0) {
-      diagnostics.report(diag::NumberBase, loc, {text});
-      return false;
-    }
-    if (digits.empty()) {
-      diagnostics.report(diag::NumberDigit, loc, {text, base_digits});
-      return false;
-    }
-    value.is_based = true;
-    for (char c : digits) {
-      if (c == '_') continue;
-      const int digit = hexDigit(c);
-      if (digit < 0 || digit >= static_cast<int>(base)) {
-        diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_digits});
-        return false;
-      }
-      if (__builtin_mul_overflow(value.integer, static_cast<uint64_t>(base), &value.integer) ||
-          __builtin_add_overflow(value.integer, static_cast<uint64_t>(digit), &value.integer)) {
-        diagnostics.report(diag::NumberTooLarge, loc, {text});
-        return false;
-      }
-    }
-    return checkUnderscores(digits, text, loc, diagnostics, value);
-  }
+  if (readShort(text, value)) return true;
+  if (const size_t hash = text.find('#'); hash != std::string_view::npos)
+    return readBased(text, hash, loc, diagnostics, value);
   size_t i = 0;
   while (i < text.size() && (isDigit(text[i]) || text[i] == '_')) ++i;
-  value.is_real = i < text.size() && (text[i] == '.' || (foldedCharacter(text[i]) == 'e' && i + 1 < text.size()));
-  if (value.is_real) {
-    std::string plain;
-    for (char c : text)
-      if (c != '_') plain += c;
-    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value.real);
-    if (end != plain.data() + plain.size() && isTimeUnit(std::string_view(end, plain.data() + plain.size()))) {
-      diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
-      return false;
-    }
-    if (end != plain.data() + plain.size()) {
-      diagnostics.report(diag::NumberSuffix, loc, {text});
-      return false;
-    }
-    if (error == std::errc::result_out_of_range) {
-      // Underflow is zero; overflow is reported here, since later phases could not tell it from infinity.
-      const size_t e = plain.find_first_of("eE");
-      const bool tiny = e != std::string::npos && plain[e + 1] == '-';
-      value.real = 0;
-      if (!tiny) {
-        diagnostics.report(diag::NumberTooLarge, loc, {text});
-        return false;
-      }
-    }
-    return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics, value);
-  }
-  if (i != text.size() && isTimeUnit(text.substr(i))) {
-    diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
-    return false;
-  }
+  if (i < text.size() && (text[i] == '.' || (foldedCharacter(text[i]) == 'e' && i + 1 < text.size())))
+    return readReal(text, loc, diagnostics, value);
   if (i != text.size()) {
-    const std::string based = basedForm(text);
-    Report report = diagnostics.report(diag::NumberSuffix, loc, {text});
-    if (!based.empty()) report.note({}, Note{"write `{0}`"}, {based});
+    reportSuffix(text, text.substr(i), loc, diagnostics);
     return false;
   }
   for (char c : text) {
     if (c == '_') continue;
-    if (__builtin_mul_overflow(value.integer, 10u, &value.integer) ||
-        __builtin_add_overflow(value.integer, static_cast<uint64_t>(c - '0'), &value.integer)) {
+    if (!appendDigit(value.integer, 10, static_cast<unsigned>(c - '0'))) {
       diagnostics.report(diag::NumberTooLarge, loc, {text});
       return false;
     }
@@ -243,92 +281,104 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
   return checkUnderscores(text, text, loc, diagnostics, value);
 }
 
-// duration = ["-"] number unit {["_"] number unit}. Only the first unit may exceed its range, as in T#100s12ms; value
-// tells which other one does. IEC 61131-3 ed. 2, 2.2.3.1.
-bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
-  value.kind = LiteralKind::Duration;
-  value.is_long = isLong(text);
-  std::string_view rest = afterHash(text);
-  const auto at = [&] { return Loc{loc.offset + static_cast<uint32_t>(text.size() - rest.size())}; };
-  value.is_negative = take(rest, '-');
-  if (!value.is_negative) take(rest, '+');
-  struct Unit {
-    const char* name;
-    uint64_t nanoseconds;
+namespace {
+
+// duration = ["-"] number unit {["_"] number unit}. Only the first unit may exceed its range, as in T#100s12ms; the
+// value tells whether another one does. IEC 61131-3 ed. 2, 2.2.3.1.
+class DurationReader {
+ public:
+  DurationReader(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value)
+      : text_(text), rest_(afterHash(text)), loc_(loc), diagnostics_(diagnostics), value_(value) {}
+
+  bool run() {
+    value_.is_negative = take(rest_, '-');
+    if (!value_.is_negative) take(rest_, '+');
+    if (rest_.empty()) return fail(diag::TimeUnit);
+    Part last;
+    for (bool first = true; !rest_.empty(); first = false) {
+      if (!first && take(rest_, '_') && rest_.empty()) return fail(diag::TimeEndsWithUnderscore);
+      if (last.has_fraction) {
+        diagnostics_.report(diag::TimeFraction, last.loc, {last.text}).length(static_cast<uint32_t>(last.text.size()));
+        return false;
+      }
+      Part part;
+      if (!readPart(part, first ? 0 : last.unit + 1) || !add(part, first)) return false;
+      last = part;
+    }
+    if (!fits_ || (value_.is_negative && sum_ > (1ull << 63))) return fail(diag::TimeTooLong);
+    value_.value = value_.is_negative ? 0 - sum_ : sum_;
+    return true;
+  }
+
+ private:
+  struct Part {
+    Loc loc;
+    std::string_view text, digits, fraction;
+    bool has_fraction = false;
+    size_t unit = 0;
   };
-  static constexpr Unit kUnits[] = {{"d", kDay},     {"h", kHour}, {"m", kMinute}, {"s", kSecond},
-                                    {"ms", 1000000}, {"us", 1000}, {"ns", 1}};
-  size_t next_unit = 0;
-  bool had_fraction = false;
-  bool first = true;
-  uint64_t sum = 0;
-  bool fits = true;
-  Loc last_part;
-  std::string_view last_text;
-  if (rest.empty()) {
-    diagnostics.report(diag::TimeUnit, loc, {text});
+
+  bool fail(Diag message) {
+    diagnostics_.report(message, loc_, {text_});
     return false;
   }
-  while (!rest.empty()) {
-    if (next_unit > 0 && take(rest, '_') && rest.empty()) {
-      diagnostics.report(diag::TimeEndsWithUnderscore, loc, {text});
-      return false;
-    }
-    const Loc part = at();
-    const std::string_view part_text = rest;
-    if (had_fraction) {
-      diagnostics.report(diag::TimeFraction, last_part, {last_text}).length(static_cast<uint32_t>(last_text.size()));
-      return false;
-    }
+  Loc here() const { return {loc_.offset + static_cast<uint32_t>(text_.size() - rest_.size())}; }
+
+  // number unit, where the unit is at least next_unit.
+  bool readPart(Part& part, size_t next_unit) {
+    part.loc = here();
+    part.text = rest_;
+    part.digits = takeDigits(rest_);
+    part.has_fraction = take(rest_, '.');
+    if (part.has_fraction) part.fraction = takeDigits(rest_);
     size_t n = 0;
-    while (n < rest.size() && (isDigit(rest[n]) || rest[n] == '_')) ++n;
-    std::string_view digits = rest.substr(0, n);
-    rest.remove_prefix(n);
-    std::string_view fraction;
-    if (take(rest, '.')) {
-      n = 0;
-      while (n < rest.size() && (isDigit(rest[n]) || rest[n] == '_')) ++n;
-      fraction = rest.substr(0, n);
-      rest.remove_prefix(n);
-      had_fraction = true;
-    }
-    n = 0;
-    while (n < rest.size() && !isDigit(rest[n]) && rest[n] != '_' && rest[n] != '.') ++n;
-    const std::string_view unit = rest.substr(0, n);
-    size_t u = 0;
-    while (u < 7 && !sameIdentifier(unit, kUnits[u].name)) ++u;
-    if (u == 7 || digits.empty()) {
-      const std::string_view shown = unit.empty() || digits.empty() ? part_text : unit;
-      diagnostics.report(diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown})
+    while (n < rest_.size() && !isDigit(rest_[n]) && rest_[n] != '_' && rest_[n] != '.') ++n;
+    const std::string_view unit = rest_.substr(0, n);
+    part.unit = findUnit(unit);
+    if (part.unit == std::size(kUnits) || part.digits.empty()) {
+      const bool is_incomplete = unit.empty() || part.digits.empty();
+      const std::string_view shown = is_incomplete ? part.text : unit;
+      diagnostics_.report(diag::TimeUnit, is_incomplete ? part.loc : here(), {shown})
           .length(static_cast<uint32_t>(shown.size()));
       return false;
     }
-    if (u < next_unit) {
-      diagnostics.report(diag::TimeUnitOrder, at(), {unit}).length(static_cast<uint32_t>(n));
+    if (part.unit < next_unit) {
+      diagnostics_.report(diag::TimeUnitOrder, here(), {unit}).length(static_cast<uint32_t>(n));
       return false;
     }
-    rest.remove_prefix(n);
-    last_part = part;
-    last_text = part_text.substr(0, part_text.size() - rest.size());
-    next_unit = u + 1;
-    uint64_t amount = 0, product = 0;
+    rest_.remove_prefix(n);
+    part.text.remove_suffix(rest_.size());
+    return true;
+  }
+
+  bool add(const Part& part, bool first) {
     NumberValue grouped;
-    if (!checkUnderscores(digits, text, loc, diagnostics, grouped)) return false;
-    const uint64_t most = u == 1 ? 24 : u < 4 ? 60 : 1000;  // of a unit after the first
-    uint64_t written = 0;
-    std::string_view copy = digits;
-    value.overflows = value.overflows || (!first && (!takeNumber(copy, written) || written >= most));
-    first = false;
-    fits = fits && takeNumber(digits, amount) && !__builtin_mul_overflow(amount, kUnits[u].nanoseconds, &product) &&
-           !__builtin_add_overflow(sum, product, &sum) &&
-           !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
+    if (!checkUnderscores(part.digits, text_, loc_, diagnostics_, grouped)) return false;
+    const TimeUnit& unit = kUnits[part.unit];
+    uint64_t amount = 0, product = 0;
+    std::string_view digits = part.digits;
+    const bool is_number = takeNumber(digits, amount);
+    value_.overflows = value_.overflows || (!first && (!is_number || amount >= unit.end));
+    fits_ = fits_ && is_number && !__builtin_mul_overflow(amount, unit.nanoseconds, &product) &&
+            !__builtin_add_overflow(sum_, product, &sum_) &&
+            !__builtin_add_overflow(sum_, fractionOf(part.fraction, unit.nanoseconds), &sum_);
+    return true;
   }
-  if (!fits || (value.is_negative && sum > (1ull << 63))) {
-    diagnostics.report(diag::TimeTooLong, loc, {text});
-    return false;
-  }
-  value.value = value.is_negative ? 0 - sum : sum;
-  return true;
+
+  std::string_view text_, rest_;
+  Loc loc_;
+  Diagnostics& diagnostics_;
+  TimeValue& value_;
+  uint64_t sum_ = 0;  // nanoseconds, without the sign
+  bool fits_ = true;
+};
+
+}  // namespace
+
+bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
+  value.kind = LiteralKind::Duration;
+  value.is_long = isLong(text);
+  return DurationReader(text, loc, diagnostics, value).run();
 }
 
 bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
@@ -375,97 +425,141 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   return true;
 }
 
+namespace {
+
+// Decodes the characters between the quotes.
+class StringReader {
+ public:
+  StringReader(std::string_view inner, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value)
+      : inner_(inner), digits_(wide ? 4 : 2), loc_(loc), diagnostics_(diagnostics), value_(value) {}
+
+  bool run() {
+    for (size_t i = 0; i < inner_.size();) {
+      if (inner_[i] == '$') {
+        i = readEscape(i);
+        continue;
+      }
+      endSurrogate();
+      value_ += inner_[i++];
+    }
+    endSurrogate();
+    return ok_;
+  }
+
+ private:
+  bool isWide() const { return digits_ == 4; }
+  void report(Diag message, size_t begin, std::string_view shown, std::string_view more = {}) {
+    ok_ = false;
+    diagnostics_.report(message, Loc{loc_.offset + 1 + static_cast<uint32_t>(begin)}, {shown, more})
+        .length(static_cast<uint32_t>(shown.size()));
+  }
+  void reportNoCodePoint(size_t begin, size_t end) {
+    report(diag::NoCodePoint, begin, inner_.substr(begin, end - begin));
+  }
+
+  // Half of a surrogate pair, `$D83D` without `$DD79` after it, is not a character.
+  void endSurrogate() {
+    if (high_surrogate_ != 0) reportNoCodePoint(surrogate_at_, surrogate_at_ + 5);
+    high_surrogate_ = 0;
+  }
+
+  static bool isLowSurrogate(uint32_t code) { return code >= 0xDC00 && code < 0xE000; }
+
+  // $41, in a wide string $0041: the code at `start`; false: there are other characters.
+  bool findCode(size_t start, uint32_t& code) const {
+    if (start + digits_ >= inner_.size()) return false;
+    for (size_t k = 1; k <= digits_; ++k) {
+      const int digit = hexDigit(inner_[start + k]);
+      if (digit < 0) return false;
+      code = code * 16 + static_cast<uint32_t>(digit);
+    }
+    return true;
+  }
+
+  // The character of $$, $' and $L; '\0': it is none of them.
+  static char simpleEscape(char c) {
+    switch (foldedCharacter(c)) {
+      case '$':
+      case '\'':
+      case '"': return c;
+      case 'l':
+      case 'n': return '\n';
+      case 'p': return '\f';
+      case 'r': return '\r';
+      case 't': return '\t';
+      default: return '\0';
+    }
+  }
+
+  // Reads from the `$` at start, and returns the end of it.
+  size_t readEscape(size_t start) {
+    const char next = start + 1 < inner_.size() ? inner_[start + 1] : '\0';
+    uint32_t code = 0;
+    const bool is_code = findCode(start, code);
+    if (high_surrogate_ != 0 && !(is_code && isLowSurrogate(code))) endSurrogate();
+    if (const char simple = simpleEscape(next); simple != '\0') {
+      value_ += simple;
+      return start + 2;
+    }
+    if (next == '{') return readCodePoint(start);
+    if (is_code) {
+      append(code, start);
+      return start + 1 + digits_;
+    }
+    report(diag::StringEscape, start, inner_.substr(start, next == '\0' ? 1 : 2), isWide() ? "four" : "two");
+    return start + 2;
+  }
+
+  // ${1F579}
+  size_t readCodePoint(size_t start) {
+    const size_t begin = start + 2, end = std::min(inner_.find('}', start), inner_.size());
+    uint64_t point = 0;
+    bool is_point = end < inner_.size() && end > begin;
+    for (size_t k = begin; is_point && k < end; ++k) {
+      const int digit = hexDigit(inner_[k]);
+      is_point = digit >= 0 && point < 0x110000;
+      point = point * 16 + static_cast<uint64_t>(digit);
+    }
+    if (is_point && point < 0x110000 && !(point >= 0xD800 && point < 0xE000))
+      appendUtf8(value_, static_cast<uint32_t>(point));
+    else
+      reportNoCodePoint(start, end + 1);
+    return end + 1;
+  }
+
+  void append(uint32_t code, size_t start) {
+    if (!isWide()) {
+      value_ += static_cast<char>(code);
+    } else if (code >= 0xD800 && code < 0xDC00) {
+      high_surrogate_ = code;
+      surrogate_at_ = start;
+    } else if (isLowSurrogate(code) && high_surrogate_ != 0) {
+      appendUtf8(value_, 0x10000 + ((high_surrogate_ - 0xD800) << 10) + (code - 0xDC00));
+      high_surrogate_ = 0;
+    } else if (isLowSurrogate(code)) {
+      reportNoCodePoint(start, start + 5);
+    } else {
+      appendUtf8(value_, code);
+    }
+  }
+
+  std::string_view inner_;
+  size_t digits_;  // of a character's code
+  Loc loc_;
+  Diagnostics& diagnostics_;
+  std::string& value_;
+  uint32_t high_surrogate_ = 0;  // read, and waiting for its other half; 0: none
+  size_t surrogate_at_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace
+
 bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value) {
   std::string_view inner = text.substr(1);
   if (!inner.empty() && inner.back() == text.front()) inner.remove_suffix(1);
   value.clear();
-  bool ok = true;
-  uint32_t high_surrogate = 0;
-  size_t surrogate_at = 0;
-  const auto reportNoCodePoint = [&](size_t begin, size_t end) {
-    const std::string_view shown = inner.substr(begin, end - begin);
-    diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(begin)}, {shown})
-        .length(static_cast<uint32_t>(shown.size()));
-    ok = false;
-  };
-  // Half of a surrogate pair, `$D83D` without `$DD79` after it, is not a character.
-  const auto endSurrogate = [&] {
-    if (high_surrogate != 0) reportNoCodePoint(surrogate_at, surrogate_at + 5);
-    high_surrogate = 0;
-  };
-  for (size_t i = 0; i < inner.size(); ++i) {
-    const char c = inner[i];
-    if (c != '$') {
-      endSurrogate();
-      value += c;
-      continue;
-    }
-    const size_t start = i;
-    const char next = i + 1 < inner.size() ? inner[i + 1] : '\0';
-    const size_t digits = wide ? 4 : 2;
-    bool is_code = i + digits < inner.size();
-    uint32_t code = 0;
-    for (size_t k = 1; is_code && k <= digits; ++k) {
-      const int h = hexDigit(inner[i + k]);
-      is_code = h >= 0;
-      code = code * 16 + static_cast<uint32_t>(h);
-    }
-    ++i;
-    if (high_surrogate != 0 && !(is_code && code >= 0xDC00 && code < 0xE000)) endSurrogate();
-    switch (foldedCharacter(next)) {
-      case '$':
-      case '\'':
-      case '"': value += next; continue;
-      case 'l': value += '\n'; continue;
-      case 'n': value += '\n'; continue;
-      case 'p': value += '\f'; continue;
-      case 'r': value += '\r'; continue;
-      case 't': value += '\t'; continue;
-      default: break;
-    }
-    if (next == '{') {
-      const size_t end = std::min(inner.find('}', i), inner.size());
-      uint64_t point = 0;
-      bool is_point = end < inner.size() && end > i + 1;
-      for (size_t k = i + 1; is_point && k < end; ++k) {
-        const int h = hexDigit(inner[k]);
-        is_point = h >= 0 && point < 0x110000;
-        point = point * 16 + static_cast<uint64_t>(h);
-      }
-      if (is_point && point < 0x110000 && !(point >= 0xD800 && point < 0xE000)) {
-        appendUtf8(value, static_cast<uint32_t>(point));
-      } else {
-        reportNoCodePoint(start, end + 1);
-      }
-      i = end;
-      continue;
-    }
-    if (!is_code) {
-      const std::string_view shown = inner.substr(start, next == '\0' ? 1 : 2);
-      diagnostics
-          .report(diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
-                  {shown, wide ? "four" : "two"})
-          .length(static_cast<uint32_t>(shown.size()));
-      ok = false;
-      continue;
-    }
-    i = start + digits;
-    if (!wide) {
-      value += static_cast<char>(code);
-    } else if (code >= 0xD800 && code < 0xDC00) {
-      high_surrogate = code;
-      surrogate_at = start;
-    } else if (code >= 0xDC00 && code < 0xE000 && high_surrogate != 0) {
-      appendUtf8(value, 0x10000 + ((high_surrogate - 0xD800) << 10) + (code - 0xDC00));
-      high_surrogate = 0;
-    } else if (code >= 0xDC00 && code < 0xE000) {
-      reportNoCodePoint(start, start + 5);
-    } else {
-      appendUtf8(value, code);
-    }
-  }
-  endSurrogate();
-  return ok;
+  return StringReader(inner, wide, loc, diagnostics, value).run();
 }
 
 // Of the part that an address names: a bit, 8, 16, 32 or 64 bits.

@@ -157,9 +157,70 @@ ExprId NetworkParser::parseElementPath(Ident& name) {
   return path;
 }
 
-// element = word number [path] {modifier | HOLDING | ORDER n | AT x, y [, w, h] | "(" [expr] ")" | ":=" wires | "["
-// pins
-//            | statements | string}
+// ORDER n
+void NetworkParser::parseOrder(DiagramElement& e) {
+  advance();
+  uint64_t order = 0;
+  const Token* const number = t_;
+  if (takeNumber(order) && order == 0) slip(diag::OrderZero, number);
+  e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
+}
+
+// AT x, y [, w, h]
+void NetworkParser::parsePosition(DiagramElement& e) {
+  advance();
+  int32_t* const coordinates[] = {&e.x, &e.y, &e.width, &e.height};
+  for (int32_t* const coordinate : coordinates)
+    if (!takeCoordinate(*coordinate) || !accept(Tok::Comma)) break;
+  e.placed = true;
+}
+
+// NETWORK statements END_NETWORK
+void NetworkParser::parseStatementsOf(DiagramElement& e) {
+  advance();
+  ++stmt_depth_;
+  e.body = parseStatements(0);
+  --stmt_depth_;
+  panic_ = false;
+  expect(Tok::EndNetwork);
+}
+
+// part = modifier | HOLDING | ORDER n | AT x, y [, w, h] | "(" [expr] ")" | ":=" wires | "[" pins | statements | string
+void NetworkParser::parsePart(DiagramElement& e, std::vector<DiagramPin>& pins, std::string_view word) {
+  if (takeModifier(e)) return;
+  if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
+    e.holding = true;
+    advance();
+  } else if (is(t_, "ORDER") && peek() == Tok::Number) {
+    parseOrder(e);
+  } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
+    parsePosition(e);
+  } else if (accept(Tok::LeftParen)) {
+    if (accept(Tok::RightParen)) return;
+    e.operand = parseExpr();
+    if (!panic_) expect(Tok::RightParen);
+  } else if (accept(Tok::Assign)) {
+    DiagramPin pin{};
+    parseWires(pin);
+    pins.push_back(pin);
+  } else if (accept(Tok::LeftBracket)) {
+    parsePins(pins);
+  } else if (at(Tok::Network)) {
+    parseStatementsOf(e);
+  } else if (at(Tok::StringLiteral) && needsOperand(e.kind) && !e.operand) {
+    Ident name;
+    if (takeWord(name)) e.operand = ended(build_.name(name));
+  } else if (at(Tok::StringLiteral)) {
+    const StringId text = tree_.addString(plainText(textOf(t_)));
+    e.comment = text.first;
+    e.comment_length = text.length;
+    advance();
+  } else {
+    fail(diag::NoPartOfElement, t_, {describe(t_), word});
+  }
+}
+
+// element = word number [path] {part}
 void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const Token* word = t_;
   const auto* known =
@@ -175,63 +236,12 @@ void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t netw
   e.loc = here();
   if (!takeNumber(e.number)) return;
   const Token* named = t_;
-  std::vector<DiagramPin> pins;
   const bool attribute = is(t_, "AT") || is(t_, "ORDER");
   const bool begins_name = isName(kind()) || nameReserved(t_) || at(Tok::StringLiteral);
   if (isNamed(e.kind) && begins_name && begins(t_) == Begins::Nothing && !(attribute && peek() == Tok::Number))
     e.path = parseElementPath(e.name);
-  while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
-    if (takeModifier(e)) continue;
-    if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
-      e.holding = true;
-      advance();
-      continue;
-    }
-    if (is(t_, "ORDER") && peek() == Tok::Number) {
-      advance();
-      uint64_t order = 0;
-      const Token* const number = t_;
-      if (takeNumber(order) && order == 0) slip(diag::OrderZero, number);
-      e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
-    } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
-      advance();
-      int32_t* const coordinates[] = {&e.x, &e.y, &e.width, &e.height};
-      for (int32_t* const coordinate : coordinates)
-        if (!takeCoordinate(*coordinate) || !accept(Tok::Comma)) break;
-      e.placed = true;
-    } else if (at(Tok::LeftParen)) {
-      advance();
-      if (at(Tok::RightParen)) {
-        advance();
-        continue;
-      }
-      e.operand = parseExpr();
-      if (!panic_) expect(Tok::RightParen);
-    } else if (accept(Tok::Assign)) {
-      DiagramPin pin{};
-      parseWires(pin);
-      pins.push_back(pin);
-    } else if (accept(Tok::LeftBracket)) {
-      parsePins(pins);
-    } else if (at(Tok::Network)) {
-      advance();
-      ++stmt_depth_;
-      e.body = parseStatements(0);
-      --stmt_depth_;
-      panic_ = false;
-      expect(Tok::EndNetwork);
-    } else if (at(Tok::StringLiteral) && needsOperand(e.kind) && !e.operand) {
-      Ident name;
-      if (takeWord(name)) e.operand = ended(build_.name(name));
-    } else if (at(Tok::StringLiteral)) {
-      const StringId text = tree_.addString(plainText(textOf(t_)));
-      e.comment = text.first;
-      e.comment_length = text.length;
-      advance();
-    } else {
-      fail(diag::NoPartOfElement, t_, {describe(t_), *known});
-    }
-  }
+  std::vector<DiagramPin> pins;
+  while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) parsePart(e, pins, *known);
   e.end = here();
   if (panic_) return;
   const bool open =

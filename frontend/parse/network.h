@@ -18,6 +18,10 @@ class NetworkParser : public IlParser {
 
  private:
   void parseElement(std::vector<DiagramElement>& out, uint32_t network);
+  void parsePart(DiagramElement& e, std::vector<DiagramPin>& pins, std::string_view word);
+  void parseOrder(DiagramElement& e);
+  void parsePosition(DiagramElement& e);
+  void parseStatementsOf(DiagramElement& e);
   void parsePins(std::vector<DiagramPin>& out);
   void parseWires(DiagramPin& pin);
   ExprId parseElementPath(Ident& name);

@@ -187,8 +187,18 @@ class Balancer {
   bool balanced(size_t first_block, size_t end_block);
   void repair(uint32_t first, uint32_t end);
   void visit(uint32_t i);
+  void visitOpener(uint32_t i, Tok k);
+  void visitMisspelled(uint32_t i);
+  void removeDuplicate(uint32_t i);
+  void suspectLine(uint32_t i);
+  bool looksOutside(const Open& top, uint32_t i) const;
+  bool beginsStatement(uint32_t i) const;
+  void takeConnective(uint32_t i);
   void open(uint32_t i, Tok kind);
   void close(uint32_t i, Tok closer);
+  size_t findBlock(uint32_t i, Tok closer) const;
+  bool closeOther(uint32_t i, Tok closer, size_t found);
+  bool endsMissingBlock(uint32_t i, Tok closer, size_t found);
   void stray(uint32_t i, Tok closer);
   bool openAtHeader(uint32_t low, Tok closer);
   bool openAtContent(uint32_t i, uint32_t low, Tok closer);
@@ -330,106 +340,117 @@ Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
   return {base_ + tokens_[i - 1].offset + static_cast<uint32_t>(textOf(i - 1).size())};
 }
 
+// Whether the line of token i, inside of a section, begins as a statement does.
+bool Balancer::beginsStatement(uint32_t i) const {
+  const Tok k = tokens_[i].kind, next = tokens_[i + 1].kind;
+  return (isName(k) || beginsBlock(k)) &&
+         (next == Tok::Assign || next == Tok::LeftParen || beginsBlock(k) || next == Tok::Dot ||
+          next == Tok::LeftBracket || beginsIl(k, textOf(i), tokens_[i + 1]));
+}
+
+// Whether the line of token i, which is in the block `top` by its keywords, looks as if it followed the block's end.
+bool Balancer::looksOutside(const Open& top, uint32_t i) const {
+  const Tok k = tokens_[i].kind, next = tokens_[i + 1].kind;
+  const bool names_something = isName(k) && (next == Tok::Colon || next == Tok::Comma || next == Tok::At);
+  if (isVarWord(top.kind)) return !names_something && beginsStatement(i);
+  if (top.kind == Tok::Type || line_column_ > top.column) return false;
+  const bool is_else = k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif;
+  const bool middle = (is_else && (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
+                      (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do || k == Tok::Of;
+  const bool label =
+      top.kind == Tok::Case && (k == Tok::Number || names_something || next == Tok::Hash || next == Tok::DotDot);
+  return top.line_start && !label && (!middle || line_column_ < top.column) &&
+         !(k == Tok::Ident && foldedCharacter(textOf(i)[0]) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
+}
+
+// A line that is not indented deeper than the block it should be in: the block's end is likely missing before it.
+void Balancer::suspectLine(uint32_t i) {
+  if (stack_.empty() || isCloser(tokens_[i].kind)) return;
+  Open& top = stack_.back();
+  // After UNTIL and its condition only END_REPEAT is left to write.
+  if (top.kind == Tok::Repeat && top.until != 0 && !top.after_until) {
+    top.suspect = i;
+    top.after_until = true;
+  }
+  const bool is_indented = !isPouOpener(top.kind) && top.kind != Tok::Configuration && top.kind != Tok::Resource;
+  if (top.suspect == 0 && top.index < i && is_indented && looksOutside(top, i)) top.suspect = i;
+}
+
+// The words that a header waits for: THEN, DO and OF.
+void Balancer::takeConnective(uint32_t i) {
+  if (pending_header_ == 0) {
+    orphans_.push_back({i, line_first_, line_column_});
+    return;
+  }
+  const uint32_t header = pending_header_ - 1;
+  if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = tokens_[i].kind;
+  pending_header_ = 0;
+}
+
 void Balancer::visit(uint32_t i) {
   const Tok k = tokens_[i].kind;
-  // A line that is not indented deeper than the block it should be in: the block's end is likely missing before it.
-  if (i == line_first_ && !stack_.empty()) {
-    Open& top = stack_.back();
-    // After UNTIL and its condition only END_REPEAT is left to write.
-    if (top.kind == Tok::Repeat && top.until != 0 && !top.after_until && !isCloser(k)) {
-      top.suspect = i;
-      top.after_until = true;
-    }
-    if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration &&
-        top.kind != Tok::Resource) {
-      const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon ||
-                                                 tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
-      bool suspicious = false;
-      if (isVarWord(top.kind) || top.kind == Tok::Type) {
-        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || beginsBlock(k)) &&
-                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || beginsBlock(k) ||
-                       tokens_[i + 1].kind == Tok::Dot || tokens_[i + 1].kind == Tok::LeftBracket ||
-                       beginsIl(k, textOf(i), tokens_[i + 1])));
-      } else if (line_column_ <= top.column) {
-        const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) &&
-                             (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
-                            (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do ||
-                            k == Tok::Of;
-        const bool label =
-            top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash ||
-                                      tokens_[i + 1].kind == Tok::DotDot);
-        suspicious = top.line_start && !label && (!middle || line_column_ < top.column) &&
-                     !(k == Tok::Ident && foldedCharacter(textOf(i)[0]) == 'e' &&
-                       nearestKeyword(textOf(i), kClosers) != Tok::End);
-      }
-      if (suspicious) top.suspect = i;
-    }
-  }
+  if (i == line_first_) suspectLine(i);
   if (k == Tok::Until && !stack_.empty() && stack_.back().kind == Tok::Repeat) stack_.back().until = i;
   if (k == Tok::Elsif || k == Tok::Elseif || k == Tok::Array) {
     pending_header_ = i + 1;
     return;
   }
-  if (k == Tok::Then || k == Tok::Do || k == Tok::Of) {
-    if (pending_header_ == 0) {
-      orphans_.push_back({i, line_first_, line_column_});
-    } else {
-      const uint32_t header = pending_header_ - 1;
-      if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = k;
-      pending_header_ = 0;
-    }
-    return;
-  }
+  if (k == Tok::Then || k == Tok::Do || k == Tok::Of) return takeConnective(i);
   if (k == Tok::Semicolon) {
     pending_header_ = 0;
     return;
   }
-  if ((isCloser(k) || opens(i)) && insideExpression(i)) return spoil(i);
-  if (isCloser(k)) return close(i, k);
-  if (opens(i)) {
-    // END IF
-    if (i > region_first_ && tokens_[i - 1].kind == Tok::EndSlip && !atLineStart(i)) {
-      const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
-      const Tok closer = closerOf(k);
-      diagnostics_.report(diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
-          .length(static_cast<uint32_t>(written.size()));
-      markReported(i);
-      edit(i - 1, EditKind::Remove, Tok::End);
-      edit(i, EditKind::Correction, closer);
-      return close(i, closer);
-    }
-    if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
-      diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
-      markReported(i);
-      edit(i, EditKind::Remove, Tok::End);
-      return;
-    }
-    return open(i, k);
+  const bool is_closer = isCloser(k), is_opener = opens(i);
+  if ((is_closer || is_opener) && insideExpression(i)) return spoil(i);
+  if (is_closer) return close(i, k);
+  if (is_opener) return visitOpener(i, k);
+  if (k == Tok::Ident && i > region_first_) visitMisspelled(i);
+}
+
+// Opens a block, unless its keyword is the second word of `END IF` or written twice.
+void Balancer::visitOpener(uint32_t i, Tok k) {
+  const bool continues_line = i > region_first_ && !atLineStart(i);
+  if (continues_line && tokens_[i - 1].kind == Tok::EndSlip) {
+    const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
+    const Tok closer = closerOf(k);
+    diagnostics_.report(diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
+        .length(static_cast<uint32_t>(written.size()));
+    markReported(i);
+    edit(i - 1, EditKind::Remove, Tok::End);
+    edit(i, EditKind::Correction, closer);
+    return close(i, closer);
   }
-  // END_FI, ENDIF, END_FUCTION
-  if (k == Tok::Ident && i > region_first_) {
-    const std::string_view word = textOf(i);
-    if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon &&
-        !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_")))
-      return;
-    const Tok next = tokens_[i + 1].kind;
-    if (word.size() >= 4 && foldedCharacter(word[0]) == 'e' && next != Tok::Assign && next != Tok::Dot &&
-        next != Tok::Colon && next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
-      Tok meant = nearestKeyword(word, kClosers);
-      if (meant != Tok::End) {
-        // Of two close candidates, the one that closes the open block.
-        if (!stack_.empty() && closerOf(stack_.back().kind) != meant) {
-          const Tok wanted[] = {closerOf(stack_.back().kind)};
-          if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
-        }
-        diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
-            .length(static_cast<uint32_t>(word.size()));
-        markReported(i);
-        edit(i, EditKind::Correction, meant);
-        return close(i, meant);
-      }
-    }
+  if (continues_line && tokens_[i - 1].kind == k) return removeDuplicate(i);
+  open(i, k);
+}
+
+void Balancer::removeDuplicate(uint32_t i) {
+  diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
+  markReported(i);
+  edit(i, EditKind::Remove, Tok::End);
+}
+
+// END_FI, ENDIF, END_FUCTION
+void Balancer::visitMisspelled(uint32_t i) {
+  const std::string_view word = textOf(i);
+  if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon &&
+      !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_")))
+    return;
+  static constexpr TokSet kAfterNames = {Tok::Assign,    Tok::Dot,         Tok::Colon,
+                                         Tok::LeftParen, Tok::LeftBracket, Tok::Comma};
+  if (word.size() < 4 || foldedCharacter(word[0]) != 'e' || kAfterNames.has(tokens_[i + 1].kind)) return;
+  Tok meant = nearestKeyword(word, kClosers);
+  if (meant == Tok::End) return;
+  // Of two close candidates, the one that closes the open block.
+  if (!stack_.empty() && closerOf(stack_.back().kind) != meant) {
+    const Tok wanted[] = {closerOf(stack_.back().kind)};
+    if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
   }
+  diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
+      .length(static_cast<uint32_t>(word.size()));
+  markReported(i);
+  edit(i, EditKind::Correction, meant);
+  close(i, meant);
 }
 
 void Balancer::open(uint32_t i, Tok kind) {
@@ -457,81 +478,79 @@ bool Balancer::belongs(Tok connective, Tok opener) const {
   return connective == Tok::End;
 }
 
-void Balancer::close(uint32_t i, Tok closer) {
-  const bool line_start = i == line_first_;
-  // END_IF END_IF
-  if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start &&
-      (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
-    diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
-    markReported(i);
-    edit(i, EditKind::Remove, Tok::End);
-    return;
-  }
-  // The nearest block closed by this keyword, within the POU.
+// The number of blocks up to the nearest one that the keyword closes, within the POU; 0: none.
+size_t Balancer::findBlock(uint32_t i, Tok closer) const {
   size_t found = stack_.size();
+  for (; found > 0; --found) {
+    const Tok k = stack_[found - 1].kind;
+    if (closerOf(k) == closer) break;
+    if (isPouOpener(k) && !isPouCloser(closer)) return 0;
+  }
+  if (found == 0 || i != line_first_ || stack_[found - 1].column == line_column_ || isPouCloser(closer)) return found;
+  // If the indentation matches an outer block, the inner ones are left open.
+  for (size_t outer = found; outer-- > 1;) {
+    const Open& o = stack_[outer - 1];
+    if (isPouOpener(o.kind)) break;
+    if (closerOf(o.kind) == closer && o.line_start && o.column == line_column_) return outer;
+  }
+  return found;
+}
+
+// Corrects the keyword that opened the innermost block, or this one at its end, where only one of them can be meant.
+bool Balancer::closeOther(uint32_t i, Tok closer, size_t found) {
+  if (stack_.empty() || found == stack_.size()) return false;
+  const Open& top = stack_.back();
+  const bool opens_pou = isPouOpener(top.kind);
+  if (opens_pou && (!isPouCloser(closer) || found != 0)) return false;
+  const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
+  const bool same_column = i == line_first_ && top.line_start && top.column == line_column_;
+  if (!opens_pou && (!same_column || found_by_column)) return false;
+  const std::span<const Tok> openers = openersFor(closer);
+  const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
+  if ((beginsBlock(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
+      (function_without_result && isPouCloser(closer))) {
+    diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
+    markReported(top.index);
+    edit(top.index, EditKind::Correction, openers[0]);
+  } else {
+    const Tok right = closerOf(top.kind);
+    diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
+    markReported(i);
+    edit(i, EditKind::Correction, right);
+  }
+  stack_.pop_back();
+  leftOutermost(i, closer);
+  return true;
+}
+
+// `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
+bool Balancer::endsMissingBlock(uint32_t i, Tok closer, size_t found) {
+  const Open& outer = stack_[found - 1];
+  if (found == stack_.size() || i != line_first_ || outer.column == line_column_ || !beginsBlock(outer.kind))
+    return false;
+  const bool orphan = std::any_of(orphans_.begin(), orphans_.end(), [&](const Orphan& o) {
+    return o.index > stack_.back().index && o.column == line_column_ && belongs(tokens_[o.index].kind, outer.kind);
+  });
+  Tok meant = Tok::End;
+  return orphan || (stack_.back().column < line_column_ && findOpener(i, closer, meant) != 0);
+}
+
+void Balancer::close(uint32_t i, Tok closer) {
+  // END_IF END_IF
+  if (i > region_first_ && tokens_[i - 1].kind == closer && i != line_first_ &&
+      (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind)))
+    return removeDuplicate(i);
   if ((closer == Tok::EndStruct || closer == Tok::EndUnion) && !stack_.empty() &&
       (stack_.back().kind == Tok::Type || isVarWord(stack_.back().kind)) &&
       openAtContent(i, stack_.back().index + 1, closer))
     return;
-  while (found > 0) {
-    const Tok k = stack_[found - 1].kind;
-    if (closerOf(k) == closer) break;
-    if (isPouOpener(k) && !isPouCloser(closer)) {
-      found = 0;
-      break;
-    }
-    --found;
-  }
-  // If the indentation matches an outer block, the inner ones are left open.
-  if (found > 0 && line_start && stack_[found - 1].column != line_column_ && !isPouCloser(closer)) {
-    for (size_t outer = found; outer-- > 1;) {
-      const Open& o = stack_[outer - 1];
-      if (isPouOpener(o.kind)) break;
-      if (closerOf(o.kind) == closer && o.line_start && o.column == line_column_) {
-        found = outer;
-        break;
-      }
-    }
-  }
+  const size_t found = findBlock(i, closer);
   // END_ACTION without ACTION is not a misspelled END_… of its block, which still follows.
   if (found == 0 && isMemberCloser(closer) && !stack_.empty() && isPouOpener(stack_.back().kind) &&
       !isMember(stack_.back().kind) && comesBehind(i, closerOf(stack_.back().kind)))
     return stray(i, closer);
-  const bool top_matches = !stack_.empty() && found == stack_.size();
-  if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
-    Open& top = stack_.back();
-    const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
-    const bool misplaced_keyword =
-        isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
-    if (misplaced_keyword && (found == 0 || !isPouOpener(top.kind))) {
-      const std::span<const Tok> openers = openersFor(closer);
-      const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
-      if ((beginsBlock(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
-          (function_without_result && isPouCloser(closer))) {
-        diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
-        markReported(top.index);
-        edit(top.index, EditKind::Correction, openers[0]);
-      } else {
-        const Tok right = closerOf(top.kind);
-        diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
-        markReported(i);
-        edit(i, EditKind::Correction, right);
-      }
-      stack_.pop_back();
-      leftOutermost(i, closer);
-      return;
-    }
-  }
-  if (found == 0) return stray(i, closer);
-  // `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
-  if (!top_matches && line_start && stack_[found - 1].column != line_column_ && beginsBlock(stack_[found - 1].kind)) {
-    bool orphan = false;
-    for (const Orphan& o : orphans_)
-      orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ &&
-                          belongs(tokens_[o.index].kind, stack_[found - 1].kind));
-    Tok meant = Tok::End;
-    if (orphan || (stack_.back().column < line_column_ && findOpener(i, closer, meant) != 0)) return stray(i, closer);
-  }
+  if (closeOther(i, closer, found)) return;
+  if (found == 0 || endsMissingBlock(i, closer, found)) return stray(i, closer);
   while (stack_.size() > found) {
     const Open open = stack_.back();
     stack_.pop_back();

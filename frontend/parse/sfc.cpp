@@ -338,7 +338,63 @@ bool ChartParser::parseTransition(std::vector<SfcTransition>& out, std::vector<D
   return ok;
 }
 
-// ":=" expression ";" [";"] | ":" statements | ":" instructions | nothing: the transition or variable of its name
+// A condition in IL stores the value of the accumulator at each RET, and at the end.
+void ChartParser::storeCondition(PouDecl& d, const SfcTransition& t) {
+  IlInstruction store{};
+  store.kind = IlKind::Store;
+  store.word = names_.intern("ST");
+  store.loc = t.target.loc;
+  const Argument operand{{}, build_.name(t.target.name, t.target.loc), false, false, t.target.loc};
+  store.operands = tree_.addList<Argument>({&operand, 1});
+  std::vector<IlInstruction> list;
+  for (const IlInstruction& i : tree_.list(d.il)) {
+    IlInstruction next = i;
+    if (i.kind == IlKind::Return) {
+      IlInstruction before = store;
+      std::swap(before.label, next.label);
+      list.push_back(before);
+    }
+    list.push_back(next);
+  }
+  if (list.empty() || list.back().kind != IlKind::Return || (list.back().flags & kIlConditional) != 0)
+    list.push_back(store);
+  d.il = tree_.addList<IlInstruction>(list);
+}
+
+// ":=" expression ";" [";"]. False: there is no body, or an error.
+bool ChartParser::parseConditionValue(PouDecl& d, SfcTransition& t) {
+  t.condition = parseSfcExpr();
+  if (panic_) return false;
+  if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
+  accept(Tok::Semicolon);  // a condition of a drawing may end with its own
+  if (!t.from.empty()) return false;
+  const StmtId id =
+      build_.assign(AssignOp::Assign, build_.name(t.target.name, t.target.loc), t.condition.value, t.condition.begin);
+  tree_.stmt(id).end = t.condition.end;
+  d.body = tree_.addList<StmtId>({&id, 1});
+  d.body_kind = BodyKind::St;
+  d.body_begin = t.condition.begin;
+  d.body_end = t.condition.end;
+  return true;
+}
+
+// ":" statements | ":" instructions | ":" networks. False: an error.
+bool ChartParser::parseConditionBody(PouDecl& d, const SfcTransition& t, const Token* first) {
+  const Tok pou_end = pou_end_;
+  parseBody(d);
+  pou_end_ = pou_end;
+  if (panic_) return false;
+  if (d.body_kind == BodyKind::Il) {
+    storeCondition(d, t);
+  } else if (d.body_kind == BodyKind::St && (!t.name.name || d.body.empty())) {
+    slip(diag::SfcNoCondition, first);
+    panic_ = true;
+    return false;
+  }
+  return true;
+}
+
+// value | body | nothing: the transition or variable of its name
 void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   const Token* first = t_;
   PouDecl d{};
@@ -350,55 +406,15 @@ void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members)
   } else {  // for a body in IL, or of networks
     t.target = {names_.intern("Transition_" + std::to_string(sources_.location(t.loc).line)), t.loc};
   }
-  const auto target = [&] { return build_.name(t.target.name, t.target.loc); };
   if (accept(Tok::Assign)) {
-    t.condition = parseSfcExpr();
-    if (panic_) return;
-    if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
-    accept(Tok::Semicolon);  // a condition of a drawing may end with its own
-    if (!t.from.empty()) return;
-    const StmtId id = build_.assign(AssignOp::Assign, target(), t.condition.value, t.condition.begin);
-    tree_.stmt(id).end = t.condition.end;
-    d.body = tree_.addList<StmtId>({&id, 1});
-    d.body_kind = BodyKind::St;
-    d.body_begin = t.condition.begin;
-    d.body_end = t.condition.end;
+    if (!parseConditionValue(d, t)) return;
   } else if (accept(Tok::Colon)) {
-    const Tok pou_end = pou_end_;
-    parseBody(d);
-    pou_end_ = pou_end;
-    if (panic_) return;
-    if (d.body_kind == BodyKind::Il) {
-      IlInstruction store{};
-      store.kind = IlKind::Store;
-      store.word = names_.intern("ST");
-      store.loc = t.target.loc;
-      const Argument operand{{}, target(), false, false, t.target.loc};
-      store.operands = tree_.addList<Argument>({&operand, 1});
-      std::vector<IlInstruction> list;
-      for (const IlInstruction& i : tree_.list(d.il)) {  // the value at each RET, and at the end
-        IlInstruction next = i;
-        if (i.kind == IlKind::Return) {
-          IlInstruction before = store;
-          std::swap(before.label, next.label);
-          list.push_back(before);
-        }
-        list.push_back(next);
-      }
-      if (list.empty() || list.back().kind != IlKind::Return || (list.back().flags & kIlConditional) != 0)
-        list.push_back(store);
-      d.il = tree_.addList<IlInstruction>(list);
-    } else if (d.body_kind == BodyKind::St && (!t.name.name || d.body.empty())) {
-      slip(diag::SfcNoCondition, first);
-      panic_ = true;
-      return;
-    }
+    if (!parseConditionBody(d, t, first)) return;
   } else {
     accept(Tok::Semicolon);
-    if (!t.name.name || t.from.empty()) {
-      diagnostics_.report(diag::SfcNoCondition, t.loc);
-      panic_ = true;
-    }
+    if (t.name.name && !t.from.empty()) return;
+    diagnostics_.report(diag::SfcNoCondition, t.loc);
+    panic_ = true;
     return;
   }
   d.name = names_.intern(std::string(names_.string(t.target.name)) + "_condition");

@@ -111,6 +111,10 @@ class StPrinter {
   void arguments(Slice<Argument> arguments);
   void type(TypeExprId id);
   void newExpr(const NewExpr& e);
+  void typedName(const TypedNameExpr& e);
+  void bitAccess(const BitAccessExpr& e);
+  void call(const CallExpr& e);
+  void repeat(const RepeatExpr& e);
   void assignment(const AssignExpr& e);
   void unary(ExprId id, int least);
   void binary(ExprId id, int least);
@@ -414,18 +418,35 @@ void StPrinter::chartExpr(ExprId id, int least) {
   if (parens) out += ')';
 }
 
+void StPrinter::typedName(const TypedNameExpr& e) {
+  name(e.type_name.name);
+  out += '#';
+  name(e.item.name);
+}
+
+void StPrinter::bitAccess(const BitAccessExpr& e) {
+  expr(e.base, kPrimary);
+  out += e.width == 8 ? ".%B" : e.width == 16 ? ".%W" : e.width == 32 ? ".%D" : ".";
+  out += std::to_string(e.position);
+}
+
+void StPrinter::call(const CallExpr& e) {
+  expr(e.callee, kPrimary);
+  if ((e.h.bits & kBareCall) == 0) arguments(e.arguments);
+}
+
+void StPrinter::repeat(const RepeatExpr& e) {
+  expr(e.count, kPrimary);
+  list("(", e.elements, ")");
+}
+
 void StPrinter::node(ExprId id, int least) {
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
     case ExprKind::Name:
       if (tree_.expr(id).op == kGlobalName) out += '.';
       return name(tree_.as<NameExpr>(id).name);
-    case ExprKind::TypedName: {
-      const auto& e = tree_.as<TypedNameExpr>(id);
-      name(e.type_name.name);
-      out += '#';
-      return name(e.item.name);
-    }
+    case ExprKind::TypedName: return typedName(tree_.as<TypedNameExpr>(id));
     case ExprKind::Member: {
       const auto& e = tree_.as<MemberExpr>(id);
       expr(e.base, kPrimary);
@@ -444,22 +465,11 @@ void StPrinter::node(ExprId id, int least) {
       return;
     case ExprKind::This: out += "THIS"; return;
     case ExprKind::Super: out += "SUPER"; return;
-    case ExprKind::BitAccess: {
-      const auto& e = tree_.as<BitAccessExpr>(id);
-      expr(e.base, kPrimary);
-      out += e.width == 8 ? ".%B" : e.width == 16 ? ".%W" : e.width == 32 ? ".%D" : ".";
-      out += std::to_string(e.position);
-      return;
-    }
+    case ExprKind::BitAccess: return bitAccess(tree_.as<BitAccessExpr>(id));
     case ExprKind::Address: return address(tree_.as<AddressExpr>(id).address);
     case ExprKind::Unary: return unary(id, least);
     case ExprKind::Binary: return binary(id, least);
-    case ExprKind::Call: {
-      const auto& e = tree_.as<CallExpr>(id);
-      expr(e.callee, kPrimary);
-      if ((e.h.bits & kBareCall) == 0) arguments(e.arguments);
-      return;
-    }
+    case ExprKind::Call: return call(tree_.as<CallExpr>(id));
     case ExprKind::New: return newExpr(tree_.as<NewExpr>(id));
     case ExprKind::Assign: return assignment(tree_.as<AssignExpr>(id));
     case ExprKind::Range: {
@@ -469,12 +479,7 @@ void StPrinter::node(ExprId id, int least) {
       return expr(e.high, 0);
     }
     case ExprKind::ArrayInit: list("[", tree_.as<ArrayInitExpr>(id).elements, "]"); return;
-    case ExprKind::Repeat: {
-      const auto& e = tree_.as<RepeatExpr>(id);
-      expr(e.count, kPrimary);
-      list("(", e.elements, ")");
-      return;
-    }
+    case ExprKind::Repeat: return repeat(tree_.as<RepeatExpr>(id));
     case ExprKind::StructInit: return structInit(tree_.as<StructInitExpr>(id));
     case ExprKind::Error:
     case ExprKind::Convert:

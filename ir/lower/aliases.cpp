@@ -30,7 +30,7 @@ bool PlaceLowering::areApart(sema::VarId a, sema::VarId b) const {
   // Memory of this call alone. A result's memory is a temporary of the caller.
   auto isOwn = [&](sema::VarId id, const sema::Var& var) {
     if (id == project_.pou(pou_).result_var) return true;
-    return var.storage == sema::Storage::Local && !var.shared &&
+    return var.storage == sema::Storage::Local && !var.sharing.field &&
            !body_.locals[state_.local_of[var.field] - 1].by_reference;
   };
   if (isOwn(a, x) || isOwn(b, y)) return true;

@@ -18,7 +18,7 @@ BodyState::BodyState(ModuleLowering& in, Body& body, sema::PouId pou, BodyLoweri
   uint32_t next = 0;  // ModuleLowering::bodyOf made a local of each variable of this storage, in order
   for (sema::VarId id : in.project.pou(pou).vars) {
     const sema::Var& var = in.project.var(id);
-    if (var.storage != sema::Storage::Local || var.shared) continue;
+    if (var.storage != sema::Storage::Local || var.sharing.field) continue;
     if (local_of.size() <= var.field) local_of.resize(var.field + 1);
     local_of[var.field] = ++next;
   }

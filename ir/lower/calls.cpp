@@ -150,15 +150,48 @@ void CallLowering::setMarkedVariables(const sema::Call& call, const rung::CallEx
   }
 }
 
-void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
-  Loc loc = node.h.loc;
-  struct CopyBack {
-    rung::ExprId target;
-    ExprId value;
-  };
-  std::vector<CopyBack> copies;
-  std::vector<ExprId> short_lived;  // in-outs of an instance that outlives their variable
+void CallLowering::storeOpenArray(const sema::Var& pin, rung::ExprId value, ExprId instance) {
+  const Loc at = tree_.loc(value);
+  const OpenArray array = places().passOpenArray(value, strip(pin.type), false);
+  assign(field(asBase(copy(instance), pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
+  for (uint32_t i = 0; i < array.bounds.size(); ++i) {
+    const sema::Var& bound = project_.var({pin.open_array.bounds.index + i});
+    assign(field(asBase(copy(instance), pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
+  }
+}
+
+// Lets an in-out of an instance refer to a variable.
+void CallLowering::bindInOut(const sema::Var& pin, rung::ExprId value, ExprId instance, InOuts& in_outs) {
   const auto isLocal = [&](ExprId place) { return body_.expr(rootOf(body_, place)).kind == ExprKind::Local; };
+  const Loc at = tree_.loc(value);
+  const ExprId place = places().pinPlace(copy(instance), pin, at);
+  ExprId variable = inOutPlace(value, strip(pin.type));
+  if (!isReferable(variable)) {
+    variable = toTemp(variable, at);
+    in_outs.copies.push_back({value, copy(variable)});
+  }
+  if (isLocal(variable) && !isLocal(instance)) in_outs.short_lived.push_back(copy(place));
+  append(at, BindStmt{.field = place, .place = variable});
+}
+
+void CallLowering::callBody(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
+  const Loc loc = node.h.loc;
+  if (project_.pou(call.pou).kind == PouKind::Action) {
+    sema::Call action = call;
+    action.bindings.clear();
+    lowerFunctionCall(action, node, nullptr, asBase(instance, project_.pou(call.pou).owner, loc));
+    return;
+  }
+  const BodyId callee = call.is_virtual ? in_.blockCallOf(call.pou) : in_.bodyOf(call.pou);
+  append(loc, CallStmt{.callee = callee,
+                       .self = instance,
+                       .is_virtual = call.is_virtual,
+                       .is_checked = call.is_virtual && in_.checksCasts()});
+}
+
+void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance) {
+  const Loc loc = node.h.loc;
+  InOuts in_outs;
   std::vector<uint32_t> order(call.bindings.size());
   std::iota(order.begin(), order.end(), 0);
   writtenOrder(order, [&](uint32_t i) { return call.bindings[i].value; });
@@ -166,45 +199,21 @@ void CallLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
     const sema::Binding& binding = call.bindings[number];
     if (binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
-    TypeId type = strip(pin.type);
-    Loc at = tree_.loc(binding.value);
-    if (types_.isOpenArray(type)) {
-      OpenArray array = places().passOpenArray(binding.value, type, false);
-      assign(field(asBase(copy(instance), pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
-      for (uint32_t i = 0; i < array.bounds.size(); ++i) {
-        const sema::Var& bound = project_.var({pin.open_array.bounds.index + i});
-        assign(field(asBase(copy(instance), pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
-      }
-      continue;
-    }
-    ExprId place = places().pinPlace(copy(instance), pin, at);
-    if (pin.section == SectionKind::InOut) {
-      ExprId variable = inOutPlace(binding.value, type);
-      if (!isReferable(variable)) {
-        variable = toTemp(variable, at);
-        copies.push_back({binding.value, copy(variable)});
-      }
-      if (isLocal(variable) && !isLocal(instance)) short_lived.push_back(copy(place));
-      append(at, BindStmt{.field = place, .place = variable});
+    if (types_.isOpenArray(strip(pin.type))) {
+      storeOpenArray(pin, binding.value, instance);
+    } else if (pin.section == SectionKind::InOut) {
+      bindInOut(pin, binding.value, instance, in_outs);
     } else {
+      const Loc at = tree_.loc(binding.value);
+      const ExprId place = places().pinPlace(copy(instance), pin, at);
       assign(place, values().lowerValue(binding.value), at);
     }
   }
   if (project_.pou(call.pou).kind == PouKind::FunctionBlock) setMarkedVariables(call, node, instance);
-  if (project_.pou(call.pou).kind == PouKind::Action) {
-    sema::Call action = call;
-    action.bindings.clear();
-    lowerFunctionCall(action, node, nullptr, asBase(instance, project_.pou(call.pou).owner, loc));
-  } else {
-    const BodyId callee = call.is_virtual ? in_.blockCallOf(call.pou) : in_.bodyOf(call.pou);
-    append(loc, CallStmt{.callee = callee,
-                         .self = instance,
-                         .is_virtual = call.is_virtual,
-                         .is_checked = call.is_virtual && in_.checksCasts()});
-  }
+  callBody(call, node, instance);
   // The variables that they refer to end with this body or sooner, and a trace must not follow them there.
-  for (const ExprId field : short_lived) append(loc, BindStmt{.field = field});
-  for (const CopyBack& back : copies) storeOutput(back.target, back.value, false, loc);
+  for (const ExprId field : in_outs.short_lived) append(loc, BindStmt{.field = field});
+  for (const CopyBack& back : in_outs.copies) storeOutput(back.target, back.value, false, loc);
   for (const uint32_t number : order) {
     const sema::Binding& binding = call.bindings[number];
     if (!binding.is_output || !binding.value) continue;

@@ -71,9 +71,9 @@ void ModuleLowering::lowerCpp(sema::PouId id) {
   for (const sema::VarId var : pou.vars) addCppVariable(cpp, var, {}, false);
   for (sema::PouId object = pou.owner ? pou.owner : pou.base; object; object = project.pou(object).base)
     for (const sema::VarId var : project.pou(object).vars) addCppVariable(cpp, var, {}, true);
-  for (const sema::VarId var : pou.cpp_globals)
+  for (const sema::VarId var : pou.cpp.globals)
     addCppVariable(cpp, var, project.global_lists[project.var(var).list.index].name, false);
-  for (sema::PouId function : pou.cpp_calls) cpp.functions.push_back(bodyOf(function));
+  for (sema::PouId function : pou.cpp.calls) cpp.functions.push_back(bodyOf(function));
   module.cpp_bodies.push_back(std::move(cpp));
   module.body(bodyOf(id)).cpp = static_cast<uint32_t>(module.cpp_bodies.size());
 }

@@ -229,8 +229,8 @@ const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
   if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage != sema::Storage::Local || var.shared || state_.local_of[var.field] != *index + 1) continue;
-    const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
+    if (var.storage != sema::Storage::Local || var.sharing.field || state_.local_of[var.field] != *index + 1) continue;
+    const sema::Var& declared = var.sharing.copy_of ? project_.var(var.sharing.copy_of) : var;
     if (declared.start.constructor.index != 0) return &declared;
   }
   return nullptr;

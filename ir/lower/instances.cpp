@@ -128,8 +128,8 @@ void InstanceLowering::addLocated() {
     created.byte = var.image.byte;
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
     created.symbol_access = var.symbol_access;
-    created.retain = var.retain;
-    created.persistent = var.persistent;
+    created.retain = var.keeping.retain;
+    created.persistent = var.keeping.persistent;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
     if (!var.pou && var.list) {
       const sema::GlobalList& list = project.global_lists[var.list.index];

@@ -79,6 +79,10 @@ struct ModuleLowering {
   std::vector<VariableLimit> variable_limits;
 
  private:
+  void initVar(BodyLowering& lowering, sema::VarId id, sema::Storage storage);
+  void initObject(BodyLowering& lowering, TypeId type, sema::PouId pou, Loc loc);
+  void initList(BodyLowering& lowering, sema::ListId list, bool sets_late);
+  void initFields(BodyLowering& lowering, TypeId type, Loc loc);
   void addTests();
   BodyId addTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
   BodyId addTestSetup(sema::PouId test, std::span<const sema::TestCase::Input> inputs, const std::string& suffix);
@@ -234,6 +238,17 @@ class CallLowering : public BodyPart {
   void lowerTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, Loc loc);
   ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
   void setMarkedVariables(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
+  struct CopyBack {
+    rung::ExprId target;
+    ExprId value;
+  };
+  struct InOuts {
+    std::vector<CopyBack> copies;     // of variables that cannot be referred to
+    std::vector<ExprId> short_lived;  // in-outs of an instance that outlives their variable
+  };
+  void storeOpenArray(const sema::Var& pin, rung::ExprId value, ExprId instance);
+  void bindInOut(const sema::Var& pin, rung::ExprId value, ExprId instance, InOuts& in_outs);
+  void callBody(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   void lowerBlockCall(const sema::Call& call, const rung::CallExpr& node, ExprId instance);
   // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
@@ -326,6 +341,9 @@ class StatementLowering : public BodyPart {
   void lowerStatements(Slice<rung::StmtId> statements);
   void lowerStatement(rung::StmtId stmt);
   void lowerAssign(const rung::AssignStmt& stmt);
+  void lowerStore(const rung::AssignStmt& stmt);
+  void lowerUpdate(const rung::AssignStmt& stmt, Op op);
+  rung::ExprId assignedCall(const rung::AssignStmt& stmt) const;
   void lowerIf(const rung::IfStmt& stmt);
   void lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc);
   void lowerCase(const CaseStmt& stmt);

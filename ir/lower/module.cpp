@@ -78,7 +78,7 @@ sema::PouId ModuleLowering::lowerBodies() {
     const sema::Pou& pou = project.pou(id);
     if (pou.pragmas.native || (pou.owner && (pou.object.modifiers & kAbstract) != 0)) continue;
     if (!pou.progress.checked()) return id;
-    if (pou.cpp) {
+    if (pou.cpp.is_body) {
       lowerCpp(id);
       continue;
     }
@@ -132,7 +132,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (body.self) records.declare(body.self);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& var = project.var(var_id);
-    if (var.storage != sema::Storage::Local || var.shared) continue;
+    if (var.storage != sema::Storage::Local || var.sharing.field) continue;
     LocalKind kind = LocalKind::Variable;
     if (body.kind == BodyKind::Function) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
@@ -190,79 +190,88 @@ void ModuleLowering::markFaulting() {
 
 // ---- initial values --------------------------------------------------------------------------------------------
 
+// A variable of an object or list. A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
+void ModuleLowering::initVar(BodyLowering& lowering, sema::VarId id, sema::Storage storage) {
+  const sema::Var& var = project.var(id);
+  if (var.storage == sema::Storage::Image) {
+    if (var.init)
+      lowering.objects.storeInitial(lowering.places.varPlace(id, var.loc), types.resolve(var.type), var.init, false);
+    return;
+  }
+  if (var.storage != storage) return;
+  if (var.section == SectionKind::InOut || var.bits.is_bit || var.sharing.holds) return;
+  if (!var.init && records.isZero(var.type)) return;
+  lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
+                                var.type, var.init, true);
+}
+
+void ModuleLowering::initObject(BodyLowering& lowering, TypeId type, sema::PouId pou, Loc loc) {
+  const sema::Pou& object = project.pou(pou);
+  for (const sema::VarId var : object.vars)
+    if (!project.var(var).start.late) initVar(lowering, var, sema::Storage::Field);
+  for (const sema::VarId var : object.late) initVar(lowering, var, sema::Storage::Field);
+  if (!object.object.dispatched) return;
+  sema::PouId first = pou;
+  while (!project.pou(first).object.id_var) first = project.pou(first).base;
+  const uint32_t field = project.var(project.pou(first).object.id_var).field;
+  const ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = type});
+  const ExprId place =
+      lowering.code.field(lowering.code.asBase(lowering.code.self(loc), first, loc), field, types::kUDInt, loc);
+  lowering.code.assign(place, number, loc);
+}
+
+// Values that read other lists are set when all lists have theirs, and before those of programs.
+void ModuleLowering::initList(BodyLowering& lowering, sema::ListId list, bool sets_late) {
+  for (const sema::VarId var : project.global_lists[list.index].vars)
+    if (!project.var(var).start.late) initVar(lowering, var, sema::Storage::Global);
+  for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
+    const sema::Var& var = project.var(project.late[i]);
+    lowering.objects.storeInitial(lowering.places.varPlace(project.late[i], var.loc), var.type, var.init,
+                                  var.storage == sema::Storage::Global);
+  }
+}
+
+// A structure. Where members overlap, explicit values win.
+void ModuleLowering::initFields(BodyLowering& lowering, TypeId type, Loc loc) {
+  const TypeInfo& info = types.info(type);
+  for (const bool written : {false, true})
+    for (uint32_t i = 0; i < info.fields.size(); ++i) {
+      rung::ExprId init;
+      if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
+        init = project.field_inits[type.index][i];
+      if (info.overlaps ? init ? written : !written && !records.isZero(info.fields[i].type)
+                        : !written && (init || !records.isZero(info.fields[i].type)))
+        lowering.objects.storeInitial(lowering.code.field(lowering.code.self(loc), i, info.fields[i].type, loc),
+                                      info.fields[i].type, init, !info.overlaps);
+      if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
+    }
+}
+
 BodyId ModuleLowering::initOf(TypeId type) {
   auto known = init_of_.find(type.index);
   if (known != init_of_.end()) return known->second;
-  const sema::ListId of_list = records.listOf(type);
-  const bool sets_late = of_list && !project.late.empty() && instances.isLast(of_list);
+  const sema::ListId list = records.listOf(type);
+  const bool sets_late = list && !project.late.empty() && instances.isLast(list);
   if (records.isZero(type) && !sets_late) return init_of_[type.index] = {};
   module.bodies.emplace_back();
   BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
   init_of_[type.index] = id;
   Body& body = module.bodies.back();
   const TypeInfo& info = types.info(type);
-  sema::PouId pou = records.pouOf(type);
-  const sema::ListId list = of_list;
+  const sema::PouId pou = records.pouOf(type);
   body.name = info.name;
-  if (pou) {
-    takeHeader(body, project.pou(pou));
-  }
+  if (pou) takeHeader(body, project.pou(pou));
   body.spelling = info.name ? info.name : body.name;
   body.kind = BodyKind::Init;
   body.self = type;
-
   BodyLowering lowering(*this, body, pou);
-  Loc loc = body.loc;
-  lowering.code.assign(lowering.code.self(loc), lowering.code.zero(type, loc), loc);
-  auto storeVar = [&](sema::VarId id_of_var) {
-    const sema::Var& var = project.var(id_of_var);
-    if (var.storage == sema::Storage::Image) {
-      if (var.init)
-        lowering.objects.storeInitial(lowering.places.varPlace(id_of_var, var.loc), types.resolve(var.type), var.init,
-                                      false);
-      return;
-    }
-    // A POU's VAR_EXTERNAL and VAR_STAT are in global lists, which set them.
-    if (var.storage != (pou ? sema::Storage::Field : sema::Storage::Global)) return;
-    if (var.section == SectionKind::InOut || var.bits.is_bit || var.holds) return;
-    if (!var.init && records.isZero(var.type)) return;
-    lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
-                                  var.type, var.init, true);
-  };
-  if (pou) {
-    for (sema::VarId var : project.pou(pou).vars)
-      if (!project.var(var).start.late) storeVar(var);
-    for (sema::VarId var : project.pou(pou).late) storeVar(var);
-    if (project.pou(pou).object.dispatched) {
-      sema::PouId first = pou;
-      while (!project.pou(first).object.id_var) first = project.pou(first).base;
-      const uint32_t field = project.var(project.pou(first).object.id_var).field;
-      ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = type});
-      ExprId place =
-          lowering.code.field(lowering.code.asBase(lowering.code.self(loc), first, loc), field, types::kUDInt, loc);
-      lowering.code.assign(place, number, loc);
-    }
-  } else if (list) {
-    for (sema::VarId var : project.global_lists[list.index].vars)
-      if (!project.var(var).start.late) storeVar(var);
-    // Values that read other lists are set when all lists have theirs, and before those of programs.
-    for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
-      const sema::Var& var = project.var(project.late[i]);
-      lowering.objects.storeInitial(lowering.places.varPlace(project.late[i], var.loc), var.type, var.init,
-                                    var.storage == sema::Storage::Global);
-    }
-  } else
-    for (const bool written : {false, true})  // where members overlap, explicit values win
-      for (uint32_t i = 0; i < info.fields.size(); ++i) {
-        rung::ExprId init;
-        if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
-          init = project.field_inits[type.index][i];
-        if (info.overlaps ? init ? written : !written && !records.isZero(info.fields[i].type)
-                          : !written && (init || !records.isZero(info.fields[i].type)))
-          lowering.objects.storeInitial(lowering.code.field(lowering.code.self(loc), i, info.fields[i].type, loc),
-                                        info.fields[i].type, init, !info.overlaps);
-        if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
-      }
+  lowering.code.assign(lowering.code.self(body.loc), lowering.code.zero(type, body.loc), body.loc);
+  if (pou)
+    initObject(lowering, type, pou, body.loc);
+  else if (list)
+    initList(lowering, list, sets_late);
+  else
+    initFields(lowering, type, body.loc);
   lowering.finish();
   return id;
 }

@@ -9,7 +9,7 @@ sema::VarId PlaceLowering::ownTemporary(sema::VarId id) const {
   if (project_.var(id).section != SectionKind::Temp || !pou_ || project_.var(id).pou == pou_) return {};
   for (sema::PouId at = in_.objectOf(pou_); at; at = project_.pou(at).base)
     for (const sema::VarId own : project_.pou(at).vars)
-      if (project_.var(own).copy_of == id && (at == pou_ || project_.var(own).shared)) return own;
+      if (project_.var(own).sharing.copy_of == id && (at == pou_ || project_.var(own).sharing.field)) return own;
   return {};
 }
 
@@ -30,7 +30,7 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
       return field(add(loc, record, ProgramExpr{.program = instance}), var->field, type, loc);
     }
     case sema::Storage::Local: {
-      if (var->shared) return varPlace(var->shared, loc);
+      if (var->sharing.field) return varPlace(var->sharing.field, loc);
       if (const sema::VarId own = ownTemporary(id)) return varPlace(own, loc);
       const bool belongs = var->pou == pou_ || var->temporary != 0;
       if (!belongs || var->field >= state_.local_of.size() || state_.local_of[var->field] == 0) {

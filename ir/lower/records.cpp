@@ -122,8 +122,8 @@ const sema::Var* RecordLowering::constructedVar(TypeId record, uint32_t field) c
   const auto found = marked_.find(uint64_t{record.index} << 32 | field);
   if (found == marked_.end()) return nullptr;
   const sema::Var* var = found->second;
-  if (var->holds) var = &project.var(var->holds);
-  if (var->copy_of) var = &project.var(var->copy_of);
+  if (var->sharing.holds) var = &project.var(var->sharing.holds);
+  if (var->sharing.copy_of) var = &project.var(var->sharing.copy_of);
   return var->start.constructor.index != 0 ? var : nullptr;
 }
 

@@ -15,7 +15,7 @@ void StatementLowering::lowerPou() {
   // Locals of a call, output parameters included, start from their initial values.
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage != sema::Storage::Local || var.shared) continue;
+    if (var.storage != sema::Storage::Local || var.sharing.field) continue;
     if (var.section == SectionKind::InOut || var.open_array.hidden_input || var.temporary != 0 ||
         types_.isOpenArray(var.type))
       continue;
@@ -31,7 +31,7 @@ void StatementLowering::lowerPou() {
       index = *localOf(body_.expr(own)) + 1;
       continue;
     }
-    const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
+    const sema::Var& declared = var.sharing.copy_of ? project_.var(var.sharing.copy_of) : var;
     objects().storeInitial(local(state_.local_of[var.field] - 1, var.loc), strip(var.type), declared.init, false);
   }
   if (state_.result_local != kNoBit) {
@@ -39,7 +39,7 @@ void StatementLowering::lowerPou() {
     objects().storeInitial(local(state_.result_local, result.loc), result.type, {}, false);
   }
   detectEdges();
-  lowerStatements(pou.code);
+  lowerStatements(pou.body.code);
   leaveBody(pou.loc);
   body_.first = build_.block().first;
 }
@@ -48,9 +48,9 @@ void StatementLowering::lowerPou() {
 void StatementLowering::detectEdges() {
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (!var.edge_memory) continue;
+    if (!var.memory.edge) continue;
     auto input = [&] { return field(self(var.loc), var.field, types::kBool, var.loc); };
-    auto memory = [&] { return field(self(var.loc), project_.var(var.edge_memory).field, types::kBool, var.loc); };
+    auto memory = [&] { return field(self(var.loc), project_.var(var.memory.edge).field, types::kBool, var.loc); };
     auto inverse = [&](ExprId value) { return unary(Op::Not, types::kBool, value, var.loc); };
     bool rising = var.edge == EdgeKind::Rising;
     ExprId edge = temp(types::kBool, var.loc);
@@ -112,69 +112,72 @@ uint32_t StatementLowering::labelNumber(NameId label) {
   return known->second;
 }
 
+// The call that an assignment stores: it may write its result directly into the target, and EN guards the whole
+// assignment. None: the value is something else.
+rung::ExprId StatementLowering::assignedCall(const rung::AssignStmt& stmt) const {
+  rung::ExprId source = stmt.value;
+  if (tree_.kind(source) == rung::ExprKind::Convert) {
+    const rung::ExprId operand = tree_.as<rung::ConvertExpr>(source).operand;
+    const bool same = strip(sema::typeOf(tree_, source)) == strip(sema::typeOf(tree_, stmt.target));
+    const bool string = TypeTable::isString(types_.kind(sema::typeOf(tree_, operand)));  // the assignment cuts it
+    if (same || string) source = operand;
+  }
+  return tree_.kind(source) == rung::ExprKind::Call ? source : rung::ExprId{};
+}
+
+void StatementLowering::lowerStore(const rung::AssignStmt& stmt) {
+  const Loc loc = stmt.h.loc;
+  if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
+    calls().lowerCall(stmt.target);
+    return;
+  }
+  const rung::ExprId call = assignedCall(stmt);
+  if (call && (TypeTable::isString(types_.kind(sema::typeOf(tree_, call))) || !calls().isPlainCall(call))) {
+    Target target{.expr = stmt.target, .early = places().isPlainPlace(stmt.target)};
+    ExprId value = calls().lowerCall(call, &target);
+    if (target.stored) return;
+    const ExprId place = lowerAfter({&value}, [&] { return calls().placeOf(target); });
+    assign(place, convertValue(value, typeOf(place), loc), loc);
+    return;
+  }
+  ExprId value = values().lowerValue(stmt.value);
+  const ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
+  assign(target, convertValue(value, typeOf(target), loc), loc);
+}
+
+// x += y
+void StatementLowering::lowerUpdate(const rung::AssignStmt& stmt, Op op) {
+  const Loc loc = stmt.h.loc;
+  const TypeId wide = op == Op::Div ? sema::uncutType(project_, stmt.value) : TypeId{};
+  ExprId value = values().lowerOperand(stmt.value, wide);
+  const ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
+  const TypeId type = wide ? wide : typeOf(target);
+  const ExprId operand = convertValue(copy(target), type, loc);
+  assign(target,
+         convertValue(arithmetic(binary(op, type, operand, convertValue(value, type, loc), loc)), typeOf(target), loc),
+         loc);
+}
+
 void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
-  Loc loc = stmt.h.loc;
+  const Loc loc = stmt.h.loc;
   switch (stmt.op()) {
-    case AssignOp::Assign: {
-      if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
-        calls().lowerCall(stmt.target);
-        return;
-      }
-      rung::ExprId source = stmt.value;
-      // A call may write its result directly into the target, and EN guards the whole assignment.
-      if (tree_.kind(source) == rung::ExprKind::Convert) {
-        rung::ExprId operand = tree_.as<rung::ConvertExpr>(source).operand;
-        bool same = strip(sema::typeOf(tree_, source)) == strip(sema::typeOf(tree_, stmt.target));
-        bool string = TypeTable::isString(types_.kind(sema::typeOf(tree_, operand)));  // the assignment itself cuts it
-        if (tree_.kind(operand) == rung::ExprKind::Call && (same || string)) source = operand;
-      }
-      if (tree_.kind(source) == rung::ExprKind::Call) {
-        bool string = TypeTable::isString(types_.kind(sema::typeOf(tree_, source)));
-        if (string || !calls().isPlainCall(source)) {
-          Target target{.expr = stmt.target, .early = places().isPlainPlace(stmt.target)};
-          ExprId value = calls().lowerCall(source, &target);
-          if (target.stored) return;
-          ExprId place = lowerAfter({&value}, [&] { return calls().placeOf(target); });
-          assign(place, convertValue(value, typeOf(place), loc), loc);
-          return;
-        }
-      }
-      ExprId value = values().lowerValue(stmt.value);
-      ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
-      assign(target, convertValue(value, typeOf(target), loc), loc);
-      return;
-    }
+    case AssignOp::Assign: return lowerStore(stmt);
     case AssignOp::Set:
     case AssignOp::Reset: {
-      ExprId condition = values().lowerValue(stmt.value);
-      StmtId then =
+      const ExprId condition = values().lowerValue(stmt.value);
+      const StmtId then =
           block([&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.op() == AssignOp::Set, loc), loc); });
       append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
-    case AssignOp::Add:
-    case AssignOp::Subtract:
-    case AssignOp::Multiply:
-    case AssignOp::Divide: {
-      Op op = stmt.op() == AssignOp::Add        ? Op::Add
-              : stmt.op() == AssignOp::Subtract ? Op::Sub
-              : stmt.op() == AssignOp::Multiply ? Op::Mul
-                                                : Op::Div;
-      const TypeId wide = op == Op::Div ? sema::uncutType(project_, stmt.value) : TypeId{};
-      ExprId value = values().lowerOperand(stmt.value, wide);
-      ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
-      TypeId type = wide ? wide : typeOf(target);
-      ExprId operand = convertValue(copy(target), type, loc);
-      assign(
-          target,
-          convertValue(arithmetic(binary(op, type, operand, convertValue(value, type, loc), loc)), typeOf(target), loc),
-          loc);
-      return;
-    }
+    case AssignOp::Add: return lowerUpdate(stmt, Op::Add);
+    case AssignOp::Subtract: return lowerUpdate(stmt, Op::Sub);
+    case AssignOp::Multiply: return lowerUpdate(stmt, Op::Mul);
+    case AssignOp::Divide: return lowerUpdate(stmt, Op::Div);
     case AssignOp::Attempt: break;  // sema made a call of it
     case AssignOp::Reference: {     // sema made the value an address
       ExprId value = values().lowerValue(stmt.value);
-      ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
+      const ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
       assign(target, value, loc);
       return;
     }

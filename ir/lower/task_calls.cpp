@@ -23,9 +23,11 @@ namespace {
 
 bool isTaskCall(const sema::Pou& pou) { return pou.pragmas.before_task || pou.pragmas.after_task; }
 
+using NamedGlobals = std::set<std::pair<uint32_t, uint32_t>>;
+
 // The variables of lists that bodies name: list and field.
-std::set<std::pair<uint32_t, uint32_t>> namedGlobals(const Module& module, const std::vector<BodyId>& roots) {
-  std::set<std::pair<uint32_t, uint32_t>> named;
+NamedGlobals namedGlobals(const Module& module, const std::vector<BodyId>& roots) {
+  NamedGlobals named;
   for (const BodyId id : reachableBodies(module, roots)) {
     const Body& body = module.body(id);
     for (size_t e = 1; e < body.exprs.size(); ++e) {
@@ -36,6 +38,8 @@ std::set<std::pair<uint32_t, uint32_t>> namedGlobals(const Module& module, const
   }
   return named;
 }
+
+bool isNamed(const NamedGlobals& named, const auto& held) { return named.count({held.root.index, held.field}) != 0; }
 
 }  // namespace
 
@@ -66,28 +70,80 @@ BodyId TaskLowering::callsOf(NameId name, const char* suffix, std::span<const se
   return created;
 }
 
-void TaskLowering::addCalls() {
-  std::vector<sema::PouId> before, after;
+// The methods that have a body, those of the project first.
+void TaskLowering::findMethods() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     if (!isTaskCall(project.pous[i]) || !all.knownBodyOf({i})) continue;
-    (project.pous[i].pragmas.before_task ? before : after).push_back({i});
+    (project.pous[i].pragmas.before_task ? before_ : after_).push_back({i});
   }
-  if (before.empty() && after.empty()) return;
-  for (std::vector<sema::PouId>* const methods : {&before, &after})
+  for (std::vector<sema::PouId>* const methods : {&before_, &after_})
     std::stable_partition(methods->begin(), methods->end(),
                           [&](sema::PouId method) { return !project.pou(method).library; });
-  std::reverse(after.begin(), after.end());
-  const auto heldIn = [&](const Root& root) {
-    std::vector<Held> held;
-    const std::vector<types::Field>& fields = types.info(types.resolve(root.record)).fields;
-    for (uint32_t i = 0; i < fields.size(); ++i) {
-      const auto isHeld = [&](sema::PouId method) { return all.holds(fields[i].type, project.pou(method).owner); };
-      if (fields[i].by_reference) continue;
-      if (std::any_of(before.begin(), before.end(), isHeld) || std::any_of(after.begin(), after.end(), isHeld))
-        held.push_back({root, i});
-    }
-    return held;
-  };
+  std::reverse(after_.begin(), after_.end());
+}
+
+std::vector<TaskLowering::Held> TaskLowering::heldIn(const Root& root) const {
+  std::vector<Held> held;
+  const std::vector<types::Field>& fields = types.info(types.resolve(root.record)).fields;
+  for (uint32_t i = 0; i < fields.size(); ++i) {
+    const auto isHeld = [&](sema::PouId method) { return all.holds(fields[i].type, project.pou(method).owner); };
+    if (fields[i].by_reference) continue;
+    if (std::any_of(before_.begin(), before_.end(), isHeld) || std::any_of(after_.begin(), after_.end(), isHeld))
+      held.push_back({root, i});
+  }
+  return held;
+}
+
+// Tells whether the methods of an instance name one of the others.
+bool TaskLowering::goesWith(const Held& held, const std::vector<Held>& others) const {
+  const TypeId type = types.info(held.root.record).fields[held.field].type;
+  std::vector<BodyId> bodies;
+  for (const std::vector<sema::PouId>* const methods : {&before_, &after_})
+    for (const sema::PouId method : *methods)
+      if (all.holds(type, project.pou(method).owner)) bodies.push_back(all.knownBodyOf(method));
+  const NamedGlobals named = namedGlobals(module, bodies);
+  return std::any_of(others.begin(), others.end(),
+                     [&](const Held& other) { return other.root.is_list && isNamed(named, other); });
+}
+
+// Gives each global instance to the first task whose code names it, then to the first with whose instances it goes.
+void TaskLowering::shareGlobals(const std::vector<Held>& globals, std::vector<std::vector<Held>>& of_task) const {
+  std::vector<uint32_t> order(module.tasks.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return module.tasks[a].priority < module.tasks[b].priority; });
+  NamedGlobals served;
+  for (const uint32_t task : order) {
+    const NamedGlobals named = namedGlobals(module, rootsOfTask(module, task));
+    for (const Held& held : globals)
+      if (isNamed(named, held) && served.insert({held.root.index, held.field}).second) of_task[task].push_back(held);
+  }
+  for (const Held& held : globals) {
+    if (isNamed(served, held)) continue;
+    const auto task =
+        std::find_if(order.begin(), order.end(), [&](uint32_t each) { return goesWith(held, of_task[each]); });
+    if (task != order.end()) of_task[*task].push_back(held);
+  }
+}
+
+// The instances in a test, the globals that it names, and those that go with them.
+std::vector<TaskLowering::Held> TaskLowering::heldBy(const Test& test, const std::vector<Held>& globals) const {
+  std::vector<Held> own;
+  for (uint32_t p = 0; p < module.programs.size(); ++p)
+    if (module.programs[p].is_test && module.programs[p].body == test.body)
+      own = heldIn({false, p, module.programs[p].record});
+  const NamedGlobals named = namedGlobals(module, {test.body, test.setup});
+  for (const Held& held : globals)
+    if (isNamed(named, held)) own.push_back(held);
+  const std::vector<Held> of_test = own;
+  for (const Held& held : globals)
+    if (!isNamed(named, held) && goesWith(held, of_test)) own.push_back(held);
+  return own;
+}
+
+void TaskLowering::addCalls() {
+  findMethods();
+  if (before_.empty() && after_.empty()) return;
   std::vector<Held> globals;
   std::vector<std::vector<Held>> of_task(module.tasks.size());
   for (const Root& root : all.instances.roots()) {
@@ -96,62 +152,19 @@ void TaskLowering::addCalls() {
     if (root.is_list) globals.insert(globals.end(), held.begin(), held.end());
     if (task != 0) of_task[task - 1].insert(of_task[task - 1].end(), held.begin(), held.end());
   }
-  std::vector<uint32_t> order(module.tasks.size());
-  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](uint32_t a, uint32_t b) { return module.tasks[a].priority < module.tasks[b].priority; });
-  std::set<std::pair<uint32_t, uint32_t>> served;
-  for (const uint32_t task : order) {
-    const auto named = namedGlobals(module, rootsOfTask(module, task));
-    for (const Held& held : globals)
-      if (named.count({held.root.index, held.field}) != 0 && served.insert({held.root.index, held.field}).second)
-        of_task[task].push_back(held);
-  }
-  const auto methodsOf = [&](const Held& held) {
-    const TypeId type = types.info(held.root.record).fields[held.field].type;
-    std::vector<BodyId> bodies;
-    for (const std::vector<sema::PouId>* const methods : {&before, &after})
-      for (const sema::PouId method : *methods)
-        if (all.holds(type, project.pou(method).owner)) bodies.push_back(all.knownBodyOf(method));
-    return bodies;
-  };
-  // Tells whether the methods of an instance name one of the others.
-  const auto goesWith = [&](const Held& held, const std::vector<Held>& others) {
-    const auto named = namedGlobals(module, methodsOf(held));
-    return std::any_of(others.begin(), others.end(), [&](const Held& other) {
-      return other.root.is_list && named.count({other.root.index, other.field}) != 0;
-    });
-  };
-  for (const Held& held : globals)
-    if (served.count({held.root.index, held.field}) == 0)
-      for (const uint32_t task : order)
-        if (goesWith(held, of_task[task])) {
-          of_task[task].push_back(held);
-          break;
-        }
-  const auto inReverse = [](std::vector<Held> held) {
-    std::reverse(held.begin(), held.end());
-    return held;
-  };
+  shareGlobals(globals, of_task);
   for (uint32_t i = 0; i < module.tasks.size(); ++i) {
-    const BodyId first = callsOf(module.tasks[i].name, "~before", before, of_task[i]);
-    const BodyId last = callsOf(module.tasks[i].name, "~after", after, inReverse(of_task[i]));
+    const BodyId first = callsOf(module.tasks[i].name, "~before", before_, of_task[i]);
+    std::reverse(of_task[i].begin(), of_task[i].end());
+    const BodyId last = callsOf(module.tasks[i].name, "~after", after_, of_task[i]);
     module.tasks[i].before = first;
     module.tasks[i].after = last;
   }
   for (Test& test : module.tests) {
-    std::vector<Held> own;
-    for (uint32_t p = 0; p < module.programs.size(); ++p)
-      if (module.programs[p].is_test && module.programs[p].body == test.body)
-        own = heldIn({false, p, module.programs[p].record});
-    const auto named = namedGlobals(module, {test.body, test.setup});
-    for (const Held& held : globals)
-      if (named.count({held.root.index, held.field}) != 0) own.push_back(held);
-    const std::vector<Held> of_test = own;
-    for (const Held& held : globals)
-      if (named.count({held.root.index, held.field}) == 0 && goesWith(held, of_test)) own.push_back(held);
-    test.before = callsOf(test.name, "~before", before, own);
-    test.after = callsOf(test.name, "~after", after, inReverse(own));
+    std::vector<Held> own = heldBy(test, globals);
+    test.before = callsOf(test.name, "~before", before_, own);
+    std::reverse(own.begin(), own.end());
+    test.after = callsOf(test.name, "~after", after_, own);
   }
 }
 

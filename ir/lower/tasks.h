@@ -31,6 +31,13 @@ class TaskLowering : ModulePart {
   struct Held;
   BodyId callsOf(NameId name, const char* suffix, std::span<const sema::PouId> methods,
                  std::span<const Held> variables);
+  void findMethods();
+  std::vector<Held> heldIn(const Root& root) const;
+  bool goesWith(const Held& held, const std::vector<Held>& others) const;
+  void shareGlobals(const std::vector<Held>& globals, std::vector<std::vector<Held>>& of_task) const;
+  std::vector<Held> heldBy(const Test& test, const std::vector<Held>& globals) const;
+
+  std::vector<sema::PouId> before_, after_;  // methods of the blocks that have instances
 };
 
 }  // namespace rung::ir

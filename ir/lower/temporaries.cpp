@@ -34,9 +34,9 @@ void StatementLowering::enterBody() {
     const auto initialize = [&] {
       for (const sema::VarId id : project_.pou(level).vars) {
         const sema::Var& var = project_.var(id);
-        if (!var.shared) continue;
-        const sema::Var& declared = var.copy_of ? project_.var(var.copy_of) : var;
-        objects().storeInitial(places().varPlace(var.shared, loc), strip(var.type), declared.init, false);
+        if (!var.sharing.field) continue;
+        const sema::Var& declared = var.sharing.copy_of ? project_.var(var.sharing.copy_of) : var;
+        objects().storeInitial(places().varPlace(var.sharing.field, loc), strip(var.type), declared.init, false);
       }
       assign(places().varPlace(in_body, loc), constantBool(true, loc), loc);
     };
@@ -48,7 +48,7 @@ void StatementLowering::enterBody() {
       continue;
     }
     for (const sema::VarId id : project_.pou(level).vars)
-      if (const sema::VarId field = project_.var(id).shared; field && !holdsInstance(project_.var(field).type))
+      if (const sema::VarId field = project_.var(id).sharing.field; field && !holdsInstance(project_.var(field).type))
         saveField(field, loc);
     saveField(in_body, loc);
     initialize();

@@ -14,65 +14,64 @@ static std::optional<Value> constantOperand(const sema::Project& project, rung::
   return native ? types::convert(project.types, *value, native).value : value;
 }
 
+// The value of an item of an enumeration, or of a constant.
+static std::optional<Value> valueOfEntity(const sema::Project& project, sema::Entity entity) {
+  if (entity.entityKind() == sema::EntityKind::EnumValue) {
+    const sema::EnumValue& value = project.enum_values[entity.index];
+    return Value{project.types.resolve(value.type), static_cast<uint64_t>(value.value)};
+  }
+  if (entity.entityKind() != sema::EntityKind::Var) return std::nullopt;
+  const sema::Var* var = &project.vars[entity.index];
+  if (var->external) var = &project.var(var->external);
+  if (!var->constant || !var->has_value) return std::nullopt;
+  return Value{project.types.resolve(var->value.type), var->value.bits};
+}
+
+static std::optional<Value> convertedConstant(const sema::Project& project, rung::ExprId id, TypeId native) {
+  const TypeTable& types = project.types;
+  const auto operand = uncutConstant(project, project.tree.as<rung::ConvertExpr>(id).operand);
+  if (!operand) return std::nullopt;
+  if (native) return types::convert(types, *operand, native).value;
+  const TypeId to = types.resolve(sema::typeOf(project.tree, id));
+  if (TypeTable::isString(types.plainKind(operand->type))) {
+    if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
+    const std::string_view text = project.names.string(NameId{static_cast<uint32_t>(operand->bits)});
+    if (text.size() > types.info(types.plain(to)).length) return std::nullopt;
+    return Value{to, operand->bits};
+  }
+  if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
+  return types::convert(types, *operand, to, sema::roundingOf(sema::meaning(project.tree, id))).value;
+}
+
+static std::optional<Value> unaryConstant(const sema::Project& project, const rung::UnaryExpr& node, TypeId native) {
+  const auto operand = constantOperand(project, node.operand, native);
+  if (!operand || node.op() == UnaryOp::Plus) return operand;
+  const Op op = node.op() == UnaryOp::Not ? Op::Not : Op::Neg;
+  return types::apply(project.types, project.names, op, *operand).value;
+}
+
+static std::optional<Value> binaryConstant(const sema::Project& project, const rung::BinaryExpr& node, TypeId native) {
+  const Op op = sema::operatorOf(node.op());
+  const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
+  const auto left = constantOperand(project, node.left, type);
+  const auto right = constantOperand(project, node.right, type);
+  if (!left || !right) return std::nullopt;
+  const types::Outcome outcome = types::apply(project.types, project.names, op, *left, *right);
+  if (outcome.fault != types::Fault::None) return std::nullopt;
+  return outcome.value;
+}
+
 std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id) {
   const Tree& tree = project.tree;
-  const TypeTable& types = project.types;
   const TypeId native = sema::uncutType(project, id);
   switch (tree.kind(id)) {
     case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
     case rung::ExprKind::Name:
     case rung::ExprKind::Member:
-    case rung::ExprKind::TypedName: {
-      sema::Entity entity = tree.kind(id) == rung::ExprKind::Name     ? sema::meaning(tree, id).entity
-                            : tree.kind(id) == rung::ExprKind::Member ? sema::meaning(tree, id).entity
-                                                                      : sema::meaning(tree, id).entity;
-      if (entity.entityKind() == sema::EntityKind::EnumValue) {
-        const sema::EnumValue& value = project.enum_values[entity.index];
-        return Value{types.resolve(value.type), static_cast<uint64_t>(value.value)};
-      }
-      if (entity.entityKind() != sema::EntityKind::Var) return std::nullopt;
-      const sema::Var* var = &project.vars[entity.index];
-      if (var->external) var = &project.var(var->external);
-      if (!var->constant || !var->has_value) return std::nullopt;
-      return Value{types.resolve(var->value.type), var->value.bits};
-    }
-    case rung::ExprKind::Convert: {
-      auto operand = uncutConstant(project, tree.as<rung::ConvertExpr>(id).operand);
-      if (!operand) return std::nullopt;
-      if (native) return types::convert(types, *operand, native).value;
-      TypeId to = types.resolve(sema::typeOf(tree, id));
-      bool from_string = TypeTable::isString(types.plainKind(operand->type));
-      if (from_string) {
-        if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
-        std::string_view text = project.names.string(NameId{static_cast<uint32_t>(operand->bits)});
-        if (text.size() > types.info(types.plain(to)).length) return std::nullopt;
-        return Value{to, operand->bits};
-      }
-      if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
-      return types::convert(types, *operand, to, sema::roundingOf(sema::meaning(tree, id))).value;
-    }
-    case rung::ExprKind::Unary: {
-      const rung::UnaryExpr& node = tree.as<rung::UnaryExpr>(id);
-      auto operand = constantOperand(project, node.operand, native);
-      if (!operand) return std::nullopt;
-      switch (node.op()) {
-        case UnaryOp::Plus: return operand;
-        case UnaryOp::Not: return types::apply(types, project.names, Op::Not, *operand).value;
-        case UnaryOp::Negate: return types::apply(types, project.names, Op::Neg, *operand).value;
-      }
-      return std::nullopt;
-    }
-    case rung::ExprKind::Binary: {
-      const rung::BinaryExpr& node = tree.as<rung::BinaryExpr>(id);
-      const Op op = sema::operatorOf(node.op());
-      const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
-      auto left = constantOperand(project, node.left, type);
-      auto right = constantOperand(project, node.right, type);
-      if (!left || !right) return std::nullopt;
-      types::Outcome outcome = types::apply(types, project.names, op, *left, *right);
-      if (outcome.fault != types::Fault::None) return std::nullopt;
-      return outcome.value;
-    }
+    case rung::ExprKind::TypedName: return valueOfEntity(project, sema::meaning(tree, id).entity);
+    case rung::ExprKind::Convert: return convertedConstant(project, id, native);
+    case rung::ExprKind::Unary: return unaryConstant(project, tree.as<rung::UnaryExpr>(id), native);
+    case rung::ExprKind::Binary: return binaryConstant(project, tree.as<rung::BinaryExpr>(id), native);
     case rung::ExprKind::Error:
     case rung::ExprKind::This:
     case rung::ExprKind::Super:

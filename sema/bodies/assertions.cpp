@@ -15,8 +15,66 @@
 
 namespace rung::sema {
 
-static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
+namespace {
+
+// Both sides of ASSERT_EQ and ASSERT_NEAR, each as the other one wants it.
+TypeId checkSides(Context& context, std::span<ExprId> operands) {
+  const TypeId first = check(context, operands[0], {}, Access::Read);
+  const TypeId hint = isUntyped(context, first) ? TypeId{} : first;
+  const TypeId second = check(context, operands[1], hint, Access::Read);
+  if (second != types::kError && !isUntyped(context, second) && first != second && first != types::kError &&
+      (entityOf(context, operands[0]).entityKind() == EntityKind::EnumValue ||
+       context.tree().kind(operands[0]) == ExprKind::Literal)) {
+    check(context, operands[0], second, Access::Read);  // T#1s beside an LTIME, an item of the other's enumeration
+  }
+  return first;
+}
+
+// Expected value, actual value and tolerance, as REAL or LREAL.
+bool checkNear(Context& context, std::span<ExprId> operands, std::string_view name) {
+  check(context, operands[2], checkSides(context, operands), Access::Read);
+  for (const ExprId operand : operands)
+    if (context.type(operand) == types::kError) return false;
+  TypeId common = types::kReal;
+  for (const ExprId operand : operands) {
+    const TypeId type = context.type(operand);
+    if (isUntyped(context, type)) continue;
+    const TypeId with = commonNumber(context, common, type);
+    if (!with) {
+      context.report(diag::OperandType, context.tree().loc(operand), {name, context.types().toString(type)});
+      return false;
+    }
+    common = with;
+  }
+  if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
+  for (ExprId& operand : operands)
+    if (!convert(context, operand, common, Purpose{Use::ComparedByAssert, {}, {}})) return false;
+  return true;
+}
+
+bool checkOperands(Context& context, std::span<ExprId> operands, Assertion assertion, std::string_view name, Loc loc) {
+  switch (assertion) {
+    case Assertion::Assert: return checkAs(context, operands[0], types::kBool, Purpose{Use::AssertCondition, {}, {}});
+    case Assertion::AssertEq:
+      checkSides(context, operands);
+      return unify(context, operands, Operands::Equatable, {}, name, loc) != types::kError;
+    case Assertion::AssertNear: return checkNear(context, operands, name);
+  }
+  return false;
+}
+
+// The text that a failed assertion prints.
+bool checkMessage(Context& context, ExprId& message, std::string_view name) {
+  const TypeId type = check(context, message, {}, Access::Read);
+  if (type == types::kError) return false;
+  if (context.types().plainKind(type) == TypeKind::String) return true;
+  context.report(diag::AssertionMessage, context.tree().begin(message), {name, context.types().toString(type)});
+  return false;
+}
+
+TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   CallExpr& node = context.code().as<CallExpr>(expr);
+  Meaning& known = meaning(node.h);
   const uint32_t needed = assertion == Assertion::Assert ? 1 : assertion == Assertion::AssertEq ? 2 : 3;
   const std::string_view name = string(context, context.tree().as<NameExpr>(node.callee).name);
   std::vector<ExprId> operands;
@@ -28,56 +86,12 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
         diag::WrongArgumentCount, node.h.loc,
         {name, std::to_string(needed) + " or " + std::to_string(needed + 1), std::to_string(operands.size())});
     checkLooseArguments(context, node);
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  bool ok = true;
-  if (assertion == Assertion::Assert) {
-    ok = checkAs(context, operands[0], types::kBool, Purpose{Use::AssertCondition, {}, {}});
-  } else {
-    const TypeId first = check(context, operands[0], {}, Access::Read);
-    const TypeId hint = isUntyped(context, first) ? TypeId{} : first;
-    const TypeId second = check(context, operands[1], hint, Access::Read);
-    if (second != types::kError && !isUntyped(context, second) && first != second && first != types::kError &&
-        (entityOf(context, operands[0]).entityKind() == EntityKind::EnumValue ||
-         context.tree().kind(operands[0]) == ExprKind::Literal)) {
-      check(context, operands[0], second, Access::Read);  // T#1s beside an LTIME, an item of the other's enumeration
-    }
-    if (assertion == Assertion::AssertNear) {
-      check(context, operands[2], first, Access::Read);
-      for (uint32_t i = 0; i < 3; ++i) {
-        ok = ok && context.type(operands[i]) != types::kError;
-      }
-      TypeId common = types::kReal;
-      for (uint32_t i = 0; ok && i < 3; ++i) {
-        const TypeId type = context.type(operands[i]);
-        if (isUntyped(context, type)) continue;
-        const TypeId with = commonNumber(context, common, type);
-        if (!with) {
-          context.report(diag::OperandType, context.tree().loc(operands[i]), {name, context.types().toString(type)});
-          ok = false;
-        } else {
-          common = with;
-        }
-      }
-      if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
-      for (uint32_t i = 0; ok && i < 3; ++i)
-        ok = convert(context, operands[i], common, Purpose{Use::ComparedByAssert, {}, {}});
-    } else {
-      ok = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
-    }
-  }
-  if (operands.size() > needed) {
-    ExprId& message = operands[needed];
-    const TypeId type = check(context, message, {}, Access::Read);
-    if (type == types::kError) {
-      ok = false;
-    } else if (context.types().plainKind(type) != TypeKind::String) {
-      context.report(diag::AssertionMessage, context.tree().begin(message), {name, context.types().toString(type)});
-      ok = false;
-    }
-  }
+  bool ok = checkOperands(context, std::span(operands).first(needed), assertion, name, node.h.loc);
+  if (operands.size() > needed) ok &= checkMessage(context, operands[needed], name);
   for (uint32_t i = 0; i < node.arguments.count; ++i) context.code().list(node.arguments)[i].value = operands[i];
-  if (!ok) return meaning(node.h).type = types::kError;
+  if (!ok) return known.type = types::kError;
   Call call;
   call.kind = CallKind::Assertion;
   call.assertion = assertion;
@@ -86,9 +100,11 @@ static TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion
     binding.value = operand;
     call.bindings.push_back(binding);
   }
-  meaning(node.h).call = addCall(context, std::move(call));
-  return meaning(node.h).type = {};
+  known.call = addCall(context, std::move(call));
+  return known.type = {};
 }
+
+}  // namespace
 
 TypeId checkAssert(Context& context, ExprId& expr, const PseudoCall&) {
   return checkAssertion(context, expr, Assertion::Assert);

@@ -25,13 +25,13 @@ namespace rung::sema {
 static void schedule(Context& context, const PouDecl& decl) {
   Pou& pou = context.symbols.pou(context.pou);
   const BodyKind kind = decl.body_kind;
-  if (pou.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
+  if (pou.body.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
   ProjectSignatures signatures(context);
   Tree& tree = context.symbols.arena;
   Diagnostics& diagnostics = context.symbols.diagnostics;
-  pou.scheduled = true;
+  pou.body.scheduled = true;
   const auto take = [&](const ScheduledBody& made) {
-    pou.statements = made.body;
+    pou.body.statements = made.body;
     declareTemporaries(context, made.temporaries);
   };
   if (kind == BodyKind::Network) {
@@ -43,7 +43,7 @@ static void schedule(Context& context, const PouDecl& decl) {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
     const auto body = text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou));
     if (!body) return;
-    pou.statements = *body;
+    pou.body.statements = *body;
   }
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }
@@ -69,11 +69,11 @@ void checkBody(Context& context, PouId id) {
                 .rules = context.rules,
                 .expressions = context.expressions};
   if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
-  pou.statements = decl.body;
+  pou.body.statements = decl.body;
   schedule(inner, decl);
-  pou.code = inner.code().copy(pou.statements);
-  body.statements = pou.code;
-  checkStatements(inner, pou.code);
+  pou.body.code = inner.code().copy(pou.body.statements);
+  body.statements = pou.body.code;
+  checkStatements(inner, pou.body.code);
   finalizeTemporaries(inner);
   context.rules->pou(inner);
 }

@@ -109,27 +109,6 @@ bool checkFormality(Context& context, const CallExpr& node, PouId pou) {
   return true;
 }
 
-struct Slots {
-  Context& context;
-  const CallExpr& node;
-  Arguments& out;
-
-  bool put(size_t slot, uint32_t index) {
-    if (out.slots.size() <= slot) out.slots.resize(slot + 1);
-    if (out.slots[slot] != 0) {
-      const Argument& argument = context.tree().list(node.arguments)[index];
-      const Argument& first = context.tree().list(node.arguments)[out.slots[slot] - 1];
-      const Ident& pin = argument.pin.name ? argument.pin : first.pin;
-      context.report(diag::DuplicatePin, argument.pin.name ? argument.pin.loc : argument.loc,
-                     {string(context, pin.name)});
-      out.ok = false;
-      return false;
-    }
-    out.slots[slot] = index + 1;
-    return true;
-  }
-};
-
 // `f(PT = T#1s)`: a comparison with a pin's name where no such variable is visible.
 bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
   if (!value || context.tree().kind(value) != ExprKind::Binary) return false;
@@ -506,110 +485,152 @@ static bool passesEnable(Context& context, const CallExpr& node, PouId pou) {
   return true;
 }
 
-Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
-  Arguments out;
-  const std::span<const VarId> pins = pinsOf(context, pou);
-  Slots slots{context, node, out};
-  out.slots.reserve(pins.size());
-  size_t next = 0;  // the pin after the last one named: calls mostly keep the order
-  size_t input = 0, output = 0, extra = pins.size();
-  const auto isOutput = [&](size_t i) { return context.symbols.var(pins[i]).section == SectionKind::Output; };
+namespace {
+
+// Gives each argument of a call its pin.
+class ArgumentMatcher {
+ public:
+  ArgumentMatcher(Context& context, const CallExpr& node, PouId pou)
+      : context_(context), node_(node), pou_(pou), pins_(pinsOf(context, pou)), extra_(pins_.size()) {
+    out_.slots.reserve(pins_.size());
+  }
+
+  Arguments run() {
+    if (!checkFormality(context_, node_, pou_)) out_.ok = false;
+    if (callee().extensible && node_.arguments.count > kMaxOperands) {
+      context_.report(diag::TooManyArguments, argument(kMaxOperands).loc, {calleeName(), std::to_string(kMaxOperands)});
+      out_.ok = false;
+      return std::move(out_);
+    }
+    if (out_.ok && passesEnable(context_, node_, pou_)) {
+      checkLooseArguments(context_, node_);
+      out_.ok = false;
+      return std::move(out_);
+    }
+    for (uint32_t i = 0; i < node_.arguments.count; ++i) {
+      if (argument(i).pin.name)
+        matchNamed(i);
+      else if (isMistypedBinding(context_, pou_, argument(i).value))
+        out_.ok = false;
+      else
+        matchByPosition(i);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  const Argument& argument(size_t index) const { return context_.tree().list(node_.arguments)[index]; }
+  const Pou& callee() const { return context_.symbols.pou(pou_); }
+  std::string_view calleeName() const { return string(context_, callee().name); }
+  const Var& pin(size_t slot) const { return context_.symbols.var(pins_[slot]); }
+  bool isOutput(size_t slot) const { return pin(slot).section == SectionKind::Output; }
+
   // f(a := 1, 2): an argument without name goes to the next pin that no argument before it has taken.
-  const auto isNamedAlready = [&](size_t i) {
-    return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
-  };
+  bool isNamedAlready(size_t slot) const {
+    return slot < out_.slots.size() && out_.slots[slot] != 0 && argument(out_.slots[slot] - 1).pin.name;
+  }
   // iec: a call without names gives no value to EN and ENO that are declared. ed. 3, 6.6.1.4.2.
-  const auto isLeftOut = [&](size_t i) {
-    return !context.profile().enable_by_position && isControl(string(context, context.symbols.var(pins[i]).name));
-  };
-  if (!checkFormality(context, node, pou)) out.ok = false;
-  if (context.symbols.pou(pou).extensible && node.arguments.count > kMaxOperands) {
-    context.report(diag::TooManyArguments, context.tree().list(node.arguments)[kMaxOperands].loc,
-                   {string(context, context.symbols.pou(pou).name), std::to_string(kMaxOperands)});
-    out.ok = false;
-    return out;
+  bool isLeftOut(size_t slot) const {
+    return !context_.profile().enable_by_position && isControl(string(context_, pin(slot).name));
   }
-  if (out.ok && passesEnable(context, node, pou)) {
-    for (uint32_t i = 0; i < node.arguments.count; ++i) checkLoose(context, node, i);
-    out.ok = false;
-    return out;
+
+  bool put(size_t slot, uint32_t index) {
+    if (out_.slots.size() <= slot) out_.slots.resize(slot + 1);
+    if (out_.slots[slot] == 0) {
+      out_.slots[slot] = index + 1;
+      return true;
+    }
+    const Argument& second = argument(index);
+    const Ident& name = second.pin.name ? second.pin : argument(out_.slots[slot] - 1).pin;
+    context_.report(diag::DuplicatePin, second.pin.name ? second.pin.loc : second.loc, {string(context_, name.name)});
+    out_.ok = false;
+    return false;
   }
-  for (uint32_t i = 0; i < node.arguments.count; ++i) {
-    const Argument& argument = context.tree().list(node.arguments)[i];
-    if (!argument.pin.name) {
-      if (isMistypedBinding(context, pou, argument.value)) {
-        out.ok = false;
-        continue;
-      }
-      ++out.positional;
-      while (input < pins.size() && (isOutput(input) || isNamedAlready(input) || isLeftOut(input))) ++input;
-      if (input < pins.size()) {
-        if (!slots.put(input++, i)) checkLoose(context, node, i);
-        continue;
-      }
-      if (context.symbols.pou(pou).extensible) {
-        slots.put(extra++, i);
-        continue;
-      }
-      while (output < pins.size() && (!isOutput(output) || isLeftOut(output))) ++output;
-      if (output < pins.size()) {
-        slots.put(output++, i);
-        continue;
-      }
-      if (out.ok) {
-        size_t inputs = 0;
-        for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) || isLeftOut(p) ? 0 : 1;
-        const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
-        if (!isBroken(context, pou))
-          context.report(diag::TooManyArguments, loc,
-                         {string(context, context.symbols.pou(pou).name), std::to_string(inputs)});
-      }
-      out.ok = false;
-      checkLoose(context, node, i);
-      continue;
-    }
-    size_t slot = pins.size();
-    if (next < pins.size() && context.names().same(context.symbols.var(pins[next]).name, argument.pin.name)) {
-      slot = next;
-    } else if (const VarId found = findPin(context, pou, argument.pin.name)) {
-      for (slot = 0; slot < pins.size() && pins[slot] != found;) ++slot;
-    }
-    if (slot == pins.size()) {
-      if (isNamed(context, argument.pin.name, kEnable) && !argument.is_output) {
-        out.en = i + 1;
-        continue;
-      }
-      if (isNamed(context, argument.pin.name, kEnableOutput) && argument.is_output) {
-        out.eno = i + 1;
-        continue;
-      }
-      const int more = context.symbols.pou(pou).extensible ? extensibleSlot(context, pou, argument.pin.name) : -1;
-      if (more >= 0 && !argument.is_output) {
-        if (!slots.put(static_cast<size_t>(more), i)) checkLoose(context, node, i);
-        continue;
-      }
-      out.ok = false;
-      if (!isBroken(context, pou))
-        context
-            .report(diag::UnknownPin, argument.pin.loc,
-                    {string(context, context.symbols.pou(pou).name), string(context, argument.pin.name)})
-            .didYouMean(nearestPin(context, pou, argument.pin.name));
-      checkLoose(context, node, i);
-      continue;
-    }
-    next = slot + 1;
-    const Var& pin = context.symbols.var(pins[slot]);
-    if (argument.is_output != (pin.section == SectionKind::Output)) {
-      out.ok = false;
-      context.report(
-          argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
-          {string(context, pin.name), string(context, context.symbols.pou(pou).name), kindName(pin.section)});
-      checkLoose(context, node, i);
-      continue;
-    }
-    if (!slots.put(slot, i)) checkLoose(context, node, i);
+  void putOrCheck(size_t slot, uint32_t index) {
+    if (!put(slot, index)) checkLoose(context_, node_, index);
   }
-  return out;
+  void refuse(uint32_t index) {
+    out_.ok = false;
+    checkLoose(context_, node_, index);
+  }
+
+  // The inputs in their order, more of an extensible function, then the outputs.
+  void matchByPosition(uint32_t index) {
+    ++out_.positional;
+    while (input_ < pins_.size() && (isOutput(input_) || isNamedAlready(input_) || isLeftOut(input_))) ++input_;
+    if (input_ < pins_.size()) return putOrCheck(input_++, index);
+    if (callee().extensible) {
+      put(extra_++, index);
+      return;
+    }
+    while (output_ < pins_.size() && (!isOutput(output_) || isLeftOut(output_))) ++output_;
+    if (output_ < pins_.size()) {
+      put(output_++, index);
+      return;
+    }
+    if (out_.ok && !isBroken(context_, pou_)) reportTooMany(argument(index));
+    refuse(index);
+  }
+
+  void reportTooMany(const Argument& argument) {
+    size_t inputs = 0;
+    for (size_t slot = 0; slot < pins_.size(); ++slot) inputs += isOutput(slot) || isLeftOut(slot) ? 0 : 1;
+    const Loc loc = argument.value ? context_.tree().begin(argument.value) : argument.loc;
+    context_.report(diag::TooManyArguments, loc, {calleeName(), std::to_string(inputs)});
+  }
+
+  void matchNamed(uint32_t index) {
+    const Argument& argument = this->argument(index);
+    const size_t slot = slotNamed(argument.pin.name);
+    if (slot == pins_.size()) return matchOtherName(index);
+    next_ = slot + 1;
+    if (argument.is_output == isOutput(slot)) return putOrCheck(slot, index);
+    context_.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
+                    {string(context_, pin(slot).name), calleeName(), kindName(pin(slot).section)});
+    refuse(index);
+  }
+
+  // The pin of this name; the number of pins: there is none.
+  size_t slotNamed(NameId name) const {
+    if (next_ < pins_.size() && context_.names().same(pin(next_).name, name)) return next_;
+    const VarId found = findPin(context_, pou_, name);
+    return found ? static_cast<size_t>(std::find(pins_.begin(), pins_.end(), found) - pins_.begin()) : pins_.size();
+  }
+
+  // EN, ENO, and IN5 of an extensible function have no declaration.
+  void matchOtherName(uint32_t index) {
+    const Argument& argument = this->argument(index);
+    const NameId name = argument.pin.name;
+    if (isNamed(context_, name, kEnable) && !argument.is_output) {
+      out_.en = index + 1;
+      return;
+    }
+    if (isNamed(context_, name, kEnableOutput) && argument.is_output) {
+      out_.eno = index + 1;
+      return;
+    }
+    const int more = callee().extensible ? extensibleSlot(context_, pou_, name) : -1;
+    if (more >= 0 && !argument.is_output) return putOrCheck(static_cast<size_t>(more), index);
+    if (!isBroken(context_, pou_))
+      context_.report(diag::UnknownPin, argument.pin.loc, {calleeName(), string(context_, name)})
+          .didYouMean(nearestPin(context_, pou_, name));
+    refuse(index);
+  }
+
+  Context& context_;
+  const CallExpr& node_;
+  PouId pou_;
+  std::span<const VarId> pins_;
+  Arguments out_;
+  size_t next_ = 0;                // the pin after the last one named: calls mostly keep the order
+  size_t input_ = 0, output_ = 0;  // the next pins of arguments without name
+  size_t extra_;                   // the next slot of an extensible function's further inputs
+};
+
+}  // namespace
+
+Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
+  return ArgumentMatcher(context, node, pou).run();
 }
 
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call) {

@@ -67,8 +67,8 @@ class Changes {
     for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
       const Pou& pou = context.symbols.pous[i];
       if (pou.library || !pou.decl || pou.generic || !pou.progress.checked()) continue;
-      for (const StmtId id : tree_.list(pou.code)) statement(id);
-      all_ = all_ || pou.cpp;
+      for (const StmtId id : tree_.list(pou.body.code)) statement(id);
+      all_ = all_ || pou.cpp.is_body;
     }
     // Initial values of instances set their members.
     for (uint32_t i = 1; i < context.symbols.vars.size(); ++i)
@@ -215,8 +215,8 @@ class Reader {
     const Var& var = context_.symbols.var(id);
     const bool is_own = var.section == SectionKind::Local || var.section == SectionKind::Global ||
                         var.section == SectionKind::Stat || var.section == SectionKind::Temp;
-    return is_own && var.storage != Storage::Image && !var.retain && !var.persistent && !var.start.late &&
-           !changes_.mayChange(id);
+    return is_own && var.storage != Storage::Image && !var.keeping.retain && !var.keeping.persistent &&
+           !var.start.late && !changes_.mayChange(id);
   }
 
   // The value of a member: the initial one, or the only one that bodies assign. False: it is not known. None: 0.

@@ -133,90 +133,123 @@ std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
                                                                                                     : std::string();
 }
 
-TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
-  CallExpr& node = context.code().as<CallExpr>(expr);
-  const OneInput input = oneInput(context, node, name);
-  if (!input.ok) {
-    checkLooseArguments(context, node);
-    return meaning(node.h).type = types::kError;
-  }
-  ExprId value = input.value;
-  TypeId from;
-  if (rule.from) {
-    if (!checkAs(context, value, rule.from, Purpose{Use::PassedToInput, name, {}}))
-      return meaning(node.h).type = types::kError;
-    from = rule.from;
-  } else {
-    from = check(context, value, {}, Access::Read);
-    if (isUntyped(context, from)) {
-      const bool direct = untypedFits(context, value, rule.to) && rule.kind == Rule::Kind::Convert;
-      from = finalizeUntyped(context, value, direct ? rule.to : TypeId{});
+// A call of a conversion, whose function depends on the types on both sides.
+class ConversionCall {
+ public:
+  ConversionCall(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected)
+      : context_(context),
+        expr_(expr),
+        node_(context.code().as<CallExpr>(expr)),
+        name_(name),
+        rule_(rule),
+        expected_(expected) {}
+
+  TypeId check() {
+    input_ = oneInput(context_, node_, name_);
+    if (!input_.ok) {
+      checkLooseArguments(context_, node_);
+      return fail();
     }
-    if (from == types::kError) return meaning(node.h).type = types::kError;
+    value_ = input_.value;
+    from_ = checkValue();
+    if (from_ == types::kError) return fail();
+    takePointerAsNumber();
+    source_ = context_.types().plainKind(from_);
+    target_ = context_.types().plainKind(rule_.to);
+    if (!TypeTable::isElementary(source_)) return reportValue("ANY_ELEMENTARY");
+    if (rule_.kind == Rule::Kind::Truncate) return truncate();
+    if (TypeTable::isString(target_) || TypeTable::isCharacter(target_)) return toString();
+    if (TypeTable::isString(source_) || TypeTable::isCharacter(source_)) return fromString();
+    if (const std::string function = libraryConversion(context_, source_, target_); !function.empty())
+      return call(function);
+    return convertValue();
   }
-  if (context.profile().pointers_as_numbers &&
-      context.types().kind(from) == TypeKind::Pointer) {  // the number of its first byte
-    from = types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt);
-    wrapConvert(context, value, from);
+
+ private:
+  TypeId fail() { return meaning(node_.h).type = types::kError; }
+  TypeId reportValue(std::string_view wanted) {
+    context_.report(diag::NotOfGeneric, context_.tree().loc(value_),
+                    {context_.types().toString(from_), string(context_, name_), wanted});
+    return fail();
   }
-  const TypeKind source = context.types().plainKind(from), target = context.types().plainKind(rule.to);
-  const bool source_is_string = TypeTable::isString(source) || TypeTable::isCharacter(source);
-  const bool target_is_string = TypeTable::isString(target) || TypeTable::isCharacter(target);
-  if (!TypeTable::isElementary(source)) {
-    context.report(diag::NotOfGeneric, context.tree().loc(value),
-                   {context.types().toString(from), string(context, name), "ANY_ELEMENTARY"});
-    return meaning(node.h).type = types::kError;
+  std::string nameOf(TypeKind kind) const {
+    return std::string(string(context_, context_.types().info(types::idOf(kind)).name));
   }
-  const auto replaceArgument = [&] {
-    if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.type(value));
-    context.code().list(node.arguments)[input.index].value = value;
-  };
-  if (target_is_string && rule.kind == Rule::Kind::Convert) {
-    if (source == target) {
-      context.replace(expr, value);
-      return context.type(expr);
+
+  // The type of the value: the one that the name of the function says, or its own.
+  TypeId checkValue() {
+    if (rule_.from) {
+      const bool ok = checkAs(context_, value_, rule_.from, Purpose{Use::PassedToInput, name_, {}});
+      return ok ? rule_.from : types::kError;
     }
+    const TypeId own = sema::check(context_, value_, {}, Access::Read);
+    if (!isUntyped(context_, own)) return own;
+    const bool direct = untypedFits(context_, value_, rule_.to) && rule_.kind == Rule::Kind::Convert;
+    return finalizeUntyped(context_, value_, direct ? rule_.to : TypeId{});
+  }
+
+  // The number of its first byte.
+  void takePointerAsNumber() {
+    if (!context_.profile().pointers_as_numbers || context_.types().kind(from_) != TypeKind::Pointer) return;
+    from_ = types::idOf(context_.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt);
+    wrapConvert(context_, value_, from_);
+  }
+
+  void replaceArgument() {
+    if (context_.tree().kind(value_) != ExprKind::Convert) wrapConvert(context_, value_, context_.type(value_));
+    context_.code().list(node_.arguments)[input_.index].value = value_;
+  }
+  TypeId call(std::string_view function) {
     replaceArgument();
-    return callLibrary(
-        context, expr,
-        std::string("TO_") + std::string(string(context, context.types().info(types::idOf(target)).name)), expected,
-        name);
+    return callLibrary(context_, expr_, function, expected_, name_);
   }
-  if (source_is_string && rule.kind == Rule::Kind::Convert) {
-    const std::string function = std::string(string(context, context.types().info(types::idOf(source)).name)) + "_TO_" +
-                                 std::string(string(context, context.types().info(types::idOf(target)).name));
-    if (sameIdentifier(function, string(context, name))) return {};  // the library has no such function
-    replaceArgument();
-    return callLibrary(context, expr, function, expected, name);
+
+  TypeId toString() {
+    if (source_ != target_) return call("TO_" + nameOf(target_));
+    context_.replace(expr_, value_);
+    return context_.type(expr_);
   }
-  if (rule.kind == Rule::Kind::Truncate) {
-    const Entity trunc = lookUp(context, context.names().intern("TRUNC"));
-    if (!TypeTable::isReal(source) || !(TypeTable::isInteger(target) || TypeTable::isBits(target))) {
-      context.report(diag::NotOfGeneric, context.tree().loc(value),
-                     {context.types().toString(from), string(context, name), "ANY_REAL"});
-      return meaning(node.h).type = types::kError;
-    }
+
+  TypeId fromString() {
+    const std::string function = nameOf(source_) + "_TO_" + nameOf(target_);
+    if (sameIdentifier(function, string(context_, name_))) return {};  // the library has no such function
+    return call(function);
+  }
+
+  TypeId truncate() {
+    const Entity trunc = lookUp(context_, context_.names().intern("TRUNC"));
+    if (!TypeTable::isReal(source_) || !(TypeTable::isInteger(target_) || TypeTable::isBits(target_)))
+      return reportValue("ANY_REAL");
     if (trunc.entityKind() != EntityKind::Pou) return {};
     replaceArgument();
-    return checkGenericCall(context, expr, PouId{trunc.index}, expected, rule.to);
+    return checkGenericCall(context_, expr_, PouId{trunc.index}, expected_, rule_.to);
   }
-  if (const std::string function = libraryConversion(context, source, target); !function.empty()) {
-    replaceArgument();
-    return callLibrary(context, expr, function, expected, name);
-  }
+
   // A number or time of day is converted to a date through the date and time that it counts, so that a DATE is always a
   // whole day.
-  const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
-  const bool is_time_of_day = source == TypeKind::TimeOfDay || source == TypeKind::LTimeOfDay;
-  if (to_day && (is_time_of_day || !TypeTable::isDate(source))) {
-    wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
+  TypeId convertValue() {
+    const bool to_day = target_ == TypeKind::Date || target_ == TypeKind::LDate;
+    const bool is_time_of_day = source_ == TypeKind::TimeOfDay || source_ == TypeKind::LTimeOfDay;
+    if (to_day && (is_time_of_day || !TypeTable::isDate(source_)))
+      wrapConvert(context_, value_, types::idOf(target_ == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
+    wrapConvert(context_, value_, rule_.to);
+    context_.code().expr(value_).loc = node_.h.loc;
+    if (input_.en || input_.eno) return guardValue(context_, expr_, value_);
+    context_.replace(expr_, value_);
+    return rule_.to;
   }
-  wrapConvert(context, value, rule.to);
-  context.code().expr(value).loc = node.h.loc;
-  if (input.en || input.eno) return guardValue(context, expr, value);
-  context.replace(expr, value);
-  return rule.to;
-}
+
+  Context& context_;
+  ExprId& expr_;
+  CallExpr& node_;
+  NameId name_;
+  const Rule& rule_;
+  TypeId expected_;
+  OneInput input_;
+  ExprId value_;
+  TypeId from_;
+  TypeKind source_ = TypeKind::None, target_ = TypeKind::None;
+};
 
 // MUX_INT, ADD_TIME, SUB_DATE_DATE: a generic function and the types of its inputs.
 TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, TypeId expected) {
@@ -286,7 +319,7 @@ TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expecte
   if (spelling.find('_') == std::string::npos) return {};
   const Rule rule = ruleOf(context, spelling);
   if (rule.kind != Rule::Kind::None) {
-    const TypeId type = checkConversion(context, expr, name, rule, expected);
+    const TypeId type = ConversionCall(context, expr, name, rule, expected).check();
     if (type) context.type(expr) = type;
     return type;
   }

@@ -72,7 +72,7 @@ bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 
 bool noteUse(Context& context, PouId callee, Loc loc) {
-  std::vector<PouId>& calls = context.symbols.pou(context.pou).cpp_calls;
+  std::vector<PouId>& calls = context.symbols.pou(context.pou).cpp.calls;
   if (std::find(calls.begin(), calls.end(), callee) != calls.end()) return false;
   calls.push_back(callee);
   resolvePou(context, callee);
@@ -112,7 +112,7 @@ size_t noteGlobal(Context& context, ListId list, std::string_view text, size_t a
   if (found.entityKind() != EntityKind::Var) return at;
   const VarId id{found.index};
   const Var& var = context.symbols.var(id);
-  std::vector<VarId>& known = context.symbols.pou(context.pou).cpp_globals;
+  std::vector<VarId>& known = context.symbols.pou(context.pou).cpp.globals;
   if (string(context, var.name) != word || std::find(known.begin(), known.end(), id) != known.end()) return at;
   if (!var.type || context.types().kind(var.type) == types::TypeKind::Error) return at;
   if (const char* why = whyNot(context, var)) {

@@ -132,68 +132,57 @@ TypeId GenericOperands::typeFor(const Context& context, TypeId declared) const {
   return {};
 }
 
-GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, const Arguments& arguments,
-                              TypeId expected, TypeId forced, bool checked) {
-  GenericOperands out;
-  const std::span<const VarId> pins = pinsOf(context, id);
-  const Pou& pou = context.symbols.pou(id);
-  out.values.resize(arguments.slots.size());
-  out.pin_types.resize(arguments.slots.size());
-  TypeId extensible_type;
-  for (const VarId pin : pins) {
-    if (context.symbols.var(pin).pragmas.extensible) extensible_type = context.symbols.var(pin).type;
+namespace {
+
+// codesys: a pointer as the number of its first byte, where anything elementary is converted.
+void takePointerAsNumber(Context& context, ExprId& value, TypeId type, TypeId declared) {
+  if (context.profile().pointers_as_numbers && context.types().kind(type) == TypeKind::Pointer &&
+      context.types().info(declared).kind == TypeKind::AnyElementary)
+    wrapConvert(context, value, types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt));
+}
+
+// How the operands of a call of a generic function are checked.
+struct OperandCheck {
+  Context& context;
+  const Pou& pou;
+  TypeId expected, forced;
+  bool checked;  // before, by the choice of an overload or as an operator
+
+  bool resultIsGeneric() const { return pou.result && TypeTable::isGeneric(context.types().info(pou.result).kind); }
+  bool checkAgainst(ExprId& value, TypeId type, const Purpose& purpose) const {
+    return checked ? convert(context, value, type, purpose) : checkAs(context, value, type, purpose);
   }
-  const bool result_is_generic = pou.result && TypeTable::isGeneric(context.types().info(pou.result).kind);
-  for (size_t i = 0; i < arguments.slots.size(); ++i) {
-    const TypeId declared = i < pins.size() ? context.symbols.var(pins[i]).type : extensible_type;
-    out.pin_types[i] = declared;
-    if (arguments.slots[i] == 0) continue;
-    const uint32_t index = arguments.slots[i] - 1;
-    const Argument& argument = context.tree().list(node.arguments)[index];
-    if (!argument.value) continue;
-    ExprId value = argument.value;
-    const Purpose purpose{Use::Passed, i < pins.size() ? context.symbols.var(pins[i]).name : argument.pin.name,
-                          pou.name};
-    const SectionKind section = i < pins.size() ? context.symbols.var(pins[i]).section : SectionKind::Input;
-    if (section == SectionKind::Output) {
-      out.ok &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
-    } else if (!TypeTable::isGeneric(context.types().info(declared).kind)) {
-      out.ok &= checked ? convert(context, value, declared, purpose) : checkAs(context, value, declared, purpose);
-    } else if (forced && (!result_is_generic || declared == pou.result)) {
-      out.ok &= checked ? convert(context, value, forced, purpose) : checkAs(context, value, forced, purpose);
-    } else if (!checked) {
-      const TypeId hint = declared == pou.result ? expected : TypeId{};
-      const TypeId type = check(context, value, hint, Access::Read);
-      out.ok &= type != types::kError;
-      // codesys: a pointer as the number of its first byte, where anything elementary is converted
-      if (context.profile().pointers_as_numbers && context.types().kind(type) == TypeKind::Pointer &&
-          context.types().info(declared).kind == TypeKind::AnyElementary && !result_is_generic)
-        wrapConvert(context, value,
-                    types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt));
-    }
-    context.code().list(node.arguments)[index].value = value;
-    out.values[i] = value;
+
+  bool check(ExprId& value, SectionKind section, TypeId declared, const Purpose& purpose) const {
+    if (section == SectionKind::Output)
+      return sema::check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
+    if (!TypeTable::isGeneric(context.types().info(declared).kind)) return checkAgainst(value, declared, purpose);
+    if (forced && (!resultIsGeneric() || declared == pou.result)) return checkAgainst(value, forced, purpose);
+    if (checked) return true;
+    const TypeId type = sema::check(context, value, declared == pou.result ? expected : TypeId{}, Access::Read);
+    if (!resultIsGeneric()) takePointerAsNumber(context, value, type, declared);
+    return type != types::kError;
   }
-  if (!out.ok) return out;
+};
+
+// Gives the operands of each generic type their common type.
+bool groupTypes(Context& context, const CallExpr& node, const Pou& pou, const Arguments& arguments, TypeId expected,
+                GenericOperands& out) {
   std::vector<ExprId> operands;
   for (size_t i = 0; i < out.values.size(); ++i) {
     const TypeId generic = out.pin_types[i];
-    if (!out.values[i] || !TypeTable::isGeneric(context.types().info(generic).kind)) continue;
-    bool seen = false;
-    for (const auto& group : out.groups) seen |= group.generic == generic;
-    if (seen) continue;
+    const TypeKind kind = context.types().info(generic).kind;
+    if (!out.values[i] || !TypeTable::isGeneric(kind)) continue;
+    if (std::any_of(out.groups.begin(), out.groups.end(), [&](const auto& group) { return group.generic == generic; }))
+      continue;
     operands.clear();
     for (size_t k = i; k < out.values.size(); ++k) {
       if (out.pin_types[k] == generic && out.values[k]) operands.push_back(out.values[k]);
     }
-    const TypeKind kind = context.types().info(generic).kind;
     const TypeId type =
         groupType(context, operands, kind, generic == pou.result ? expected : TypeId{}, pou, node.h.loc);
     out.groups.push_back({generic, type});
-    if (type == types::kError) {
-      out.ok = false;
-      return out;
-    }
+    if (type == types::kError) return false;
     size_t at = 0;
     for (size_t k = i; k < out.values.size(); ++k) {
       if (out.pin_types[k] != generic || !out.values[k]) continue;
@@ -201,6 +190,38 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
       context.code().list(node.arguments)[arguments.slots[k] - 1].value = out.values[k];
     }
   }
+  return true;
+}
+
+}  // namespace
+
+GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, const Arguments& arguments,
+                              TypeId expected, TypeId forced, bool checked) {
+  GenericOperands out;
+  const std::span<const VarId> pins = pinsOf(context, id);
+  const Pou& pou = context.symbols.pou(id);
+  const OperandCheck operand{
+      .context = context, .pou = pou, .expected = expected, .forced = forced, .checked = checked};
+  out.values.resize(arguments.slots.size());
+  out.pin_types.resize(arguments.slots.size());
+  TypeId extensible_type;
+  for (const VarId pin : pins) {
+    if (context.symbols.var(pin).pragmas.extensible) extensible_type = context.symbols.var(pin).type;
+  }
+  for (size_t i = 0; i < arguments.slots.size(); ++i) {
+    const Var* const pin = i < pins.size() ? &context.symbols.var(pins[i]) : nullptr;  // none: a further operand
+    out.pin_types[i] = pin != nullptr ? pin->type : extensible_type;
+    if (arguments.slots[i] == 0) continue;
+    const uint32_t index = arguments.slots[i] - 1;
+    const Argument& argument = context.tree().list(node.arguments)[index];
+    if (!argument.value) continue;
+    ExprId value = argument.value;
+    const Purpose purpose{Use::Passed, pin != nullptr ? pin->name : argument.pin.name, pou.name};
+    out.ok &= operand.check(value, pin != nullptr ? pin->section : SectionKind::Input, out.pin_types[i], purpose);
+    context.code().list(node.arguments)[index].value = value;
+    out.values[i] = value;
+  }
+  if (out.ok) out.ok = groupTypes(context, node, pou, arguments, expected, out);
   return out;
 }
 

@@ -87,7 +87,7 @@ bool isCheckPointer(Context& context, const Pou& pou) {
 void take(Context& context, PouId id, ImplicitCheck check, bool is_documented, std::string_view documented) {
   const Pou& pou = context.symbols.pou(id);
   if (is_documented) {
-    context.scopes.implicit_checks[static_cast<size_t>(check)] = id;
+    context.scopes.implicit_checks.functions[static_cast<size_t>(check)] = id;
   } else {
     context.report(diag::ImplicitCheckDeclaration, pou.loc, {string(context, pou.name), documented});
   }
@@ -95,7 +95,7 @@ void take(Context& context, PouId id, ImplicitCheck check, bool is_documented, s
 
 // The functions of the project; each is resolved once, when the first body is checked.
 void findImplicitChecks(Context& context) {
-  context.scopes.implicit_checks_found = true;
+  context.scopes.implicit_checks.found = true;
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
     const Pou& pou = context.symbols.pous[i];
     const std::string_view name = string(context, pou.name);
@@ -115,12 +115,12 @@ void findImplicitChecks(Context& context) {
 // The function for a check in the body of context.pou; none: nothing is called.
 PouId functionFor(Context& context, ImplicitCheck check) {
   if (!context.profile().implicit_checks || context.body == nullptr || !context.pou) return {};
-  if (!context.scopes.implicit_checks_found) findImplicitChecks(context);
-  const PouId found = context.scopes.implicit_checks[static_cast<size_t>(check)];
+  if (!context.scopes.implicit_checks.found) findImplicitChecks(context);
+  const PouId found = context.scopes.implicit_checks.functions[static_cast<size_t>(check)];
   if (!found) return {};
   const Pou& pou = context.symbols.pou(context.pou);
   if (pou.library || pou.pragmas.no_check || (pou.owner && context.symbols.pou(pou.owner).pragmas.no_check)) return {};
-  const auto& all = context.scopes.implicit_checks;
+  const auto& all = context.scopes.implicit_checks.functions;
   return std::find(all.begin(), all.end(), context.pou) == all.end() ? found : PouId{};
 }
 

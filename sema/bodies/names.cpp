@@ -296,7 +296,7 @@ VarId enoMemoryOf(const Context& context, ExprId instance) {
   if (entity.entityKind() != EntityKind::Var) return {};
   VarId var{entity.index};
   if (context.symbols.var(var).external) var = context.symbols.var(var).external;
-  return context.symbols.var(var).eno_memory;
+  return context.symbols.var(var).memory.eno;
 }
 
 bool isWhole(const Context& context, const MemberExpr& node) {

@@ -237,58 +237,93 @@ static void typeAddresses(Context& context, std::span<ExprId> operands) {
   }
 }
 
-TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
-             Loc loc) {
-  const Tree& tree = context.tree();
-  if (keepsOwnType(accepted)) typeCharacters(context, operands);
-  if (context.profile().addresses_as_numbers && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
-    typeAddresses(context, operands);
+namespace {
+
+// The operands of one operator on the way to their common type.
+struct Unification {
+  Context& context;
+  std::span<ExprId> operands;
+  Operands accepted;
+  TypeId expected;
+  std::string_view what;
+  Loc loc;
   TypeId common;
-  bool untyped = false, real = false, mixed_enums = false;
-  for (const ExprId operand : operands) {
-    const TypeId type = typeOf(tree, operand);
-    if (!type || type == types::kError) return types::kError;
-    if (isUntyped(context, type)) {
-      untyped = true;
-      real |= type == types::idOf(TypeKind::RealLiteral);
-      continue;
-    }
-    if (!accepts(context, accepted, type)) {
-      const Loc at = operands.size() == 2 ? loc : tree.loc(operand);
-      if (common && !accepts(context, Operands::Bits, type) && accepted == Operands::Bits) {
-        return reportOperands(context, what, common, type, at);
-      }
-      return reportOperand(context, what, type, at);
-    }
-    if (common && areOtherEnums(context, accepted, common, type)) {
-      context.report(diag::EnumsCompared, loc,
-                     {what, context.types().toString(common), context.types().toString(type)});
-      common = commonNumber(context, common, type);
-      mixed_enums = true;
-      continue;
-    }
-    const TypeId joined = common ? join(context, common, type) : type;
-    if (!joined) return reportOperands(context, what, common, type, loc);
-    common = joined;
+  bool untyped = false, real = false;  // literals among them
+  bool mixed_enums = false;
+
+  TypeId type(ExprId operand) const { return context.type(operand); }
+  bool accepts(TypeId type) const { return sema::accepts(context, accepted, type); }
+  bool fail(TypeId first, TypeId second) const {
+    reportOperands(context, what, first, second, loc);
+    return false;
   }
-  if (common && !keepsOwnType(accepted)) common = context.types().plain(common);
-  if (untyped && common) {
-    const TypeId typed = common;
+
+  TypeId run() {
+    if (!joinTyped()) return types::kError;
+    if (common && !keepsOwnType(accepted)) common = context.types().plain(common);
+    if (untyped && (common ? !joinLiterals() : !chooseForLiterals())) return types::kError;
+    const bool ok = TypeTable::isString(context.types().plainKind(common)) ? convertStrings() : convertAll();
+    return ok ? common : types::kError;
+  }
+
+  bool joinTyped() {
     for (const ExprId operand : operands) {
-      if (!isUntyped(context, typeOf(tree, operand))) continue;
-      // CODESYS takes a whole number as a pointer: SEL(is_valid, 0, pointer).
-      const bool is_address = context.profile().pointers_as_numbers &&
-                              context.types().kind(common) == TypeKind::Pointer &&
-                              typeOf(tree, operand) == types::idOf(TypeKind::IntegerLiteral);
-      const TypeId joined = accepted == Operands::Anything && (is_address || untypedFits(context, operand, common))
-                                ? common
-                                : joinUntyped(context, common, operand, expected);
-      if (!joined) return reportOperands(context, what, typed, typeOf(tree, operand), loc);
+      const TypeId own = type(operand);
+      if (!own || own == types::kError) return false;
+      if (isUntyped(context, own)) {
+        untyped = true;
+        real |= own == types::idOf(TypeKind::RealLiteral);
+        continue;
+      }
+      if (!accepts(own)) {
+        reportRefused(operand, own);
+        return false;
+      }
+      if (common && areOtherEnums(context, accepted, common, own)) {
+        context.report(diag::EnumsCompared, loc,
+                       {what, context.types().toString(common), context.types().toString(own)});
+        common = commonNumber(context, common, own);
+        mixed_enums = true;
+        continue;
+      }
+      const TypeId joined = common ? join(context, common, own) : own;
+      if (!joined) return fail(common, own);
       common = joined;
     }
-    if (!accepts(context, accepted, common)) return reportOperands(context, what, typed, common, loc);
-  } else if (untyped) {
-    bool fits = static_cast<bool>(expected) && !isUntyped(context, expected) && accepts(context, accepted, expected);
+    return true;
+  }
+
+  void reportRefused(ExprId operand, TypeId own) const {
+    const Loc at = operands.size() == 2 ? loc : context.tree().loc(operand);
+    if (common && accepted == Operands::Bits)
+      reportOperands(context, what, common, own, at);
+    else
+      reportOperand(context, what, own, at);
+  }
+
+  // CODESYS takes a whole number as a pointer: SEL(is_valid, 0, pointer).
+  bool isAddress(ExprId literal) const {
+    return context.profile().pointers_as_numbers && context.types().kind(common) == TypeKind::Pointer &&
+           type(literal) == types::idOf(TypeKind::IntegerLiteral);
+  }
+
+  // Literals beside typed operands.
+  bool joinLiterals() {
+    const TypeId typed = common;
+    for (const ExprId operand : operands) {
+      const TypeId own = type(operand);
+      if (!isUntyped(context, own)) continue;
+      if (accepted == Operands::Anything && (isAddress(operand) || untypedFits(context, operand, common))) continue;
+      const TypeId joined = joinUntyped(context, common, operand, expected);
+      if (!joined) return fail(typed, own);
+      common = joined;
+    }
+    return accepts(common) || fail(typed, common);
+  }
+
+  // Nothing but literals: the expected type if all fit, else that of the widest.
+  bool chooseForLiterals() {
+    bool fits = static_cast<bool>(expected) && !isUntyped(context, expected) && accepts(expected);
     for (const ExprId operand : operands) fits = fits && untypedFits(context, operand, expected);
     if (fits) {
       common = context.types().plain(expected);
@@ -300,26 +335,51 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
         common = common ? commonNumber(context, common, own) : own;
       }
     }
-    if (!accepts(context, accepted, common)) return reportOperand(context, what, common, loc);
+    if (accepts(common)) return true;
+    reportOperand(context, what, common, loc);
+    return false;
   }
-  if (const TypeKind kind = context.types().plainKind(common); TypeTable::isString(kind)) {
+
+  // Strings keep their lengths.
+  bool convertStrings() const {
+    const TypeKind kind = context.types().plainKind(common);
     for (ExprId& operand : operands) {
-      const types::TypeInfo& own = context.types().info(context.types().resolve(typeOf(tree, operand)));
+      const types::TypeInfo& own = context.types().info(context.types().resolve(type(operand)));
       if (own.kind != kind) wrapConvert(context, operand, context.types().string(kind, own.length));
     }
-    return common;
+    return true;
   }
-  for (ExprId& operand : operands) {
-    if (mixed_enums && context.types().kind(typeOf(tree, operand)) == TypeKind::Enum) {
-      wrapConvert(context, operand, common);
-      continue;
+
+  bool convertAll() const {
+    for (ExprId& operand : operands) {
+      if (mixed_enums && context.types().kind(type(operand)) == TypeKind::Enum) {
+        wrapConvert(context, operand, common);
+        continue;
+      }
+      const ExprId given = operand;
+      if (!convert(context, operand, common, kOperand)) return false;
+      if (operand != given && context.tree().kind(operand) == ExprKind::Convert)
+        context.meaning(operand).is_intermediate = true;
     }
-    const ExprId given = operand;
-    if (!convert(context, operand, common, kOperand)) return types::kError;
-    if (operand != given && context.tree().kind(operand) == ExprKind::Convert)
-      context.meaning(operand).is_intermediate = true;
+    return true;
   }
-  return common;
+};
+
+}  // namespace
+
+TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
+             Loc loc) {
+  if (keepsOwnType(accepted)) typeCharacters(context, operands);
+  if (context.profile().addresses_as_numbers && (accepted == Operands::Number || accepted == Operands::NumberOrTime))
+    typeAddresses(context, operands);
+  Unification unification{.context = context,
+                          .operands = operands,
+                          .accepted = accepted,
+                          .expected = expected,
+                          .what = what,
+                          .loc = loc,
+                          .common = {}};
+  return unification.run();
 }
 
 // x ** n: the base becomes REAL or LREAL; the exponent keeps its type.
@@ -368,64 +428,72 @@ TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId 
   return base;
 }
 
+namespace {
+
+// Pointers and times have rules of their own. None: the operands are neither.
+TypeId combineSpecial(Context& context, ExprId& self, TypeId expected) {
+  const BinaryExpr& node = context.tree().as<BinaryExpr>(self);
+  const BinaryOp op = node.op();
+  const TypeId left = context.type(node.left), right = context.type(node.right);
+  if (context.types().kind(left) == TypeKind::Pointer || context.types().kind(right) == TypeKind::Pointer) {
+    if (const TypeId type = combinePointers(context, self, expected)) return type;
+  }
+  if (isComparison(op) || operandsOf(op) == Operands::Bits) return {};
+  const auto isTime = [&](TypeId type) {
+    return !isUntyped(context, type) && isTimeKind(context.types().plainKind(type));
+  };
+  if (!isTime(left) && !isTime(right)) return {};
+  const Loc loc = node.h.loc;
+  if (const TypeId type = combineTimes(context, self, op, node.left, node.right)) return type;
+  return reportOperands(context, spelling(op), left, right, loc);
+}
+
+// What an operator forbids of the common type of its operands.
+TypeId checkCommon(Context& context, BinaryExpr& node, TypeId common) {
+  const BinaryOp op = node.op();
+  const TypeKind kind = context.types().plainKind(common);
+  if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool)
+    return reportOperand(context, spelling(op), common, node.h.loc);
+  if (op == BinaryOp::Modulo && TypeTable::isReal(kind)) return reportOperand(context, "MOD", common, node.h.loc);
+  if (op == BinaryOp::Divide || op == BinaryOp::Modulo) {
+    if (!checkDivisor(context, node.right, op)) return types::kError;
+    callDivisorCheck(context, node.right);
+  }
+  return common;
+}
+
+}  // namespace
+
 TypeId combine(Context& context, ExprId& self, TypeId expected) {
   BinaryExpr& node = context.code().as<BinaryExpr>(self);
+  Meaning& known = meaning(node.h);
   const TypeId left = context.type(node.left), right = context.type(node.right);
-  if (!left || !right || left == types::kError || right == types::kError) return meaning(node.h).type = types::kError;
+  if (!left || !right || left == types::kError || right == types::kError) return known.type = types::kError;
   const BinaryOp op = node.op();
   const bool comparison = isComparison(op);
-  const bool untyped_left = isUntyped(context, left), untyped_right = isUntyped(context, right);
-  meaning(node.h).is_constant = context.meaning(node.left).is_constant & context.meaning(node.right).is_constant;
-  if (untyped_left && untyped_right) {
-    if (const TypeId type = combineUntyped(context, node)) return meaning(node.h).type = type;
+  known.is_constant = context.meaning(node.left).is_constant & context.meaning(node.right).is_constant;
+  if (isUntyped(context, left) && isUntyped(context, right)) {
+    if (const TypeId type = combineUntyped(context, node)) return known.type = type;
   }
-  if (op == BinaryOp::Power) {
-    const Loc loc = node.h.loc;
-    return meaning(node.h).type = power(context, node.left, node.right, expected, loc);
-  }
-  if (context.types().kind(left) == TypeKind::Pointer || context.types().kind(right) == TypeKind::Pointer) {
-    if (const TypeId type = combinePointers(context, self, expected)) return context.type(self) = type;
-  }
-  if (!comparison && operandsOf(op) != Operands::Bits) {
-    const TypeKind a = untyped_left ? TypeKind::None : context.types().plainKind(left);
-    const TypeKind b = untyped_right ? TypeKind::None : context.types().plainKind(right);
-    if (isTimeKind(a) || isTimeKind(b)) {
-      const Loc loc = node.h.loc;
-      if (const TypeId type = combineTimes(context, self, op, node.left, node.right)) {
-        return context.type(self) = type;
-      }
-      return meaning(node.h).type = reportOperands(context, spelling(op), left, right, loc);
-    }
-  }
+  if (op == BinaryOp::Power) return known.type = power(context, node.left, node.right, expected, node.h.loc);
+  if (const TypeId type = combineSpecial(context, self, expected)) return context.type(self) = type;
   if (op == BinaryOp::Add && TypeTable::isString(context.types().plainKind(left)) &&
       TypeTable::isString(context.types().plainKind(right))) {
     context.report(diag::StringsAdded, node.h.loc);
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};
-  const TypeId common =
-      unify(context, operands, operandsOf(op), comparison ? TypeId{} : expected, spelling(op), node.h.loc);
+  TypeId common = unify(context, operands, operandsOf(op), comparison ? TypeId{} : expected, spelling(op), node.h.loc);
   node.left = operands[0];
   node.right = operands[1];
-  if (common == types::kError) return meaning(node.h).type = types::kError;
-  const TypeKind kind = context.types().plainKind(common);
+  if (common == types::kError) return known.type = types::kError;
   if (comparison) {
-    meaning(node.h).type = types::kBool;
-    context.rules->expression(context, self);
-    return types::kBool;
+    common = types::kBool;
+  } else {
+    if (checkCommon(context, node, common) == types::kError) return known.type = types::kError;
+    markIntermediate(context.symbols, self, common, context.isWide() && operandsOf(op) != Operands::Bits);
   }
-  if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {
-    return meaning(node.h).type = reportOperand(context, spelling(op), common, node.h.loc);
-  }
-  if (op == BinaryOp::Modulo && TypeTable::isReal(kind)) {
-    return meaning(node.h).type = reportOperand(context, "MOD", common, node.h.loc);
-  }
-  if (op == BinaryOp::Divide || op == BinaryOp::Modulo) {
-    if (!checkDivisor(context, node.right, op)) return meaning(node.h).type = types::kError;
-    callDivisorCheck(context, node.right);
-  }
-  markIntermediate(context.symbols, self, common, context.isWide() && operandsOf(op) != Operands::Bits);
-  meaning(node.h).type = common;
+  known.type = common;
   context.rules->expression(context, self);
   return common;
 }
@@ -452,29 +520,30 @@ TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
 
 TypeId checkUnary(Context& context, ExprId& expr, TypeId expected) {
   UnaryExpr& node = context.code().as<UnaryExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeId type = check(context, node.operand, expected, Access::Read);
-  meaning(node.h).is_constant = context.meaning(node.operand).is_constant;
-  if (!type || type == types::kError) return meaning(node.h).type = types::kError;
+  known.is_constant = context.meaning(node.operand).is_constant;
+  if (!type || type == types::kError) return known.type = types::kError;
   if (isUntyped(context, type)) {
     if (node.op() == UnaryOp::Not) {
       if (type == types::idOf(TypeKind::RealLiteral)) {
-        return meaning(node.h).type = reportOperand(context, "NOT", types::kReal, node.h.loc);
+        return known.type = reportOperand(context, "NOT", types::kReal, node.h.loc);
       }
       if (expected && context.types().plainKind(expected) == TypeKind::Bool &&
           untypedFits(context, node.operand, expected)) {
         adapt(context, node.operand, types::kBool, kOperand);
-        return meaning(node.h).type = types::kBool;
+        return known.type = types::kBool;
       }
     }
-    return meaning(node.h).type = type;
+    return known.type = type;
   }
   const TypeId plain = context.types().plain(type);
   const bool ok = node.op() == UnaryOp::Not ? accepts(context, Operands::Bits, type)
                                             : accepts(context, Operands::NumberOrTime, type);
-  if (!ok) return meaning(node.h).type = reportOperand(context, spelling(node.op()), type, node.h.loc);
+  if (!ok) return known.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
   if (plain != type) convert(context, node.operand, plain, kOperand);
   markIntermediate(context.symbols, expr, plain, context.isWide() && node.op() != UnaryOp::Not);
-  return meaning(node.h).type = plain;
+  return known.type = plain;
 }
 
 }  // namespace rung::sema

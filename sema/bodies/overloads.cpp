@@ -169,7 +169,7 @@ std::string signatures(Context& context, std::span<const Candidate> candidates) 
 }  // namespace
 
 bool isOverloaded(const Context& context, PouId called) {
-  return static_cast<bool>(context.symbols.pou(called).overloads);
+  return static_cast<bool>(context.symbols.pou(called).overloads.first);
 }
 
 // Forbids a call that no overload takes, or that several take equally well.
@@ -177,8 +177,8 @@ bool isOverloaded(const Context& context, PouId called) {
 //   fails   f(SINT#1) where f takes INT or DINT                                        E0628
 PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool& checked) {
   std::vector<Candidate> all;
-  const PouId head = context.symbols.pou(called).overloads;
-  for (PouId id = head ? head : called; id; id = context.symbols.pou(id).next_overload) {
+  const PouId head = context.symbols.pou(called).overloads.first;
+  for (PouId id = head ? head : called; id; id = context.symbols.pou(id).overloads.next) {
     resolvePou(context, id);
     if (!isKnown(context, all, id)) all.push_back({id, {}, {}, 0});
   }

@@ -78,6 +78,41 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
   return duration;
 }
 
+// MOD of two durations.
+TypeId moduloOfTimes(Context& context, ExprId& self, ExprId left, ExprId right, TypeKind kind, Loc loc) {
+  const TypeId units = counter(context, kind);
+  context.replace(self, makeBinary(context, BinaryOp::Modulo, spanIn(context, left, kind, loc),
+                                   spanIn(context, right, kind, loc), units, loc));
+  self = converted(context, self, types::idOf(kind));
+  return types::idOf(kind);
+}
+
+// The difference of two dates or times of day. None: they have no common type.
+TypeId subtractDates(Context& context, ExprId& self, ExprId left, ExprId right, Loc loc) {
+  const TypeKind a = context.types().plainKind(context.type(left));
+  const TypeKind b = context.types().plainKind(context.type(right));
+  const bool same_quantity = TypeTable::isTimeOfDay(a) == TypeTable::isTimeOfDay(b) && isLong(a) != isLong(b);
+  if (a != b && !same_quantity) return {};
+  const TypeKind kind = isLong(a) ? a : b;
+  left = converted(context, left, types::idOf(kind));
+  right = converted(context, right, types::idOf(kind));
+  const TypeId units = counter(context, kind);
+  const TypeId span = durationFor(kind);
+  const TypeId count = counter(context, context.types().kind(span));
+  ExprId difference = makeBinary(context, BinaryOp::Subtract, converted(context, left, units),
+                                 converted(context, right, units), units, loc);
+  difference = converted(context, difference, count);
+  if (isSeconds(kind)) {
+    difference = makeBinary(context, BinaryOp::Multiply, difference,
+                            makeLiteral(context, LiteralKind::Integer, count, 1000, loc), count, loc);
+  }
+  context.replace(self, converted(context, difference, span));
+  return span;
+}
+
+// A DATE has no time of day to which a duration could be added.
+bool hasTimeOfDay(TypeKind k) { return TypeTable::isDate(k) && k != TypeKind::Date && k != TypeKind::LDate; }
+
 }  // namespace
 
 TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, ExprId right) {
@@ -94,14 +129,8 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
     if (span_left && !span_right && !TypeTable::isDate(b)) return scale(context, self, op, left, right, a, loc);
     return {};
   }
-  if (op == BinaryOp::Modulo && span_left && span_right && context.profile().modulo_of_times) {
-    const TypeKind kind = isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time;
-    const TypeId units = counter(context, kind);
-    context.replace(
-        self, makeBinary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc));
-    self = converted(context, self, types::idOf(kind));
-    return types::idOf(kind);
-  }
+  if (op == BinaryOp::Modulo && span_left && span_right && context.profile().modulo_of_times)
+    return moduloOfTimes(context, self, left, right, isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time, loc);
   if (op != BinaryOp::Add && op != BinaryOp::Subtract) return {};
   if (span_left && span_right) {
     const TypeId type = isLong(a) || isLong(b) ? types::kLTime : types::kTime;
@@ -110,43 +139,22 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
     node.right = converted(context, right, type);
     return type;
   }
-  if (TypeTable::isDate(a) && span_right) {
-    if (a == TypeKind::Date || a == TypeKind::LDate) return {};  // a DATE has no time of day to add to
+  if (hasTimeOfDay(a) && span_right) {
     const TypeId units = counter(context, a);
     context.replace(
         self, makeBinary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc));
     self = converted(context, self, types::idOf(a));
     return types::idOf(a);
   }
-  if (op == BinaryOp::Add && span_left && TypeTable::isDate(b) && b != TypeKind::Date && b != TypeKind::LDate) {
+  if (op == BinaryOp::Add && span_left && hasTimeOfDay(b)) {
     const TypeId units = counter(context, b);
     context.replace(
         self, makeBinary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc));
     self = converted(context, self, types::idOf(b));
     return types::idOf(b);
   }
-  if (op == BinaryOp::Subtract && TypeTable::isDate(a) && TypeTable::isDate(b)) {
-    TypeKind kind = a;
-    if (a != b) {
-      const bool same_quantity = TypeTable::isTimeOfDay(a) == TypeTable::isTimeOfDay(b) && isLong(a) != isLong(b);
-      if (!same_quantity) return {};
-      kind = isLong(a) ? a : b;
-    }
-    left = converted(context, left, types::idOf(kind));
-    right = converted(context, right, types::idOf(kind));
-    const TypeId units = counter(context, kind);
-    const TypeId span = durationFor(kind);
-    const TypeId count = counter(context, context.types().kind(span));
-    ExprId difference =
-        makeBinary(context, op, converted(context, left, units), converted(context, right, units), units, loc);
-    difference = converted(context, difference, count);
-    if (isSeconds(kind)) {
-      difference = makeBinary(context, BinaryOp::Multiply, difference,
-                              makeLiteral(context, LiteralKind::Integer, count, 1000, loc), count, loc);
-    }
-    context.replace(self, converted(context, difference, span));
-    return span;
-  }
+  if (op == BinaryOp::Subtract && TypeTable::isDate(a) && TypeTable::isDate(b))
+    return subtractDates(context, self, left, right, loc);
   return {};
 }
 

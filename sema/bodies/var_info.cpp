@@ -76,7 +76,7 @@ bool addLvalue(Facts& facts, ExprId lvalue) {
     if (in_record && holder && ensureLayout(context, holder))
       offset = context.types().info(context.types().resolve(holder)).fields[var->field].offset;
     if (var->storage == Storage::Global) area = 0, memory = 4;
-    if (var->retain) memory = 3;
+    if (var->keeping.retain) memory = 3;
     if (var->storage == Storage::Image) {
       const auto number = static_cast<int64_t>(var->image.area.index);  // I, Q, M
       area = number + 1;

@@ -148,7 +148,7 @@ class Selections {
     for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
       const Pou& pou = context.symbols.pous[i];
       if (pou.library || !pou.decl || pou.generic || !pou.progress.checked()) continue;
-      for (const StmtId id : tree_.list(pou.code)) walk(id);
+      for (const StmtId id : tree_.list(pou.body.code)) walk(id);
     }
   }
 

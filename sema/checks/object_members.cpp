@@ -27,7 +27,7 @@ namespace {
 PouId inherited(Context& context, PouId object, PouId like) {
   resolvePou(context, like);
   for (PouId at = object; at; at = context.symbols.pou(at).base) {
-    if (context.symbols.pou(like).overloads)
+    if (context.symbols.pou(like).overloads.first)
       for (const PouId member : context.symbols.pou(at).members) resolvePou(context, member);
     if (const PouId found = methodLike(context.symbols, at, like)) return found;
   }

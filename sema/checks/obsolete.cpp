@@ -10,7 +10,7 @@ namespace rung::sema {
 
 void checkObsolete(Context& context, const UsedName& used) {
   if (used.declared.pragmas.empty() || context.library) return;
-  const Pragma* const pragma = findPragma(context, used.declared, context.scopes.known_names.attribute_obsolete);
+  const Pragma* const pragma = findPragma(context, used.declared, context.scopes.known_names.attributes.obsolete);
   if (pragma == nullptr) return;
   std::string text(context.tree().string(pragma->value));
   if (!text.empty()) text.insert(0, ": ");

@@ -113,7 +113,7 @@ void checkRepeatedTimerCalls(Context& context) {
     const Pou& pou = context.symbols.pous[i];
     if (pou.library || pou.pragmas.test || pou.pragmas.test_only || !pou.decl || !pou.progress.checked()) continue;
     const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-    if (decl.body_kind != BodyKind::Il) TimerCalls(context).walk(pou.code);
+    if (decl.body_kind != BodyKind::Il) TimerCalls(context).walk(pou.body.code);
   }
 }
 

@@ -57,7 +57,7 @@ bool hasBody(const Context& context, PouId id) {
   const Pou& pou = context.symbols.pou(id);
   if (pou.kind != PouKind::FunctionBlock || pou.object.extended || !pou.decl) return false;
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  return pou.pragmas.native || pou.cpp || decl.body_kind == BodyKind::Native || !pou.code.empty();
+  return pou.pragmas.native || pou.cpp.is_body || decl.body_kind == BodyKind::Native || !pou.body.code.empty();
 }
 
 }  // namespace
@@ -68,13 +68,14 @@ void checkUncalledInstances(Context& context) {
   Uses uses(context);
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     const Pou& pou = symbols.pous[i];
-    if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp) continue;
-    for (const StmtId id : context.tree().list(pou.code)) uses.walk(id);
+    if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp.is_body) continue;
+    for (const StmtId id : context.tree().list(pou.body.code)) uses.walk(id);
   }
   for (const BlockTask& task : context.project.block_tasks) uses.note(task.block);
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     const Pou& pou = symbols.pous[i];
-    if (pou.library || pou.cpp || pou.object.extended || pou.base || !pou.decl || !pou.progress.checked()) continue;
+    if (pou.library || pou.cpp.is_body || pou.object.extended || pou.base || !pou.decl || !pou.progress.checked())
+      continue;
     for (const VarId id : pou.vars) {
       const Var& var = symbols.var(id);
       if (var.section != SectionKind::Local || !var.name || !uses.onlyRead(id)) continue;

@@ -97,13 +97,13 @@ void checkUnsetTemporaries(Context& context) {
     for (const VarId id : pou.vars) {
       const Var& var = symbols.var(id);
       const types::TypeKind kind = context.types().plainKind(var.type);
-      if (var.section != SectionKind::Temp || var.temporary != 0 || var.init || var.shared ||
+      if (var.section != SectionKind::Temp || var.temporary != 0 || var.init || var.sharing.field ||
           !types::TypeTable::isScalar(kind))
         continue;
       is_unset.resize(symbols.vars.size());
       is_unset[id.index] = true;
     }
-    if (!is_unset.empty()) TempWalk(context, std::move(is_unset)).walk(pou.code);
+    if (!is_unset.empty()) TempWalk(context, std::move(is_unset)).walk(pou.body.code);
   }
 }
 

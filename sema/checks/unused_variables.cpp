@@ -30,7 +30,7 @@ void checkUnusedVariables(Context& context) {
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
     const Pou& pou = context.symbols.pous[i];
     if (pou.library || pou.pragmas.native || !pou.progress.checked() || !pou.decl) continue;
-    if (pou.code.empty()) continue;
+    if (pou.body.code.empty()) continue;
     for (const VarId id : pou.vars) {
       const Var& var = context.symbols.var(id);
       if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant ||

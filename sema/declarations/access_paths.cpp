@@ -117,65 +117,82 @@ struct AccessPathResolver {
     return true;
   }
 
+  // [configuration .] [resource .] instance at the front of a path; 0: the path names no instance.
+  size_t followInstance(std::span<const Step> steps, AccessPath& out) const {
+    for (uint32_t i = 0; i < project.instances.size(); ++i) {
+      const ProgramInstance& instance = project.instances[i];
+      size_t next = 0;
+      const auto matches = [&](NameId name) {
+        return next < steps.size() && name && context.names().same(name, steps[next].name.name);
+      };
+      if (matches(instance.configuration)) ++next;
+      if (matches(instance.resource)) ++next;
+      if (!matches(instance.name) || steps[next].element) continue;
+      out.root = AccessPath::Root::Instance;
+      out.index = i;
+      if (project.pou(instance.program).record) return next + 1;
+    }
+    return 0;
+  }
+
+  // [configuration .] [resource .] or the name of a list, in front of a global variable.
+  size_t followQualifiers(std::span<const Step> steps) const {
+    size_t next = 0;
+    const auto matches = [&](NameId name, size_t step) {
+      return step < steps.size() && name && context.names().same(name, steps[step].name.name);
+    };
+    for (const ProgramInstance& instance : project.instances)
+      if (next == 0 && matches(instance.configuration, next)) ++next;
+    for (const ProgramInstance& instance : project.instances)
+      if (next < 2 && next + 1 < steps.size() && matches(instance.resource, next)) ++next;
+    for (const GlobalList& globals : project.global_lists) {  // a resource may have globals and no program
+      size_t matched = steps.size() > 1 && matches(globals.configuration, 0) ? 1 : 0;
+      if (matched + 1 < steps.size() && matches(globals.resource, matched)) ++matched;
+      next = std::max(next, matched);
+    }
+    const Entity list = context.scopes.qualifiers.find(keyOf(context, steps[0].name.name));
+    return next == 0 && list.entityKind() == EntityKind::GlobalList && steps.size() > 1 ? 1 : next;
+  }
+
+  // A global variable, after its resource or configuration. 0: reported.
+  size_t followGlobal(std::span<const Step> steps, AccessPath& out, TypeId& type) {
+    const size_t at = followQualifiers(steps);
+    if (at >= steps.size()) {
+      lost(steps.back().name);
+      return 0;
+    }
+    const NameId key = keyOf(context, steps[at].name.name);
+    Entity found;
+    if (at > 0) {
+      const Entity list = context.scopes.qualifiers.find(keyOf(context, steps[at - 1].name.name));
+      if (list.entityKind() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
+    }
+    if (!found) found = context.scopes.globals.find(key);
+    if (found.entityKind() != EntityKind::Var) {
+      lost(steps[at].name);
+      return 0;
+    }
+    const Var& var = project.vars[found.index];
+    out.root = AccessPath::Root::List;
+    out.index = var.list.index;
+    if (var.storage == Storage::Global)
+      out.offset = context.types().info(project.global_lists[var.list.index].record).fields[var.field].offset;
+    return enter(out, {}, VarId{found.index}, steps[at], type) ? at + 1 : 0;
+  }
+
   // Resolves the steps, from the program `of` or from the whole project.
   bool follow(std::span<const Step> steps, AccessPath& out, TypeId& type) {
-    size_t next = 0;
-    const auto matches = [&](NameId name) {
-      return next < steps.size() && name && context.names().same(name, steps[next].name.name);
-    };
+    size_t next = out.root == AccessPath::Root::Project ? followInstance(steps, out) : 0;
     TypeId record;
-    if (out.root == AccessPath::Root::Project) {
-      for (uint32_t i = 0; i < project.instances.size() && !record; ++i) {
-        const ProgramInstance& instance = project.instances[i];
-        next = 0;
-        if (matches(instance.configuration)) ++next;
-        if (matches(instance.resource)) ++next;
-        if (!matches(instance.name) || steps[next].element) continue;
-        ++next;
-        out.root = AccessPath::Root::Instance;
-        out.index = i;
-        record = project.pou(instance.program).record;
-      }
-    } else {
+    if (out.root != AccessPath::Root::Project) {
       const PouId program =
           out.root == AccessPath::Root::Instance ? project.instances[out.index].program : PouId{out.index};
       record = project.pou(program).record;
     }
-    if (!record) {  // a global variable, after its resource or configuration
-      next = 0;
-      Entity list = context.scopes.qualifiers.find(keyOf(context, steps[0].name.name));
-      for (const ProgramInstance& instance : project.instances)
-        if (next == 0 && matches(instance.configuration)) ++next;
-      for (const ProgramInstance& instance : project.instances)
-        if (next < 2 && next + 1 < steps.size() && matches(instance.resource)) ++next;
-      for (const GlobalList& globals : project.global_lists) {  // a resource may have globals and no program
-        size_t matched =
-            steps.size() > 1 && globals.configuration && context.names().same(globals.configuration, steps[0].name.name)
-                ? 1
-                : 0;
-        if (matched + 1 < steps.size() && globals.resource &&
-            context.names().same(globals.resource, steps[matched].name.name))
-          ++matched;
-        next = std::max(next, matched);
-      }
-      if (next == 0 && list.entityKind() == EntityKind::GlobalList && steps.size() > 1) next = 1;
-      if (next >= steps.size()) return lost(steps.back().name);
-      const NameId key = keyOf(context, steps[next].name.name);
-      Entity found;
-      if (next > 0) {
-        list = context.scopes.qualifiers.find(keyOf(context, steps[next - 1].name.name));
-        if (list.entityKind() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
-      }
-      if (!found) found = context.scopes.globals.find(key);
-      if (found.entityKind() != EntityKind::Var) return lost(steps[next].name);
-      const Var& var = project.vars[found.index];
-      out.root = AccessPath::Root::List;
-      out.index = var.list.index;
-      if (var.storage == Storage::Global)
-        out.offset = context.types().info(project.global_lists[var.list.index].record).fields[var.field].offset;
-      if (!enter(out, {}, VarId{found.index}, steps[next], type)) return false;
+    if (!record) {
+      next = followGlobal(steps, out, type);
+      if (next == 0) return false;
       record = type;
-      ++next;
     }
     for (; next < steps.size(); ++next) {
       const VarId member = findMember(context, record, steps[next].name.name);

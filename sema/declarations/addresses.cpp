@@ -153,11 +153,11 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   const std::optional<types::AreaId> area = areaOf(context, address, loc);
   if (!area) return {};
   const NameId name = context.names().intern(text);
-  Entity known = scopes.hierarchical_names.find(keyOf(context, name));
+  Entity known = scopes.addresses.names.find(keyOf(context, name));
   if (!known) {
     if (!context.profile().hierarchical_addresses) context.report(diag::HierarchicalAddress, loc, {text});
-    known = Entity::of(EntityKind::Var, static_cast<uint32_t>(scopes.hierarchical.size()));
-    scopes.hierarchical_names.insert(keyOf(context, name), known);
+    known = Entity::of(EntityKind::Var, static_cast<uint32_t>(scopes.addresses.hierarchical.size()));
+    scopes.addresses.names.insert(keyOf(context, name), known);
     Var var;
     var.name = name;
     var.loc = loc;
@@ -169,9 +169,9 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
     var.hierarchical = true;
     const VarId named{static_cast<uint32_t>(project.vars.size())};
     project.vars.push_back(var);
-    scopes.hierarchical.push_back({named, uint64_t{1}, 1, {}});
+    scopes.addresses.hierarchical.push_back({named, uint64_t{1}, 1, {}});
   }
-  Scopes::HierarchicalAddress& allocation = scopes.hierarchical[known.index];
+  Scopes::HierarchicalAddress& allocation = scopes.addresses.hierarchical[known.index];
   for (const TypeId held : {type, addressType(address)}) {
     const types::TypeInfo& info = context.types().info(context.types().resolve(held));
     allocation.bytes = std::max<uint64_t>(allocation.bytes, info.size);
@@ -191,7 +191,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
 // that each address leads to its own byte.
 void allocateHierarchical(Context& context) {
   Project& project = context.project;
-  std::vector<Scopes::HierarchicalAddress>& allocations = context.scopes.hierarchical;
+  std::vector<Scopes::HierarchicalAddress>& allocations = context.scopes.addresses.hierarchical;
   std::sort(allocations.begin(), allocations.end(), [&](const auto& a, const auto& b) {
     return context.names().string(project.var(a.named).name) < context.names().string(project.var(b.named).name);
   });
@@ -219,8 +219,8 @@ uint64_t addressKey(const Context& context, const DirectAddress& address) {
 }
 
 TypeId declaredAddressType(Context& context, const DirectAddress& address) {
-  const auto found = context.scopes.unnamed_addresses.find(addressKey(context, address));
-  if (found == context.scopes.unnamed_addresses.end()) return {};
+  const auto found = context.scopes.addresses.unnamed.find(addressKey(context, address));
+  if (found == context.scopes.addresses.unnamed.end()) return {};
   const auto path = context.tree().list(address.path);
   const PouId object = objectOf(context);
   TypeId type;

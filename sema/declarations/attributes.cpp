@@ -17,22 +17,21 @@ namespace {
 constexpr uint32_t before(Attributed what) { return 1u << static_cast<uint32_t>(what); }
 
 struct Position {
-  NameId Scopes::KnownNames::*attribute;
+  NameId Scopes::KnownNames::Attributes::*attribute;
   uint32_t allowed;
   const char* where;
 };
-using Known = Scopes::KnownNames;
+using Known = Scopes::KnownNames::Attributes;
 constexpr Position kPositions[] = {
-    {&Known::attribute_pack_mode, before(Attributed::Structure) | before(Attributed::Block),
+    {&Known::pack_mode, before(Attributed::Structure) | before(Attributed::Block),
      "before a STRUCT, a UNION or a FUNCTION_BLOCK"},
-    {&Known::attribute_global_init_slot, before(Attributed::Globals) | before(Attributed::Program),
+    {&Known::global_init_slot, before(Attributed::Globals) | before(Attributed::Program),
      "before VAR_GLOBAL or a PROGRAM"},
-    {&Known::attribute_after_globals,
-     before(Attributed::Function) | before(Attributed::Program) | before(Attributed::Method),
+    {&Known::after_globals, before(Attributed::Function) | before(Attributed::Program) | before(Attributed::Method),
      "before a FUNCTION, a PROGRAM or a METHOD"},
-    {&Known::attribute_initialize_on_call, before(Attributed::Block) | before(Attributed::Input),
+    {&Known::initialize_on_call, before(Attributed::Block) | before(Attributed::Input),
      "before a FUNCTION_BLOCK and its inputs"},
-    {&Known::attribute_is_connected, before(Attributed::Variable), "before a BOOL variable of a FUNCTION_BLOCK"},
+    {&Known::is_connected, before(Attributed::Variable), "before a BOOL variable of a FUNCTION_BLOCK"},
 };
 
 Attributed attributedBy(PouKind kind) {
@@ -67,7 +66,7 @@ std::optional<int32_t> slotOf(Context& context, const DeclHeader& header, NameId
 void checkAttributes(Context& context, const DeclHeader& header, Attributed what) {
   if (header.pragmas.empty() || context.library) return;
   for (const Position& row : kPositions) {
-    const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.*row.attribute);
+    const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attributes.*row.attribute);
     if (pragma != nullptr && (row.allowed & before(what)) == 0)
       context.report(diag::AttributeWithoutEffect, pragma->loc, {context.names().string(pragma->name), row.where});
   }
@@ -75,15 +74,15 @@ void checkAttributes(Context& context, const DeclHeader& header, Attributed what
 
 void takeAttributes(Context& context, const DeclHeader& header, Pou& pou) {
   if (header.pragmas.empty()) return;
-  const Known& known = context.scopes.known_names;
+  const Known& known = context.scopes.known_names.attributes;
   checkAttributes(context, header, attributedBy(pou.kind));
-  pou.pragmas.initialize_on_call = findPragma(context, header, known.attribute_initialize_on_call) != nullptr;
-  pou.pragmas.reflection = findPragma(context, header, known.attribute_reflection) != nullptr;
+  pou.pragmas.initialize_on_call = findPragma(context, header, known.initialize_on_call) != nullptr;
+  pou.pragmas.reflection = findPragma(context, header, known.reflection) != nullptr;
   pou.pragmas.symbol_access = symbolAccessOf(context, header).value_or(types::SymbolAccess::ReadWrite);
   if (pou.kind == PouKind::Program)
     if (const auto slot = initSlotOf(context, header)) pou.pragmas.init_slot = *slot;
   const bool callable = pou.kind == PouKind::Function || pou.kind == PouKind::Program || pou.kind == PouKind::Method;
-  const auto slot = callable ? slotOf(context, header, known.attribute_after_globals) : std::nullopt;
+  const auto slot = callable ? slotOf(context, header, known.after_globals) : std::nullopt;
   pou.pragmas.after_globals = slot.has_value();
   pou.pragmas.after_globals_slot = slot.value_or(0);
 }
@@ -96,10 +95,10 @@ void takeVariableAttributes(Context& context, const DeclHeader& header, Var& var
                   is_input && of_block ? Attributed::Input
                   : of_block           ? Attributed::Variable
                                        : Attributed::OtherType);
-  const Known& known = context.scopes.known_names;
-  var.pragmas.no_exit = findPragma(context, header, known.attribute_no_exit) != nullptr;
+  const Known& known = context.scopes.known_names.attributes;
+  var.pragmas.no_exit = findPragma(context, header, known.no_exit) != nullptr;
   if (is_input && of_block)
-    var.pragmas.initialize_on_call = findPragma(context, header, known.attribute_initialize_on_call) != nullptr;
+    var.pragmas.initialize_on_call = findPragma(context, header, known.initialize_on_call) != nullptr;
 }
 
 // Forbids other values than those of the page "Attribute: symbol" of the CODESYS help; without one: readwrite.
@@ -107,7 +106,7 @@ void takeVariableAttributes(Context& context, const DeclHeader& header, Var& var
 //   warns   {attribute 'symbol' := 'readonly'} level : INT;    W0790
 std::optional<types::SymbolAccess> symbolAccessOf(Context& context, const DeclHeader& header) {
   constexpr std::string_view kValues[] = {"readwrite", "read", "write", "none"};  // in the order of SymbolAccess
-  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attribute_symbol);
+  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attributes.symbol);
   if (pragma == nullptr) return {};
   const std::string_view value = context.tree().string(pragma->value);
   if (value.empty()) return types::SymbolAccess::ReadWrite;
@@ -118,7 +117,7 @@ std::optional<types::SymbolAccess> symbolAccessOf(Context& context, const DeclHe
 }
 
 std::optional<int32_t> initSlotOf(Context& context, const DeclHeader& header) {
-  return slotOf(context, header, context.scopes.known_names.attribute_global_init_slot);
+  return slotOf(context, header, context.scopes.known_names.attributes.global_init_slot);
 }
 
 namespace {
@@ -169,16 +168,16 @@ void checkCalledAfterInit(Context& context, const Pou& pou) {
 void checkAttributesOf(Context& context, PouId id) {
   checkCalledAfterInit(context, context.symbols.pou(id));
   if (context.symbols.pou(id).kind != PouKind::FunctionBlock) return;
-  const Known& known = context.scopes.known_names;
+  const Known& known = context.scopes.known_names.attributes;
   for (const VarId var_id : std::vector(context.symbols.pou(id).vars)) {
     const Var& var = context.symbols.var(var_id);
     if (!var.decl || context.tree().kind(var.decl) != DeclKind::Var) continue;
     const DeclHeader& header = context.tree().decl(var.decl);
-    if (const Pragma* const pragma = findPragma(context, header, known.attribute_is_connected);
+    if (const Pragma* const pragma = findPragma(context, header, known.is_connected);
         pragma != nullptr && var.section != SectionKind::Input)
       resolveConnection(context, id, var_id, *pragma);
     if (!var.pragmas.initialize_on_call || context.symbols.pou(id).pragmas.initialize_on_call) continue;
-    const Pragma* const pragma = findPragma(context, header, known.attribute_initialize_on_call);
+    const Pragma* const pragma = findPragma(context, header, known.initialize_on_call);
     context.report(diag::AttributeWithoutEffect, pragma->loc, {"initialize_on_call", "before the FUNCTION_BLOCK, too"});
   }
 }
@@ -186,7 +185,7 @@ void checkAttributesOf(Context& context, PouId id) {
 // Forbids other pack modes than those that the pages list.
 //   fails   {attribute 'pack_mode' := '3'} TYPE Telegram : STRUCT …    E0388
 uint8_t packModeOf(Context& context, const DeclHeader& header) {
-  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attribute_pack_mode);
+  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.attributes.pack_mode);
   if (pragma == nullptr) return 0;
   const std::string_view value = context.tree().string(pragma->value);
   constexpr std::string_view kModes[] = {"0", "1", "2", "4", "8"};

@@ -54,8 +54,8 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   byte.loc = var.loc;
   byte.type = types::kByte;
   byte.storage = Storage::Field;
-  byte.retain = var.retain;
-  byte.persistent = var.persistent;
+  byte.keeping.retain = var.keeping.retain;
+  byte.keeping.persistent = var.keeping.persistent;
   byte.pou = var.pou;
   byte.record = var.record;
   byte.use.read = byte.use.written = true;
@@ -74,7 +74,8 @@ void addBit(Context& context, TypeId record, VarId id) {
   const bool is_union = context.types().info(record).record_kind == types::RecordKind::Union;
   const VarId last = named.bits.empty() || is_union ? VarId{} : named.bits.back();
   if (last && symbols.var(last).bits.bit < 7 && symbols.var(last).bits.holder == named.fields.back() &&
-      symbols.var(last).retain == var.retain && symbols.var(last).persistent == var.persistent) {
+      symbols.var(last).keeping.retain == var.keeping.retain &&
+      symbols.var(last).keeping.persistent == var.keeping.persistent) {
     return addBitAt(context, record, id, symbols.var(last).bits.holder,
                     static_cast<uint8_t>(symbols.var(last).bits.bit + 1));
   }

@@ -24,62 +24,72 @@ namespace rung::sema {
 
 using types::RecordKind;
 
+namespace {
+
+template <typename Names>
+struct KnownName {
+  NameId Names::*name;
+  std::string_view text;
+};
+using Known = Scopes::KnownNames;
+constexpr KnownName<Known> kKnownNames[] = {
+    {&Known::test, "test"},
+    {&Known::test_only, "test_only"},
+    {&Known::replaces, "replaces"},
+    {&Known::mock, "mock"},
+    {&Known::skip, "skip"},
+    {&Known::setup, "setup"},
+    {&Known::teardown, "teardown"},
+    {&Known::test_case, "case"},
+    {&Known::safe_values, "safe_values"},
+    {&Known::before_task, "before_task"},
+    {&Known::after_task, "after_task"},
+    {&Known::alias, "alias"},
+    {&Known::required, "required"},
+    {&Known::optional, "optional"},
+    {&Known::lazy, "lazy"},
+    {&Known::long_time, "long_time"},
+    {&Known::extensible, "extensible"},
+    {&Known::prefix, "prefix"},
+    {&Known::sized, "sized"},
+    {&Known::slice, "slice"},
+    {&Known::pure, "pure"},
+    {&Known::native, "native"},
+    {&Known::op, "operator"},
+    {&Known::std, "std"},
+    {&Known::no_final_scan, "no_final_scan"},
+    {&Known::list, "list"},
+    {&Known::fault, "fault"},
+    {&Known::no_copy, "no_copy"},
+    {&Known::bytes, "bytes"},
+};
+constexpr KnownName<Known::Attributes> kAttributes[] = {
+    {&Known::Attributes::qualified_only, "qualified_only"},
+    {&Known::Attributes::strict, "strict"},
+    {&Known::Attributes::instance_path, "instance-path"},
+    {&Known::Attributes::no_check, "no_check"},
+    {&Known::Attributes::no_virtual_actions, "no_virtual_actions"},
+    {&Known::Attributes::obsolete, "obsolete"},
+    {&Known::Attributes::to_string, "to_string"},
+    {&Known::Attributes::unique_name, "unique_name"},
+    {&Known::Attributes::call_after_init, "call_after_init"},
+    {&Known::Attributes::pack_mode, "pack_mode"},
+    {&Known::Attributes::global_init_slot, "global_init_slot"},
+    {&Known::Attributes::after_globals, "call_after_global_init_slot"},
+    {&Known::Attributes::initialize_on_call, "initialize_on_call"},
+    {&Known::Attributes::is_connected, "is_connected"},
+    {&Known::Attributes::reflection, "reflection"},
+    {&Known::Attributes::no_exit, "no-exit"},
+    {&Known::Attributes::symbol, "symbol"},
+};
+
+}  // namespace
+
 void internKnownNames(Context& context) {
-  struct Row {
-    NameId Scopes::KnownNames::*name;
-    std::string_view text;
-  };
-  using Known = Scopes::KnownNames;
-  static constexpr Row kRows[] = {
-      {&Known::attribute_qualified_only, "qualified_only"},
-      {&Known::attribute_strict, "strict"},
-      {&Known::attribute_instance_path, "instance-path"},
-      {&Known::test, "test"},
-      {&Known::test_only, "test_only"},
-      {&Known::replaces, "replaces"},
-      {&Known::mock, "mock"},
-      {&Known::skip, "skip"},
-      {&Known::setup, "setup"},
-      {&Known::teardown, "teardown"},
-      {&Known::test_case, "case"},
-      {&Known::safe_values, "safe_values"},
-      {&Known::before_task, "before_task"},
-      {&Known::after_task, "after_task"},
-      {&Known::alias, "alias"},
-      {&Known::required, "required"},
-      {&Known::optional, "optional"},
-      {&Known::lazy, "lazy"},
-      {&Known::long_time, "long_time"},
-      {&Known::extensible, "extensible"},
-      {&Known::prefix, "prefix"},
-      {&Known::sized, "sized"},
-      {&Known::slice, "slice"},
-      {&Known::pure, "pure"},
-      {&Known::native, "native"},
-      {&Known::op, "operator"},
-      {&Known::std, "std"},
-      {&Known::no_final_scan, "no_final_scan"},
-      {&Known::list, "list"},
-      {&Known::fault, "fault"},
-      {&Known::no_copy, "no_copy"},
-      {&Known::bytes, "bytes"},
-      {&Known::attribute_no_check, "no_check"},
-      {&Known::attribute_no_virtual_actions, "no_virtual_actions"},
-      {&Known::attribute_obsolete, "obsolete"},
-      {&Known::attribute_to_string, "to_string"},
-      {&Known::attribute_unique_name, "unique_name"},
-      {&Known::attribute_call_after_init, "call_after_init"},
-      {&Known::attribute_pack_mode, "pack_mode"},
-      {&Known::attribute_global_init_slot, "global_init_slot"},
-      {&Known::attribute_after_globals, "call_after_global_init_slot"},
-      {&Known::attribute_initialize_on_call, "initialize_on_call"},
-      {&Known::attribute_is_connected, "is_connected"},
-      {&Known::attribute_reflection, "reflection"},
-      {&Known::attribute_no_exit, "no-exit"},
-      {&Known::attribute_symbol, "symbol"},
-  };
-  for (const Row& row : kRows)
-    context.scopes.known_names.*row.name = context.names().key(context.names().intern(row.text));
+  const auto keyOf = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
+  Known& known = context.scopes.known_names;
+  for (const auto& row : kKnownNames) known.*row.name = keyOf(row.text);
+  for (const auto& row : kAttributes) known.attributes.*row.name = keyOf(row.text);
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -101,11 +111,11 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
 
 NamedType& addNamed(Context& context, TypeId type) {
   Scopes& scopes = context.scopes;
-  if (scopes.named_of_type.size() <= type.index) scopes.named_of_type.resize(type.index + 1, 0);
-  scopes.named_of_type[type.index] = static_cast<uint32_t>(scopes.named_types.size());
-  scopes.named_types.emplace_back();
+  if (scopes.named_types.of_type.size() <= type.index) scopes.named_types.of_type.resize(type.index + 1, 0);
+  scopes.named_types.of_type[type.index] = static_cast<uint32_t>(scopes.named_types.list.size());
+  scopes.named_types.list.emplace_back();
   scopes.declared_types.push_back(type);
-  return scopes.named_types.back();
+  return scopes.named_types.list.back();
 }
 
 namespace {
@@ -142,100 +152,131 @@ void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity decl
   if (first) reportTwice(context, name, loc, locOf(context, first));
 }
 
+// {operator 'select'}, {operator 'add'} of functions of the standard library.
+void takeOperator(Context& context, const DeclHeader& header, Pou& pou) {
+  const Pragma* const pragma = findPragma(context, header, context.scopes.known_names.op);
+  if (pragma == nullptr) return;
+  const std::string_view word = context.tree().string(pragma->value);
+  static constexpr std::pair<std::string_view, OperatorKind> kOperators[] = {{"select", OperatorKind::Select},
+                                                                             {"mux", OperatorKind::Mux},
+                                                                             {"convert", OperatorKind::Convert},
+                                                                             {"move", OperatorKind::Move}};
+  const auto* row = std::find_if(std::begin(kOperators), std::end(kOperators),
+                                 [&](const auto& candidate) { return candidate.first == word; });
+  if (row != std::end(kOperators))
+    pou.pragmas.operator_kind = row->second;
+  else if (types::findOp(word, pou.pragmas.op))
+    pou.pragmas.operator_kind = OperatorKind::Op;
+}
+
+// {test}, {skip 'why'}, {replaces 'Other'} and what else is there for tests.
+void takeTestPragmas(Context& context, const DeclHeader& header, bool of_library, Pou& pou) {
+  const Scopes::KnownNames& known = context.scopes.known_names;
+  const auto has = [&](NameId name) { return findPragma(context, header, name) != nullptr; };
+  pou.pragmas.test = has(known.test);
+  pou.pragmas.setup = has(known.setup);
+  pou.pragmas.teardown = has(known.teardown);
+  pou.pragmas.safe_values = has(known.safe_values);
+  pou.pragmas.test_only = has(known.test_only) || pou.pragmas.setup || pou.pragmas.teardown;
+  if (const Pragma* pragma = findPragma(context, header, known.skip); pragma != nullptr) {
+    const std::string_view why = context.tree().string(pragma->value);
+    pou.pragmas.skip = context.names().intern(why.empty() ? "no reason given" : why);
+  }
+  if (const Pragma* pragma = findPragma(context, header, known.replaces); pragma != nullptr && !of_library) {
+    pou.pragmas.replaces = context.names().intern(context.tree().string(pragma->value));
+    pou.pragmas.test_only = true;
+  }
+}
+
+void takePragmas(Context& context, const PouDecl& decl, bool of_library, Pou& pou) {
+  const Scopes::KnownNames& known = context.scopes.known_names;
+  const auto has = [&](NameId name) { return findPragma(context, decl.h, name) != nullptr; };
+  pou.pragmas.native = decl.body_kind == BodyKind::Native || has(known.native);
+  pou.pragmas.pure = has(known.pure);
+  pou.pragmas.prefix = has(known.prefix);
+  pou.pragmas.sized = has(known.sized);
+  pou.pragmas.slice = has(known.slice);
+  pou.pragmas.faults = has(known.fault);
+  pou.pragmas.no_copy = has(known.no_copy);
+  pou.pragmas.bytes = has(known.bytes);
+  pou.pragmas.call_after_init = has(known.attributes.call_after_init);
+  pou.pragmas.no_virtual_actions = has(known.attributes.no_virtual_actions);
+  pou.pragmas.no_check = has(known.attributes.no_check);
+  takeAttributes(context, decl.h, pou);
+  takeTestPragmas(context, decl.h, of_library, pou);
+  takeOperator(context, decl.h, pou);
+}
+
+// The structure of the variables of a program, function block or interface.
+void addRecord(Context& context, PouId id, const PouDecl& decl, bool of_library) {
+  Pou& pou = context.project.pous[id.index];
+  if (pou.kind == PouKind::Function) return;
+  const RecordKind kind = pou.kind == PouKind::Program     ? RecordKind::Program
+                          : pou.kind == PouKind::Interface ? RecordKind::Interface
+                                                           : RecordKind::FunctionBlock;
+  pou.record = context.types().addRecord(kind, pou.unique_name);
+  if (pou.kind == PouKind::FunctionBlock) context.types().edit(pou.record).pack = packModeOf(context, decl.h);
+  NamedType& named = addNamed(context, pou.record);
+  named.pou = id;
+  named.file = pou.file;
+  named.library = of_library;
+  named.region = context.region;
+}
+
+// VAR_GLOBAL in a program: a list that has its name.
+void collectGlobals(Context& context, const Pou& pou, const PouDecl& decl) {
+  if (!mayHoldGlobals(context, pou.kind)) return;
+  Scopes& scopes = context.scopes;
+  for (const DeclId id : context.tree().list(decl.sections)) {
+    const SectionDecl& section = context.tree().as<SectionDecl>(id);
+    if (section.section != SectionKind::Global) continue;
+    const ListId list = listNamed(context, toString(context, pou.name), pou.file, section.h.loc, scopes.qualifiers);
+    addGlobals(context, list, id, scopes.globals);
+  }
+}
+
+void enterLibrary(Context& context, PouId id, uint32_t library) {
+  Scopes& scopes = context.scopes;
+  Pou& pou = context.project.pous[id.index];
+  pou.library = pou.progress.used = true;
+  pou.library_name = scopes.libraries.list[library].name;
+  declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(id));
+  pou.unique_name = uniqueNameInLibrary(context, library, pou.name);
+  if (!pou.record) return;
+  context.types().edit(pou.record).name = pou.unique_name;
+  if (pou.unique_name != pou.name)
+    context.types().edit(pou.record).shown_name = nameWithLibrary(context, library, pou.name);
+}
+
 void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
   const PouDecl& decl = context.tree().as<PouDecl>(id);
-  const Scopes::KnownNames& known = scopes.known_names;
+  const bool of_library = library != kNoLibrary;
   const PouId pou_id{static_cast<uint32_t>(project.pous.size())};
   project.pous.emplace_back();
   scopes.pous.emplace_back();
   Pou& pou = project.pous.back();
   scopes.pous.back().region = regionOfPou(context, decl);
-  Namespace* const space = library == kNoLibrary ? namespaceFor(context, decl.name) : nullptr;
+  Namespace* const space = of_library ? nullptr : namespaceFor(context, decl.name);
   pou.name = decl.name;
   pou.unique_name = qualifiedName(context, decl.name);
   pou.loc = decl.h.loc;
   pou.kind = decl.pou_kind;
   pou.decl = id;
   pou.file = file;
-  pou.pragmas.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, known.native) != nullptr;
-  pou.cpp = decl.body_kind == BodyKind::Cpp;
-  pou.pragmas.pure = findPragma(context, decl.h, known.pure) != nullptr;
-  pou.pragmas.prefix = findPragma(context, decl.h, known.prefix) != nullptr;
-  pou.pragmas.sized = findPragma(context, decl.h, known.sized) != nullptr;
-  pou.pragmas.slice = findPragma(context, decl.h, known.slice) != nullptr;
-  pou.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
-  pou.pragmas.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
-  pou.pragmas.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
-  pou.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
-  pou.pragmas.no_virtual_actions = findPragma(context, decl.h, known.attribute_no_virtual_actions) != nullptr;
-  pou.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
-  takeAttributes(context, decl.h, pou);
-  pou.pragmas.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
-  pou.pragmas.test = findPragma(context, decl.h, known.test) != nullptr;
-  pou.pragmas.setup = findPragma(context, decl.h, known.setup) != nullptr;
-  pou.pragmas.teardown = findPragma(context, decl.h, known.teardown) != nullptr;
-  pou.pragmas.safe_values = findPragma(context, decl.h, known.safe_values) != nullptr;
-  pou.pragmas.test_only = pou.pragmas.test_only || pou.pragmas.setup || pou.pragmas.teardown;
-  if (const Pragma* pragma = findPragma(context, decl.h, known.skip); pragma != nullptr) {
-    const std::string_view why = context.tree().string(pragma->value);
-    pou.pragmas.skip = context.names().intern(why.empty() ? "no reason given" : why);
-  }
-  if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
-    pou.pragmas.replaces = context.names().intern(context.tree().string(pragma->value));
-    pou.pragmas.test_only = true;
-  }
-  if (const Pragma* pragma = findPragma(context, decl.h, known.op)) {
-    const std::string_view word = context.tree().string(pragma->value);
-    static constexpr std::pair<std::string_view, OperatorKind> kOperators[] = {{"select", OperatorKind::Select},
-                                                                               {"mux", OperatorKind::Mux},
-                                                                               {"convert", OperatorKind::Convert},
-                                                                               {"move", OperatorKind::Move}};
-    const auto* row = std::find_if(std::begin(kOperators), std::end(kOperators),
-                                   [&](const auto& candidate) { return candidate.first == word; });
-    if (row != std::end(kOperators))
-      pou.pragmas.operator_kind = row->second;
-    else if (types::findOp(word, pou.pragmas.op))
-      pou.pragmas.operator_kind = OperatorKind::Op;
-  }
+  pou.cpp.is_body = decl.body_kind == BodyKind::Cpp;
   pou.access = decl.access;
   pou.object.modifiers = decl.modifiers;
-  if (pou.kind != PouKind::Function) {
-    pou.record = context.types().addRecord(pou.kind == PouKind::Program     ? RecordKind::Program
-                                           : pou.kind == PouKind::Interface ? RecordKind::Interface
-                                                                            : RecordKind::FunctionBlock,
-                                           pou.unique_name);
-    if (pou.kind == PouKind::FunctionBlock) context.types().edit(pou.record).pack = packModeOf(context, decl.h);
-    NamedType& named = addNamed(context, pou.record);
-    named.pou = pou_id;
-    named.file = file;
-    named.library = library != kNoLibrary;
-    named.region = context.region;
-  }
+  takePragmas(context, decl, of_library, pou);
+  addRecord(context, pou_id, decl, of_library);
   if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty()) declareChart(context, pou_id);
-  if (library == kNoLibrary) {
+  if (of_library)
+    enterLibrary(context, pou_id, library);
+  else
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
-    collectMembers(context, pou_id);
-    if (!mayHoldGlobals(context, pou.kind)) return;
-    for (const DeclId id_of_section : context.tree().list(decl.sections)) {
-      const SectionDecl& section = context.tree().as<SectionDecl>(id_of_section);
-      if (section.section != SectionKind::Global) continue;
-      addGlobals(context, listNamed(context, toString(context, pou.name), file, section.h.loc, scopes.qualifiers),
-                 id_of_section, scopes.globals);
-    }
-    return;
-  }
-  pou.library = pou.progress.used = true;
-  pou.library_name = scopes.libraries.list[library].name;
-  declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
-  pou.unique_name = uniqueNameInLibrary(context, library, pou.name);
-  if (pou.record) {
-    context.types().edit(pou.record).name = pou.unique_name;
-    if (pou.unique_name != pou.name)
-      context.types().edit(pou.record).shown_name = nameWithLibrary(context, library, pou.name);
-  }
   collectMembers(context, pou_id);
+  if (!of_library) collectGlobals(context, pou, decl);
 }
 
 void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
@@ -274,8 +315,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
-    const bool qualified = findPragma(context, decl.h, scopes.known_names.attribute_qualified_only) != nullptr;
-    table.edit(type).strict = findPragma(context, decl.h, scopes.known_names.attribute_strict) != nullptr;
+    const bool qualified = findPragma(context, decl.h, scopes.known_names.attributes.qualified_only) != nullptr;
+    table.edit(type).strict = findPragma(context, decl.h, scopes.known_names.attributes.strict) != nullptr;
     table.edit(type).qualified = qualified;
     NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
     declareItems(context, type, decl.type, qualified ? nullptr : bare, library == kNoLibrary);
@@ -287,11 +328,11 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
 std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
   Scopes& scopes = context.scopes;
   if (const Pragma* pragma = findPragma(context, section.h, scopes.known_names.list)) {
-    scopes.open_list_file = file;
-    scopes.open_list = context.tree().string(pragma->value);
+    scopes.open_list.file = file;
+    scopes.open_list.name = context.tree().string(pragma->value);
   }
-  const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
-  return is_named ? scopes.open_list : listNameOf(context.symbols.sources.path(file));
+  const bool is_named = scopes.open_list.file == file && !scopes.open_list.name.empty();
+  return is_named ? scopes.open_list.name : listNameOf(context.symbols.sources.path(file));
 }
 
 }  // namespace
@@ -347,7 +388,7 @@ static bool hasUniqueName(const Context& context, const Var& var) {
   if (!var.decl) return false;
   const DeclHeader& header = context.tree().decl(var.decl);
   return !header.pragmas.empty() &&
-         findPragma(context, header, context.scopes.known_names.attribute_unique_name) != nullptr;
+         findPragma(context, header, context.scopes.known_names.attributes.unique_name) != nullptr;
 }
 
 void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
@@ -360,7 +401,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   checkAttributes(context, section.h, Attributed::Globals);
   if (const auto slot = initSlotOf(context, section.h)) list.init_slot = *slot;
   list.symbol_access = symbolAccessOf(context, section.h).value_or(types::SymbolAccess::ReadWrite);
-  const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
+  const bool qualified_only = findPragma(context, section.h, scopes.known_names.attributes.qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();
   for (const DeclId decl : context.tree().list(section.vars)) {
@@ -368,7 +409,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
   }
   for (size_t i = first; context.region && i < list.vars.size(); ++i)
-    scopes.region_of_global[list.vars[i].index] = context.region;
+    scopes.regions.of_global[list.vars[i].index] = context.region;
   if (qualified_only) return;
   for (size_t i = first; i < list.vars.size(); ++i) {
     const Var& var = project.var(list.vars[i]);

@@ -432,8 +432,7 @@ void collectConfigurations(Context& context) {
       NameId& only = resources.try_emplace(key.index, resource).first->second;
       if (!(only == resource)) only = {};
       const Entity mark = Entity::of(EntityKind::Program, 0);
-      if (!context.scopes.programs_with_instance.insert(key, mark))
-        context.scopes.programs_with_several.insert(key, mark);
+      if (!context.scopes.instantiated.once.insert(key, mark)) context.scopes.instantiated.again.insert(key, mark);
       return;
     }
     if (tree.kind(member) != DeclKind::Section) return;

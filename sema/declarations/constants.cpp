@@ -180,70 +180,74 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   return checked(context, types::convert(context.types(), *value, meaning(header).type), header.loc, {});
 }
 
+// The value of an item of an enumeration, or of a constant.
+std::optional<Value> valueOfEntity(const Context& context, Entity found) {
+  if (found.entityKind() == EntityKind::EnumValue) {
+    const EnumValue& item = context.symbols.enum_values[found.index];
+    return Value{item.type, static_cast<uint64_t>(item.value)};
+  }
+  if (found.entityKind() != EntityKind::Var) return std::nullopt;
+  const Var& var = context.symbols.vars[found.index];
+  if (!var.constant || !var.has_value) return std::nullopt;
+  return var.value;
+}
+
+// A string as one of another kind or length. None: the conversion needs the library.
+std::optional<Value> convertString(Context& context, const Value& value, TypeId type) {
+  const TypeKind from = context.types().plainKind(value.type), to = context.types().plainKind(type);
+  const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value.bits)});
+  if (from == TypeKind::String && to == TypeKind::WString)
+    return isUtf8(text) ? std::optional(Value{type, value.bits}) : std::nullopt;
+  if (from != to) return std::nullopt;
+  const uint32_t capacity = context.types().info(context.types().resolve(type)).length;
+  if (to == TypeKind::WString || text.size() <= capacity) return Value{type, value.bits};
+  size_t taken = capacity;
+  while (to == TypeKind::UString && taken > 0 && (static_cast<unsigned char>(text[taken]) & 0xc0) == 0x80) --taken;
+  return Value{type, context.names().intern(text.substr(0, taken)).index};
+}
+
+std::optional<Value> evaluateConvert(Context& context, ExprId id, TypeId native, uint32_t depth) {
+  const auto value = evaluateUncut(context, context.tree().as<ConvertExpr>(id).operand, depth + 1);
+  if (!value) return std::nullopt;
+  if (native) return types::convert(context.types(), *value, native).value;
+  const TypeId type = context.type(id);
+  if (TypeTable::isString(context.types().plainKind(value->type))) return convertString(context, *value, type);
+  if (!TypeTable::isScalar(context.types().plainKind(type))) return std::nullopt;
+  return types::convert(context.types(), *value, type, roundingOf(context.meaning(id))).value;
+}
+
+std::optional<Value> evaluateUnary(Context& context, const UnaryExpr& node, TypeId native, uint32_t depth) {
+  const auto value = evaluateOperand(context, node.operand, native, depth + 1);
+  if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
+  if (TypeTable::isString(context.types().plainKind(value->type))) return std::nullopt;
+  if (node.op() == UnaryOp::Plus) return value;
+  return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc, {});
+}
+
+std::optional<Value> evaluateBinary(Context& context, const BinaryExpr& node, TypeId native, uint32_t depth) {
+  const Op op = operatorOf(node.op());
+  const TypeId type = types::isComparison(op) ? comparedType(context.symbols, node.left, node.right) : native;
+  const auto left = evaluateOperand(context, node.left, type, depth + 1);
+  if (!left) return std::nullopt;
+  const auto right = evaluateOperand(context, node.right, type, depth + 1);
+  if (!right) return std::nullopt;
+  return applyChecked(context, op, *left, *right, node.h.loc, context.tree().begin(node.right));
+}
+
 // The value of an intermediate result in its own type (intermediate.h), of other expressions in theirs.
 std::optional<Value> evaluateUncut(Context& context, ExprId id, uint32_t depth) {
   const Tree& tree = context.tree();
-  const ExprHeader& header = tree.expr(id);
-  if (!meaning(header).type || meaning(header).type == types::kError || depth > kMaxDepth) return std::nullopt;
+  const Meaning& known = context.meaning(id);
+  if (!known.type || known.type == types::kError || depth > kMaxDepth) return std::nullopt;
   const TypeId native = uncutType(context.symbols, id);
-  switch (header.kind) {
+  switch (tree.kind(id)) {
     case ExprKind::Literal: return valueOf(context.symbols, tree.as<LiteralExpr>(id));
     case ExprKind::Name:
     case ExprKind::TypedName:
-    case ExprKind::Member: {
-      const Entity found = header.kind == ExprKind::Name        ? meaning(tree, id).entity
-                           : header.kind == ExprKind::TypedName ? meaning(tree, id).entity
-                                                                : meaning(tree, id).entity;
-      if (found.entityKind() == EntityKind::EnumValue) {
-        const EnumValue& item = context.symbols.enum_values[found.index];
-        return Value{item.type, static_cast<uint64_t>(item.value)};
-      }
-      if (found.entityKind() != EntityKind::Var) return std::nullopt;
-      const Var& var = context.symbols.vars[found.index];
-      if (!var.constant || !var.has_value) return std::nullopt;
-      return var.value;
-    }
-    case ExprKind::Convert: {
-      const auto value = evaluateUncut(context, tree.as<ConvertExpr>(id).operand, depth + 1);
-      if (!value) return std::nullopt;
-      if (native) return types::convert(context.types(), *value, native).value;
-      const TypeKind from = context.types().plainKind(value->type),
-                     to = context.types().plainKind(meaning(header).type);
-      if (TypeTable::isString(from) && from == to) {
-        const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
-        const uint32_t capacity = context.types().info(context.types().resolve(meaning(header).type)).length;
-        if (to == TypeKind::WString || text.size() <= capacity) return Value{meaning(header).type, value->bits};
-        size_t taken = capacity;
-        while (to == TypeKind::UString && taken > 0 && (static_cast<unsigned char>(text[taken]) & 0xc0) == 0x80)
-          --taken;
-        return Value{meaning(header).type, context.names().intern(text.substr(0, taken)).index};
-      }
-      if (from == TypeKind::String && to == TypeKind::WString) {
-        const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
-        if (!isUtf8(text)) return std::nullopt;
-        return Value{meaning(header).type, value->bits};
-      }
-      if (TypeTable::isString(from) || !TypeTable::isScalar(to)) return std::nullopt;
-      return types::convert(context.types(), *value, meaning(header).type, roundingOf(context.meaning(id))).value;
-    }
-    case ExprKind::Unary: {
-      const UnaryExpr& node = tree.as<UnaryExpr>(id);
-      const auto value = evaluateOperand(context, node.operand, native, depth + 1);
-      if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
-      if (TypeTable::isString(context.types().plainKind(value->type))) return std::nullopt;
-      if (node.op() == UnaryOp::Plus) return value;
-      return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc, {});
-    }
-    case ExprKind::Binary: {
-      const BinaryExpr& node = tree.as<BinaryExpr>(id);
-      const Op op = operatorOf(node.op());
-      const TypeId type = types::isComparison(op) ? comparedType(context.symbols, node.left, node.right) : native;
-      const auto left = evaluateOperand(context, node.left, type, depth + 1);
-      if (!left) return std::nullopt;
-      const auto right = evaluateOperand(context, node.right, type, depth + 1);
-      if (!right) return std::nullopt;
-      return applyChecked(context, op, *left, *right, node.h.loc, tree.begin(node.right));
-    }
+    case ExprKind::Member: return valueOfEntity(context, known.entity);
+    case ExprKind::Convert: return evaluateConvert(context, id, native, depth);
+    case ExprKind::Unary: return evaluateUnary(context, tree.as<UnaryExpr>(id), native, depth);
+    case ExprKind::Binary: return evaluateBinary(context, tree.as<BinaryExpr>(id), native, depth);
     case ExprKind::Call: return evaluateCall(context, id, depth);
     case ExprKind::Error:
     case ExprKind::Index:

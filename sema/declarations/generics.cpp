@@ -142,7 +142,7 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   const std::vector<Ident> names = genericsOf(tree, tree.as<PouDecl>(block.decl));
   if (names.empty() && written.generics.empty()) return block_id;
   const PouId around = objectOf(context);
-  const bool own = around && (around == block_id || symbols.pou(around).generic_of == block_id);
+  const bool own = around && (around == block_id || symbols.pou(around).instance.of == block_id);
   if (own && written.generics.empty()) return around;
   std::vector<GenericValue> values;
   if (!readGenerics(context, block, names, written, values)) return {};
@@ -157,7 +157,7 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   const NameId key = context.names().key(context.names().intern(toString(context, block.unique_name) + "<" + unique));
   if (const Entity known = context.scopes.instances.find(key)) return PouId{known.index};
 
-  const uint32_t depth = around ? symbols.pou(around).generic_depth + 1 : 1;
+  const uint32_t depth = around ? symbols.pou(around).instance.depth + 1 : 1;
   if (depth > kMaxGenericDepth) {
     context.report(diag::GenericsTooDeep, written.h.loc,
                    {context.names().string(block.name), std::to_string(kMaxGenericDepth)});
@@ -177,8 +177,8 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
     Pou& made = symbols.pou(id);
     made.name = context.names().intern(shown);
     if (made.record) context.types().edit(made.record).shown_name = made.name;
-    made.generic_of = block_id;
-    made.generic_depth = depth;
+    made.instance.of = block_id;
+    made.instance.depth = depth;
     return id;
   }
   return block_id;
@@ -236,7 +236,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
     pou.generic = pou.extensible = false;
     pou.progress.body = Pou::Progress::Body::New;
     pou.progress.used = true;
-    pou.generic_of = generic_id;
+    pou.instance.of = generic_id;
     pou.unique_name = unique_name;
     const PouId id{static_cast<uint32_t>(symbols.pous.size())};
     symbols.pous.push_back(std::move(pou));

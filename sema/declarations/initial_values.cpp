@@ -306,71 +306,78 @@ struct Initializer {
       context.report(diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
 
+  // A record whose value has no members. __VARINFO(x) is one in codesys.
+  void wholeRecord(ExprId& init, TypeId type) {
+    if (likeAnother(init, type)) return;
+    if (tree().kind(init) == ExprKind::Call && context.profile().system_operators) {
+      ExprId value = init;
+      if (context.expressions->checkAs(context, value, type, std::string("used as ") + std::string(what)) &&
+          tree().kind(value) == ExprKind::AnyValue) {
+        init = value;
+        return;
+      }
+      if (typeOf(tree(), value) == types::kError) {
+        init = {};
+        return;
+      }
+    }
+    context.report(diag::MembersExpected, tree().begin(init), {context.types().toString(type)});
+    init = {};
+  }
+
+  using BitBytes = std::vector<std::pair<VarId, uint8_t>>;  // bytes that hold members of type BIT, and their values
+
   // Forbids members that do not exist, that are set twice, or that an initial value cannot set: inputs, and in codesys
-  // outputs and locals too, are allowed.
+  // outputs and locals too, are allowed. False: reported.
   //   passes  t : TON := (PT := T#5s);
   //   fails   t : TON := (PTX := T#5s);                           E0329
-  void record(ExprId& init, TypeId type) {
-    if (tree().kind(init) != ExprKind::StructInit) {
-      if (likeAnother(init, type)) return;
-      if (tree().kind(init) == ExprKind::Call && context.profile().system_operators) {  // __VARINFO(x)
-        ExprId value = init;
-        if (context.expressions->checkAs(context, value, type, std::string("used as ") + std::string(what)) &&
-            tree().kind(value) == ExprKind::AnyValue) {
-          init = value;
-          return;
-        }
-        if (typeOf(tree(), value) == types::kError) {
-          init = {};
-          return;
-        }
-      }
-      context.report(diag::MembersExpected, tree().begin(init), {context.types().toString(type)});
-      init = {};
-      return;
+  bool setMember(FieldInit& given, TypeId type, NameMap& seen, BitBytes& bytes) {
+    const std::string_view name = context.names().string(given.field.name);
+    const VarId member = findMember(context, type, given.field.name);
+    if (!member && setProperty(given, type, seen)) return true;
+    if (!member) {
+      if (isFirstReportOfMember(context, type, given.field.name))
+        context.report(diag::UnknownMember, given.field.loc, {context.types().toString(type), name})
+            .didYouMean(nearestMember(type, given.field.name));
+      return false;
     }
+    const Var& var = context.symbols.var(member);
+    if (!seen.insert(keyOf(context, var.name), entity(member))) {
+      context.report(diag::DuplicateMember, given.field.loc, {name});
+      return false;
+    }
+    const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
+                          (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public ||
+                           context.profile().initialised_members);
+    if (!settable) {
+      context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
+          .declaredHere(var.loc);
+      return false;
+    }
+    given.field.name = var.name;  // an alias means its pin
+    if (given.value) value(given.value, var.type);
+    if (var.bits.is_bit && given.value) {
+      setBit(bytes, type, member, given.value);
+      given.value = {};
+    }
+    return true;
+  }
+
+  void record(ExprId& init, TypeId type) {
+    if (tree().kind(init) != ExprKind::StructInit) return wholeRecord(init, type);
     const StructInitExpr& node = tree().as<StructInitExpr>(init);
     meaning(node.h).type = type;
     std::vector<FieldInit> fields;  // as they are set: by the names of members, with bits together in their bytes
     NameMap seen;
-    std::vector<std::pair<VarId, uint8_t>> bytes;  // bytes that hold members of type BIT, with the given values
+    BitBytes bytes;
     for (FieldInit& written : context.code().list(node.fields)) {
       FieldInit given = written;
-      fields.push_back(given);
-      const std::string_view name = context.names().string(given.field.name);
-      const VarId member = findMember(context, type, given.field.name);
-      if (!member && setProperty(given, type, seen)) {
-        if (given.value) written.value = given.value;
-        fields.back() = given;
+      if (!setMember(given, type, seen, bytes)) {
+        fields.push_back(written);
         continue;
-      }
-      if (!member) {
-        if (!isFirstReportOfMember(context, type, given.field.name)) continue;
-        context.report(diag::UnknownMember, given.field.loc, {context.types().toString(type), name})
-            .didYouMean(nearestMember(type, given.field.name));
-        continue;
-      }
-      const Var& var = context.symbols.var(member);
-      if (!seen.insert(keyOf(context, var.name), entity(member))) {
-        context.report(diag::DuplicateMember, given.field.loc, {name});
-        continue;
-      }
-      const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
-                            (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public ||
-                             context.profile().initialised_members);
-      if (!settable) {
-        context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
-            .declaredHere(var.loc);
-        continue;
-      }
-      given.field.name = var.name;  // an alias means its pin
-      if (given.value) value(given.value, var.type);
-      if (var.bits.is_bit && given.value) {
-        setBit(bytes, type, member, given.value);
-        given.value = {};
       }
       if (given.value) written.value = given.value;
-      fields.back() = given;
+      fields.push_back(given);
     }
     const auto same = [](const FieldInit& a, const FieldInit& b) {
       return a.field.name == b.field.name && a.value == b.value;

@@ -173,59 +173,67 @@ struct InstancePathResolver {
 
   // ---- VAR_CONFIG
 
+  // [configuration .] [resource .] instance at the front of a path; 0: the path names no instance.
+  size_t followInstance(std::span<const Ident> names, InstancePath& out) const {
+    for (uint32_t i = 0; i < project.instances.size(); ++i) {
+      const ProgramInstance& instance = project.instances[i];
+      size_t next = 0;
+      const auto matches = [&](NameId name) {
+        return next < names.size() && name && context.names().same(name, names[next].name);
+      };
+      if (matches(instance.configuration)) ++next;
+      if (matches(instance.resource)) ++next;
+      if (!matches(instance.name)) continue;
+      out.instance = i;
+      out.program = instance.program;
+      if (out.program) return next + 1;
+    }
+    return 0;
+  }
+
+  // The name of a program, or [list .] variable. 0: reported.
+  size_t followGlobal(std::span<const Ident> names, InstancePath& out) {
+    const NameId key = keyOf(context, names[0].name);
+    const Entity named = context.scopes.pous_and_types.find(key);
+    if (named.entityKind() == EntityKind::Pou && project.pous[named.index].kind == PouKind::Program) {
+      out.program = PouId{named.index};
+      return 1;
+    }
+    const Entity list = context.scopes.qualifiers.find(key);
+    const bool has_list = list.entityKind() == EntityKind::GlobalList && names.size() > 1;
+    const Ident& name = names[has_list ? 1 : 0];
+    const Entity found = has_list ? context.scopes.lists[list.index].names.find(keyOf(context, name.name))
+                                  : context.scopes.globals.find(key);
+    if (found.entityKind() != EntityKind::Var) {
+      reportPath(name);
+      return 0;
+    }
+    out.var = VarId{found.index};
+    out.path.push_back({out.var, -1});
+    return has_list ? 2 : 1;
+  }
+
+  bool reportPath(const Ident& name) {
+    context.report(diag::ConfigPath, name.loc, {string(name.name)});
+    return false;
+  }
+
   // Resolves a path of VAR_CONFIG: a variable, and the path to it when it lives in an instance.
   //   passes  VAR_CONFIG Main.drive.ready AT %IX1.0 : BOOL; END_VAR
   //   fails   VAR_CONFIG Main.drivee.ready AT %IX1.0 : BOOL; END_VAR       E0825
   bool follow(std::span<const Ident> names, InstancePath& out) {
-    size_t next = 0;
-    const auto matches = [&](NameId name) {
-      return next < names.size() && name && context.names().same(name, names[next].name);
-    };
-    Entity found;
-    for (uint32_t i = 0; i < project.instances.size() && !out.program; ++i) {
-      const ProgramInstance& instance = project.instances[i];
-      next = 0;
-      if (matches(instance.configuration)) ++next;
-      if (matches(instance.resource)) ++next;
-      if (!matches(instance.name)) continue;
-      ++next;
-      out.instance = i;
-      out.program = instance.program;
-    }
-    if (!out.program) {
-      next = 0;
-      const Entity named = context.scopes.pous_and_types.find(keyOf(context, names[0].name));
-      if (named.entityKind() == EntityKind::Pou && project.pous[named.index].kind == PouKind::Program) {
-        out.program = PouId{named.index};
-        next = 1;
-      } else {
-        const Entity list = context.scopes.qualifiers.find(keyOf(context, names[0].name));
-        if (list.entityKind() == EntityKind::GlobalList && names.size() > 1) next = 1;
-        found = next == 1 ? context.scopes.lists[list.index].names.find(keyOf(context, names[next].name))
-                          : context.scopes.globals.find(keyOf(context, names[next].name));
-        if (found.entityKind() != EntityKind::Var) {
-          context.report(diag::ConfigPath, names[next].loc, {string(names[next].name)});
-          return false;
-        }
-        out.path.push_back({VarId{found.index}, -1});
-        out.var = VarId{found.index};
-        ++next;
-      }
-    }
+    size_t next = followInstance(names, out);
+    if (next == 0) next = followGlobal(names, out);
+    if (next == 0) return false;
     TypeId type = out.var ? project.var(out.var).type : project.pou(out.program).record;
     for (; next < names.size(); ++next) {
       const VarId member = findMember(context, type, names[next].name);
-      if (!member) {
-        if (type != types::kError) context.report(diag::ConfigPath, names[next].loc, {string(names[next].name)});
-        return false;
-      }
+      if (!member) return type != types::kError && reportPath(names[next]);
       out.var = member;
       out.path.push_back({member, -1});
       type = project.var(member).type;
     }
-    if (out.var) return true;
-    context.report(diag::ConfigPath, names[names.size() - 1].loc, {string(names[names.size() - 1].name)});
-    return false;
+    return out.var || reportPath(names[names.size() - 1]);
   }
 
   // Forbids two lines of VAR_CONFIG for one variable.   fails  Main.start AT %IX0 : BOOL; Main.start AT %IX1 : BOOL;
@@ -243,86 +251,109 @@ struct InstancePathResolver {
     return true;
   }
 
+  // A line of VAR_CONFIG.
+  struct Line {
+    const VarDecl& decl;
+    Ident name;  // the last of its path
+    TypeId type;
+    InstancePath target;
+    std::optional<ImageView> view;
+    ExprId init;
+  };
+
   // Forbids a line that does not fit the variable: another type, an address where none was left open, another area.
+  bool fits(const Line& line, const Var& var) {
+    if (line.type == types::kError || var.type == types::kError) return false;
+    if (context.types().resolve(line.type) != context.types().resolve(var.type)) {
+      context
+          .report(diag::ExternalType, tree().loc(line.decl.type),
+                  {string(line.name.name), context.types().toString(line.type), context.types().toString(var.type)})
+          .declaredHere(var.loc);
+      return false;
+    }
+    if (var.constant) {
+      context.report(diag::ConfigConstant, line.name.loc, {string(line.name.name)}).declaredHere(var.loc);
+      return false;
+    }
+    if (!line.decl.located || var.open_address) return true;
+    context.report(diag::ConfigNotOpen, line.decl.address_loc, {string(line.name.name)}).declaredHere(var.loc);
+    return false;
+  }
+
+  // Resolves the address of a line that has one.
+  bool locate(Line& line, const Var& var) {
+    const VarDecl& decl = line.decl;
+    if (!decl.located) return true;
+    const std::optional<types::AreaId> named = areaOf(context, decl.address, decl.address_loc);
+    if (!named) return false;
+    if (*named != var.image.area) {
+      const std::string area(1, letterOf(var.image.area));
+      context.report(diag::ConfigArea, decl.address_loc, {string(line.name.name), area}).declaredHere(var.loc);
+      return false;
+    }
+    if (decl.address.incomplete) {
+      context.report(diag::ConfigIncomplete, decl.address_loc, {string(line.name.name)});
+      return false;
+    }
+    line.view = resolveAddress(context, decl.address, decl.address_loc, line.type);
+    return line.view.has_value();
+  }
+
+  void checkInit(Line& line) {
+    line.init = codeOf(context, line.decl.init);
+    if (!line.init) return;
+    checkInitializerAs(context, line.init, line.type,
+                       "the initial value of `" + toString(context, line.name.name) + "`");
+    for (const PathStep& step : line.target.path) {  // a configured variable has a value though no body writes it
+      if (step.var) context.symbols.var(step.var).use.written = true;
+    }
+  }
+
+  void addTarget(Line& line) {
+    line.target.configured = true;
+    line.target.loc = line.name.loc;
+    line.target.init = line.init;
+    targets.push_back(line.target);
+  }
+
+  void configureField(Line& line) {
+    const auto known = std::find_if(targets.begin(), targets.end(),
+                                    [&](const InstancePath& target) { return samePath(target, line.target); });
+    if (known == targets.end()) return addTarget(line);
+    if (known->configured) return reportConfiguredTwice(line.name, known->loc);
+    known->configured = true;
+    known->loc = line.name.loc;
+    known->init = line.init;
+    if (!line.view) return;
+    known->image = *line.view;
+    known->located = true;
+  }
+
+  // An open address that is a view itself.
+  void configureView(Line& line, Var& var) {
+    for (auto& [open, complete] : whole_) {
+      if (!(open == line.target.var)) continue;
+      if (complete) return reportConfiguredTwice(line.name, {});
+      complete = line.view.has_value();
+      if (line.view) var.image = *line.view;
+    }
+    if (line.init) addTarget(line);
+  }
+
   void configure(DeclId id) {
     const VarDecl& decl = tree().as<VarDecl>(id);
     if (decl.names.empty() || !decl.type) return;
-    InstancePath target;
     const std::span<const Ident> names = tree().list(decl.names);
-    const Ident last = names[names.size() - 1];
-    if (!follow(names, target)) return;
-    const TypeId type = resolveType(context, decl.type);
-    Var& var = project.var(target.var);
-    if (type == types::kError || var.type == types::kError) return;
-    if (context.types().resolve(type) != context.types().resolve(var.type)) {
-      context
-          .report(diag::ExternalType, tree().loc(decl.type),
-                  {string(last.name), context.types().toString(type), context.types().toString(var.type)})
-          .declaredHere(var.loc);
-      return;
-    }
-    if (var.constant) {
-      context.report(diag::ConfigConstant, last.loc, {string(last.name)}).declaredHere(var.loc);
-      return;
-    }
-    if (decl.located && !var.open_address) {
-      context.report(diag::ConfigNotOpen, decl.address_loc, {string(last.name)}).declaredHere(var.loc);
-      return;
-    }
-    std::optional<ImageView> view;
-    if (decl.located) {
-      const std::optional<types::AreaId> named = areaOf(context, decl.address, decl.address_loc);
-      if (!named) return;
-      if (*named != var.image.area) {
-        const std::string area(1, letterOf(var.image.area));
-        context.report(diag::ConfigArea, decl.address_loc, {string(last.name), area}).declaredHere(var.loc);
-        return;
-      }
-      if (decl.address.incomplete) {
-        context.report(diag::ConfigIncomplete, decl.address_loc, {string(last.name)});
-        return;
-      }
-      view = resolveAddress(context, decl.address, decl.address_loc, type);
-      if (!view) return;
-    }
-    ExprId init = codeOf(context, decl.init);
-    if (init) {
-      checkInitializerAs(context, init, type, "the initial value of `" + toString(context, last.name) + "`");
-      for (const PathStep& step : target.path) {  // a configured variable has a value though no body writes it
-        if (step.var) context.symbols.var(step.var).use.written = true;
-      }
-    }
-    if (inField(var) || !var.open_address) {
-      for (InstancePath& known : targets) {
-        if (!samePath(known, target)) continue;
-        if (known.configured) return reportConfiguredTwice(last, known.loc);
-        known.configured = true;
-        known.loc = last.loc;
-        known.init = init;
-        if (view) {
-          known.image = *view;
-          known.located = true;
-        }
-        return;
-      }
-      target.configured = true;
-      target.loc = last.loc;
-      target.init = init;
-      targets.push_back(target);
-      return;
-    }
-    for (auto& [open, complete] : whole_) {
-      if (!(open == target.var)) continue;
-      if (complete) return reportConfiguredTwice(last, {});
-      complete = view.has_value();
-      if (view) var.image = *view;
-    }
-    if (init) {
-      target.configured = true;
-      target.loc = last.loc;
-      target.init = init;
-      targets.push_back(target);
-    }
+    Line line{.decl = decl, .name = names[names.size() - 1], .type = {}, .target = {}, .view = {}, .init = {}};
+    if (!follow(names, line.target)) return;
+    line.type = resolveType(context, decl.type);
+    Var& var = project.var(line.target.var);
+    if (!fits(line, var) || !locate(line, var)) return;
+    checkInit(line);
+    if (inField(var) || !var.open_address)
+      configureField(line);
+    else
+      configureView(line, var);
   }
 
   void configureAll() {

@@ -37,7 +37,7 @@ PouId itemNamesOf(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(enumeration);
   const NamedType* const named = info.kind == types::TypeKind::Enum ? scopes.named(enumeration) : nullptr;
   if (named == nullptr || !named->decl) return {};
-  if (findPragma(context, context.tree().decl(named->decl), scopes.known_names.attribute_to_string) == nullptr)
+  if (findPragma(context, context.tree().decl(named->decl), scopes.known_names.attributes.to_string) == nullptr)
     return {};
   const std::string function = "__ITEM_OF_" + toString(context, info.name);
   const NameId key = keyOf(context, context.names().intern(function));

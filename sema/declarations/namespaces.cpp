@@ -51,21 +51,23 @@ uint32_t namespaceNamed(Context& context, uint32_t outer, const Ident& name) {
 }
 
 RegionId addRegion(Context& context, RegionId outer, uint32_t space, bool of_file = false) {
-  context.scopes.regions.push_back({.outer = outer, .space = space, .of_file = of_file, .usings = {}, .open = {}});
-  return RegionId{static_cast<uint32_t>(context.scopes.regions.size() - 1)};
+  context.scopes.regions.list.push_back({.outer = outer, .space = space, .of_file = of_file, .usings = {}, .open = {}});
+  return RegionId{static_cast<uint32_t>(context.scopes.regions.list.size() - 1)};
 }
 
 // The namespace around a region; none at file level.
 uint32_t spaceOf(const Context& context, RegionId region) {
-  for (; region; region = context.scopes.regions[region.index].outer)
-    if (context.scopes.regions[region.index].space != kNoLibrary) return context.scopes.regions[region.index].space;
+  for (; region; region = context.scopes.regions.list[region.index].outer)
+    if (context.scopes.regions.list[region.index].space != kNoLibrary)
+      return context.scopes.regions.list[region.index].space;
   return kNoLibrary;
 }
 
 // The library among the sources to which a region belongs, or none.
 uint32_t libraryAround(const Context& context, RegionId region) {
-  for (; region; region = context.scopes.regions[region.index].outer)
-    if (context.scopes.regions[region.index].library != kNoLibrary) return context.scopes.regions[region.index].library;
+  for (; region; region = context.scopes.regions.list[region.index].outer)
+    if (context.scopes.regions.list[region.index].library != kNoLibrary)
+      return context.scopes.regions.list[region.index].library;
   return kNoLibrary;
 }
 
@@ -86,12 +88,12 @@ struct Collector {
     for (uint32_t i = 0; i < decls.count; ++i)
       if (const DeclId decl = tree.list(decls)[i]; tree.kind(decl) == DeclKind::Using) usings.push_back(decl);
     if (at_file_level && !usings.empty()) region = addRegion(context, {}, kNoLibrary, true);
-    if (!usings.empty()) context.scopes.regions[region.index].usings = std::move(usings);
+    if (!usings.empty()) context.scopes.regions.list[region.index].usings = std::move(usings);
     if (const uint32_t library = libraryOfSource(context, file); at_file_level && library != kNoLibrary) {
       region = addRegion(context, region, kNoLibrary);
-      context.scopes.regions[region.index].library = library;
+      context.scopes.regions.list[region.index].library = library;
     }
-    if (at_file_level && region) context.scopes.region_of_file[file.index] = region;
+    if (at_file_level && region) context.scopes.regions.of_file[file.index] = region;
     for (const DeclId decl : tree.list(decls)) {
       if (tree.kind(decl) == DeclKind::Using) continue;
       if (tree.kind(decl) == DeclKind::Namespace) {
@@ -131,7 +133,7 @@ Entity findInSpace(Context& context, uint32_t space, NameId key, bool types_only
 Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool types_only) {
   Entity found, hidden;
   uint32_t from = kNoLibrary;
-  for (const uint32_t space : context.scopes.regions[region.index].open) {
+  for (const uint32_t space : context.scopes.regions.list[region.index].open) {
     const Entity here = findInSpace(context, space, key, types_only);
     if (!here || isNamespace(here) || (here.kind == found.kind && here.index == found.index)) continue;
     if (!isVisible(context, here)) {
@@ -197,8 +199,8 @@ bool isInternal(Context& context, Entity found) {
 // Forbids USING of a name that is not a namespace.   fails   USING Sytem.Strings;                E0404
 void openUsings(Context& context, RegionId region) {
   const Tree& tree = context.tree();
-  for (size_t i = 0; i < context.scopes.regions[region.index].usings.size(); ++i) {
-    const UsingDecl& decl = tree.as<UsingDecl>(context.scopes.regions[region.index].usings[i]);
+  for (size_t i = 0; i < context.scopes.regions.list[region.index].usings.size(); ++i) {
+    const UsingDecl& decl = tree.as<UsingDecl>(context.scopes.regions.list[region.index].usings[i]);
     Context there = context;
     there.region = region;
     Entity space;
@@ -213,22 +215,22 @@ void openUsings(Context& context, RegionId region) {
       break;
     }
     if (isNamespace(space) && checkVisible(there, space, tree.list(decl.path)[decl.path.count - 1].loc))
-      context.scopes.regions[region.index].open.push_back(space.index);
+      context.scopes.regions.list[region.index].open.push_back(space.index);
   }
 }
 
 }  // namespace
 
 RegionId regionOfFile(const Context& context, FileId file) {
-  const auto found = context.scopes.region_of_file.find(file.index);
-  return found == context.scopes.region_of_file.end() ? RegionId{} : found->second;
+  const auto found = context.scopes.regions.of_file.find(file.index);
+  return found == context.scopes.regions.of_file.end() ? RegionId{} : found->second;
 }
 
 std::vector<DeclInRegion> collectNamespaces(Context& context) {
   std::vector<DeclInRegion> out;
   Collector collector{context, out};
   for (const FileUnit& unit : context.tree().files) collector.collect(unit.decls, unit.file, {}, true);
-  for (uint32_t i = 1; i < context.scopes.regions.size(); ++i) openUsings(context, RegionId{i});
+  for (uint32_t i = 1; i < context.scopes.regions.list.size(); ++i) openUsings(context, RegionId{i});
   return out;
 }
 
@@ -236,7 +238,7 @@ RegionId regionOfPou(Context& context, const PouDecl& decl) {
   if (decl.usings.empty()) return context.region;
   const RegionId region = addRegion(context, context.region, kNoLibrary);
   for (const DeclId open : context.tree().list(decl.usings))
-    context.scopes.regions[region.index].usings.push_back(open);
+    context.scopes.regions.list[region.index].usings.push_back(open);
   openUsings(context, region);
   return region;
 }
@@ -266,8 +268,8 @@ NameId qualifiedName(Context& context, NameId name) {
 }
 
 Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only) {
-  for (RegionId at = context.region; at; at = context.scopes.regions[at.index].outer) {
-    const Region& region = context.scopes.regions[at.index];
+  for (RegionId at = context.region; at; at = context.scopes.regions.list[at.index].outer) {
+    const Region& region = context.scopes.regions.list[at.index];
     if (region.of_file) break;  // the file's USINGs come after the project's names
     const uint32_t space = region.library != kNoLibrary ? region.library : region.space;
     if (space != kNoLibrary)
@@ -279,8 +281,8 @@ Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only) {
 
 Entity lookUpOpened(Context& context, NameId key, Loc loc, bool types_only) {
   RegionId at = context.region;
-  while (at && context.scopes.regions[at.index].outer) at = context.scopes.regions[at.index].outer;
-  if (!context.scopes.regions[at.index].of_file) return {};
+  while (at && context.scopes.regions.list[at.index].outer) at = context.scopes.regions.list[at.index].outer;
+  if (!context.scopes.regions.list[at.index].of_file) return {};
   return findOpened(context, at, key, loc, types_only);
 }
 

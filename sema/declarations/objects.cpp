@@ -65,15 +65,15 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.decl = id;
   member.file = owner.file;
   member.pragmas.native = decl.body_kind == BodyKind::Native;
-  member.cpp = decl.body_kind == BodyKind::Cpp;
+  member.cpp.is_body = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.progress.used = owner.library;
   const Scopes::KnownNames& known = context.scopes.known_names;
   member.pragmas.faults = findPragma(context, decl.h, known.fault) != nullptr;
-  member.pragmas.call_after_init = findPragma(context, decl.h, known.attribute_call_after_init) != nullptr;
+  member.pragmas.call_after_init = findPragma(context, decl.h, known.attributes.call_after_init) != nullptr;
   member.pragmas.before_task = findPragma(context, decl.h, known.before_task) != nullptr;
   member.pragmas.after_task = findPragma(context, decl.h, known.after_task) != nullptr;
-  member.pragmas.no_check = findPragma(context, decl.h, known.attribute_no_check) != nullptr;
+  member.pragmas.no_check = findPragma(context, decl.h, known.attributes.no_check) != nullptr;
   takeAttributes(context, decl.h, member);
   member.library_name = owner.library_name;
   member.owner = owner_id;

@@ -23,9 +23,9 @@ bool addOverload(Context& context, Entity first, PouId added) {
     return false;
   PouId last = head;
   uint32_t count = 2;
-  for (; symbols.pou(last).next_overload; last = symbols.pou(last).next_overload) ++count;
-  symbols.pou(last).next_overload = added;
-  symbols.pou(head).overloads = pou.overloads = head;
+  for (; symbols.pou(last).overloads.next; last = symbols.pou(last).overloads.next) ++count;
+  symbols.pou(last).overloads.next = added;
+  symbols.pou(head).overloads.first = pou.overloads.first = head;
   if (kind == PouKind::Function) {  // a method's name is unique already
     const std::string stem = toString(context, pou.unique_name) + "__";
     do {
@@ -41,14 +41,14 @@ void markOverloads(Context& context) {
   if (!symbols.profile.overloads) return;
   const auto isOverloadedIn = [&](PouId object, const Pou& like) {
     for (const PouId member : symbols.pou(object).members)
-      if (symbols.pou(member).overloads && symbols.names.same(symbols.pou(member).name, like.name)) return true;
+      if (symbols.pou(member).overloads.first && symbols.names.same(symbols.pou(member).name, like.name)) return true;
     return false;
   };
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     Pou& pou = symbols.pous[i];
-    if (pou.kind != PouKind::Method || pou.overloads || pou.object.accessor != AccessorKind::None) continue;
-    for (PouId at = symbols.pou(pou.owner).base; at && !pou.overloads; at = symbols.pou(at).base)
-      if (isOverloadedIn(at, pou)) pou.overloads = PouId{i};
+    if (pou.kind != PouKind::Method || pou.overloads.first || pou.object.accessor != AccessorKind::None) continue;
+    for (PouId at = symbols.pou(pou.owner).base; at && !pou.overloads.first; at = symbols.pou(at).base)
+      if (isOverloadedIn(at, pou)) pou.overloads.first = PouId{i};
   }
 }
 
@@ -56,9 +56,9 @@ void markOverloads(Context& context) {
 //   passes  FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT x : REAL; …
 //   fails   FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT y : INT; …           E0301
 void checkOverloads(Context& context, PouId head) {
-  for (PouId id = head; id; id = context.symbols.pou(id).next_overload) {
+  for (PouId id = head; id; id = context.symbols.pou(id).overloads.next) {
     resolvePou(context, id);
-    for (PouId earlier = head; earlier != id; earlier = context.symbols.pou(earlier).next_overload) {
+    for (PouId earlier = head; earlier != id; earlier = context.symbols.pou(earlier).overloads.next) {
       if (!sameParameters(context.symbols, earlier, id)) continue;
       reportTwice(context, context.symbols.pou(id).name, context.symbols.pou(id).loc, context.symbols.pou(earlier).loc);
       break;

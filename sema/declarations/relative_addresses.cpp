@@ -57,83 +57,109 @@ void setLastOffset(Context& context, TypeId record, uint64_t byte) {
     context.types().edit(record).fields.back().given_offset = static_cast<uint32_t>(byte);
 }
 
+// Gives members their offsets, one after the other.
+class MemberLayout {
+ public:
+  MemberLayout(Context& context, TypeId record)
+      : context_(context), record_(record), overlaps_(context.types().info(record).overlaps) {}
+
+  // Begins after the inherited fields; false when these have no size.
+  bool begin() {
+    for (const types::Field& field : context_.types().info(record_).fields) {
+      if (!ensureLayout(context_, field.type)) return false;
+      end_ = aligned(context_.types().fieldAlign(field)) + sizeOf(field.type);
+    }
+    return true;
+  }
+
+  void add(const RelativeMember& item) {
+    const Var& var = context_.symbols.var(item.var);
+    if (var.type == types::kError || !ensureLayout(context_, var.type) || !place(item, var))
+      addField(context_, record_, item.var);
+  }
+
+ private:
+  uint64_t aligned(uint32_t align) const { return (end_ + align - 1) / align * align; }
+  uint64_t sizeOf(TypeId type) const { return context_.types().info(context_.types().resolve(type)).size; }
+  bool isUsed(int bit) const { return (bits_used_ >> bit & 1) != 0; }
+
+  // Forbids offsets that overlap (without OVERLAP) or do not suit the type, and a bit of anything but a BOOL.
+  //   passes  a AT %B0 : INT; b AT %B2 : USINT; c AT %X3.0 : BOOL;
+  //   fails   a AT %B0 : INT; b AT %B1 : USINT;              E0381
+  //   fails   a AT %B1 : INT;                                E0382
+  bool place(const RelativeMember& item, const Var& var) {
+    const std::string_view name = context_.names().string(var.name);
+    const VarDecl& decl = context_.tree().as<VarDecl>(var.decl);
+    if (item.bit >= 0 && context_.types().kind(var.type) != types::TypeKind::Bool) {
+      context_.report(diag::BitOffset, decl.address_loc, {name, context_.types().toString(var.type)});
+      return false;
+    }
+    types::Field member;
+    member.type = var.type;
+    member.pack = context_.types().info(record_).pack;
+    const uint32_t align = context_.types().fieldAlign(member);
+    const bool same_byte = item.bit >= 0 && bits_ && bits_at_ == item.byte && (!overlaps_ || !isUsed(item.bit));
+    const uint64_t at = item.given ? item.byte : aligned(align);
+    if (!overlaps_ && (same_byte ? isUsed(item.bit) : at < end_)) {
+      Report report = context_.report(diag::MemberOverlaps, decl.located ? decl.address_loc : var.loc, {name});
+      if (last_) report.alsoDeclaredHere(context_.symbols.var(last_).loc);
+      return false;
+    }
+    if (item.bit < 0 && at % align != 0) {
+      context_.report(diag::MemberAlignment, decl.address_loc,
+                      {name, context_.types().toString(var.type), std::to_string(align)});
+      return false;
+    }
+    if (!overlaps_ && !same_byte && at > end_) addGap(context_, record_, at - end_, var.loc);
+    last_ = item.var;
+    if (item.bit >= 0)
+      putBit(item, same_byte);
+    else
+      put(item, at, sizeOf(var.type));
+    return true;
+  }
+
+  void put(const RelativeMember& item, uint64_t at, uint64_t size) {
+    addField(context_, record_, item.var);
+    setLastOffset(context_, record_, at);
+    end_ = at + size;
+  }
+
+  void putBit(const RelativeMember& item, bool same_byte) {
+    if (!same_byte) {
+      bits_ = addByteOfBits(context_, record_, item.var);
+      setLastOffset(context_, record_, item.byte);
+      bits_at_ = item.byte;
+      bits_used_ = 0;
+      end_ = item.byte + 1;
+    }
+    bits_used_ = static_cast<uint8_t>(bits_used_ | 1u << item.bit);
+    addBitAt(context_, record_, item.var, bits_, static_cast<uint8_t>(item.bit));
+  }
+
+  Context& context_;
+  TypeId record_;
+  bool overlaps_;
+  uint64_t end_ = 0;
+  VarId bits_, last_;  // the byte of the last bits, and the last member
+  uint64_t bits_at_ = 0;
+  uint8_t bits_used_ = 0;
+};
+
 }  // namespace
 
-// Forbids offsets that overlap (without OVERLAP) or do not suit the type, and a bit of anything but a BOOL.
-//   passes  a AT %B0 : INT; b AT %B2 : USINT; c AT %X3.0 : BOOL;
-//   fails   a AT %B0 : INT; b AT %B1 : USINT;              E0381
-//   fails   a AT %B1 : INT;                                E0382
 void layOutMembers(Context& context, TypeId record, std::span<const VarId> members) {
   std::vector<RelativeMember> list;
   for (const VarId id : members) list.push_back(relativeAddressOf(context, id));
   for (size_t i = 1; i < list.size(); ++i)  // without an offset: after the previous one
     if (!list[i].given) list[i].byte = list[i - 1].byte;
-  const bool overlaps = context.types().info(record).overlaps;
-  if (!overlaps)
+  if (!context.types().info(record).overlaps)
     std::stable_sort(list.begin(), list.end(), [](const RelativeMember& a, const RelativeMember& b) {
       return a.byte != b.byte ? a.byte < b.byte : a.bit < b.bit;
     });
-  uint64_t end = 0;
-  for (const types::Field& field : context.types().info(record).fields) {  // inherited ones
-    if (!ensureLayout(context, field.type)) return;
-    const uint32_t align = context.types().fieldAlign(field);
-    end = (end + align - 1) / align * align + context.types().info(context.types().resolve(field.type)).size;
-  }
-  VarId bits, last;
-  uint64_t bits_at = 0;
-  uint8_t bits_used = 0;
-  for (const RelativeMember& item : list) {
-    const Var& var = context.symbols.var(item.var);
-    if (var.type == types::kError || !ensureLayout(context, var.type)) {
-      addField(context, record, item.var);
-      continue;
-    }
-    const Loc loc = var.loc;
-    const std::string_view name = context.names().string(var.name);
-    const types::TypeInfo& info = context.types().info(context.types().resolve(var.type));
-    types::Field member;
-    member.type = var.type;
-    member.pack = context.types().info(record).pack;
-    const uint32_t align = context.types().fieldAlign(member);
-    const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
-    if (item.bit >= 0 && info.kind != types::TypeKind::Bool) {
-      context.report(diag::BitOffset, decl.address_loc, {name, context.types().toString(var.type)});
-      addField(context, record, item.var);
-      continue;
-    }
-    const bool same_byte =
-        item.bit >= 0 && bits && bits_at == item.byte && (!overlaps || (bits_used >> item.bit & 1) == 0);
-    const uint64_t at = item.given ? item.byte : (end + align - 1) / align * align;
-    if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
-      Report report = context.report(diag::MemberOverlaps, decl.located ? decl.address_loc : loc, {name});
-      if (last) report.alsoDeclaredHere(context.symbols.var(last).loc);
-      addField(context, record, item.var);
-      continue;
-    }
-    if (item.bit < 0 && at % align != 0) {
-      context.report(diag::MemberAlignment, decl.address_loc,
-                     {name, context.types().toString(var.type), std::to_string(align)});
-      addField(context, record, item.var);
-      continue;
-    }
-    if (!overlaps && !same_byte && at > end) addGap(context, record, at - end, loc);
-    last = item.var;
-    if (item.bit < 0) {
-      addField(context, record, item.var);
-      setLastOffset(context, record, at);
-      end = at + info.size;
-      continue;
-    }
-    if (!same_byte) {
-      bits = addByteOfBits(context, record, item.var);
-      setLastOffset(context, record, item.byte);
-      bits_at = item.byte;
-      bits_used = 0;
-      end = item.byte + 1;
-    }
-    bits_used = static_cast<uint8_t>(bits_used | 1u << item.bit);
-    addBitAt(context, record, item.var, bits, static_cast<uint8_t>(item.bit));
-  }
+  MemberLayout layout(context, record);
+  if (!layout.begin()) return;
+  for (const RelativeMember& item : list) layout.add(item);
 }
 
 }  // namespace rung::sema

@@ -214,71 +214,85 @@ bool checkLayout(Context& context, std::string_view function, TypeId type, Loc l
   return !part;
 }
 
+namespace {
+
+// True when there are declarations after these positions.
+bool areDeclaredAfter(const Context& context, const Scopes::Positions& positions) {
+  return positions.types < context.scopes.declared_types.size() || positions.pous < context.project.pous.size() ||
+         positions.lists < context.project.global_lists.size();
+}
+
+// Resolves all declarations, and those that this adds.
+void resolvePending(Context& context) {
+  const Project& project = context.project;
+  Scopes::Positions& next = context.scopes.resolved;
+  while (areDeclaredAfter(context, next)) {
+    while (next.types < context.scopes.declared_types.size())
+      resolveNamed(context, context.scopes.declared_types[next.types++]);
+    while (next.pous < project.pous.size()) resolvePou(context, PouId{static_cast<uint32_t>(next.pous++)});
+    while (next.lists < project.global_lists.size()) resolveList(context, ListId{static_cast<uint32_t>(next.lists++)});
+  }
+}
+
+void layOutType(Context& context, TypeId type) {
+  resolveHeld(context, type);
+  const NamedType& named = *context.scopes.named(type);
+  const bool is_record = context.types().info(type).kind == TypeKind::Record;
+  if (!context.types().layout(type) && !named.pou && is_record) {
+    const Loc loc = named.decl ? context.tree().loc(named.decl) : named.type ? context.tree().loc(named.type) : Loc{};
+    context.report(diag::TypeTooLarge, loc, {context.types().toString(type)});
+  }
+  if (is_record) checkPacking(context, type);
+}
+
+// Lays out all types before any initial value is checked, which may ask for their sizes.
+void layOutPending(Context& context, const Scopes::Positions& end) {
+  const Project& project = context.project;
+  const Scopes::Positions& next = context.scopes.checked;
+  for (size_t i = next.types; i < end.types; ++i) layOutType(context, context.scopes.declared_types[i]);
+  for (size_t i = next.pous; i < end.pous; ++i) {
+    for (const VarId var : project.pous[i].vars) layoutVar(context, var);
+    if (project.pous[i].result_var) layoutVar(context, project.pous[i].result_var);
+  }
+  for (size_t i = next.lists; i < end.lists; ++i) {
+    for (const VarId var : project.global_lists[i].vars) layoutVar(context, var);
+  }
+}
+
+void checkPendingInits(Context& context, const Scopes::Positions& end) {
+  Scopes::Positions& next = context.scopes.checked;
+  while (next.types < end.types) {
+    const TypeId type = context.scopes.declared_types[next.types++];
+    checkTypeInit(context, type);
+    const NamedType& named = *context.scopes.named(type);
+    if (!named.pou && named.type && context.types().info(type).kind == TypeKind::Record) checkFieldInits(context, type);
+  }
+  while (next.pous < end.pous) {
+    const Pou& pou = context.project.pous[next.pous++];
+    if (pou.generic) continue;  // its instances are checked
+    for (size_t v = 0; v < pou.vars.size(); ++v) ensureInitialValue(context, pou.vars[v]);
+    if (pou.record) checkFieldInits(context, pou.record);
+  }
+  while (next.lists < end.lists) {
+    const GlobalList& list = context.project.global_lists[next.lists++];
+    for (size_t v = 0; v < list.vars.size(); ++v) ensureInitialValue(context, list.vars[v]);
+    checkFieldInits(context, list.record);
+  }
+}
+
+}  // namespace
+
 void resolveDeclarations(Context& context) {
   Scopes& scopes = context.scopes;
-  Project& project = context.project;
   if (scopes.resolving || scopes.depth > 0) return;  // the outermost call resolves everything
   scopes.resolving = true;
-  const auto pending = [&] {
-    return scopes.resolved_types < scopes.declared_types.size() || scopes.resolved_pous < project.pous.size() ||
-           scopes.resolved_lists < project.global_lists.size();
-  };
-  const auto unchecked = [&] {
-    return scopes.checked_types < scopes.declared_types.size() || scopes.checked_pous < project.pous.size() ||
-           scopes.checked_lists < project.global_lists.size();
-  };
-  while (pending() || unchecked()) {
-    while (pending()) {
-      while (scopes.resolved_types < scopes.declared_types.size()) {
-        resolveNamed(context, scopes.declared_types[scopes.resolved_types++]);
-      }
-      while (scopes.resolved_pous < project.pous.size()) {
-        resolvePou(context, PouId{static_cast<uint32_t>(scopes.resolved_pous++)});
-      }
-      while (scopes.resolved_lists < project.global_lists.size()) {
-        resolveList(context, ListId{static_cast<uint32_t>(scopes.resolved_lists++)});
-      }
-    }
-    const size_t types_end = scopes.declared_types.size(), pous_end = project.pous.size(),
-                 lists_end = project.global_lists.size();
-    for (size_t i = scopes.checked_types; i < types_end; ++i) {
-      const TypeId type = scopes.declared_types[i];
-      resolveHeld(context, type);
-      const NamedType& named = *scopes.named(type);
-      if (!context.types().layout(type) && !named.pou && context.types().info(type).kind == TypeKind::Record) {
-        const Loc loc = named.decl   ? context.tree().loc(named.decl)
-                        : named.type ? context.tree().loc(named.type)
-                                     : Loc{};
-        context.report(diag::TypeTooLarge, loc, {context.types().toString(type)});
-      }
-      if (context.types().info(type).kind == TypeKind::Record) checkPacking(context, type);
-    }
-    for (size_t i = scopes.checked_pous; i < pous_end; ++i) {
-      for (const VarId var : project.pous[i].vars) layoutVar(context, var);
-      if (project.pous[i].result_var) layoutVar(context, project.pous[i].result_var);
-    }
-    for (size_t i = scopes.checked_lists; i < lists_end; ++i) {
-      for (const VarId var : project.global_lists[i].vars) layoutVar(context, var);
-    }
-    while (scopes.checked_types < types_end) {
-      const TypeId type = scopes.declared_types[scopes.checked_types++];
-      checkTypeInit(context, type);
-      const NamedType& named = *scopes.named(type);
-      if (!named.pou && named.type && context.types().info(type).kind == TypeKind::Record) {
-        checkFieldInits(context, type);
-      }
-    }
-    while (scopes.checked_pous < pous_end) {
-      Pou& pou = project.pous[scopes.checked_pous++];
-      if (pou.generic) continue;  // its instances are checked
-      for (size_t v = 0; v < pou.vars.size(); ++v) ensureInitialValue(context, pou.vars[v]);
-      if (pou.record) checkFieldInits(context, pou.record);
-    }
-    while (scopes.checked_lists < lists_end) {
-      GlobalList& list = project.global_lists[scopes.checked_lists++];
-      for (size_t v = 0; v < list.vars.size(); ++v) ensureInitialValue(context, list.vars[v]);
-      checkFieldInits(context, list.record);
-    }
+  while (areDeclaredAfter(context, scopes.resolved) || areDeclaredAfter(context, scopes.checked)) {
+    resolvePending(context);
+    const Scopes::Positions end{.types = scopes.declared_types.size(),
+                                .pous = context.project.pous.size(),
+                                .lists = context.project.global_lists.size()};
+    layOutPending(context, end);
+    checkPendingInits(context, end);
   }
   scopes.resolving = false;
 }

@@ -74,10 +74,10 @@ VarId addHiddenField(Context& context, PouId pou, const std::string& name, TypeI
   hidden.loc = symbols.pou(pou).loc;
   hidden.type = type;
   hidden.storage = Storage::Field;
-  hidden.non_retain = true;
+  hidden.keeping.non_retain = true;
   hidden.symbol_access = types::SymbolAccess::None;
   hidden.pragmas.no_exit = true;
-  hidden.holds = holds;
+  hidden.sharing.holds = holds;
   hidden.pou = pou;
   hidden.use.read = hidden.use.written = true;
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
@@ -90,14 +90,16 @@ bool isTemporary(const Var& var) {
   return var.section == SectionKind::Temp && var.storage == Storage::Local && var.name && var.type;
 }
 
-}  // namespace
+// What the initial value of a temporary reads is used where it is declared.
+VarId declaredOf(const Symbols& symbols, VarId var) {
+  const VarId copied = symbols.var(var).sharing.copy_of;
+  return copied ? copied : var;
+}
 
-void shareTemporaries(Context& context, PouId id) {
+// The temporaries that a POU or its bases declare and nothing nearer hides, in order of declaration.
+std::vector<VarId> temporariesOf(Context& context, PouId id, NameMap& known) {
   Symbols& symbols = context.symbols;
-  const bool is_block = symbols.pou(id).kind == PouKind::FunctionBlock || symbols.pou(id).kind == PouKind::Program;
-  if (!is_block || symbols.pou(id).owner) return;
-  std::vector<VarId> temporaries;  // those that this POU or its bases declare, and nothing nearer hides
-  NameMap known;
+  std::vector<VarId> temporaries;
   for (PouId at = id; at; at = symbols.pou(at).base) {
     if (at != id) resolvePou(context, at);
     const std::vector<VarId> vars = symbols.pou(at).vars;
@@ -110,49 +112,60 @@ void shareTemporaries(Context& context, PouId id) {
       if (known.insert(key, entity(var))) temporaries.push_back(var);
     }
   }
+  std::sort(temporaries.begin(), temporaries.end(),
+            [&](VarId a, VarId b) { return declaredOf(symbols, a).index < declaredOf(symbols, b).index; });
+  return temporaries;
+}
+
+// The temporary of a base as this POU has it.
+VarId copyTemporary(Context& context, PouId id, VarId var) {
+  Symbols& symbols = context.symbols;
+  Var copy = symbols.var(var);
+  copy.pou = id;
+  copy.sharing.copy_of = declaredOf(symbols, var);
+  copy.decl = {};
+  copy.use.read = copy.use.written = true;
+  Var& original = symbols.var(copy.sharing.copy_of);
+  original.use.read = original.use.written = true;
+  const VarId own{static_cast<uint32_t>(symbols.vars.size())};
+  symbols.vars.push_back(copy);
+  symbols.pou(id).vars.push_back(own);
+  context.scopes.pous[id.index].names.insert(keyOf(context, copy.name), entity(own));
+  return own;
+}
+
+}  // namespace
+
+void shareTemporaries(Context& context, PouId id) {
+  Symbols& symbols = context.symbols;
+  const bool is_block = symbols.pou(id).kind == PouKind::FunctionBlock || symbols.pou(id).kind == PouKind::Program;
+  if (!is_block || symbols.pou(id).owner) return;
+  NameMap known;
+  const std::vector<VarId> temporaries = temporariesOf(context, id, known);
   if (temporaries.empty()) return;
   NamesIn actions(context, known), body(context, known);
   for (const PouId member : symbols.pou(id).members)
     if (symbols.pou(member).kind == PouKind::Action) actions.add(context.tree().as<PouDecl>(symbols.pou(member).decl));
   body.add(context.tree().as<PouDecl>(symbols.pou(id).decl));
-  const auto share = [&](VarId var) {
-    const std::string name = "__" + toString(context, symbols.var(var).name) + "_temp";
-    const VarId field = addHiddenField(context, id, name, symbols.var(var).type, var);
-    symbols.var(var).shared = field;
-  };
-  // What the initial value of a temporary reads is used where it is.
-  const auto declared = [&](VarId var) { return symbols.var(var).copy_of ? symbols.var(var).copy_of : var; };
-  std::sort(temporaries.begin(), temporaries.end(),
-            [&](VarId a, VarId b) { return declared(a).index < declared(b).index; });
   for (size_t i = temporaries.size(); i-- > 0;) {
     const NameId key = keyOf(context, symbols.var(temporaries[i]).name);
-    const Var& var = symbols.var(declared(temporaries[i]));
+    const Var& var = symbols.var(declaredOf(symbols, temporaries[i]));
     const ExprId init = var.decl ? context.tree().as<VarDecl>(var.decl).init : ExprId{};
     if (actions.has(key)) actions.add(init);
     if (body.has(key)) body.add(init);
   }
   for (const VarId var : temporaries) {
-    if (symbols.var(var).shared) continue;  // by a base
-    const NameId name = symbols.var(var).name, key = keyOf(context, name);
-    const bool in_action = actions.has(key);
-    VarId own = var;
-    if (symbols.var(var).pou != id) {
-      if (!in_action && !body.has(key)) continue;
-      Var copy = symbols.var(var);
-      copy.pou = id;
-      copy.copy_of = declared(var);
-      copy.decl = {};
-      copy.use.read = copy.use.written = true;
-      Var& original = symbols.var(copy.copy_of);
-      original.use.read = original.use.written = true;
-      own = {static_cast<uint32_t>(symbols.vars.size())};
-      symbols.vars.push_back(copy);
-      symbols.pou(id).vars.push_back(own);
-      context.scopes.pous[id.index].names.insert(key, entity(own));
-    }
-    if (in_action) share(own);
+    if (symbols.var(var).sharing.field) continue;  // by a base
+    const NameId key = keyOf(context, symbols.var(var).name);
+    const bool is_own = symbols.var(var).pou == id;
+    if (!is_own && !actions.has(key) && !body.has(key)) continue;
+    const VarId own = is_own ? var : copyTemporary(context, id, var);
+    if (!actions.has(key)) continue;
+    const std::string name = "__" + toString(context, symbols.var(own).name) + "_temp";
+    const VarId field = addHiddenField(context, id, name, symbols.var(own).type, own);
+    symbols.var(own).sharing.field = field;
   }
-  const auto isShared = [&](VarId var) { return static_cast<bool>(symbols.var(var).shared); };
+  const auto isShared = [&](VarId var) { return static_cast<bool>(symbols.var(var).sharing.field); };
   const std::vector<VarId>& vars = symbols.pou(id).vars;
   if (std::any_of(vars.begin(), vars.end(), isShared))
     symbols.pou(id).object.in_body = addHiddenField(context, id, "__in_body", types::kBool);

@@ -189,7 +189,7 @@ bool ProjectSignatures::fits(ExprId instance, ExprId block) {
   const Pou& shown = context_.project.pous[drawn.index];
   if (pou.kind != PouKind::FunctionBlock || shown.kind != PouKind::FunctionBlock) return true;
   // Two libraries may have blocks of one name: a box shows it without the library's.
-  return pou.generic_of || context_.names().same(pou.name, shown.name) || isKindOf(context_, own, PouId{drawn.index});
+  return pou.instance.of || context_.names().same(pou.name, shown.name) || isKindOf(context_, own, PouId{drawn.index});
 }
 
 }  // namespace rung::sema

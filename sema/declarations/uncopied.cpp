@@ -56,11 +56,11 @@ bool checkKept(Context& context, const Var& var, Loc loc) {
   if (context.library) return true;
   const bool by_value = var.section == SectionKind::Input || var.section == SectionKind::Output;
   const bool for_a_call = var.storage == Storage::Local && var.section != SectionKind::InOut;
-  const char* where = var.constant ? "a constant"
-                      : var.retain ? "retained"
-                      : by_value   ? "an input or output"
-                      : for_a_call ? "a variable that lives for one call"
-                                   : nullptr;
+  const char* where = var.constant         ? "a constant"
+                      : var.keeping.retain ? "retained"
+                      : by_value           ? "an input or output"
+                      : for_a_call         ? "a variable that lives for one call"
+                                           : nullptr;
   if (where == nullptr || var.section == SectionKind::External) return true;
   const PouId held = uncopiedIn(context, var.type);
   if (!held) return true;

@@ -73,7 +73,7 @@ const char* kindWord(PouKind kind) {
 bool addressesPerInstance(const Context& context, PouId pou) {
   if (!pou || isFunction(context.symbols.pou(pou).kind)) return false;
   if (context.symbols.pou(pou).kind == PouKind::FunctionBlock) return true;
-  return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.symbols.pou(pou).name)));
+  return static_cast<bool>(context.scopes.instantiated.again.find(keyOf(context, context.symbols.pou(pou).name)));
 }
 
 Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
@@ -94,7 +94,7 @@ Context contextOf(Context& context, VarId id) {
   }
   const NamedType* list = nullptr;
   if (var.list) list = context.scopes.named(context.symbols.global_lists[var.list.index].record);
-  const auto& regions = context.scopes.region_of_global;
+  const auto& regions = context.scopes.regions.of_global;
   const auto region = regions.find(id.index);
   Context there = at(context, {}, context.symbols.sources.fileOf(var.loc), list != nullptr && list->library,
                      region == regions.end() ? RegionId{} : region->second);
@@ -106,10 +106,27 @@ Context contextOf(Context& context, VarId id) {
 
 }  // namespace
 
-void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
-                 std::vector<VarId>& into) {
-  Symbols& symbols = context.symbols;
+namespace {
+
+void takePragmas(Context& context, const DeclHeader& header, Var& var) {
   const Scopes::KnownNames& known = context.scopes.known_names;
+  if (header.pragmas.empty()) return;
+  var.pragmas.required = findPragma(context, header, known.required) != nullptr;
+  var.pragmas.optional = findPragma(context, header, known.optional) != nullptr;
+  var.pragmas.long_time = findPragma(context, header, known.long_time) != nullptr;
+  var.pragmas.lazy = findPragma(context, header, known.lazy) != nullptr;
+  var.pragmas.instance_path = findPragma(context, header, known.attributes.instance_path) != nullptr;
+  takeVariableAttributes(context, header, var);
+  if (const auto access = symbolAccessOf(context, header)) var.symbol_access = *access;
+  var.pragmas.extensible = findPragma(context, header, known.extensible) != nullptr;
+  for (const Pragma& pragma : context.tree().list(header.pragmas)) {
+    if (keyOf(context, pragma.name) == known.alias)
+      var.pragmas.aliases.push_back(context.names().intern(context.tree().string(pragma.value)));
+  }
+}
+
+// What the variables of one declaration have in common.
+Var describeVar(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list) {
   const VarDecl& decl = context.tree().as<VarDecl>(decl_id);
   Var var;
   var.decl = decl_id;
@@ -120,31 +137,42 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
   const bool settable = section.section == SectionKind::Input && context.profile().settable_constant_inputs;
   var.constant = (section.h.bits & kConstant) != 0 && !settable;
-  var.persistent = (section.h.bits & kPersistent) != 0;
-  var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
-  var.non_retain = (section.h.bits & kNonRetain) != 0;
+  var.keeping.persistent = (section.h.bits & kPersistent) != 0;
+  var.keeping.retain = (section.h.bits & kRetain) != 0 || var.keeping.persistent;
+  var.keeping.non_retain = (section.h.bits & kNonRetain) != 0;
   var.generic = (section.h.bits & kGeneric) != 0;
   var.pou = pou;
   var.list = list;
   if (pou)
-    var.symbol_access = symbols.pou(pou).pragmas.symbol_access;
+    var.symbol_access = context.symbols.pou(pou).pragmas.symbol_access;
   else if (list)
-    var.symbol_access = symbols.global_lists[list.index].symbol_access;
-  if (!decl.h.pragmas.empty()) {
-    var.pragmas.required = findPragma(context, decl.h, known.required) != nullptr;
-    var.pragmas.optional = findPragma(context, decl.h, known.optional) != nullptr;
-    var.pragmas.long_time = findPragma(context, decl.h, known.long_time) != nullptr;
-    var.pragmas.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
-    var.pragmas.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
-    takeVariableAttributes(context, decl.h, var);
-    if (const auto access = symbolAccessOf(context, decl.h)) var.symbol_access = *access;
-    var.pragmas.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
-    for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
-      if (keyOf(context, pragma.name) == known.alias) {
-        var.pragmas.aliases.push_back(context.names().intern(context.tree().string(pragma.value)));
-      }
-    }
+    var.symbol_access = context.symbols.global_lists[list.index].symbol_access;
+  takePragmas(context, decl.h, var);
+  return var;
+}
+
+// Gives a variable its name and aliases in a scope.
+void enter(Context& context, NameMap& names, VarId id, const VarDecl& decl) {
+  const Var& var = context.symbols.var(id);
+  const NameId key = keyOf(context, var.name);
+  if (!names.insert(key, entity(id))) {
+    const Entity first = names.find(key);
+    const Loc loc = first.entityKind() == EntityKind::Var ? context.symbols.vars[first.index].loc : Loc{};
+    // A declaration that could not be read declares nothing.
+    if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
+      reportTwice(context, var.name, var.loc, loc);
+    return;
   }
+  for (const NameId alias : var.pragmas.aliases) names.insert(keyOf(context, alias), entity(id));
+}
+
+}  // namespace
+
+void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
+                 std::vector<VarId>& into) {
+  Symbols& symbols = context.symbols;
+  const VarDecl& decl = context.tree().as<VarDecl>(decl_id);
+  Var var = describeVar(context, decl_id, section, pou, list);
   const uint32_t count = decl.names.empty() ? 1 : decl.names.count;  // an unnamed located variable
   for (uint32_t i = 0; i < count; ++i) {
     const VarId id{static_cast<uint32_t>(symbols.vars.size())};
@@ -156,21 +184,10 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     }
     symbols.vars.push_back(var);
     into.push_back(id);
-    if (!var.name) {
-      if (decl.located && !decl.address.incomplete)
-        context.scopes.unnamed_addresses[addressKey(context, decl.address)].push_back(id);
-      continue;
-    }
-    const NameId key = keyOf(context, var.name);
-    if (!names->insert(key, entity(id))) {
-      const Entity first = names->find(key);
-      const Loc loc = first.entityKind() == EntityKind::Var ? symbols.vars[first.index].loc : Loc{};
-      // A declaration that could not be read declares nothing.
-      if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
-        reportTwice(context, var.name, var.loc, loc);
-      continue;
-    }
-    for (const NameId alias : var.pragmas.aliases) names->insert(keyOf(context, alias), entity(id));
+    if (var.name)
+      enter(context, *names, id, decl);
+    else if (decl.located && !decl.address.incomplete)
+      context.scopes.addresses.unnamed[addressKey(context, decl.address)].push_back(id);
   }
 }
 
@@ -196,9 +213,9 @@ void addField(Context& context, TypeId record, VarId id) {
     field.type = context.types().pointer(context.types().info(context.types().resolve(var.type)).base);
     field.by_reference = false;
   }
-  field.retain = var.retain;
-  field.non_retain = var.non_retain;
-  field.persistent = var.persistent;
+  field.retain = var.keeping.retain;
+  field.non_retain = var.keeping.non_retain;
+  field.persistent = var.keeping.persistent;
   field.constant = var.constant;
   field.symbol_access = var.symbol_access;
   types::TypeInfo& info = context.types().edit(record);
@@ -335,6 +352,73 @@ uint32_t firstOfDecl(const Symbols& symbols, uint32_t index) {
   return index;
 }
 
+// AT %IX*, which resolveInstancePaths completes.
+void leaveAddressOpen(Context& there, Var& var, const VarDecl& decl, TypeId type) {
+  const bool is_bool = type != types::kError && there.types().kind(type) == TypeKind::Bool;
+  if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError && !is_bool) {
+    const std::string address = {'%', decl.address.area, 'X', '*'};
+    there.report(diag::AddressType, decl.address_loc, {address, there.types().toString(type)});
+    var.type = types::kError;
+  }
+  if (const std::optional<types::AreaId> area = areaOf(there, decl.address, decl.address_loc))
+    var.image.area = *area;
+  else
+    var.type = types::kError;
+  var.open_address = true;
+  var.image.is_bit = is_bool;
+}
+
+// Gives a variable the type of its declaration, unless a rule forbids it there. first: of the declaration's variables.
+void giveType(Context& there, Var& var, const VarDecl& decl, TypeId type, bool first) {
+  var.type = type;
+  if (there.types().isOpenArray(type) && !mayBeOpen(there, var)) {
+    if (first) there.report(diag::OpenArray, there.tree().loc(decl.type));
+    var.type = types::kError;
+  }
+  // An ANY input of CODESYS describes the caller's variable; generic types of the standard are for the library only.
+  const bool generic = types::TypeTable::isGeneric(there.types().kind(var.type));
+  const bool may_report = var.section == SectionKind::Input || var.section == SectionKind::Local;
+  if (generic && may_report && there.profile().any_inputs) {
+    var.any = var.type;
+    var.type = anyType(there);
+  }
+  checkEdge(there, var);
+  if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
+      !checkNotAbstract(there, type, there.tree().loc(decl.type)))
+    var.type = types::kError;
+  if (var.type != types::kError && !checkKept(there, var, there.tree().loc(decl.type))) var.type = types::kError;
+  if (first) checkPlacement(there, var, decl);
+}
+
+// Resolves the address of a variable. False: it is one of the hierarchical addresses, of which nothing else is checked.
+bool locate(Context& there, VarId id, const VarDecl& decl, TypeId type) {
+  Var& var = there.symbols.var(id);
+  if (!decl.located) return true;
+  if (decl.address.incomplete) {
+    leaveAddressOpen(there, var, decl, type);
+    return true;
+  }
+  if (var.record) return true;
+  if (isHierarchical(there, decl.address)) {
+    const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, id);
+    if (!named) there.symbols.var(id).type = types::kError;
+    return false;
+  }
+  if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type))
+    var.image = *view;
+  else
+    var.type = types::kError;
+  return true;
+}
+
+// Limits how deep declarations name each other. Reports the variable, and returns false, beyond the limit.
+bool checkDepth(Context& context, VarId id) {
+  if (context.scopes.depth <= kMaxDeclarationDepth) return true;
+  const Var& var = context.symbols.var(id);
+  context.report(diag::DeclarationsTooDeep, var.loc, {context.names().string(var.name)});
+  return false;
+}
+
 }  // namespace
 
 void ensureVarType(Context& context, VarId id) {
@@ -342,69 +426,22 @@ void ensureVarType(Context& context, VarId id) {
   if (symbols.var(id).type || !symbols.var(id).decl) return;
   Context there = contextOf(context, id);
   const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
-  if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
+  if (!checkDepth(context, id)) {
     symbols.var(id).type = types::kError;
     return;
   }
   ++context.scopes.depth;
-  TypeId type = types::kError;
   const bool is_bit_type = decl.type && isBit(there, decl.type);
   const bool bit = is_bit_type && mayBeBit(there, symbols.var(id), decl.type);
-  if (is_bit_type)
-    type = types::kBool;
-  else if (decl.type)
-    type = resolveType(there, decl.type);
+  const TypeId type = is_bit_type ? types::kBool : decl.type ? resolveType(there, decl.type) : types::kError;
   --context.scopes.depth;
   const uint32_t first = firstOfDecl(symbols, id.index);
   for (uint32_t i = first; i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
     Var& var = symbols.vars[i];
     if (var.type) continue;
-    var.type = type;
     var.bits.is_bit = bit && type != types::kError;
-    if (context.types().isOpenArray(type) && !mayBeOpen(context, var)) {
-      if (i == first) there.report(diag::OpenArray, context.tree().loc(decl.type));
-      var.type = types::kError;
-    }
-    // An ANY input of CODESYS describes the caller's variable; generic types of the standard are for the library only.
-    const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
-    const bool may_report = var.section == SectionKind::Input || var.section == SectionKind::Local;
-    if (generic && may_report && there.profile().any_inputs) {
-      var.any = var.type;
-      var.type = anyType(there);
-    }
-    checkEdge(there, var);
-    if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
-        !checkNotAbstract(there, type, context.tree().loc(decl.type)))
-      var.type = types::kError;
-    if (var.type != types::kError && !checkKept(there, var, context.tree().loc(decl.type))) var.type = types::kError;
-    if (i == first) checkPlacement(there, var, decl);
-    if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
-      if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
-          context.types().kind(type) != TypeKind::Bool) {
-        const std::string address = {'%', decl.address.area, 'X', '*'};
-        there.report(diag::AddressType, decl.address_loc, {address, context.types().toString(type)});
-        var.type = types::kError;
-      }
-      const std::optional<types::AreaId> area = areaOf(there, decl.address, decl.address_loc);
-      if (area)
-        var.image.area = *area;
-      else
-        var.type = types::kError;
-      var.open_address = true;
-      var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
-    } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
-      const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
-      if (!named) symbols.vars[i].type = types::kError;
-      continue;
-    } else if (decl.located && !var.record) {
-      if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
-        var.image = *view;
-      } else {
-        var.type = types::kError;
-      }
-    }
-    if (var.section == SectionKind::External) matchExternal(there, VarId{i});
+    giveType(there, var, decl, type, i == first);
+    if (locate(there, VarId{i}, decl, type) && var.section == SectionKind::External) matchExternal(there, VarId{i});
   }
 }
 
@@ -416,92 +453,113 @@ static void warnOfDefault(Context& context, const Var& var) {
                  {context.names().string(var.name), types::toString(context.types(), context.names(), value)});
 }
 
+namespace {
+
+// A value that silences follow-up errors.
+void setUnknown(Context& context, VarId id) {
+  Var& var = context.symbols.var(id);
+  const TypeKind kind = context.types().plainKind(var.type);
+  if (!types::TypeTable::isElementary(kind)) return;
+  var.has_value = true;
+  var.value = types::defaultValue(context.types(), context.names(), var.type);
+  if (types::TypeTable::isReal(kind)) var.value = types::Value::ofReal(var.type, 1.0);
+  if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
+}
+
 // Forbids a constant whose value depends on itself. IEC 61131-3 ed. 3, 6.5.1.
 //   passes  VAR CONSTANT a : INT := b + 1; b : INT := 2; END_VAR
 //   fails   VAR CONSTANT a : INT := b; b : INT := a; END_VAR       E0321
+void reportCycle(Context& context, VarId id) {
+  const Var& var = context.symbols.var(id);
+  if (!var.constant || var.has_value) return;
+  context.report(diag::ConstantCycle, var.loc, {context.names().string(var.name)});
+  setUnknown(context, id);
+}
+
+// The variables that an initial value may read.
+InitialReads readsOf(const Context& there, const Var& var) {
+  const bool of_call = there.pou && isFunction(there.symbols.pou(there.pou).kind);
+  if (!there.profile().variables_in_initial_values || var.record) return InitialReads::Constants;
+  if (of_call && var.section == SectionKind::Input)
+    return InitialReads::Globals;  // the caller evaluates the default of an input that it leaves open
+  if (var.storage == Storage::Local) return InitialReads::Call;
+  return var.list || var.pou ? InitialReads::Variables : InitialReads::Constants;
+}
+
+// The initial value of the variables of one declaration.
+struct InitialValue {
+  ExprId init;
+  bool ok = true;
+  bool reads = false;     // variables
+  bool defaults = false;  // a constant that has none
+  CallId constructor;
+  uint32_t elements = 0;  // that the constructor makes
+};
+
+void checkInitialValue(Context& there, const Var& var, InitialValue& out) {
+  if (!out.init) return;
+  ++there.scopes.depth;
+  const uint32_t errors = there.symbols.diagnostics.errorCount();
+  const std::string what = "the initial value of `" + toString(there, var.name) + "`";
+  out.reads = checkInitializerAs(there, out.init, var.type, what, readsOf(there, var));
+  out.ok = there.symbols.diagnostics.errorCount() == errors;
+  --there.scopes.depth;
+}
+
+InitialValue initialValueOf(Context& there, const Var& var, const VarDecl& decl) {
+  InitialValue out;
+  if (decl.init) out.init = there.code().copy(decl.init);
+  if (!out.init && var.generic) out.init = there.build().literal(LiteralKind::Integer, 1, decl.h.loc);
+  const bool is_elementary = types::TypeTable::isElementary(there.types().plainKind(var.type));
+  const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
+  out.defaults = !out.init && var.constant && is_elementary && makes_object && var.section != SectionKind::Input;
+  if (out.defaults) warnOfDefault(there, var);
+  if (out.init && !mayHaveInitialValue(there, var, out.init)) out.init = {};
+  checkInitialValue(there, var, out);
+  if (decl.type && makes_object) out.constructor = there.expressions->checkConstructor(there, decl.type, out.elements);
+  return out;
+}
+
+// The value of a constant.
+std::optional<types::Value> constantValue(Context& there, const Var& var, const InitialValue& initial) {
+  if (initial.defaults) return types::defaultValue(there.types(), there.names(), var.type);
+  if (!var.constant || !initial.init || !initial.ok) return std::nullopt;
+  if (!types::TypeTable::isElementary(there.types().plainKind(var.type))) return std::nullopt;
+  std::optional<types::Value> value = evaluate(there, initial.init);
+  if (value) value->type = var.type;
+  return value;
+}
+
+}  // namespace
+
 void ensureInitialValue(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
-  if (!symbols.var(id).decl) return;
-  const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
-  const DeclId decl_id = symbols.var(id).decl;
+  const Var& var = symbols.var(id);
+  if (!var.decl) return;
+  const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
+  const DeclId decl_id = var.decl;
   const State state = context.scopes.initial_values[decl_id];
   if (state == State::Done) return;
-  if (symbols.var(id).section == SectionKind::External && symbols.var(id).external && !decl.init) return;
+  if (var.section == SectionKind::External && var.external && !decl.init) return;
+  if (state == State::Busy) return reportCycle(context, id);
   Context there = contextOf(context, id);
-  const auto setUnknown = [&] {  // silences follow-up errors
-    Var& var = symbols.var(id);
-    const TypeKind kind = context.types().plainKind(var.type);
-    if (!types::TypeTable::isElementary(kind)) return;
-    var.has_value = true;
-    var.value = types::defaultValue(context.types(), context.names(), var.type);
-    if (types::TypeTable::isReal(kind)) var.value = types::Value::ofReal(var.type, 1.0);
-    if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
-  };
-  if (state == State::Busy) {
-    if (symbols.var(id).constant && !symbols.var(id).has_value) {
-      context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
-      setUnknown();
-    }
-    return;
-  }
   ensureVarType(context, id);
-  if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
-    return setUnknown();
-  }
+  if (!checkDepth(context, id)) return setUnknown(context, id);
   context.scopes.initial_values[decl_id] = State::Busy;
-  const TypeId type = symbols.var(id).type;
-  ExprId init = decl.init ? context.code().copy(decl.init) : ExprId{};
-  const Var& var = symbols.var(id);
-  if (!init && var.generic) init = context.build().literal(LiteralKind::Integer, 1, decl.h.loc);
-  const bool defaults = !init && var.constant && var.section != SectionKind::External &&
-                        var.section != SectionKind::Input && var.section != SectionKind::InOut;
-  if (defaults && types::TypeTable::isElementary(context.types().plainKind(type))) warnOfDefault(there, var);
-  bool ok = true, reads = false;
-  if (init && !mayHaveInitialValue(there, var, init)) init = {};
-  if (init) {
-    ++context.scopes.depth;
-    const uint32_t errors = symbols.diagnostics.errorCount();
-    std::string what = "the initial value of `" + toString(context, var.name) + "`";
-    InitialReads may = InitialReads::Constants;
-    const bool of_call = there.pou && isFunction(symbols.pou(there.pou).kind);
-    if (!there.profile().variables_in_initial_values || var.record)
-      may = InitialReads::Constants;
-    else if (of_call && var.section == SectionKind::Input)
-      may = InitialReads::Globals;  // the caller evaluates the default of an input that it leaves open
-    else if (var.storage == Storage::Local)
-      may = InitialReads::Call;
-    else if (var.list || var.pou)
-      may = InitialReads::Variables;
-    reads = checkInitializerAs(there, init, type, what, may);
-    ok = symbols.diagnostics.errorCount() == errors;
-    --context.scopes.depth;
-  }
-  const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
-  uint32_t elements = 0;
-  const CallId constructor =
-      decl.type && makes_object ? there.expressions->checkConstructor(there, decl.type, elements) : CallId{};
+  const InitialValue initial = initialValueOf(there, var, decl);
   context.scopes.initial_values[decl_id] = State::Done;
-  const TypeKind kind = context.types().plainKind(type);
-  std::optional<types::Value> value;
-  if (var.constant && init && types::TypeTable::isElementary(kind)) {
-    if (ok) value = evaluate(there, init);
-    if (value) value->type = type;
-  } else if (defaults && types::TypeTable::isElementary(kind)) {
-    value = types::defaultValue(there.types(), there.names(), type);
-  }
-  for (uint32_t i = firstOfDecl(symbols, id.index);
-       i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
-    symbols.vars[i].init = init;
-    symbols.vars[i].start.constructor = constructor;
-    symbols.vars[i].start.element_constructors = elements;
-    if (reads || constructor.index != 0) context.scopes.reading_inits.push_back(VarId{i});
+  const auto value = constantValue(there, var, initial);
+  for (uint32_t i = firstOfDecl(symbols, id.index); i < symbols.vars.size() && symbols.vars[i].decl == decl_id; ++i) {
+    Var& each = symbols.vars[i];
+    each.init = initial.init;
+    each.start.constructor = initial.constructor;
+    each.start.element_constructors = initial.elements;
+    if (initial.reads || initial.constructor.index != 0) context.scopes.reading_inits.push_back(VarId{i});
     if (value) {
-      symbols.vars[i].has_value = true;
-      symbols.vars[i].value = *value;
-    } else if (var.constant && init && !ok) {
-      id = VarId{i};
-      setUnknown();
+      each.has_value = true;
+      each.value = *value;
+    } else if (var.constant && initial.init && !initial.ok) {
+      setUnknown(context, VarId{i});
     }
   }
 }
@@ -706,74 +764,98 @@ void declarePou(Context& context, PouId id) {
   }
 }
 
+namespace {
+
+void resolveResult(Context& there, Pou& pou, const PouDecl& decl) {
+  if (!decl.result) return;
+  pou.result = resolveType(there, decl.result);
+  there.symbols.var(pou.result_var).type = pou.result;
+  if (types::TypeTable::isGeneric(there.types().kind(pou.result))) pou.generic = true;
+}
+
+// Variables of a POU that have another one beside them, which the source does not declare.
+struct Accompanied {
+  std::vector<VarId> edges, open_arrays, enabled;
+};
+
+Accompanied resolveVars(Context& there, Pou& pou) {
+  Accompanied out;
+  for (size_t i = 0; i < pou.vars.size(); ++i) {
+    const VarId id = pou.vars[i];
+    ensureVarType(there, id);
+    Var& var = there.symbols.var(id);
+    if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
+    if (var.storage == Storage::Field && !var.bits.holds_bits) addField(there, pou.record, id);
+    if (types::TypeTable::isGeneric(there.types().kind(var.type))) pou.generic = true;
+    if (var.pragmas.extensible) pou.extensible = true;
+    if (var.edge != EdgeKind::None && var.storage == Storage::Field) out.edges.push_back(id);
+    if (there.types().isOpenArray(var.type)) out.open_arrays.push_back(id);
+    if (keepsEno(there, id)) out.enabled.push_back(id);
+  }
+  // A call with more arguments is folded from the left, f(f(a, b), c), which takes two inputs.
+  const auto isInput = [&](VarId var) { return there.symbols.var(var).section == SectionKind::Input; };
+  if (std::count_if(pou.vars.begin(), pou.vars.end(), isInput) < 2) pou.extensible = false;
+  return out;
+}
+
+VarId addHidden(Context& there, PouId id, VarId of, const std::string& suffix, TypeId type) {
+  Symbols& symbols = there.symbols;
+  Pou& pou = symbols.pou(id);
+  Var hidden = hiddenBeside(there, of, suffix, type);
+  hidden.pou = id;
+  hidden.field = static_cast<uint32_t>(pou.vars.size());
+  hidden.open_array.hidden_input = hidden.storage == Storage::Local;
+  const VarId hidden_id{static_cast<uint32_t>(symbols.vars.size())};
+  symbols.vars.push_back(hidden);
+  pou.vars.push_back(hidden_id);
+  if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
+  return hidden_id;
+}
+
+// The memory of edges, the last ENO of instances, and the bounds of open arrays.
+void addHiddenVars(Context& there, PouId id, const Accompanied& vars) {
+  Symbols& symbols = there.symbols;
+  for (const VarId edge : vars.edges) {
+    const VarId memory = addHidden(there, id, edge, "_edge", types::kBool);
+    symbols.var(edge).memory.edge = memory;
+    // iec: the body of F_TRIG, which F_EDGE stands for, sees an edge in a first call with FALSE.
+    if (there.profile().falling_edge_at_start && symbols.var(edge).edge == EdgeKind::Falling)
+      symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
+  }
+  for (const VarId instance : vars.enabled) {
+    const VarId memory = addHidden(there, id, instance, "_eno", types::kBool);
+    symbols.var(instance).memory.eno = memory;
+    symbols.var(memory).init = makeLiteral(there, LiteralKind::Bool, types::kBool, 1, symbols.var(instance).loc);
+  }
+  for (const VarId array : vars.open_arrays) {
+    const uint32_t dimensions = there.types().info(there.types().resolve(symbols.var(array).type)).length;
+    for (uint32_t i = 0; i < 2 * dimensions; ++i) {
+      const std::string suffix = (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1);
+      const VarId bound = addHidden(there, id, array, suffix, types::kDInt);
+      if (i == 0) symbols.var(array).open_array.bounds = bound;
+    }
+  }
+}
+
+}  // namespace
+
 void resolvePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.resolved != State::New) return;
   scope.resolved = State::Busy;
   declarePou(context, id);
-  Symbols& symbols = context.symbols;
   Context there = atPou(context, id);
   addObjectFields(context, id);
-  Pou& pou = symbols.pou(id);
-  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  if (decl.result) {
-    const TypeId result = resolveType(there, decl.result);
-    pou.result = result;
-    symbols.var(pou.result_var).type = result;
-    if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
-  }
+  Pou& pou = context.symbols.pou(id);
+  resolveResult(there, pou, context.tree().as<PouDecl>(pou.decl));
   shareTemporaries(there, id);
-  std::vector<VarId> edges, open_arrays, enabled;
-  for (size_t i = 0; i < pou.vars.size(); ++i) {
-    const VarId var_id = pou.vars[i];
-    ensureVarType(there, var_id);
-    Var& var = symbols.var(var_id);
-    if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
-    if (var.storage == Storage::Field && !var.bits.holds_bits) addField(there, pou.record, var_id);
-    if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
-    if (var.pragmas.extensible) pou.extensible = true;
-    if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
-    if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
-    if (keepsEno(there, var_id)) enabled.push_back(var_id);
-  }
-  // A call with more arguments is folded from the left, f(f(a, b), c), which takes two inputs.
-  const auto isInput = [&](VarId var) { return symbols.var(var).section == SectionKind::Input; };
-  if (std::count_if(pou.vars.begin(), pou.vars.end(), isInput) < 2) pou.extensible = false;
+  const Accompanied vars = resolveVars(there, pou);
   // Forbids generic types outside of functions: an instance of a block has one layout.
   if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
     context.report(diag::GenericBlock, pou.loc, {context.names().string(pou.name)});
     pou.generic = false;
   }
-  const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
-    Var hidden = hiddenBeside(context, of, suffix, type);
-    hidden.pou = id;
-    hidden.field = static_cast<uint32_t>(pou.vars.size());
-    hidden.open_array.hidden_input = hidden.storage == Storage::Local;
-    const VarId hidden_id{static_cast<uint32_t>(symbols.vars.size())};
-    symbols.vars.push_back(hidden);
-    pou.vars.push_back(hidden_id);
-    if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
-    return hidden_id;
-  };
-  for (const VarId edge : edges) {
-    const VarId memory = addHidden(edge, "_edge", types::kBool);
-    symbols.var(edge).edge_memory = memory;
-    // iec: the body of F_TRIG, which F_EDGE stands for, sees an edge in a first call with FALSE.
-    if (there.profile().falling_edge_at_start && symbols.var(edge).edge == EdgeKind::Falling)
-      symbols.var(memory).init = makeLiteral(there, LiteralKind::Integer, types::kBool, 1, symbols.var(edge).loc);
-  }
-  for (const VarId instance : enabled) {
-    const VarId memory = addHidden(instance, "_eno", types::kBool);
-    symbols.var(instance).eno_memory = memory;
-    symbols.var(memory).init = makeLiteral(there, LiteralKind::Bool, types::kBool, 1, symbols.var(instance).loc);
-  }
-  for (const VarId array : open_arrays) {
-    const uint32_t dimensions = context.types().info(context.types().resolve(symbols.var(array).type)).length;
-    for (uint32_t i = 0; i < 2 * dimensions; ++i) {
-      const VarId bound = addHidden(array, (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1), types::kDInt);
-      if (i == 0) symbols.var(array).open_array.bounds = bound;
-    }
-  }
+  addHiddenVars(there, id, vars);
   scope.resolved = State::Done;
   if (!context.library) checkAttributesOf(there, id);
 }
@@ -794,7 +876,7 @@ void resolveList(Context& context, ListId id) {
     hidden.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, hidden.loc);
     const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(hidden);
-    symbols.var(var).eno_memory = created;
+    symbols.var(var).memory.eno = created;
     symbols.global_lists[id.index].vars.push_back(created);
   }
   scope.resolved = State::Done;

@@ -141,7 +141,8 @@ void collectConversions(const driver::Compilation& compilation, FileId file, std
   const sema::Project& project = *compilation.project;
   for (const sema::Pou& pou : project.pous) {
     if (pou.file != file) continue;
-    for (const StmtId statement : compilation.tree.list(pou.code)) collectConversions(compilation, statement, lines);
+    for (const StmtId statement : compilation.tree.list(pou.body.code))
+      collectConversions(compilation, statement, lines);
   }
   for (const sema::Var& var : project.vars)
     if (var.init && var.loc && compilation.sources.fileOf(var.loc) == file)
@@ -167,7 +168,7 @@ Checked check(const std::string& file, Dialect dialect) {
     collectConversions(compilation, compilation.tree.files[0].file, checked.conversions);
   const std::set<std::string> named = namesIn(readFile(file).content);
   for (const sema::Pou& pou : compilation.project->pous) {
-    if (!pou.library || pou.owner || !pou.name || pou.generic_of) continue;
+    if (!pou.library || pou.owner || !pou.name || pou.instance.of) continue;
     const std::string name(compilation.names.string(pou.name));
     if (named.count(upper(name)) != 0)
       checked.library_pous.emplace_back(name, compilation.names.string(pou.library_name));

@@ -205,7 +205,7 @@ std::string renamed(std::string_view text, const std::vector<std::string>& names
 void Converter::print(sema::PouId id) {
   const sema::Project& project = *compilation_.project;
   const sema::Pou& pou = project.pou(id);
-  if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
+  if (pou.library || pou.instance.of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
   printHidden(pou.kind == PouKind::Action ? pou.owner : id);
   if (decl.body_kind == BodyKind::Sfc) return printChart(id, decl);
@@ -226,7 +226,7 @@ void Converter::print(sema::PouId id) {
     const size_t at = lineOf(text, compilation_.tree.loc(member).offset - base);
     body.declarations = std::min(body.declarations, Loc{base + static_cast<uint32_t>(at)});
   }
-  body.text += printSt(compilation_.tree, compilation_.names, pou.statements, indent, comments);
+  body.text += printSt(compilation_.tree, compilation_.names, pou.body.statements, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
   bodies_.push_back(std::move(body));
 }
@@ -317,7 +317,7 @@ std::string Converter::statementsOfChart(const sema::Pou& pou, const PouDecl& de
     members.push_back(step.name);
     for (const SfcAssociation& association : tree.list(step.actions)) members.push_back(association.action);
   }
-  return withComments(rung::printChart(tree, compilation_.names, sources_, pou.statements, members),
+  return withComments(rung::printChart(tree, compilation_.names, sources_, pou.body.statements, members),
                       chartComments(decl));
 }
 
@@ -374,7 +374,7 @@ std::string Converter::action(DeclId id) const {
     const sema::Pou& pou = compilation_.project->pou(converted.pou);
     if (pou.decl != id) continue;
     body = temporaries(converted) + converted.text;
-    statements = pou.statements;
+    statements = pou.body.statements;
   }
   const StmtId first = statements.empty() ? StmtId{} : tree.list(statements)[0];
   if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)

@@ -102,8 +102,8 @@ TEST(Variables, edge_inputs_have_a_memory) {
       "FUNCTION_BLOCK c VAR_INPUT clk : INT F_EDGE; END_VAR END_FUNCTION_BLOCK");
   EXPECT_EQ(checked.codes(), "E0333@2");
   const Var& clk = checked.var("clk");
-  ASSERT_TRUE(clk.edge_memory);
-  EXPECT_EQ(checked.project.var(clk.edge_memory).field, 1u);
+  ASSERT_TRUE(clk.memory.edge);
+  EXPECT_EQ(checked.project.var(clk.memory.edge).field, 1u);
 }
 
 TEST(Variables, elementary_types_name_nothing_else) {

@@ -272,7 +272,7 @@ std::string Checked::messages() const {
 std::string Checked::body(const std::string& pou) const {
   Printer printer(*this);
   for (const sema::Pou& checked : project.pous)
-    if (!checked.library && checked.name && names.string(checked.name) == pou) printer.statements(checked.code);
+    if (!checked.library && checked.name && names.string(checked.name) == pou) printer.statements(checked.body.code);
   return printer.out;
 }
 
