@@ -207,7 +207,7 @@ struct Pou {
   // (`LIMIT__REAL`).
   bool generic = false;
   struct Instance {
-    PouId of;            // the generic function or block; none: this is no instance
+    PouId of;            // the generic function or block; none: not an instance
     uint32_t depth = 0;  // of a block with VAR_GENERIC CONSTANT: instances that need this one, in a row
   } instance;
   NameId

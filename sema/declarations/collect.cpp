@@ -31,63 +31,63 @@ struct KnownName {
   NameId Names::*name;
   std::string_view text;
 };
-using Known = Scopes::KnownNames;
-constexpr KnownName<Known> kKnownNames[] = {
-    {&Known::test, "test"},
-    {&Known::test_only, "test_only"},
-    {&Known::replaces, "replaces"},
-    {&Known::mock, "mock"},
-    {&Known::skip, "skip"},
-    {&Known::setup, "setup"},
-    {&Known::teardown, "teardown"},
-    {&Known::test_case, "case"},
-    {&Known::safe_values, "safe_values"},
-    {&Known::before_task, "before_task"},
-    {&Known::after_task, "after_task"},
-    {&Known::alias, "alias"},
-    {&Known::required, "required"},
-    {&Known::optional, "optional"},
-    {&Known::lazy, "lazy"},
-    {&Known::long_time, "long_time"},
-    {&Known::extensible, "extensible"},
-    {&Known::prefix, "prefix"},
-    {&Known::sized, "sized"},
-    {&Known::slice, "slice"},
-    {&Known::pure, "pure"},
-    {&Known::native, "native"},
-    {&Known::op, "operator"},
-    {&Known::std, "std"},
-    {&Known::no_final_scan, "no_final_scan"},
-    {&Known::list, "list"},
-    {&Known::fault, "fault"},
-    {&Known::no_copy, "no_copy"},
-    {&Known::bytes, "bytes"},
+using KnownNames = Scopes::KnownNames;
+constexpr KnownName<KnownNames> kKnownNames[] = {
+    {&KnownNames::test, "test"},
+    {&KnownNames::test_only, "test_only"},
+    {&KnownNames::replaces, "replaces"},
+    {&KnownNames::mock, "mock"},
+    {&KnownNames::skip, "skip"},
+    {&KnownNames::setup, "setup"},
+    {&KnownNames::teardown, "teardown"},
+    {&KnownNames::test_case, "case"},
+    {&KnownNames::safe_values, "safe_values"},
+    {&KnownNames::before_task, "before_task"},
+    {&KnownNames::after_task, "after_task"},
+    {&KnownNames::alias, "alias"},
+    {&KnownNames::required, "required"},
+    {&KnownNames::optional, "optional"},
+    {&KnownNames::lazy, "lazy"},
+    {&KnownNames::long_time, "long_time"},
+    {&KnownNames::extensible, "extensible"},
+    {&KnownNames::prefix, "prefix"},
+    {&KnownNames::sized, "sized"},
+    {&KnownNames::slice, "slice"},
+    {&KnownNames::pure, "pure"},
+    {&KnownNames::native, "native"},
+    {&KnownNames::op, "operator"},
+    {&KnownNames::std, "std"},
+    {&KnownNames::no_final_scan, "no_final_scan"},
+    {&KnownNames::list, "list"},
+    {&KnownNames::fault, "fault"},
+    {&KnownNames::no_copy, "no_copy"},
+    {&KnownNames::bytes, "bytes"},
 };
-constexpr KnownName<Known::Attributes> kAttributes[] = {
-    {&Known::Attributes::qualified_only, "qualified_only"},
-    {&Known::Attributes::strict, "strict"},
-    {&Known::Attributes::instance_path, "instance-path"},
-    {&Known::Attributes::no_check, "no_check"},
-    {&Known::Attributes::no_virtual_actions, "no_virtual_actions"},
-    {&Known::Attributes::obsolete, "obsolete"},
-    {&Known::Attributes::to_string, "to_string"},
-    {&Known::Attributes::unique_name, "unique_name"},
-    {&Known::Attributes::call_after_init, "call_after_init"},
-    {&Known::Attributes::pack_mode, "pack_mode"},
-    {&Known::Attributes::global_init_slot, "global_init_slot"},
-    {&Known::Attributes::after_globals, "call_after_global_init_slot"},
-    {&Known::Attributes::initialize_on_call, "initialize_on_call"},
-    {&Known::Attributes::is_connected, "is_connected"},
-    {&Known::Attributes::reflection, "reflection"},
-    {&Known::Attributes::no_exit, "no-exit"},
-    {&Known::Attributes::symbol, "symbol"},
+constexpr KnownName<KnownNames::Attributes> kAttributes[] = {
+    {&KnownNames::Attributes::qualified_only, "qualified_only"},
+    {&KnownNames::Attributes::strict, "strict"},
+    {&KnownNames::Attributes::instance_path, "instance-path"},
+    {&KnownNames::Attributes::no_check, "no_check"},
+    {&KnownNames::Attributes::no_virtual_actions, "no_virtual_actions"},
+    {&KnownNames::Attributes::obsolete, "obsolete"},
+    {&KnownNames::Attributes::to_string, "to_string"},
+    {&KnownNames::Attributes::unique_name, "unique_name"},
+    {&KnownNames::Attributes::call_after_init, "call_after_init"},
+    {&KnownNames::Attributes::pack_mode, "pack_mode"},
+    {&KnownNames::Attributes::global_init_slot, "global_init_slot"},
+    {&KnownNames::Attributes::after_globals, "call_after_global_init_slot"},
+    {&KnownNames::Attributes::initialize_on_call, "initialize_on_call"},
+    {&KnownNames::Attributes::is_connected, "is_connected"},
+    {&KnownNames::Attributes::reflection, "reflection"},
+    {&KnownNames::Attributes::no_exit, "no-exit"},
+    {&KnownNames::Attributes::symbol, "symbol"},
 };
 
 }  // namespace
 
 void internKnownNames(Context& context) {
   const auto keyOf = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
-  Known& known = context.scopes.known_names;
+  KnownNames& known = context.scopes.known_names;
   for (const auto& row : kKnownNames) known.*row.name = keyOf(row.text);
   for (const auto& row : kAttributes) known.attributes.*row.name = keyOf(row.text);
 }
