@@ -176,8 +176,8 @@ class Tree {
   };
   const Parens* parensOf(ExprId id) const;
 
-  std::vector<uint32_t*> chunks_;  // some point into a larger block
-  std::vector<uint32_t*> blocks_;  // owned
+  std::vector<uint32_t*> chunks_;   // some point into a larger block
+  std::vector<uint32_t*> blocks_;   // owned
   uint32_t* next_chunk_ = nullptr;  // in the last block, with `spare_` chunks from it on
   uint32_t spare_ = 0;
   uint32_t next_word_ = 0;

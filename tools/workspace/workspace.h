@@ -3,7 +3,7 @@
 // disk. Out: a snapshot after each change: what the commands know of a project, immutable, so that other threads read
 // an old one while the next is made. Used by servers; one thread makes changes.
 //
-// Each snapshot is made anew from its texts: a change of a project of 100 000 lines costs a whole check of it.
+// Each snapshot is made from its texts alone: a change of a project of 100 000 lines costs a whole check of it.
 #pragma once
 
 #include <atomic>
