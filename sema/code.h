@@ -34,7 +34,7 @@ struct Meaning {
 // What was written has no meaning, and does not change.
 inline void requireCode([[maybe_unused]] const ExprHeader& node) {
 #ifndef NDEBUG
-  RUNG_INVARIANT(node.has_room != 0, "only code has a meaning");
+  RUNG_INVARIANT(node.has_room != 0, "only code has a meaning, and may change");
 #endif
 }
 
@@ -56,13 +56,12 @@ class Code {
   template <class Node, class Id>
   Node& as(Id id) const {
     Node& node = arena_.as<Node>(id);
-    if constexpr (std::is_same_v<Id, ExprId>) RUNG_INVARIANT(node.h.has_room != 0, "what was written does not change");
+    if constexpr (std::is_same_v<Id, ExprId>) requireCode(node.h);
     return node;
   }
   ExprHeader& expr(ExprId id) const {
-    ExprHeader& header = arena_.expr(id);
-    RUNG_INVARIANT(header.has_room != 0, "what was written does not change");
-    return header;
+    requireCode(arena_.expr(id));
+    return arena_.expr(id);
   }
   template <class T>
   std::span<T> list(Slice<T> slice) const {
@@ -75,8 +74,6 @@ class Code {
   StringId addString(std::string_view text) const { return arena_.addString(text); }
   // Makes nodes that the source leaves implicit.
   TreeBuilder build() const;
-  // Where schedulers and parsers add what sema needs and the source does not have.
-  Tree& arena() const { return arena_; }
 
  private:
   ExprId copyNode(ExprId of) const;

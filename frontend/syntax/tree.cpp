@@ -76,11 +76,12 @@ Tree::~Tree() {
   for (uint32_t* block : blocks_) std::free(block);
 }
 
-// Memory for this many chunks; of a large tree, in huge pages, which the system clears at once.
+// Memory for this many chunks; of a large tree, in huge pages, which the system clears at once. The tiny chunks of
+// debug builds stay apart, so that a test notices who reads past the end of one.
 void Tree::openBlock(uint32_t chunks) {
   constexpr size_t kHugePage = size_t{2} << 20, kSmall = 4;
   size_t bytes = size_t{chunks} * kChunkWords * sizeof(uint32_t);
-  const bool is_large = blocks_.size() >= kSmall;
+  const bool is_large = blocks_.size() >= kSmall && kChunkWords * sizeof(uint32_t) >= kHugePage / 8;
   if (is_large) bytes = (bytes + kHugePage - 1) / kHugePage * kHugePage;
   void* const block = is_large ? std::aligned_alloc(kHugePage, bytes) : std::malloc(bytes);
   if (block == nullptr) throw std::bad_alloc();

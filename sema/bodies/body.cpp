@@ -21,7 +21,7 @@
 
 namespace rung::sema {
 
-// Turns a body in IL or SFC into statements, once the declarations of all files are known.
+// Turns a body in IL, SFC or networks into statements, once the declarations of all files are known.
 static void schedule(Context& context, const PouDecl& decl) {
   Pou& pou = context.symbols.pou(context.pou);
   const BodyKind kind = decl.body_kind;
