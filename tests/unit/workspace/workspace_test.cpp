@@ -98,10 +98,9 @@ void edit(std::string& text, std::mt19937& random) {
 // threads read the snapshots before it meanwhile.
 TEST(Workspace, SnapshotsOfRandomEditsEqualACheck) {
   TemporaryFolder folder;
-  for (const char* sample : {"conveyor", "traffic"}) {
-    const std::string from = std::string(RUNG_SOURCE) + "/samples/" + sample;
-    if (fs::exists(from)) fs::copy(from, folder.path() + "/" + sample, fs::copy_options::recursive);
-  }
+  for (const char* sample : {"conveyor", "traffic_light", "filling_station"})
+    fs::copy(std::string(RUNG_SOURCE) + "/samples/" + sample, folder.path() + "/" + sample,
+             fs::copy_options::recursive);
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     if (entry.path().extension() == ".st") files.push_back(entry.path().string());
