@@ -120,7 +120,7 @@ bool Declared::hasType(const Row& row, std::string_view type) const {
 
 // ---- one file
 
-struct Range {
+struct Blank {
   uint32_t begin, end;  // in the file
 };
 
@@ -137,7 +137,7 @@ class FileConditions {
 
   void run();
 
-  std::vector<Range> blanks;
+  std::vector<Blank> blanks;
   bool asked = false;  // a condition asked about a declaration
 
  private:
@@ -427,9 +427,9 @@ bool mayHaveConditions(std::string_view text) {
   return false;
 }
 
-std::string blanked(std::string_view text, const std::vector<Range>& blanks) {
+std::string blanked(std::string_view text, const std::vector<Blank>& blanks) {
   std::string out(text);
-  for (const Range& range : blanks)
+  for (const Blank& range : blanks)
     for (uint32_t i = range.begin; i < range.end; ++i)
       if (out[i] != '\n' && out[i] != '\r') out[i] = ' ';
   return out;

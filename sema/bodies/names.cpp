@@ -55,7 +55,7 @@ const char* kindName(PouKind kind) {
   return "a POU";
 }
 
-TypeId typeOf(const Context& context, VarId id) {
+TypeId typeOfVar(const Context& context, VarId id) {
   const TypeId type = context.symbols.var(id).type;
   return type ? type : types::kError;
 }
@@ -82,7 +82,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   ExprHeader& header = context.code().expr(expr);
   meaning(header).is_constant = var.constant && var.has_value;
   meaning(header).is_writable = !var.constant;
-  const TypeId type = typeOf(context, id);
+  const TypeId type = typeOfVar(context, id);
   if (var.bits.is_bit && !meaning(header).is_constant) return useBit(context, expr, var);
   return meaning(header).type = type;
 }

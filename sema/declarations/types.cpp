@@ -109,7 +109,7 @@ Entity findType(Context& context, NameId name, Loc loc) {
   return orMock(context, key, findDeclaredType(context, key, loc));
 }
 
-TypeId typeOf(Context& context, Entity found) {
+TypeId typeNamed(Context& context, Entity found) {
   if (found.entityKind() == EntityKind::Type) {
     const TypeId type{found.index};
     if (context.types().info(type).kind != TypeKind::Record) resolveNamed(context, type);
@@ -127,7 +127,7 @@ TypeId typeOf(Context& context, Entity found) {
 TypeId ownTypeOfLateName(Context& context, NameId name, TypeKind kind) {
   if (kind != TypeKind::UString && kind != TypeKind::UChar) return {};
   const Entity found = lookUp(context, name);
-  return found.entityKind() == EntityKind::Type || found.entityKind() == EntityKind::Pou ? typeOf(context, found)
+  return found.entityKind() == EntityKind::Type || found.entityKind() == EntityKind::Pou ? typeNamed(context, found)
                                                                                          : TypeId{};
 }
 
@@ -175,7 +175,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   } else {
     refuseGenerics();
   }
-  const TypeId type = typeOf(context, found);
+  const TypeId type = typeNamed(context, found);
   if (const NamedType* named = type ? context.scopes.named(type) : nullptr) {
     const DeclId decl = named->pou ? context.symbols.pou(named->pou).decl : named->decl;
     if (decl) context.rules->use(context, {named->pou, context.tree().decl(decl), last.name, last.loc, false});
@@ -477,7 +477,7 @@ void reportTooDeep(Context& context, Loc loc, const char* what, uint32_t limit) 
 
 TypeId lookUpType(Context& context, NameId name, Loc loc) {
   if (const TypeId elementary = context.types().elementary(name)) return elementary;
-  return typeOf(context, findType(context, name, loc));
+  return typeNamed(context, findType(context, name, loc));
 }
 
 TypeId resolveType(Context& context, TypeExprId id) {
