@@ -5,7 +5,7 @@
 // {operator 'convert'}.
 #include "sema/bodies/operator_calls.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversion_calls.h"
 #include "sema/bodies/conversions.h"

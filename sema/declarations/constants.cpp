@@ -107,6 +107,7 @@ std::optional<Value> callFunction(Context& context, PouId function, std::vector<
     value = types::convert(context.types(), value, symbols.var(pou.pins[i]).type).value;
   }
   return context.project.options.call_constant(context.project, function, values, [&](PouId callee) {
+    symbols.pou(callee).body.affects_others = true;
     return context.expressions->ensureBody(context, callee);
   });
 }
