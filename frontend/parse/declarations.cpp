@@ -42,7 +42,7 @@ constexpr std::string_view kWordsOfBoth[] = {
 constexpr std::string_view kWordsOfEdition3[] = {"CHAR",  "CONTINUE", "LDATE",  "LDT",
                                                  "LTIME", "LTOD",     "REF_TO", "WCHAR"};
 
-bool isReserved(const LanguageProfile& profile, std::string_view name) {
+bool reserves(const LanguageProfile& profile, std::string_view name) {
   const auto is_name = [&](std::string_view word) { return sameIdentifier(name, word); };
   return (profile.reserved_words && std::any_of(std::begin(kWordsOfBoth), std::end(kWordsOfBoth), is_name)) ||
          (profile.reserved_words_of_edition_3 &&
@@ -68,7 +68,7 @@ bool DeclarationParser::beginsType(const Token* t) const {
 
 // name, of what is declared: reported where a keyword of the dialect stands for it.
 bool DeclarationParser::parseNewName(Ident& out) {
-  if (isName(kind()) && isReserved(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
+  if (isName(kind()) && reserves(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
   return parseName(out);
 }
 

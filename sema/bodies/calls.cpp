@@ -21,6 +21,7 @@
 #include "sema/bodies/names.h"
 #include "sema/bodies/objects.h"
 #include "sema/bodies/operator_calls.h"
+#include "sema/bodies/outside_access.h"
 #include "sema/bodies/overloads.h"
 #include "sema/bodies/pointers.h"
 #include "sema/bodies/pseudo_functions.h"
@@ -682,13 +683,6 @@ void readProperty(Context& context, ExprId& expr, ExprId value) {
   context.replace(expr, value);
 }
 
-// Of a block or program, which was most likely meant to be called.
-bool isInstance(const Context& context, TypeId type) {
-  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  return info.kind == TypeKind::Record && info.record_kind != types::RecordKind::Struct &&
-         info.record_kind != types::RecordKind::Union;
-}
-
 // `name;` calls an action, a program or a method without parameters, or reads a property (codesys). Anything else does
 // nothing.
 // False: not a call.
@@ -718,7 +712,8 @@ bool isBareCall(Context& context, ExprId& expr) {
   if (found.entityKind() == EntityKind::Var && !context.type(node.callee)) check(context, callee, {}, Access::Read);
   const TypeId type = context.type(node.callee);
   const bool is_value = found.entityKind() == EntityKind::Var || found.entityKind() == EntityKind::None;
-  if (!type || type == types::kError || !is_value || isInstance(context, type)) {
+  const bool is_block = type && isInstance(context, type);  // most likely meant to be called
+  if (!type || type == types::kError || !is_value || is_block) {
     if (type != types::kError) context.report(diag::NoEffect, begin, {shown});
     return false;
   }

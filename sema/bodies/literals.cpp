@@ -35,7 +35,7 @@ Bounds boundsOf(const types::TypeTable& table, TypeKind kind) {
   return {0, (Int128{1} << width) - 1};
 }
 
-std::string toString(Int128 value) {
+std::string decimal(Int128 value) {
   if (value == 0) return "0";
   const bool negative = value < 0;
   std::string digits;
@@ -56,7 +56,7 @@ bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || 
 
 bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
   context.report(diag::ConstantOutOfRange, context.tree().begin(expr),
-                 {toString(value), context.types().toString(to), toString(bounds.low), toString(bounds.high)});
+                 {decimal(value), context.types().toString(to), decimal(bounds.low), decimal(bounds.high)});
   context.type(expr) = types::kError;
   return false;
 }
@@ -189,7 +189,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
   const Int128 bits = (Int128{1} << width) + value;
   const Loc loc = context.tree().begin(expr);
-  context.report(diag::NegativeWithoutSign, loc, {toString(value), context.types().toString(to), toString(bits)});
+  context.report(diag::NegativeWithoutSign, loc, {decimal(value), context.types().toString(to), decimal(bits)});
   context.replace(expr, makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc));
   return true;
 }
@@ -205,7 +205,7 @@ bool adaptPattern(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
     return false;
   const Int128 stored = value - (Int128{1} << width);
   const Loc loc = context.tree().begin(expr);
-  context.report(diag::SignBitSet, loc, {toString(value), context.types().toString(to), toString(stored)});
+  context.report(diag::SignBitSet, loc, {decimal(value), context.types().toString(to), decimal(stored)});
   context.replace(expr, makeInteger(context, to, stored, loc));
   return true;
 }
@@ -452,7 +452,7 @@ bool isInSubrange(Context& context, ExprId expr, Int128 value, TypeId subrange) 
   if (value >= low && value <= high) return true;
   context.report(context.profile().free_subranges ? diag::OutsideSubrange : diag::NotInSubrange,
                  context.tree().begin(expr),
-                 {toString(value), context.types().toString(subrange), toString(low), toString(high)});
+                 {decimal(value), context.types().toString(subrange), decimal(low), decimal(high)});
   return false;
 }
 

@@ -107,7 +107,7 @@ namespace {
 void toNumber(Context& context, ExprId& expr) { wrapConvert(context, expr, types::kLInt); }
 
 bool isPointer(const Context& context, TypeId type) { return context.types().kind(type) == TypeKind::Pointer; }
-bool isWhole(const Context& context, TypeId type) {
+bool isWholeNumber(const Context& context, TypeId type) {
   const TypeKind kind = context.types().plainKind(type);
   return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind) || kind == TypeKind::IntegerLiteral;
 }
@@ -158,7 +158,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   ExprId index = context.tree().list(node.indices)[0];
   const TypeId given = checkExpr(context, index);
   if (given == types::kError) return meaning(node.h).type = types::kError;
-  if (!isWhole(context, given)) {
+  if (!isWholeNumber(context, given)) {
     context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(given)});
     return meaning(node.h).type = types::kError;
   }
@@ -185,7 +185,7 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   BinaryExpr& node = context.code().as<BinaryExpr>(self);
   const TypeId left = context.type(node.left), right = context.type(node.right);
   const bool both = isPointer(context, left) && isPointer(context, right);
-  if (!both && !isWhole(context, isPointer(context, left) ? right : left)) return {};
+  if (!both && !isWholeNumber(context, isPointer(context, left) ? right : left)) return {};
   const BinaryOp op = node.op();
   const bool comparison = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
   if (!context.profile().pointer_arithmetic || (both && comparison)) return {};

@@ -84,7 +84,7 @@ Storage storageOf(const Context& context, SectionKind section, PouId pou, const 
   return Storage::Field;
 }
 
-Context contextOf(Context& context, VarId id) {
+Context contextAt(Context& context, VarId id) {
   const Var& var = context.symbols.var(id);
   if (var.pou) return atPou(context, var.pou);
   if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
@@ -424,7 +424,7 @@ bool checkDepth(Context& context, VarId id) {
 void ensureVarType(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
   if (symbols.var(id).type || !symbols.var(id).decl) return;
-  Context there = contextOf(context, id);
+  Context there = contextAt(context, id);
   const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (!checkDepth(context, id)) {
     symbols.var(id).type = types::kError;
@@ -542,7 +542,7 @@ void ensureInitialValue(Context& context, VarId id) {
   if (state == State::Done) return;
   if (var.section == SectionKind::External && var.external && !decl.init) return;
   if (state == State::Busy) return reportCycle(context, id);
-  Context there = contextOf(context, id);
+  Context there = contextAt(context, id);
   ensureVarType(context, id);
   if (!checkDepth(context, id)) return setUnknown(context, id);
   context.scopes.initial_values[decl_id] = State::Busy;
