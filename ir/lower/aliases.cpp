@@ -2,6 +2,7 @@
 // Proves from names alone that two variables do not overlap in memory. In: checked expressions. Out: yes, or "not
 // sure". Called by calls.cpp before it lets a chain of string functions work in the variable that is assigned.
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 
 namespace rung::ir {
 
@@ -57,7 +58,7 @@ bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     case rung::ExprKind::TypedName: return true;
     case rung::ExprKind::Name:
     case rung::ExprKind::Member: {
-      if (constantOf(project_, id)) return true;
+      if (sema::constantOf(project_, id)) return true;
       sema::VarId root = rootVar(id);
       return root && areApart(root, variable);
     }
@@ -69,7 +70,7 @@ bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
       const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
       if (node.op() == BinaryOp::Power) return false;
       if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) {  // a fault would leave the variable changed
-        auto divisor = constantOf(project_, node.right);
+        auto divisor = sema::constantOf(project_, node.right);
         if (!divisor || !TypeTable::isScalar(types_.plainKind(divisor->type)) || divisor->bits == 0) return false;
       }
       return isApart(node.left, variable) && isApart(node.right, variable);

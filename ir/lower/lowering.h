@@ -119,11 +119,6 @@ struct ModuleLowering {
   size_t next_to_lower_ = 0;
 };
 
-// The scalar or string value of a checked constant expression; none when it is not that simple.
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
-// The same of an intermediate result (sema/intermediate.h) in its own type.
-std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId expr);
-
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
 // The parts of an ARRAY[*] argument: the address of the first element, and the bounds.
