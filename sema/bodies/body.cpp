@@ -35,8 +35,8 @@ static void schedule(Context& context, const PouDecl& decl) {
     declareTemporaries(context, made.temporaries);
   };
   if (kind == BodyKind::Network) {
-    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
-                                   decl));
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.network_variables,
+                                   context.project.options.edge_coils, decl));
   } else if (kind == BodyKind::Il) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {

@@ -591,8 +591,8 @@ static void declareHidden(Context& context, PouId id) {
   const auto declare = [&](const PouDecl& of, std::string_view prefix) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
-    const DeclId section =
-        diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, signatures, of, kind, prefix);
+    const DeclId section = diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, signatures,
+                                                    context.project.network_variables, of, kind, prefix);
     if (section) added.push_back(section);
   };
   declare(decl, {});
