@@ -66,8 +66,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
     return {};
   }
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
-  TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}};
-  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
+  TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}, access == AccessLevel::Internal};
   Ident name;
   if (!parseNewName(name)) {
     tree_.lost_names = true;

@@ -125,7 +125,7 @@ DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signa
   declarer.keepValues(diagnostics, pou);
   if (declarer.vars().empty()) return {};
   const Loc loc = tree.loc(declarer.vars().front());
-  return TreeBuilder(tree).section(kind, declarer.vars(), loc, kHidden);
+  return TreeBuilder(tree).section(kind, declarer.vars(), loc, SectionMaker::Networks);
 }
 
 }  // namespace rung::diagram

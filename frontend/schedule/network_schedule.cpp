@@ -500,7 +500,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
     const NameId name = tree_.as<NameExpr>(e.operand).name;
     for (const DeclId s : tree_.list(pou.sections)) {
       const SectionDecl& section = tree_.as<SectionDecl>(s);
-      if ((section.h.bits & (kRetain | kPersistent)) != 0 || section.section == SectionKind::External) continue;
+      if (section.qualifiers.isKept() || section.section == SectionKind::External) continue;
       for (const DeclId v : tree_.list(section.vars))
         for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
           if (names_.same(declared.name, name))

@@ -727,7 +727,7 @@ bool isBareCall(Context& context, ExprId& expr) {
 
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
   CallExpr& node = context.code().as<CallExpr>(expr);
-  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return meaning(node.h).type = types::kError;
+  if (node.is_bare && !isBareCall(context, expr)) return meaning(node.h).type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.code().as<NameExpr>(node.callee);
     meaning(callee.h).entity = lookUp(context, callee, callee.h.loc);

@@ -240,7 +240,7 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
     const LiteralExpr& node = tree.as<LiteralExpr>(expr);
     if (node.literal() != LiteralKind::Integer && node.literal() != LiteralKind::Bool) return std::nullopt;
     const auto value = static_cast<int64_t>(node.value());
-    return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+    return node.form.is_negative ? -value : value;
   }
   const Entity entity = entityOf(context, expr);
   if (entity.entityKind() == EntityKind::EnumValue) return context.symbols.enum_values[entity.index].value;

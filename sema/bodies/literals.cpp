@@ -49,7 +49,7 @@ std::string decimal(Int128 value) {
 
 Int128 literalValue(const LiteralExpr& node) {
   const Int128 value = node.value();
-  return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+  return node.form.is_negative ? -value : value;
 }
 
 bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind); }
@@ -145,7 +145,8 @@ void setIntegerType(Context& context, ExprId& expr, TypeId to) {
     if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
       // -32768 is one value: its magnitude alone does not fit.
       const ExprId literal = context.code().duplicate(node.operand);
-      context.code().expr(literal).bits ^= kLiteralNegative;
+      LiteralForm& form = context.code().as<LiteralExpr>(literal).form;
+      form.is_negative = !form.is_negative;
       context.replace(expr, literal);
     }
   } else if (tree.kind(expr) == ExprKind::Binary) {
@@ -346,13 +347,13 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
   // IEC 61131-3 ed. 2, 2.2.3.1: only the most significant unit may overflow. CODESYS, "TIME Constants".
   //   passes  T#90m        fails  T#1h90m        E0246, in codesys W0258
-  if ((node.h.bits & kLiteralOverflows) != 0)
+  if (node.form.overflows)
     context.report(context.profile().overflowing_durations ? diag::DurationOverflowWarning : diag::DurationOverflow,
                    node.h.loc, {context.symbols.sources.tokenAt(node.h.loc)});
   // A duration is 64 bits of nanoseconds; LTIME with a sign has one bit less, without one no negative values.
-  const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
+  const bool is_long = node.form.is_long || wanted == longer;
   const bool is_signed = context.types().isSigned(longer);
-  const bool is_negative = (node.h.bits & kLiteralNegative) != 0 && node.value() != 0;
+  const bool is_negative = node.form.is_negative && node.value() != 0;
   const bool beyond = is_signed ? !is_negative && node.value() >> 63 != 0 : is_negative;
   if (is_long && longer == TypeKind::LTime && beyond) {
     const uint64_t low = is_signed ? uint64_t{1} << 63 : 0, high = ~uint64_t{0} >> (is_signed ? 1 : 0);

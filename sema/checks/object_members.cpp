@@ -262,7 +262,7 @@ void checkHalves(Context& context, PouId object) {
        context.tree().list(context.tree().as<PouDecl>(context.symbols.pou(object).decl).members)) {
     if (context.tree().kind(member) != DeclKind::Property) continue;
     const Property& property = context.symbols.properties[context.symbols.pou(object).object.properties[index++]];
-    if (context.tree().as<PropertyDecl>(member).h.bits == kInHalves && property.get && property.set)
+    if (context.tree().as<PropertyDecl>(member).in_halves && property.get && property.set)
       checkHalves(context, property);
   }
 }

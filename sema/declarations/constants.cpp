@@ -313,7 +313,7 @@ std::optional<int64_t> plainInteger(const Tree& tree, ExprId id) {
   const LiteralExpr& literal = tree.as<LiteralExpr>(id);
   if (literal.literal() != LiteralKind::Integer || literal.prefix || literal.high >> 31 != 0) return std::nullopt;
   const auto value = static_cast<int64_t>(literal.value());
-  return negate != ((literal.h.bits & kLiteralNegative) != 0) ? -value : value;
+  return negate != (literal.form.is_negative) ? -value : value;
 }
 
 }  // namespace

@@ -39,9 +39,7 @@ std::string identifierOf(const types::TypeTable& table, TypeId type) {
 
 // ---- VAR_GENERIC CONSTANT
 
-bool isGenericSection(const Tree& tree, DeclId section) {
-  return (tree.as<SectionDecl>(section).h.bits & kGeneric) != 0;
-}
+bool isGenericSection(const Tree& tree, DeclId section) { return tree.as<SectionDecl>(section).qualifiers.generic; }
 
 std::vector<Ident> genericsOf(const Tree& tree, const PouDecl& block) {
   std::vector<Ident> names;

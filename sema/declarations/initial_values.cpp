@@ -41,7 +41,7 @@ struct Initializer {
   bool plainLiteral(ExprId id, TypeId type) const {
     if (tree().kind(id) != ExprKind::Literal) return false;
     const LiteralExpr& literal = tree().as<LiteralExpr>(id);
-    if (literal.prefix || (literal.h.bits & kLiteralNegative) != 0) return false;
+    if (literal.prefix || literal.form.is_negative) return false;
     const TypeKind kind = context.types().kind(type);
     bool ok = false;
     if (literal.literal() == LiteralKind::Integer) {

@@ -113,7 +113,7 @@ struct Collector {
       region = addRegion(context, region, around);
     }
     if (decl.path.empty()) return;  // reported by the parser
-    if ((decl.h.bits & kInternal) != 0) spaceAt(context, around).internal = true;
+    if (decl.is_internal) spaceAt(context, around).internal = true;
     collect(decl.decls, file, region, false);
   }
 };

@@ -136,11 +136,11 @@ Var describeVar(Context& context, DeclId decl_id, const SectionDecl& section, Po
   var.edge = decl.edge;
   // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
   const bool settable = section.section == SectionKind::Input && context.profile().settable_constant_inputs;
-  var.constant = (section.h.bits & kConstant) != 0 && !settable;
-  var.keeping.persistent = (section.h.bits & kPersistent) != 0;
-  var.keeping.retain = (section.h.bits & kRetain) != 0 || var.keeping.persistent;
-  var.keeping.non_retain = (section.h.bits & kNonRetain) != 0;
-  var.generic = (section.h.bits & kGeneric) != 0;
+  var.constant = section.qualifiers.constant && !settable;
+  var.keeping.persistent = section.qualifiers.persistent;
+  var.keeping.retain = section.qualifiers.isKept();
+  var.keeping.non_retain = section.qualifiers.non_retain;
+  var.generic = section.qualifiers.generic;
   var.pou = pou;
   var.list = list;
   if (pou)
@@ -653,16 +653,16 @@ static bool keepsEno(Context& context, VarId id) {
 //   passes  VAR RETAIN n : INT; END_VAR      fails  VAR_TEMP RETAIN n : INT; END_VAR      E0372
 void checkModifiers(Context& context, const SectionDecl& section) {
   if (context.library) return;
-  constexpr uint8_t kBoth = kRetain | kNonRetain;
-  if ((section.h.bits & kBoth) == kBoth) {
+  const Qualifiers& written = section.qualifiers;
+  if (written.retain && written.non_retain) {
     context.report(diag::RetainTwice, section.h.loc);
     return;
   }
   const bool lives = section.section == SectionKind::Stat || section.section == SectionKind::Inst ||
                      section.section == SectionKind::External;
   const bool of_call = context.pou && isFunction(context.symbols.pou(context.pou).kind) && !lives;
-  if (of_call && (section.h.bits & (kRetain | kPersistent)) != 0) {
-    const std::string_view word = (section.h.bits & kRetain) != 0 ? "RETAIN" : "PERSISTENT";
+  if (of_call && written.isKept()) {
+    const std::string_view word = written.retain ? "RETAIN" : "PERSISTENT";
     if (!context.profile().retain_in_functions)
       context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
     else
@@ -670,8 +670,8 @@ void checkModifiers(Context& context, const SectionDecl& section) {
     return;
   }
   const LanguageProfile& profile = context.profile();
-  const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0 && !profile.retain_without_memory;
-  const bool constant = (section.h.bits & kConstant) != 0;
+  const bool retain = written.isKept() && !profile.retain_without_memory;
+  const bool constant = written.constant;
   const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
   if (retain && constant)
     context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
@@ -700,7 +700,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
   checkModifiers(there, section);
-  const bool of_chart = (section.h.bits & kOfChart) != 0;
+  const bool of_chart = section.maker == SectionMaker::Chart;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {
