@@ -273,8 +273,9 @@ TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type
     return type;
   if (type == types::kError || context.tree().kind(expr) != ExprKind::Call) return type;
   CallExpr& node = context.code().as<CallExpr>(expr);
-  if (!meaning(node.h).call || context.symbols.call(meaning(node.h).call).bindings.size() != 1) return type;
-  ExprId value = context.symbols.call(meaning(node.h).call).bindings[0].value;
+  Meaning& known = meaning(node.h);
+  if (!known.call || context.symbols.call(known.call).bindings.size() != 1) return type;
+  ExprId value = context.symbols.call(known.call).bindings[0].value;
   while (value && context.tree().kind(value) == ExprKind::Convert)
     value = context.tree().as<ConvertExpr>(value).operand;
   const PouId names = value ? itemNamesOf(context, context.type(value)) : PouId{};
@@ -282,11 +283,11 @@ TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type
   wrapConvert(context, value, types::kLInt);
   const VarId pin = pinsOf(context, names)[0];
   noteCall(context, names, node.h.loc);
-  Call& call = context.symbols.call(meaning(node.h).call);
+  Call& call = context.symbols.call(known.call);
   call.pou = names;
   call.bindings[0].pin = pin;
   call.bindings[0].value = value;
-  meaning(node.h).type = types::idOf(TypeKind::String);
+  known.type = types::idOf(TypeKind::String);
   if (wide) wrapConvert(context, expr, types::idOf(TypeKind::WString));
   return context.type(expr);
 }
@@ -320,6 +321,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
 
 TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool as_statement) {
   CallExpr& node = context.code().as<CallExpr>(expr);
+  Meaning& known = meaning(node.h);
   resolvePou(context, pou);
   noteCall(context, pou, node.h.loc);
   const Arguments arguments = matchArguments(context, node, pou);
@@ -337,12 +339,12 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   bindArguments(context, node, pou, arguments, call);
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   context.rules->call(context, node, call);
-  meaning(node.h).call = addCall(context, std::move(call));
+  known.call = addCall(context, std::move(call));
   if (!as_statement) {
     context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  return meaning(node.h).type = {};
+  return known.type = {};
 }
 
 TypeId refuse(Context& context, CallExpr& node) {

@@ -305,8 +305,9 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
 
 TypeId checkTypedNumber(Context& context, ExprId& expr) {
   LiteralExpr& node = context.code().as<LiteralExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeId type = prefixType(context, node);
-  if (type == types::kError) return meaning(node.h).type = type;
+  if (type == types::kError) return known.type = type;
   const TypeKind kind = context.types().plainKind(type);
   if (types::TypeTable::isReal(kind) &&
       (node.literal() == LiteralKind::Real || node.literal() == LiteralKind::Integer)) {
@@ -320,9 +321,9 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
       reportRange(context, expr, literalValue(node), type, {0, 1});
       return types::kError;
     }
-    return meaning(node.h).type = type;
+    return known.type = type;
   }
-  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return meaning(node.h).type = type;
+  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return known.type = type;
   if ((types::TypeTable::isString(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
     if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, expr);
@@ -338,12 +339,13 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
     return meaning(text.h).type = types::kError;
   }
   context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
-  return meaning(node.h).type = types::kError;
+  return known.type = types::kError;
 }
 
 // T# and similar: the long form where it is written or wanted, else the short one when the value fits.
 TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
                  int64_t unit) {
+  Meaning& known = meaning(node.h);
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
   // IEC 61131-3 ed. 2, 2.2.3.1: only the most significant unit may overflow. CODESYS, "TIME Constants".
   //   passes  T#90m        fails  T#1h90m        E0246, in codesys W0258
@@ -361,9 +363,9 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(longer)),
                     types::toString(context.types(), context.names(), {types::kLTime, low}),
                     types::toString(context.types(), context.names(), {types::kLTime, high})});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  if (is_long) return meaning(node.h).type = types::idOf(longer);
+  if (is_long) return known.type = types::idOf(longer);
   const int64_t count = static_cast<int64_t>(node.value()) / unit;
   const Bounds bounds = boundsOf(context.types(), shorter);
   const bool negative = static_cast<int64_t>(node.value()) < 0;
@@ -374,7 +376,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(shorter)),
                     types::toString(context.types(), context.names(), low),
                     types::toString(context.types(), context.names(), high)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   if (static_cast<int64_t>(node.value()) % unit != 0) {
     const types::Value stored{types::idOf(shorter), static_cast<uint64_t>(count)};
@@ -383,7 +385,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                     types::toString(context.types(), context.names(), stored),
                     unit == 1'000'000 ? "milliseconds" : "seconds", context.types().toString(types::idOf(longer))});
   }
-  return meaning(node.h).type = types::idOf(shorter);
+  return known.type = types::idOf(shorter);
 }
 
 TypeId checkString(Context& context, ExprId& expr, TypeId expected) {
@@ -420,14 +422,14 @@ void retypeString(Context& context, ExprId& expr, TypeId wanted) {
 
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
   LiteralExpr& node = context.code().as<LiteralExpr>(expr);
-  meaning(node.h).is_constant = 1;
+  Meaning& known = meaning(node.h);
+  known.is_constant = 1;
   switch (node.literal()) {
-    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::kBool;
+    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : known.type = types::kBool;
     case LiteralKind::Integer:
-      return node.prefix ? checkTypedNumber(context, expr)
-                         : meaning(node.h).type = types::idOf(TypeKind::IntegerLiteral);
+      return node.prefix ? checkTypedNumber(context, expr) : known.type = types::idOf(TypeKind::IntegerLiteral);
     case LiteralKind::Real:
-      return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::idOf(TypeKind::RealLiteral);
+      return node.prefix ? checkTypedNumber(context, expr) : known.type = types::idOf(TypeKind::RealLiteral);
     case LiteralKind::String:
     case LiteralKind::WString:
       return node.prefix ? checkTypedNumber(context, expr) : checkString(context, expr, expected);
@@ -437,9 +439,9 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
       return checkSpan(context, node, expected, TypeKind::TimeOfDay, TypeKind::LTimeOfDay, 1'000'000);
     case LiteralKind::DateTime:
       return checkSpan(context, node, expected, TypeKind::DateTime, TypeKind::LDateTime, 1'000'000'000);
-    case LiteralKind::Null: return meaning(node.h).type = types::idOf(TypeKind::NullLiteral);
+    case LiteralKind::Null: return known.type = types::idOf(TypeKind::NullLiteral);
   }
-  return meaning(node.h).type = types::kError;
+  return known.type = types::kError;
 }
 
 // Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.

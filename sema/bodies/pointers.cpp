@@ -148,23 +148,24 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
 
 TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.code().as<IndexExpr>(expr);
+  Meaning& known = meaning(node.h);
   const Loc loc = node.h.loc;
   if (!context.profile().indexed_pointers) {
     context.report(diag::IndexOfPointer, loc);
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const ExprId pointer = node.base;
   const TypeId type = context.type(pointer);
   ExprId index = context.tree().list(node.indices)[0];
   const TypeId given = checkExpr(context, index);
-  if (given == types::kError) return meaning(node.h).type = types::kError;
+  if (given == types::kError) return known.type = types::kError;
   if (!isWholeNumber(context, given)) {
     context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(given)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;
   if (const PouId pou = pouOf(context, target)) resolvePou(context, pou);
-  if (!ensureLayout(context, target)) return meaning(node.h).type = types::kError;
+  if (!ensureLayout(context, target)) return known.type = types::kError;
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
