@@ -168,9 +168,13 @@ class PlaceLowering : public BodyPart {
   bool isApart(rung::ExprId value, sema::VarId variable) const;
 
  private:
+  bool isApartFrom(rung::ExprId place, sema::VarId variable) const;
+  bool operandsAreApart(const rung::BinaryExpr& node, sema::VarId variable) const;
+  bool argumentsAreApart(rung::ExprId call, sema::VarId variable) const;
   ExprId named(rung::ExprId expr);
   sema::VarId ownTemporary(sema::VarId id) const;
   ExprId indexed(const rung::IndexExpr& node);
+  ExprId lowerStep(rung::ExprId expr);
   ExprId dereferenced(rung::ExprId expr);
   ExprId directAddress(rung::ExprId expr);
   ExprId memberPlace(rung::ExprId expr);

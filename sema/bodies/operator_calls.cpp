@@ -5,6 +5,8 @@
 // {operator 'convert'}.
 #include "sema/bodies/operator_calls.h"
 
+#include <optional>
+
 #include "sema/bodies/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversion_calls.h"
@@ -27,40 +29,16 @@ namespace {
 
 using types::TypeTable;
 
-bool infixOf(types::Op op, BinaryOp& out) {
-  switch (op) {
-    case types::Op::Add: out = BinaryOp::Add; return true;
-    case types::Op::Sub: out = BinaryOp::Subtract; return true;
-    case types::Op::Mul: out = BinaryOp::Multiply; return true;
-    case types::Op::Div: out = BinaryOp::Divide; return true;
-    case types::Op::Mod: out = BinaryOp::Modulo; return true;
-    case types::Op::Power: out = BinaryOp::Power; return true;
-    case types::Op::Neg:
-    case types::Op::And:
-    case types::Op::Or:
-    case types::Op::Xor:
-    case types::Op::Not:
-    case types::Op::Shl:
-    case types::Op::Shr:
-    case types::Op::Sar:
-    case types::Op::Rol:
-    case types::Op::Ror:
-    case types::Op::Eq:
-    case types::Op::Ne:
-    case types::Op::Lt:
-    case types::Op::Le:
-    case types::Op::Gt:
-    case types::Op::Ge:
-    case types::Op::Min:
-    case types::Op::Max:
-    case types::Op::Abs: return false;
-  }
-  return false;
+// The arithmetic operator that a function is; none: another one.
+std::optional<BinaryOp> infixOf(types::Op op) {
+  for (const BinaryOp infix :
+       {BinaryOp::Add, BinaryOp::Subtract, BinaryOp::Multiply, BinaryOp::Divide, BinaryOp::Modulo, BinaryOp::Power})
+    if (operatorOf(infix) == op) return infix;
+  return std::nullopt;
 }
 
 bool isArithmetic(const auto& pragmas) {
-  BinaryOp infix;
-  return pragmas.operator_kind == OperatorKind::Op && (pragmas.op == types::Op::Abs || infixOf(pragmas.op, infix));
+  return pragmas.operator_kind == OperatorKind::Op && (pragmas.op == types::Op::Abs || infixOf(pragmas.op));
 }
 
 bool isTime(const Context& context, TypeId type) {
@@ -129,16 +107,15 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     return checkRefused(context, node, arguments);
   }
   if (!checkRequiredPins(context, node, id, arguments)) return known.type = types::kError;
-  BinaryOp infix;
-  bool checked = false;
-  if (pou.pragmas.operator_kind == OperatorKind::Op && infixOf(pou.pragmas.op, infix) && infix != BinaryOp::Power) {
+  const auto infix = pou.pragmas.operator_kind == OperatorKind::Op ? infixOf(pou.pragmas.op) : std::nullopt;
+  const bool checked = infix && infix != BinaryOp::Power;
+  if (checked) {
     ExprId value = expr;
-    if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
+    if (const TypeId type = infixTimes(context, value, arguments, *infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
       context.replace(expr, value);
       return context.type(expr) = type;
     }
-    checked = true;
   }
   GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced, checked);
   if (!operands.ok) return known.type = types::kError;

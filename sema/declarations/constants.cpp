@@ -80,31 +80,18 @@ class Fold {
 
 std::optional<Value> Fold::uncut(ExprId id, TypeId native) {
   const Tree& tree = symbols_.tree;
-  switch (tree.kind(id)) {
-    case ExprKind::Literal: return valueOf(symbols_, tree.as<LiteralExpr>(id));
-    case ExprKind::Name:
-    case ExprKind::TypedName:
-    case ExprKind::Member: return ofEntity(meaning(tree, id).entity);
-    case ExprKind::Convert: return ofConvert(id, native);
-    case ExprKind::Unary: return ofUnary(tree.as<UnaryExpr>(id), native);
-    case ExprKind::Binary: return ofBinary(tree.as<BinaryExpr>(id), native);
-    case ExprKind::Call: return context_ != nullptr ? ofCall(id) : std::nullopt;
-    case ExprKind::Error:
-    case ExprKind::Index:
-    case ExprKind::This:
-    case ExprKind::Super:
-    case ExprKind::Deref:
-    case ExprKind::BitAccess:
-    case ExprKind::Address:
-    case ExprKind::AddressOf:
-    case ExprKind::Bound:
-    case ExprKind::New:
-    case ExprKind::Assign:
-    case ExprKind::AnyValue:
-    case ExprKind::Range:
-    case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit: return std::nullopt;
+  const ExprKind kind = tree.kind(id);
+  switch (shape(kind)) {
+    case ExprShape::Leaf:
+      return kind == ExprKind::Literal ? valueOf(symbols_, tree.as<LiteralExpr>(id))
+                                       : ofEntity(meaning(tree, id).entity);
+    case ExprShape::Step: return kind == ExprKind::Member ? ofEntity(meaning(tree, id).entity) : std::nullopt;
+    case ExprShape::Operation:
+      if (kind == ExprKind::Unary) return ofUnary(tree.as<UnaryExpr>(id), native);
+      if (kind == ExprKind::Binary) return ofBinary(tree.as<BinaryExpr>(id), native);
+      return kind == ExprKind::Call && context_ != nullptr ? ofCall(id) : std::nullopt;
+    case ExprShape::Inserted: return kind == ExprKind::Convert ? ofConvert(id, native) : std::nullopt;
+    case ExprShape::Initializer: return std::nullopt;
   }
   return std::nullopt;
 }
