@@ -255,6 +255,10 @@ class CallLowering : public BodyPart {
   bool isPlainCall(rung::ExprId expr) const;  // unconditional: without EN and ENO
 
  private:
+  ExprId lowerPlainCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId instance);
+  ExprId lowerConditionalCall(const sema::Call& call, const rung::CallExpr& node, Target* target);
+  StmtId clearingOnFault(ExprId eno, StmtId statements, Loc loc);
+  void storeEno(const sema::Call& call, ExprId eno, Loc loc);
   void lowerTarget(Target& target);
   ExprId lowerMethodCall(const sema::Call& call, const rung::CallExpr& node, Target* target);
   void storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc);
