@@ -271,7 +271,7 @@ class StatementWriter : public BodyPart {
   void deepIf(const ir::IfStmt& stmt);
   void switchStatement(const ir::SwitchStmt& stmt);
   void switchCases(const ir::SwitchStmt& stmt, TypeId type);
-  void switchCase(std::string_view labels, StmtId first);
+  void switchCase(const std::vector<cxx::CaseLabel>& labels, StmtId first);
   void tryStatement(const ir::TryStmt& stmt);
   void guarded(const std::string& frame, const std::string& fault, StmtId first);
   void assertStatement(const Stmt& stmt);

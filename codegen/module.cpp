@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_set>
 
+#include "codegen/module_functions.h"
 #include "codegen/names.h"
-#include "codegen/signature.h"
 #include "codegen/symbols.h"
 #include "codegen/types.h"
 #include "ir/description.h"
@@ -129,47 +128,13 @@ class Describer {
   std::string_view text(uint32_t offset) const { return is_.strings.bytes().c_str() + offset; }
   std::string typeName(uint32_t number) const { return std::string(text(is_.types[number].name)); }
 
-  // ---- code: tasks, tests, initial values
-
-  // Calls a body on a block of the module.
-  std::string callOn(ir::BodyId id, TypeId record, uint32_t block) {
-    declare(id);
-    const std::string type = recordName(types_, record);
-    std::string out = "  ";
-    appendFunctionName(out, module_, module_.body(id));
-    return out + "(*static_cast<" + type + "*>(ctx->blocks[" + number(block) + "]), ctx);\n";
-  }
-  std::string callOf(ir::BodyId function) {
-    declare(function);
-    std::string out = "  ";
-    appendFunctionName(out, module_, module_.body(function));
-    return out + "(ctx);\n";
-  }
-  std::string runOf(const ir::ProgramInstance& program, uint32_t block) {
-    return program.run ? callOf(program.run) : callOn(program.body, program.record, block);
-  }
-  // The memory is cleared anyway.
-  bool hasCode(ir::BodyId init) const { return init && facts_.is_zeroing[init.index] == 0; }
-  void declare(ir::BodyId id) {
-    if (std::find(declared_.begin(), declared_.end(), id.index) != declared_.end()) return;
-    declared_.push_back(id.index);
-    const ir::Body& body = module_.body(id);
-    if (body.self && named_records_.insert(types_.resolve(body.self).index).second) {
-      records_ += recordType(types_, body.self) + ";\n";
-    }
-    appendSignature(prototypes_, module_, body);
-    prototypes_ += ";\n";
-  }
+  // ---- what has a function: initial values, tasks, tests
 
   void addInitialisers() {
     for (const ir::Description::Initialiser& is : is_.initialisers) {
-      if (!hasCode(is.body)) continue;
-      declare(is.body);
-      const ir::Body& body = module_.body(is.body);
+      if (!functions_.hasCode(is.body)) continue;
       const std::string function = "init" + number(is.type);
-      code_ += "\nstatic void " + function + "(rung_context* ctx, void* instance) {\n  ";
-      appendFunctionName(code_, module_, body);
-      code_ += "(*static_cast<" + recordName(types_, body.self) + "*>(instance), ctx);\n}\n";
+      functions_.addInitialiser(function, is.body);
       initialisers_.row({number(is.type), function}, typeName(is.type));
     }
   }
@@ -178,16 +143,7 @@ class Describer {
     for (uint32_t i = 0; i < is_.tasks.size(); ++i) {
       const rung_task& task = is_.tasks[i];
       const std::string function = "task" + number(i);
-      code_ += "\nstatic void " + function + "(rung_context* ctx) {\n  (void)ctx;\n";
-      if (module_.tasks[i].before) code_ += callOf(module_.tasks[i].before);
-      for (uint32_t p = 0; p < module_.programs.size(); ++p) {
-        const ir::ProgramInstance& program = module_.programs[p];
-        if (program.task == i + 1 && program.body) code_ += runOf(program, facts_.program_block[p]);
-      }
-      for (const ir::BlockTask& block : module_.block_tasks)
-        if (block.task == i + 1) code_ += callOf(block.run);
-      if (module_.tasks[i].after) code_ += callOf(module_.tasks[i].after);
-      code_ += "}\n";
+      functions_.addTask(function, i);
       tasks_.row({number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
                   signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),
                   number(task.external_event), number(task.resource), number(task.first_write),
@@ -199,65 +155,14 @@ class Describer {
   void addTests() {
     uint32_t count = 0;
     for (const ir::Description::Test& test : is_.tests) {
-      const ir::Body& body = module_.body(test.body);
-      const std::string name = "test" + number(count++);
-      std::string init = "nullptr", exit = "nullptr", first, last;
-      std::string run = "\nstatic void " + name + "(rung_context* ctx) {\n";
-      if (test.before) run += callOf(test.before);
-      if (body.kind == ir::BodyKind::Function) {
-        declare(test.body);
-        run += functionCall(body);
-      } else if (test.program != RUNG_NONE) {
-        const ir::ProgramInstance& program = module_.programs[test.program];
-        const uint32_t block = facts_.program_block[test.program];
-        run += runOf(program, block);
-        first = "  memset(ctx->blocks[" + number(block) + "], 0, " + number(is_.blocks[block].size) + ");\n";
-        if (hasCode(program.init)) first += callOn(program.init, program.record, block);
-        if (program.setup) first += callOf(program.setup);
-        if (program.after_init) first += callOf(program.after_init);
-        if (program.exit) last = callOf(program.exit);
-      }
-      for (const ir::BodyId setup : test.setups) first += callOf(setup);
-      std::string teardowns;
-      for (const ir::BodyId teardown : test.teardowns) teardowns += callOf(teardown);
-      last.insert(0, teardowns);
-      if (!first.empty()) {
-        init = name + "_init";
-        code_ += "\nstatic void " + init + "(rung_context* ctx) {\n" + first + "}\n";
-      }
-      if (!last.empty()) {
-        exit = name + "_exit";
-        code_ += "\nstatic void " + exit + "(rung_context* ctx) {\n" + last + "}\n";
-      }
-      if (test.after) run += callOf(test.after);
-      code_ += run + "}\n";
+      const ModuleFunctions::TestNames names = functions_.addTest("test" + number(count++), test);
       tests_.row({number(test.row.name), number(test.row.file), number(test.row.line),
-                  unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name, exit},
+                  unsignedOrNone(test.row.done_block), number(test.row.done_offset), names.init, names.run, names.exit},
                  text(test.row.name));
     }
   }
 
-  // A test that is a function: its parameters are zero, its results are dropped.
-  std::string functionCall(const ir::Body& body) {
-    std::string variables, call = "  ";
-    appendFunctionName(call, module_, body);
-    call += "(ctx";
-    uint32_t count = 0;
-    for (const ir::Local& local : body.locals) {
-      const bool is_result = local.kind == ir::LocalKind::Result;
-      const bool is_pin = isParameter(local);
-      if (!is_pin && !(is_result && local.by_reference)) continue;
-      const std::string name = "p" + number(++count);
-      if (types_.kind(elementOf(types_, local.type)) == TypeKind::Record) return "";  // sema rejects tests with pins
-      variables += "  ";
-      appendDeclaration(variables, types_, local.type, name);
-      variables += " = {};\n";
-      call += ", ";
-      if (local.by_reference && !TypeTable::isString(types_.kind(local.type))) call += '&';
-      call += name;
-    }
-    return variables + call + ");\n";
-  }
+  // ---- tables
 
   void addTables() {
     for (const rung_block& is : is_.blocks) {
@@ -310,27 +215,6 @@ class Describer {
     }
   }
 
-  std::string initSource() {
-    std::string out = "\nvoid init(rung_context* ctx) {\n  (void)ctx;\n";
-    for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
-      out += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
-    }
-    const std::vector<ir::InitStep> order = ir::initOrder(module_, facts_);
-    for (const ir::InitStep& step : order) {
-      const ir::BodyId body = step.is_list ? module_.lists[step.index].init : module_.programs[step.index].init;
-      if (!hasCode(body)) continue;
-      out += step.is_list ? callOn(body, module_.lists[step.index].record, facts_.list_block[step.index])
-                          : callOn(body, module_.programs[step.index].record, facts_.program_block[step.index]);
-    }
-    for (const ir::InitStep& step : order)
-      if (!step.is_list && module_.programs[step.index].setup) out += callOf(module_.programs[step.index].setup);
-    if (module_.after_init) out += callOf(module_.after_init);
-    out += "}\n";
-    if (module_.exit) out += "\nvoid exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
-    if (module_.safe) out += "\nvoid safe(rung_context* ctx) {\n" + callOf(module_.safe) + "}\n";
-    return out;
-  }
-
   // One line per name.
   std::string textSource() const {
     std::string out = "// The names to which the tables refer by their offset.\nextern const char text[] =\n";
@@ -348,17 +232,17 @@ class Describer {
 
   std::string moduleSource() {
     addTables();
-    const std::string init = initSource();
+    functions_.addEntries();
     std::string out =
         "// The tables of the module, its tasks and its initial values. The columns are those of rung/module.h; a row\n"
         "// ends with what it is about.\n#include <string.h>\n\n#include \"rung/module.h\"\n\n" +
-        openNamespace(name_space_) + '\n' + records_ + prototypes_ + '\n' + textSource();
+        openNamespace(name_space_) + '\n' + functions_.declarations() + '\n' + textSource();
     for (const Table* table : {&blocks_, &areas_, &types_rows_, &fields_, &enum_items_, &dimensions_, &symbols_,
                                &retain_, &persistent_, &resources_, &writes_, &io_modules_})
       table->define(out, kExtern);
-    out += code_;
+    out += functions_.functions();
     for (const Table* table : {&initialisers_, &tasks_, &tests_}) table->define(out, kExtern);
-    return out + init + "\n}  // namespace " + name_space_ + '\n';
+    return out + functions_.entries() + "\n}  // namespace " + name_space_ + '\n';
   }
 
   void addSites(const std::vector<Group>& groups) {
@@ -417,8 +301,8 @@ class Describer {
   const Facts& facts_;
   const std::string name_space_;
   ir::Description is_;
-  // `records_` names them in this namespace: `struct rung_type` alone would be that of rung/module.h.
-  std::string code_, records_, prototypes_, site_numbers_;
+  ModuleFunctions functions_{module_, facts_, is_};
+  std::string site_numbers_;
   Table blocks_{"rung_block", "blocks", "name, size, align"};
   Table areas_{"rung_area", "areas", "name, prefix, size, owner"};
   Table types_rows_{"::rung_type", "types", "kind, is_signed, library, name, size, element, length, first, count"};
@@ -437,8 +321,6 @@ class Describer {
                "first_write, write_count, duration_ns, run"};
   Table tests_{"rung_test", "tests", "name, file, line, done_block, done_offset, init, run, exit"};
   Table sites_{"rung_site", "sites", "pou, file, line, column, low, high"};
-  std::vector<uint32_t> declared_;
-  std::unordered_set<uint32_t> named_records_;  // by TypeId
 };
 
 }  // namespace

@@ -254,24 +254,20 @@ void StatementWriter::switchCases(const ir::SwitchStmt& stmt, TypeId type) {
       }
     }
     if (rest.empty()) continue;  // unreachable
-    std::string labels;
+    std::vector<cxx::CaseLabel> labels;
     for (const Range& range : rest) {
-      labels += labels.empty() ? "case " : " case ";
-      appendConstant(labels, types_, type, range.low ^ flip);
-      if (range.low != range.high) {
-        labels += " ... ";
-        appendConstant(labels, types_, type, range.high ^ flip);
-      }
-      labels += ':';
+      const Ex low = constantOf(type, range.low ^ flip);
+      labels.push_back({low, range.low == range.high ? nullptr : constantOf(type, range.high ^ flip)});
     }
     switchCase(labels, one.block);
   }
-  if (stmt.else_block) switchCase("default:", stmt.else_block);
+  if (stmt.else_block) switchCase({}, stmt.else_block);
 }
 
-void StatementWriter::switchCase(std::string_view labels, StmtId first) {
+void StatementWriter::switchCase(const std::vector<cxx::CaseLabel>& labels, StmtId first) {
   if (first) begin(body_->stmt(first).loc);
-  cxx::Stmt* const made = tree_.textual(cxx::StmtKind::Case, labels);
+  cxx::Stmt* const made = tree_.stmt(cxx::StmtKind::Case);
+  made->labels = tree_.copy(labels);
   add(made);
   made->first = deeper([&] {
                   block(first);
@@ -300,11 +296,10 @@ void StatementWriter::guarded(const std::string& frame, const std::string& fault
   const bool outer_uses_fault = state_.uses_fault;
   state_.uses_fault = false;
   cxx::Stmt* const made = tree_.textual(cxx::StmtKind::Frame, frame);
-  made->a = tree_.infix(
-      Operator::Assign, tree_.name(fault),
-      tree_.call("rung_try", {tree_.fixed("ctx"),
-                              tree_.name("[](void* frame) { (*static_cast<decltype(" + frame + ")*>(frame))(); }"),
-                              addressOf(tree_.name(frame))}));
+  const Ex passed = tree_.call("static_cast<decltype(" + frame + ")*>", {tree_.fixed("frame")});
+  const Ex run = tree_.lambda("void* frame", tree_.invoke(tree_.prefix("*", passed), {}));
+  made->a = tree_.infix(Operator::Assign, tree_.name(fault),
+                        tree_.call("rung_try", {tree_.fixed("ctx"), run, addressOf(tree_.name(frame))}));
   add(made);
   made->first = deeper([&] {
                   block(first);

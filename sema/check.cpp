@@ -82,7 +82,7 @@ std::vector<bool> inOutsOfBoxes(Project& project) {
     if (decl.body_kind != BodyKind::Network) continue;
     Context there = atPou(context, PouId{i});
     ProjectSignatures signatures(there);
-    diagram::markInOuts(project.tree, project.names, signatures, decl.diagram, in_outs);
+    diagram::markInOuts(project.tree, project.names, signatures, project.network_variables, decl.diagram, in_outs);
   }
   return in_outs;
 }

@@ -60,7 +60,7 @@ Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
   const TypeTable& table = symbols.types;
   const TypeId type = table.resolve(meaning(literal.h).type);
   const TypeKind kind = table.plainKind(type);
-  const bool negative = (literal.h.bits & kLiteralNegative) != 0;
+  const bool negative = literal.form.is_negative;
   switch (literal.literal()) {
     case LiteralKind::Bool:
     case LiteralKind::Null: return {type, literal.value()};

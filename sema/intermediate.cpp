@@ -8,13 +8,13 @@ using types::TypeTable;
 
 namespace {
 
-bool isWhole(TypeKind kind) { return TypeTable::isInteger(kind) || TypeTable::isBits(kind); }
+bool isWholeNumber(TypeKind kind) { return TypeTable::isInteger(kind) || TypeTable::isBits(kind); }
 
 }  // namespace
 
 TypeId nativeType(const Symbols& symbols, TypeId type) {
   const TypeKind kind = symbols.types.plainKind(type);
-  if (!isWhole(kind) || TypeTable::bitWidth(kind) >= symbols.native_width) return {};
+  if (!isWholeNumber(kind) || TypeTable::bitWidth(kind) >= symbols.native_width) return {};
   const bool is_signed = TypeTable::isSignedInteger(kind);
   if (symbols.native_width == 64) return is_signed ? types::kLInt : types::kULInt;
   return is_signed ? types::kDInt : types::kUDInt;

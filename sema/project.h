@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "frontend/schedule/network_variables.h"
 #include "sema/entities.h"
 #include "sema/options.h"
 
@@ -104,6 +105,7 @@ struct Project : Symbols {
   // The sections that schedulers made for a POU, beside those that it declares.
   std::unordered_map<const PouDecl*, std::vector<DeclId>> made_sections;
   std::span<const DeclId> madeSections(const PouDecl& pou) const;
+  diagram::NetworkVariables network_variables;   // that these sections declare
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the location of the call: for the recursion rule.

@@ -17,7 +17,7 @@ ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t valu
 ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc) {
   const ExprId created =
       makeLiteral(context, LiteralKind::Integer, type, static_cast<int64_t>(value < 0 ? -value : value), loc);
-  if (value < 0) context.code().expr(created).bits = kLiteralNegative;
+  if (value < 0) context.code().as<LiteralExpr>(created).form.is_negative = true;
   return created;
 }
 

@@ -78,6 +78,7 @@ struct Cam {
   std::vector<Tappet> tappets;
 
   size_t rowCount() const;
+  size_t leastRows() const { return kind == Kind::Polynomials ? 1 : 2; }
   double masterAt(size_t row) const;
   bool hasLines() const;
   // The room of its array.

@@ -31,10 +31,12 @@ enum class NodeKind : uint8_t {
   Infix,     // left op right
   Choice,    // condition ? yes : no
   Call,      // text(operands)
+  Invoke,    // operand(further operands)
   List,      // {operands}
   Element,   // base[index]
   Member,    // base.text
   Arrow,     // base->text
+  Lambda,    // [](text) { operand; }
   Group      // (operand), where a reader or g++ wants it
 };
 
@@ -55,6 +57,10 @@ struct Position {
 
 struct Decl;
 
+struct CaseLabel {
+  Ex low, high;  // high null: only the one
+};
+
 enum class StmtKind : uint8_t {
   Nothing,     // only the line that it begins
   Empty,       // ;
@@ -74,7 +80,7 @@ enum class StmtKind : uint8_t {
   DoWhile,      // do { first } while (a);
   For,          // for (a; b; c) { first }, where each may be missing
   Switch,       // switch (a) { first: cases }
-  Case,         // text { first }: the text is `case 1: case 3 ... 5:` or `default:`
+  Case,         // case 1: case 3 ... 5: { first }, with `labels`; without any default: { first }
   Scope,        // { first } on one line
   Exit,         // text: at the beginning of a line, before the exits of a function
   Declaration,  // declares
@@ -90,6 +96,7 @@ struct Stmt {
   Position second_at;  // of an If: of its `second`
   Ex a = nullptr, b = nullptr, c = nullptr;
   std::string_view text;
+  std::span<const CaseLabel> labels;
   const Decl* declares = nullptr;
   Stmt* first = nullptr;
   Stmt* second = nullptr;
@@ -284,6 +291,16 @@ class Tree {
   Ex element(Ex base, Ex index) { return add({NodeKind::Element, {}, {}, list({base, index})}); }
   Ex member(Ex base, std::string_view fixed) { return add({NodeKind::Member, {}, fixed, list({base})}); }
   Ex arrow(Ex base, std::string_view fixed) { return add({NodeKind::Arrow, {}, fixed, list({base})}); }
+  // The call of a function that is an expression.
+  Ex invoke(Ex function, std::initializer_list<Ex> arguments) {
+    std::vector<Ex> all{function};
+    all.insert(all.end(), arguments);
+    return add({NodeKind::Invoke, {}, {}, list(all)});
+  }
+  // A function without captures that does what the expression says.
+  Ex lambda(std::string_view parameters, Ex does) {
+    return add({NodeKind::Lambda, {}, kept(parameters), list({does})});
+  }
   Ex group(Ex inner) { return add({NodeKind::Group, {}, {}, list({inner})}); }
 
   // ---- statements

@@ -47,10 +47,12 @@ Prec precOf(const Node& node) {
     case NodeKind::Name:
     case NodeKind::Number:
     case NodeKind::Call:
+    case NodeKind::Invoke:
     case NodeKind::List:
     case NodeKind::Element:
     case NodeKind::Member:
     case NodeKind::Arrow:
+    case NodeKind::Lambda:
     case NodeKind::Group: return Prec::Postfix;
   }
   return Prec::Postfix;
@@ -88,12 +90,8 @@ void ExpressionPrinter::print(const Node& node) {
       out_ += " : ";
       operand(*node.operands[2], Prec::Or);
       return;
-    case NodeKind::Call:
-      out_ += node.text;
-      out_ += '(';
-      list(node.operands);
-      out_ += ')';
-      return;
+    case NodeKind::Call: out_ += node.text; return call(node.operands);
+    case NodeKind::Invoke: operand(*node.operands[0], Prec::Postfix); return call(node.operands.subspan(1));
     case NodeKind::List:
       out_ += '{';
       list(node.operands);
@@ -111,8 +109,21 @@ void ExpressionPrinter::print(const Node& node) {
       out_ += node.kind == NodeKind::Member ? "." : "->";
       out_ += node.text;
       return;
+    case NodeKind::Lambda:
+      out_ += "[](";
+      out_ += node.text;
+      out_ += ") { ";
+      print(*node.operands[0]);
+      out_ += "; }";
+      return;
     case NodeKind::Group: return parenthesized(*node.operands[0]);
   }
+}
+
+void ExpressionPrinter::call(std::span<const Node* const> arguments) {
+  out_ += '(';
+  list(arguments);
+  out_ += ')';
 }
 
 void ExpressionPrinter::infix(const Node& node) {

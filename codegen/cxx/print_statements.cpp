@@ -158,7 +158,7 @@ void StatementPrinter::print(const Stmt& stmt) {
       return;
     case StmtKind::For: return forStatement(stmt);
     case StmtKind::Switch: head("switch (", stmt.a); return braced(stmt.first);
-    case StmtKind::Case: out_ += stmt.text; return braced(stmt.first);
+    case StmtKind::Case: labels(stmt); return braced(stmt.first);
     case StmtKind::Scope: return scope(stmt.first);
     case StmtKind::Exit:
       out_ += stmt.text;
@@ -218,6 +218,19 @@ void StatementPrinter::forStatement(const Stmt& stmt) {
   optional(stmt.c);
   out_ += ')';
   braced(stmt.first);
+}
+
+void StatementPrinter::labels(const Stmt& stmt) {
+  if (stmt.labels.empty()) out_ += "default:";
+  for (const CaseLabel& label : stmt.labels) {
+    out_ += &label == stmt.labels.data() ? "case " : " case ";
+    expression(label.low);
+    if (label.high != nullptr) {
+      out_ += " ... ";
+      expression(label.high);
+    }
+    out_ += ':';
+  }
 }
 
 void StatementPrinter::source(std::string_view text) {

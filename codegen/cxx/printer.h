@@ -60,6 +60,7 @@ class ExpressionPrinter {
 
  private:
   void infix(const Node& node);
+  void call(std::span<const Node* const> arguments);
   void side(const Node& node, const Node& of, Prec needed);
   void operand(const Node& node, Prec needed);
   void parenthesized(const Node& node);
@@ -93,6 +94,7 @@ class StatementPrinter {
   void head(std::string_view before, Ex condition);
   void ifStatement(const Stmt& first);
   void forStatement(const Stmt& stmt);
+  void labels(const Stmt& stmt);
   void frame(const Stmt& stmt);
   void source(std::string_view text);
 

@@ -35,7 +35,7 @@ class ConfigurationExport {
 bool ConfigurationExport::isTime(ExprId value) const {
   return value && to_.tree.kind(value) == ExprKind::Literal &&
          to_.tree.as<LiteralExpr>(value).literal() == LiteralKind::Duration &&
-         (to_.tree.expr(value).bits & kLiteralNegative) == 0;
+         !to_.tree.as<LiteralExpr>(value).form.is_negative;
 }
 
 // A literal as PT0.05S; any other expression as written.
@@ -142,7 +142,8 @@ void ConfigurationExport::program(const ProgramInstanceDecl& program) {
   std::string type;
   for (const Ident& part : to_.tree.list(program.type))
     type += (type.empty() ? "" : ".") + std::string(to_.string(part.name));
-  if (!program.arguments.empty() || !program.block_tasks.empty() || program.section_bits != 0) to_.is_lossless = false;
+  if (!program.arguments.empty() || !program.block_tasks.empty() || program.qualifiers != Qualifiers{})
+    to_.is_lossless = false;
   to_.xml.open("pouInstance").attribute("name", to_.string(program.name)).attribute("typeName", type).close();
 }
 
@@ -202,7 +203,7 @@ void ConfigurationExport::paths(Slice<DeclId> members, SectionKind kind) {
     if (section.section != kind) continue;
     if (!any) to_.xml.open(access ? "accessVars" : "configVars");
     any = true;
-    if (!section.h.pragmas.empty() || section.h.bits != 0) to_.is_lossless = false;
+    if (!section.h.pragmas.empty() || section.qualifiers != Qualifiers{}) to_.is_lossless = false;
     for (const DeclId v : to_.tree.list(section.vars)) {
       const auto& var = to_.tree.as<VarDecl>(v);
       if (var.names.empty()) {
@@ -214,7 +215,7 @@ void ConfigurationExport::paths(Slice<DeclId> members, SectionKind kind) {
         if (var.located) to_.is_lossless = false;
         to_.xml.attribute("alias", to_.string(to_.tree.list(var.names)[0].name));
         to_.xml.attribute("instancePathAndName", var.init ? to_.printed(var.init) : "?");
-        to_.xml.attribute("direction", var.h.bits == 0 ? "readWrite" : "readOnly");
+        to_.xml.attribute("direction", var.read_only ? "readOnly" : "readWrite");
       } else {
         to_.xml.attribute("instancePathAndName", pathText(var));
         if (var.located) {

@@ -246,7 +246,7 @@ void PouExport::property(const PropertyDecl& property) {
       end = source_.wordBefore(end, "END_PROPERTY");
       for (const DeclId id : {property.get, property.set})
         if (id) end = std::min(end, source_.at(to_.tree.decl(id).begin));
-      const size_t behind_word = source_.at(property.h.begin) + (property.h.bits == kInHalves ? 12 : 8);
+      const size_t behind_word = source_.at(property.h.begin) + (property.in_halves ? 12 : 8);
       exportPlainText(to_, "PROPERTY" + std::string(source_.cut(behind_word, end)), data);
     }
   }

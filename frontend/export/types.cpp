@@ -222,11 +222,11 @@ void exportSection(Export& to, DeclId id, std::string_view element, std::string_
   if (section.access != AccessLevel::None) to.is_lossless = false;
   to.xml.open(element);
   if (!name.empty()) to.xml.attribute("name", name);
-  if ((section.h.bits & kConstant) != 0) to.xml.attribute("constant", "true");
-  if ((section.h.bits & kRetain) != 0) to.xml.attribute("retain", "true");
-  if ((section.h.bits & kNonRetain) != 0) to.xml.attribute("nonretain", "true");
-  if ((section.h.bits & kPersistent) != 0) to.xml.attribute("persistent", "true");
-  if ((section.h.bits & kGeneric) != 0) to.is_lossless = false;
+  if (section.qualifiers.constant) to.xml.attribute("constant", "true");
+  if (section.qualifiers.retain) to.xml.attribute("retain", "true");
+  if (section.qualifiers.non_retain) to.xml.attribute("nonretain", "true");
+  if (section.qualifiers.persistent) to.xml.attribute("persistent", "true");
+  if (section.qualifiers.generic) to.is_lossless = false;
   exportVariables(to, section.vars);
 }
 
@@ -278,7 +278,7 @@ void exportPlainText(Export& to, std::string_view text, AddData& data) {
 void exportDataType(Export& to, DeclId id) {
   const auto& decl = to.tree.as<TypeDecl>(id);
   const SourceText& source = *to.source;
-  to.is_lossless = (decl.h.bits & kInternal) == 0;
+  to.is_lossless = !decl.is_internal;
   for (const std::string_view word : {"PUBLIC", "INTERNAL", "ABSTRACT", "FINAL"})  // modifiers where they follow TYPE
     if (sameIdentifier(to.string(decl.name), word)) to.is_lossless = false;
   to.xml.open("dataType").attribute("name", to.string(decl.name));
@@ -303,7 +303,7 @@ void exportDataType(Export& to, DeclId id) {
         const size_t begin = source.at(pragma.loc);
         text.append(source.cut(begin, source.endOfPragma(begin))).append("\n");
       }
-      if ((decl.h.bits & kInternal) != 0) text += "INTERNAL ";
+      if (decl.is_internal) text += "INTERNAL ";
       exportPlainText(to, text.append(source.cut(name, end)).append("\nEND_TYPE"), data);
     }
   }

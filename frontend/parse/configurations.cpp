@@ -134,7 +134,7 @@ DeclId Parser::parseProgramInstance() {
   d.h = declHeader(DeclKind::ProgramInstance);
   advance();
   if ((at(Tok::Retain) || at(Tok::NonRetain)) && isName(peek())) {
-    d.section_bits = at(Tok::Retain) ? kRetain : kNonRetain;
+    (at(Tok::Retain) ? d.qualifiers.retain : d.qualifiers.non_retain) = true;
     advance();
   }
   Ident name;

@@ -30,8 +30,10 @@ constexpr TokMap<SectionKind> kSections = {
     {Tok::VarExternal, SectionKind::External}, {Tok::VarGlobal, SectionKind::Global},
     {Tok::VarStat, SectionKind::Stat},         {Tok::VarInst, SectionKind::Inst},
     {Tok::VarAccess, SectionKind::Access},     {Tok::VarConfig, SectionKind::Config}};
-constexpr TokMap<uint8_t> kSectionBits = {
-    {Tok::Constant, kConstant}, {Tok::Retain, kRetain}, {Tok::Persistent, kPersistent}, {Tok::NonRetain, kNonRetain}};
+constexpr TokMap<bool Qualifiers::*> kSectionQualifiers = {{Tok::Constant, &Qualifiers::constant},
+                                                           {Tok::Retain, &Qualifiers::retain},
+                                                           {Tok::Persistent, &Qualifiers::persistent},
+                                                           {Tok::NonRetain, &Qualifiers::non_retain}};
 
 // Words of the textual languages that are names in codesys: of annex B of edition 2 and annex A of edition 3, and of
 // the latter alone.
@@ -42,7 +44,7 @@ constexpr std::string_view kWordsOfBoth[] = {
 constexpr std::string_view kWordsOfEdition3[] = {"CHAR",  "CONTINUE", "LDATE",  "LDT",
                                                  "LTIME", "LTOD",     "REF_TO", "WCHAR"};
 
-bool isReserved(const LanguageProfile& profile, std::string_view name) {
+bool reserves(const LanguageProfile& profile, std::string_view name) {
   const auto is_name = [&](std::string_view word) { return sameIdentifier(name, word); };
   return (profile.reserved_words && std::any_of(std::begin(kWordsOfBoth), std::end(kWordsOfBoth), is_name)) ||
          (profile.reserved_words_of_edition_3 &&
@@ -68,7 +70,7 @@ bool DeclarationParser::beginsType(const Token* t) const {
 
 // name, of what is declared: reported where a keyword of the dialect stands for it.
 bool DeclarationParser::parseNewName(Ident& out) {
-  if (isName(kind()) && isReserved(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
+  if (isName(kind()) && reserves(profile_, textOf(t_))) slip(diag::ReservedName, t_, {textOf(t_)});
   return parseName(out);
 }
 
@@ -117,15 +119,15 @@ void DeclarationParser::parseNamePath(Slice<Ident>& out) {
 // VAR_xxx {CONSTANT | RETAIN | NON_RETAIN | PERSISTENT} {variable} END_VAR
 DeclId DeclarationParser::parseSection() {
   const Token* open = t_;
-  SectionDecl d{declHeader(DeclKind::Section), kSections[kind()], AccessLevel::None, {}};
+  SectionDecl d{declHeader(DeclKind::Section), kSections[kind()], AccessLevel::None, {}, SectionMaker::None, {}};
   if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // it is unknown which section was meant
-  if (at(Tok::VarGeneric)) d.h.bits = kGeneric | kConstant;
+  d.qualifiers.generic = d.qualifiers.constant = at(Tok::VarGeneric);
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
-    const uint8_t bit = kSectionBits[kind()];
-    if (bit == 0 && !atLineStart() && acceptAccess(d.access)) continue;
-    if (bit == 0) break;
-    d.h.bits = static_cast<uint8_t>(d.h.bits | bit);
+    bool Qualifiers::*const qualifier = kSectionQualifiers[kind()];
+    if (qualifier == nullptr && !atLineStart() && acceptAccess(d.access)) continue;
+    if (qualifier == nullptr) break;
+    d.qualifiers.*qualifier = true;
     advance();
   }
   // CONSTNAT on the line of the section
@@ -133,7 +135,7 @@ DeclId DeclarationParser::parseSection() {
     static constexpr Tok kKeywords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
     if (const Tok meant = nearKeyword(t_, kKeywords); meant != Tok::End) {
       correctSpelling(meant);
-      d.h.bits |= kSectionBits[meant];
+      d.qualifiers.*kSectionQualifiers[meant] = true;
       advance();
     }
   }

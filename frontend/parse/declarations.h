@@ -59,6 +59,9 @@ class DeclarationParser : public ExpressionParser {
   TypeExprId parseArray();
   TypeExprId parseNamedType() { return ended(namedType()); }
   TypeExprId namedType();
+  TypeExprId stringType(StringEncoding code);
+  Tok misspelledType(const Token* name) const;
+  Slice<ExprId> parseElementArguments();
   Slice<Argument> parseGenerics();
   bool rangeFollows() const;
   // ---- initial_values.cpp

@@ -576,49 +576,60 @@ ExprId ExpressionParser::parseCompared(ExprId left, bool in_condition) {
 // Consumes the closing bracket; if it is missing, reports it and finds the resynchronization point.
 void ExpressionParser::closeParen(Tok close, bool is_arguments) {
   if (in_il_) return closeIlParen(close);
-  if (!panic_) {
-    if (accept(close)) return;
-    const Tok k = kind();
-    const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_) ||
-                      begins(t_) == Begins::New;
-    if (ends) {
-      if (atLineStart() || k == Tok::End)
-        missing(diag::MissingToken, {spelling(close), describe(t_)});
-      else
-        slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
-      return;
-    }
-    if (k == Tok::RightParen || k == Tok::RightBracket) {
-      slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
-      if (k != Tok::RightParen || close != Tok::RightBracket) advance();
-      return;
-    }
-    if (is_arguments)
-      fail(diag::NotInArguments, t_, {describe(t_)});
-    else if (isOperand(k))
-      fail(diag::MissingOperator, t_, {describe(t_)});
+  if (!panic_ && (accept(close) || !failsToClose(close, is_arguments))) return;
+  if (!atUnfinished() && !skipToPartner(close)) skipToEndOfParen(close);
+}
+
+// Reports what is there in place of the closing bracket. False: parsing goes on as if the bracket was there.
+bool ExpressionParser::failsToClose(Tok close, bool is_arguments) {
+  const Tok k = kind();
+  const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_) ||
+                    begins(t_) == Begins::New;
+  if (ends) {
+    if (atLineStart() || k == Tok::End)
+      missing(diag::MissingToken, {spelling(close), describe(t_)});
     else
-      fail(diag::MissingToken, t_, {spelling(close), describe(t_)});
+      slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
+    return false;
   }
-  if (atUnfinished()) return;
-  // The closing partner, even on a later line, within the statement.
+  if (k == Tok::RightParen || k == Tok::RightBracket) {
+    slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
+    if (k != Tok::RightParen || close != Tok::RightBracket) advance();
+    return false;
+  }
+  if (is_arguments)
+    fail(diag::NotInArguments, t_, {describe(t_)});
+  else if (isOperand(k))
+    fail(diag::MissingOperator, t_, {describe(t_)});
+  else
+    fail(diag::MissingToken, t_, {spelling(close), describe(t_)});
+  return true;
+}
+
+bool ExpressionParser::endsExpression(Tok k) const {
+  return k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[k].precedence == 0);
+}
+
+// After the closing partner, even on a later line, within the statement. False: there is none.
+bool ExpressionParser::skipToPartner(Tok close) {
   uint32_t depth = 0;
-  for (Token* t = t_; t - t_ < 5000; ++t) {
-    const Tok k = t->kind;
-    if (k == Tok::LeftParen || k == Tok::LeftBracket) ++depth;
-    if (k == Tok::RightParen || k == Tok::RightBracket) {
-      if (depth == 0 && k == close) {
-        t_ = t + 1;
-        panic_ = false;
-        return;
-      }
-      if (depth == 0) break;
-      --depth;
+  for (Token* t = t_; t - t_ < 5000 && !endsExpression(t->kind); ++t) {
+    if (t->kind == Tok::LeftParen || t->kind == Tok::LeftBracket) ++depth;
+    if (t->kind != Tok::RightParen && t->kind != Tok::RightBracket) continue;
+    if (depth == 0 && t->kind == close) {
+      t_ = t + 1;
+      panic_ = false;
+      return true;
     }
-    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[k].precedence == 0))
-      break;
+    if (depth == 0) break;
+    --depth;
   }
-  depth = 0;
+  return false;
+}
+
+// To another closing bracket or the end of the statement.
+void ExpressionParser::skipToEndOfParen(Tok close) {
+  uint32_t depth = 0;
   for (;; advance()) {
     const Tok k = kind();
     if (k == Tok::LeftParen || k == Tok::LeftBracket) ++depth;
@@ -632,9 +643,7 @@ void ExpressionParser::closeParen(Tok close, bool is_arguments) {
       }
       --depth;
     }
-    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[k].precedence == 0))
-      return;
-    if (atLineStart() && startsStatement(t_)) return;
+    if (endsExpression(k) || (atLineStart() && startsStatement(t_))) return;
   }
 }
 

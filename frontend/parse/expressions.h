@@ -22,6 +22,10 @@ class ExpressionParser : public Cursor {
   // `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
   ExprId parseCompared(ExprId left, bool in_condition = true);
   void closeParen(Tok close, bool is_arguments);
+  bool failsToClose(Tok close, bool is_arguments);
+  bool endsExpression(Tok k) const;
+  bool skipToPartner(Tok close);
+  void skipToEndOfParen(Tok close);
   bool enterExpr(const char* what);
   bool isBareXor(ExprId id) const;
   bool acceptAssign();

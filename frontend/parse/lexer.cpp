@@ -214,6 +214,8 @@ class Lexer {
     out_.tokens.push_back({at(begin), value, kind, flags_, length});
     flags_ = 0;
   }
+  void flushPending(const char* token);
+  const char* commentOrPragma(const char* begin);
   const char* word(const char* p);
   const char* number(const char* p);
   const char* quoted(const char* p);
@@ -265,6 +267,37 @@ class Lexer {
   uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
 };
 
+// Pragmas and docs wait for the token that follows them.
+void Lexer::flushPending(const char* token) {
+  const uint32_t offset = at(token);
+  if (pending_pragmas_ > 0) {
+    for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i)
+      out_.pragmas[i].token_offset = offset;
+    pending_pragmas_ = 0;
+    flags_ |= kPragma;
+  }
+  if (doc_ != 0) {
+    out_.docs.push_back({offset, doc_ - 1});
+    doc_ = 0;
+    flags_ |= kDoc;
+  }
+}
+
+// After the comment or pragma that begins here; null: none does.
+const char* Lexer::commentOrPragma(const char* begin) {
+  if (*begin == '/' && begin[1] == '/') {
+    const char* const p = lineComment(begin);
+    keep(begin, p > begin && p[-1] == '\r' ? p - 1 : p, isDoc(begin) ? CommentKind::Doc : CommentKind::Line);
+    return p;
+  }
+  if ((*begin == '(' || *begin == '/') && begin[1] == '*') {
+    const char* const p = blockComment(begin, *begin == '/');
+    keep(begin, p, CommentKind::Block);
+    return p;
+  }
+  return *begin == '{' && cppOpening(begin) == 0 ? pragma(begin) : nullptr;
+}
+
 void Lexer::run(uint32_t begin, uint32_t end) {
   const char* p = source_.data() + begin;
   end_ = source_.data() + end;
@@ -273,51 +306,18 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     diagnostics_.report(diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
     end_ = p;
   }
-  const auto flushPending = [&] {
-    // Pragmas and docs wait for the token that follows them.
-    const uint32_t offset = at(p);
-    if (pending_pragmas_ > 0) {
-      for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i)
-        out_.pragmas[i].token_offset = offset;
-      pending_pragmas_ = 0;
-      flags_ |= kPragma;
-    }
-    if (doc_ != 0) {
-      out_.docs.push_back({offset, doc_ - 1});
-      doc_ = 0;
-      flags_ |= kDoc;
-    }
-  };
   while (p < end_) {
     const auto cls = static_cast<CharClass>(kClasses[static_cast<Byte>(*p)]);
-    if (cls == kSpace) {
+    if (cls == kSpace || cls == kNewline) {
       ++p;
+      if (cls == kNewline) flags_ |= kLineStart;
       continue;
     }
-    if (cls == kNewline) {
-      ++p;
-      flags_ |= kLineStart;
+    if (const char* const after = cls == kPunct ? commentOrPragma(p) : nullptr; after != nullptr) {
+      p = after;
       continue;
     }
-    if (cls == kPunct) {
-      if (*p == '/' && p[1] == '/') {
-        const char* const start = p;
-        p = lineComment(p);
-        keep(start, p > start && p[-1] == '\r' ? p - 1 : p, isDoc(start) ? CommentKind::Doc : CommentKind::Line);
-        continue;
-      }
-      if ((*p == '(' || *p == '/') && p[1] == '*') {
-        const char* const start = p;
-        p = blockComment(p, *p == '/');
-        keep(start, p, CommentKind::Block);
-        continue;
-      }
-      if (*p == '{' && cppOpening(p) == 0) {
-        p = pragma(p);
-        continue;
-      }
-    }
-    if ((pending_pragmas_ | doc_) != 0) flushPending();
+    if ((pending_pragmas_ | doc_) != 0) flushPending(p);
     switch (cls) {
       case kLetter: p = word(p); break;
       case kDigit: p = number(p); break;
@@ -329,8 +329,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
       case kNewline: break;
     }
   }
-  p = end_;
-  flushPending();
+  flushPending(end_);
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
   if (may_be_name_) resolveDeclaredWords();

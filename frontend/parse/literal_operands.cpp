@@ -53,7 +53,7 @@ ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
   }
   if (value.has_underscore_pair && !profile_.double_underscores_in_numbers)
     diagnostics_.report(diag::NumberUnderscore, loc(token), {textOf(token)});
-  uint8_t bits = static_cast<uint8_t>((negative ? kLiteralNegative : 0) | (value.is_based ? kLiteralBased : 0));
+  const LiteralForm form{.is_negative = negative, .is_based = value.is_based};
   if (prefix) {
     const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);
     const bool is_real_type = type->kind == Tok::Real || type->kind == Tok::Lreal;
@@ -73,7 +73,7 @@ ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
   }
   uint64_t raw = value.integer;
   if (value.is_real) std::memcpy(&raw, &value.real, sizeof raw);
-  return build_.literal(value.is_real ? LiteralKind::Real : LiteralKind::Integer, raw, start, prefix, bits);
+  return build_.literal(value.is_real ? LiteralKind::Real : LiteralKind::Integer, raw, start, prefix, form);
 }
 
 // The string types of edition 4 and its short prefixes, with the keyword whose quotes they take.
@@ -128,10 +128,8 @@ ExprId ExpressionParser::parseTime() {
     last_error_ = token;
     return build_.error(loc(token));
   }
-  const auto bits =
-      static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0) |
-                           (value.overflows ? kLiteralOverflows : 0));
-  return build_.literal(value.kind, value.value, loc(token), {}, bits);
+  const LiteralForm form{.is_long = value.is_long, .is_negative = value.is_negative, .overflows = value.overflows};
+  return build_.literal(value.kind, value.value, loc(token), {}, form);
 }
 
 // "%" area [size] number {"." number}

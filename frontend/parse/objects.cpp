@@ -139,7 +139,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   const Token* open = t_;
   const bool is_set = is(t_, "PROPERTY_SET");
   const Ident name = parsePropertyHeader(d);
-  d.h.bits = kInHalves;
+  d.in_halves = true;
   PouDecl accessor{};
   accessor.h = header(DeclKind::Pou, d.h.loc);
   accessor.access = d.access;
@@ -152,7 +152,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   for (const DeclId known : out) {
     if (tree_.kind(known) != DeclKind::Property) continue;
     auto& other = tree_.as<PropertyDecl>(known);
-    if (other.h.bits != kInHalves || (is_set ? other.set : other.get)) continue;
+    if (!other.in_halves || (is_set ? other.set : other.get)) continue;
     if (!names_.same(other.name, d.name)) continue;
     (is_set ? other.set : other.get) = is_set ? d.set : d.get;
     other.modifiers &= d.modifiers;  // of the whole property; each half keeps its own
@@ -198,7 +198,7 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
   parseBody(d);
   checkCppFile(d);
   variables_.resize(outer_variables);
-  if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
+  d.is_broken = lost_ || declared_in_body_;
   d.closed = true;
   if (accept(end)) accept(Tok::Semicolon);
   d.h.end = index() > 0 ? endOf(t_ - 1) : here();
@@ -207,13 +207,13 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
 
 // NAMESPACE [INTERNAL] a.b {declaration} END_NAMESPACE
 DeclId Parser::parseNamespace() {
-  NamespaceDecl d{declHeader(DeclKind::Namespace), {}, {}};
+  NamespaceDecl d{declHeader(DeclKind::Namespace), {}, {}, false};
   const Token* open = t_;
   advance();
   AccessLevel access{};
   uint8_t modifiers = 0;
   parseModifiers(access, modifiers, true);
-  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
+  d.is_internal = access == AccessLevel::Internal;
   d.h.loc = here();
   const Token* const path = t_;
   parseNamePath(d.path);

@@ -163,7 +163,7 @@ DeclId Parser::parsePou() {
   panic_ = false;
   d.usings = tree_.addList<DeclId>(usings);
   parsePouParts(d);
-  if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
+  d.is_broken = lost_ || declared_in_body_;
   d.uses_eno = eno_used_;
   if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   closePou(d, open, word, end);
@@ -276,7 +276,7 @@ void Parser::parsePouParts(PouDecl& d) {
     if (acceptCppFile(d)) continue;
     const DeclId section = parseSection();
     decls_.push_back(section);
-    const bool is_generic = (tree_.decl(section).bits & kGeneric) != 0;
+    const bool is_generic = tree_.as<SectionDecl>(section).qualifiers.generic;
     if (is_generic && d.bases.empty() && d.implements.empty()) parseBases(d);
   }
   d.sections = listFrom(decls_, first);

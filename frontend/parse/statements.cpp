@@ -245,7 +245,7 @@ void StatementParser::parseExprStatement() {
       (written == ExprKind::Name || written == ExprKind::Member || written == ExprKind::Index ||
        written == ExprKind::Deref)) {  // an action is called by its bare name
     const Loc start = tree_.loc(target);
-    const ExprId call = ended(build_.call(target, Slice<Argument>{}, start, endOf(t_ - 1), kBareCall));
+    const ExprId call = ended(build_.call(target, Slice<Argument>{}, start, endOf(t_ - 1), true));
     stmts_.push_back(build_.callStatement(call));
     return endStatement();
   }

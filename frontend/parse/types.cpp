@@ -66,8 +66,7 @@ DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessL
     return {};
   }
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
-  TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}};
-  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
+  TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}, access == AccessLevel::Internal};
   Ident name;
   if (!parseNewName(name)) {
     tree_.lost_names = true;
@@ -155,60 +154,27 @@ TypeExprId DeclarationParser::parseType() {
   return ended(type);
 }
 
-// name {"." name} | (STRING | WSTRING | USTRING) ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "("
-// items ")"
+// name {"." name} [generics] [elements | arguments] | string | INT "(" low ".." high ")" | INT "(" items ")"
 TypeExprId DeclarationParser::namedType() {
   const Loc start = here();
   // USTRING is a keyword of edition 4 only: a type of the project may have its name.
   const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
-  if (at(Tok::String) || at(Tok::Wstring) || is_utf8) {
-    const StringEncoding code = is_utf8            ? StringEncoding::Utf8
-                                : at(Tok::Wstring) ? StringEncoding::Wide
-                                                   : StringEncoding::Bytes;
-    StringTypeExpr d{header(TypeExprKind::String, start), {}, code};
-    advance();
-    if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
-      const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
-      advance();
-      d.length = parseExpr();
-      closeParen(close, false);
-    }
-    return tree_.add<TypeExprId>(d);
-  }
+  if (is_utf8) return stringType(StringEncoding::Utf8);
+  if (at(Tok::String)) return stringType(StringEncoding::Bytes);
+  if (at(Tok::Wstring)) return stringType(StringEncoding::Wide);
   NamedTypeExpr named{header(TypeExprKind::Named, start), {}, {}, false, {}, {}};
-  const Token* first = t_;
+  Token* const first = t_;
   parseNamePath(named.path);
   if (!panic_ && at(Tok::Less) && profile_.type_arguments) named.generics = parseGenerics();
   const TypeExprId base = ended(tree_.add<TypeExprId>(named));
   if (panic_) return base;
-  if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
-    static constexpr Tok kArray[] = {Tok::Array};
-    if (nearKeyword(first, kArray) == Tok::Array) {
-      t_ = const_cast<Token*>(first);
-      correctSpelling(Tok::Array);
-      return parseArray();
-    }
+  if (const Tok meant = misspelledType(first); meant != Tok::End) {
+    t_ = first;
+    correctSpelling(meant);
+    return meant == Tok::Array ? parseArray() : parseType();
   }
-  if (at(Tok::To) && first->kind == Tok::Ident && t_ == first + 1) {
-    static constexpr Tok kPointers[] = {Tok::Pointer, Tok::Reference};
-    if (const Tok meant = nearKeyword(first, kPointers); meant != Tok::End) {
-      t_ = const_cast<Token*>(first);
-      correctSpelling(meant);
-      return parseType();
-    }
-  }
-  if (in_variable_ && at(Tok::LeftBracket) && peek() == Tok::LeftParen) {  // of FB_Init of each element
-    std::vector<ExprId> elements;
-    advance();
-    do {
-      if (!at(Tok::LeftParen)) break;
-      const Loc open = here();
-      Loc end;
-      const Slice<Argument> arguments = parseArguments(end);
-      elements.push_back(ended(build_.call({}, arguments, open, end)));
-    } while (!panic_ && accept(Tok::Comma));
-    if (!panic_) expect(Tok::RightBracket);
-    tree_.as<NamedTypeExpr>(base).elements = tree_.addList<ExprId>(elements);
+  if (in_variable_ && at(Tok::LeftBracket) && peek() == Tok::LeftParen) {
+    tree_.as<NamedTypeExpr>(base).elements = parseElementArguments();
     return base;
   }
   if (!at(Tok::LeftParen)) return base;
@@ -229,6 +195,42 @@ TypeExprId DeclarationParser::namedType() {
   d.high = panic_ ? build_.error(here()) : parseExpr();
   closeParen(Tok::RightParen, false);
   return tree_.add<TypeExprId>(d);
+}
+
+// string = (STRING | WSTRING | USTRING) ["[" expr "]" | "(" expr ")"]
+TypeExprId DeclarationParser::stringType(StringEncoding code) {
+  StringTypeExpr d{header(TypeExprKind::String, here()), {}, code};
+  advance();
+  if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
+    const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
+    advance();
+    d.length = parseExpr();
+    closeParen(close, false);
+  }
+  return tree_.add<TypeExprId>(d);
+}
+
+// The keyword that a name before `[` or TO is most likely meant to be; End: none.
+Tok DeclarationParser::misspelledType(const Token* name) const {
+  static constexpr Tok kArray[] = {Tok::Array}, kPointers[] = {Tok::Pointer, Tok::Reference};
+  if (name->kind != Tok::Ident) return Tok::End;
+  if (at(Tok::LeftBracket)) return nearKeyword(name, kArray);
+  return at(Tok::To) && t_ == name + 1 ? nearKeyword(name, kPointers) : Tok::End;
+}
+
+// elements = "[" arguments {"," arguments} "]": of FB_Init of each element
+Slice<ExprId> DeclarationParser::parseElementArguments() {
+  std::vector<ExprId> elements;
+  advance();
+  do {
+    if (!at(Tok::LeftParen)) break;
+    const Loc open = here();
+    Loc end;
+    const Slice<Argument> arguments = parseArguments(end);
+    elements.push_back(ended(build_.call({}, arguments, open, end)));
+  } while (!panic_ && accept(Tok::Comma));
+  if (!panic_) expect(Tok::RightBracket);
+  return tree_.addList<ExprId>(elements);
 }
 
 // generics = "<" generic {"," generic} ">"; generic = primary | "(" name ":=" expr ")"

@@ -26,7 +26,7 @@ void DeclarationParser::parseVars(SectionKind section, Tok end, std::vector<Decl
 
 // variable = names [AT address] ":" type [R_EDGE | F_EDGE] [":=" init] ";"
 DeclId DeclarationParser::parseVar(SectionKind section) {
-  VarDecl d{declHeader(DeclKind::Var), {}, {}, {}, EdgeKind::None, false, {}, {}};
+  VarDecl d{declHeader(DeclKind::Var), {}, {}, {}, EdgeKind::None, false, false, {}, {}};
   const size_t first = idents_.size();
   if (!(at(Tok::At) && peek() == Tok::Address)) parseVarNames(section);
   lost_ = lost_ || panic_;
@@ -157,7 +157,7 @@ void DeclarationParser::parseVarType(VarDecl& d, SectionKind section) {
     advance();
   }
   if (section == SectionKind::Access) {
-    d.h.bits = at(Tok::ReadWrite) ? 0 : 1;
+    d.read_only = !at(Tok::ReadWrite);
     if (!panic_ && (at(Tok::ReadOnly) || at(Tok::ReadWrite))) advance();
   }
 }
@@ -174,7 +174,6 @@ void DeclarationParser::parseVarInit(VarDecl& d) {
   } else if (at(Tok::RefModifier) && peek() == Tok::Equal && profile_.reference_initialisers) {  // REF= x
     advance();
     advance();
-    d.h.bits = kReferenceInit;
     d.init = parseExpr();
   } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::StringLiteral) || at(Tok::Duration)) &&
              !atLineStart()) {

@@ -48,9 +48,9 @@ const char* defaultWord(SfcQualifier q) {
   return "N";
 }
 
-class ChartText {
+class ChartLabels {
  public:
-  ChartText(const Tree& tree, const Names& names, const PouDecl& pou)
+  ChartLabels(const Tree& tree, const Names& names, const PouDecl& pou)
       : tree_(tree), names_(names), pou_(pou), inline_actions_(tree, names, pou) {}
   StepText step(uint32_t index) const;
   std::vector<std::string> condition(uint32_t index) const;  // with the name, if it has one
@@ -68,13 +68,13 @@ class ChartText {
   InlineActions inline_actions_;
 };
 
-std::vector<std::string> ChartText::linesOf(NameId action) const {
+std::vector<std::string> ChartLabels::linesOf(NameId action) const {
   const PouDecl* own = inline_actions_.find(action);
   if (own == nullptr || own->body_kind != BodyKind::St) return {std::string(names_.string(action))};
   return picture::linesOf(printSt(tree_, names_, own->body, 0, {}));
 }
 
-StepText ChartText::step(uint32_t index) const {
+StepText ChartLabels::step(uint32_t index) const {
   const SfcStep& s = tree_.list(pou_.steps)[index];
   StepText text{std::string(names_.string(s.name.name)), {}, {}, 0, 0, 0, 0, 0};
   if (s.min.value) text.times += "min " + exprText(s.min.value);
@@ -97,7 +97,7 @@ StepText ChartText::step(uint32_t index) const {
 }
 
 // The condition. It may also be a body with a single assignment.
-ExprId ChartText::valueOf(const SfcTransition& t) const {
+ExprId ChartLabels::valueOf(const SfcTransition& t) const {
   if (t.condition.value || !t.body) return t.condition.value;
   const PouDecl& body = tree_.as<PouDecl>(t.body);
   if (body.body_kind != BodyKind::St || body.body.count != 1) return {};
@@ -109,7 +109,7 @@ ExprId ChartText::valueOf(const SfcTransition& t) const {
   return own ? assign.value : ExprId{};
 }
 
-std::vector<std::string> ChartText::condition(uint32_t index) const {
+std::vector<std::string> ChartLabels::condition(uint32_t index) const {
   const SfcTransition& t = tree_.list(pou_.transitions)[index];
   const ExprId value = valueOf(t);
   std::vector<std::string> lines;
@@ -119,12 +119,12 @@ std::vector<std::string> ChartText::condition(uint32_t index) const {
   return lines;
 }
 
-std::string ChartText::priority(uint32_t index) const {
+std::string ChartLabels::priority(uint32_t index) const {
   const SfcTransition& t = tree_.list(pou_.transitions)[index];
   return t.has_priority ? std::to_string(t.priority) : std::string();
 }
 
-void drawStep(Svg& svg, const ChartText& texts, const SfcStep& step, const ChartNode& node) {
+void drawStep(Svg& svg, const ChartLabels& texts, const SfcStep& step, const ChartNode& node) {
   const StepText text = texts.step(node.index);
   const Point o = node.origin;
   const Rect box{o.x - text.width / 2, o.y, text.width, text.height};
@@ -150,7 +150,7 @@ void drawStep(Svg& svg, const ChartText& texts, const SfcStep& step, const Chart
   }
 }
 
-void drawTransition(Svg& svg, const ChartText& texts, const SfcTransition& t, const ChartNode& node) {
+void drawTransition(Svg& svg, const ChartLabels& texts, const SfcTransition& t, const ChartNode& node) {
   const Point o = node.origin;
   svg.line(o, {o.x, o.y + node.below});
   svg.line({o.x - kBar, o.y + 10}, {o.x + kBar, o.y + 10}, "t");
@@ -164,7 +164,7 @@ void drawTransition(Svg& svg, const ChartText& texts, const SfcTransition& t, co
   }
 }
 
-void drawJump(Svg& svg, const ChartText& texts, const ChartJump& jump) {
+void drawJump(Svg& svg, const ChartLabels& texts, const ChartJump& jump) {
   const Point tip{jump.at.x, jump.at.y + 22};
   svg.line(jump.at, tip);
   const auto n = [](int32_t k) { return std::to_string(k); };
@@ -177,7 +177,7 @@ void drawJump(Svg& svg, const ChartText& texts, const ChartJump& jump) {
 }  // namespace
 
 ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou) {
-  const ChartText texts(tree, names, pou);
+  const ChartLabels texts(tree, names, pou);
   ChartPlan plan;
   for (uint32_t k = 0; k < pou.steps.count; ++k) {
     const StepText text = texts.step(k);
@@ -208,7 +208,7 @@ std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, 
   ChartPlan plan = measureChart(tree, names, pou);
   planChart(tree, names, pou, plan);
   const Point by{kChartMargin - plan.bounds.x, kChartMargin - plan.bounds.y};
-  const ChartText texts(tree, names, pou);
+  const ChartLabels texts(tree, names, pou);
   Svg svg;
   for (const ChartLine& line : plan.lines) {
     svg.line(line.from + by, line.to + by);

@@ -70,7 +70,7 @@ int32_t widthOf(const std::vector<std::string>& lines) {
   return width;
 }
 
-bool isEnable(const Body& body, NameId name) { return isControl(body.names.string(name)); }
+bool isControlPin(const Body& body, NameId name) { return isControl(body.names.string(name)); }
 
 // The letters in a contact or coil: | / |, | P |, ( S ).
 std::string lettersOf(const DiagramElement& e) {
@@ -100,7 +100,7 @@ Rows rowsOf(const Body& body, const DiagramElement& e, std::span<const NameId> u
   }
   for (const NameId name : unlisted_outputs) rows.right.push_back({{}, true, kNone, name});
   for (std::vector<Terminal>* side : {&rows.left, &rows.right})
-    std::stable_partition(side->begin(), side->end(), [&](const Terminal& t) { return isEnable(body, t.name); });
+    std::stable_partition(side->begin(), side->end(), [&](const Terminal& t) { return isControlPin(body, t.name); });
   return rows;
 }
 

@@ -11,7 +11,7 @@
 namespace rung::picture {
 namespace {
 
-bool isRail(const Item& item) { return !item.terminals.empty() && item.terminals[0].length > 0; }
+bool isRailItem(const Item& item) { return !item.terminals.empty() && item.terminals[0].length > 0; }
 
 Item makeContinuation(uint32_t number, bool begins) {
   const int32_t width = roundUp(textWidth(std::to_string(number)) + 16);
@@ -30,7 +30,7 @@ class Splitter {
         item_of_(plan.items.size(), kNone),
         continuations_(continuations) {
     for (uint32_t k = 0; k < plan.items.size(); ++k) {
-      if (isRail(plan.items[k])) continue;
+      if (isRailItem(plan.items[k])) continue;
       item_of_[k] = add(parts[k], plan.items[k]);
     }
   }
@@ -65,7 +65,7 @@ End Splitter::railIn(uint32_t part, const End& rail) {
 
 // Connects each source with each target.
 void Splitter::addNet(const Net& net) {
-  const auto rail = [&](const End& end) { return isRail(plan_.items[end.item]); };
+  const auto rail = [&](const End& end) { return isRailItem(plan_.items[end.item]); };
   for (const End& from : net.sources)
     for (const End& to : net.targets) {
       if (rail(from) && rail(to)) continue;
@@ -121,7 +121,7 @@ std::vector<uint32_t> connectedParts(const Plan& plan) {
     return k;
   };
   for (const Link& link : plan.links) {
-    if (isRail(plan.items[link.from.item]) || isRail(plan.items[link.to.item])) continue;
+    if (isRailItem(plan.items[link.from.item]) || isRailItem(plan.items[link.to.item])) continue;
     part[find(link.from.item)] = find(link.to.item);
   }
   for (uint32_t k = 0; k < part.size(); ++k) part[k] = find(k);
@@ -154,7 +154,7 @@ std::vector<Column> columnsOf(const Body& body, const Plan& plan, int32_t most) 
   std::vector<uint32_t> order;
   for (uint32_t k = 0; k < plan.items.size(); ++k) {
     const Item& item = plan.items[k];
-    if (!isRail(item) && item.element != kNone && body.elements[item.element].kind != ElementKind::Comment)
+    if (!isRailItem(item) && item.element != kNone && body.elements[item.element].kind != ElementKind::Comment)
       order.push_back(k);
   }
   const auto boundsOfItem = [&](uint32_t k) { return plan.items[k].bounds(); };
@@ -211,7 +211,7 @@ int32_t continuationsOf(const Plan& plan, bool begin, int32_t& width) {
 void fitRails(Plan& plan, int32_t left, int32_t right) {
   for (uint32_t k = 0; k < plan.items.size(); ++k) {
     Item& item = plan.items[k];
-    if (!isRail(item)) continue;
+    if (!isRailItem(item)) continue;
     const bool gives = item.terminals[0].output;
     int32_t top = INT32_MAX, bottom = INT32_MIN;
     for (const Link& link : plan.links) {
@@ -237,12 +237,12 @@ std::vector<Plan> splitByWires(const Plan& plan) {
   std::vector<uint32_t> part = connectedParts(plan);
   std::vector<bool> leads_on(plan.items.size());
   for (const Link& link : plan.links)
-    if (!isRail(plan.items[link.to.item])) leads_on[link.from.item] = true;
+    if (!isRailItem(plan.items[link.to.item])) leads_on[link.from.item] = true;
   // In the order of their last elements, since they are drawn beside each other.
   std::vector<int64_t> first(plan.items.size(), INT64_MAX);
   for (const bool ends : {true, false})
     for (uint32_t k = 0; k < plan.items.size(); ++k)
-      if (!isRail(plan.items[k]) && leads_on[k] != ends && first[part[k]] == INT64_MAX)
+      if (!isRailItem(plan.items[k]) && leads_on[k] != ends && first[part[k]] == INT64_MAX)
         first[part[k]] = plan.items[k].element == kNone ? 0 : static_cast<int64_t>(plan.items[k].element);
   const uint32_t count = renumber(part, first);
   uint32_t continuations = 0;
@@ -257,7 +257,7 @@ std::vector<Plan> splitByRows(const Plan& plan) {
   };
   std::vector<Rows> rows(plan.items.size());
   for (uint32_t k = 0; k < plan.items.size(); ++k) {
-    if (isRail(plan.items[k])) continue;
+    if (isRailItem(plan.items[k])) continue;
     Rows& r = rows[part[k]];
     r.top = std::min(r.top, plan.items[k].bounds().y);
     r.bottom = std::max(r.bottom, plan.items[k].bounds().bottom());
@@ -278,7 +278,7 @@ std::vector<Plan> splitByRows(const Plan& plan) {
   std::vector<Plan> plans = Splitter(plan, part, count, continuations).run();
   int32_t left = 0, right = 0;
   for (const Item& item : plan.items)
-    if (isRail(item)) (item.terminals[0].output ? left : right) = item.origin.x;
+    if (isRailItem(item)) (item.terminals[0].output ? left : right) = item.origin.x;
   for (Plan& strip : plans) fitRails(strip, left, right);
   return plans;
 }
@@ -300,7 +300,7 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& cont
   }
   for (uint32_t k = 0; k < plan.items.size(); ++k) {
     const Item& item = plan.items[k];
-    if (isRail(item) || body.elements[item.element].kind != ElementKind::Comment) continue;
+    if (isRailItem(item) || body.elements[item.element].kind != ElementKind::Comment) continue;
     for (uint32_t b = 0; b < begins.size(); ++b)
       if (item.origin.x >= begins[b]) band[k] = b;
   }
@@ -311,15 +311,15 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& cont
     int32_t width = 0;
     const int32_t in = continuationsOf(p, true, width);
     const bool railed = std::any_of(p.items.begin(), p.items.end(),
-                                    [](const Item& item) { return isRail(item) && item.terminals[0].output; });
+                                    [](const Item& item) { return isRailItem(item) && item.terminals[0].output; });
     const int32_t continuation_x = railed ? kElementGap : 0;
     const int32_t begin =
         b == 0 && in == 0 ? begins[0] - origin : continuation_x + width + kElementGap + std::min(in, 20) * kGrid;
     for (Item& item : p.items)
-      if (item.continuation == 0 && !isRail(item)) item.origin.x += begin - begins[b];
+      if (item.continuation == 0 && !isRailItem(item)) item.origin.x += begin - begins[b];
     int32_t end = 0;
     for (const Item& item : p.items)
-      if (item.continuation == 0 && !isRail(item)) end = std::max(end, item.bounds().right());
+      if (item.continuation == 0 && !isRailItem(item)) end = std::max(end, item.bounds().right());
     width = 0;
     const int32_t out = continuationsOf(p, false, width);
     end = roundUp(std::max(end + kElementGap + std::min(out, 20) * kGrid + width, out > 0 ? page : 0));

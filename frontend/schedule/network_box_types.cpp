@@ -38,7 +38,7 @@ TypeExprId BoxTypes::ofBox(uint32_t element, uint32_t depth) {
 }
 
 TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const std::string_view name = names_.string(e.name.name);
   const OperatorFunction* const function = operatorFunction(name);
   if (function != nullptr && compares(function->op)) return named("BOOL", e.loc);
@@ -79,7 +79,7 @@ TypeExprId BoxTypes::ofReaders(uint32_t element) {
   }
   for (auto at = std::lower_bound(reads_.begin(), reads_.end(), std::pair{element, 0u});
        at != reads_.end() && at->first == element; ++at) {
-    const DiagramElement& reader = graph_.elements[at->second];
+    const Element& reader = graph_.elements[at->second];
     if (reader.kind == ElementKind::Coil || reader.kind == ElementKind::Contact) return named("BOOL", reader.loc);
     if (reader.kind != ElementKind::Output) continue;
     if (const TypeExprId type = ofExpr(reader.operand, 0)) return type;
@@ -90,7 +90,7 @@ TypeExprId BoxTypes::ofReaders(uint32_t element) {
 TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
   if (source == kNone) return {};
   const Source& s = graph_.sources[source];
-  const DiagramElement& e = graph_.elements[s.element];
+  const Element& e = graph_.elements[s.element];
   const NameId pin = s.pin.name;
   switch (e.kind) {
     case ElementKind::Contact:

@@ -42,8 +42,7 @@ struct Scheduler::Call {
   ExprId callee;
   std::optional<Operator> op;
   std::vector<Argument> arguments;
-  DiagramPin en{};
-  bool has_en = false;
+  const DiagramPin* en = nullptr;  // unless it is always TRUE
 };
 
 bool Scheduler::isOperator(const DiagramElement& e) const {
@@ -65,7 +64,7 @@ uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const
 
 //   fails   a pin that the block does not have        E1004
 bool Scheduler::fillArguments(uint32_t element, Call& call) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const SignatureKind kind = call.signature.kind;
   const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
                      kind == SignatureKind::Method || kind == SignatureKind::Program;
@@ -74,8 +73,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     if (isControl(names_, pin.name.name) && call.signature.find(names_, pin.name.name) == nullptr) {
-      call.en = pin;
-      call.has_en = !graph_.isAlwaysTrue(pin);
+      call.en = graph_.isAlwaysTrue(pin) ? nullptr : &pin;
       continue;
     }
     if (known && named && !hasPin(names_, call.signature, pin.name)) {
@@ -102,7 +100,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
 //   fails   an operator or function that is read before it runs                        E1013
 ExprId Scheduler::readBox(uint32_t source) {
   const Source s = graph_.sources[source];
-  const DiagramElement& e = graph_.elements[s.element];
+  const Element& e = graph_.elements[s.element];
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
   if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.string(s.pin.name), PinDirection::InOut) : nullptr;
       wired != nullptr && !wired->wires.empty())  // the wire of an in-out continues after the box
@@ -137,7 +135,7 @@ ExprId Scheduler::readBox(uint32_t source) {
 uint32_t Scheduler::soleTarget(uint32_t source) const {
   if (source == kNone || graph_.sources[source].uses != 1 || graph_.sources[source].temporary) return kNone;
   const uint32_t user = graph_.sources[source].user, element = graph_.sources[source].element;
-  const DiagramElement& e = graph_.elements[user];
+  const Element& e = graph_.elements[user];
   if (e.kind != ElementKind::Output || isModified(e) || walk_->isResolved(user)) return kNone;
   const DiagramPin* out = graph_.outputPin(source);
   if (out != nullptr && isModified(*out)) return kNone;
@@ -148,7 +146,7 @@ uint32_t Scheduler::soleTarget(uint32_t source) const {
 // Passes the `value` of the box to its readers: now, as a temporary, or as a part of the only reader's expression.
 void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   Source& s = graph_.sources[result];
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   s.pending = value;
   s.height = heightOf(e);
   const bool in_order = e.order == 0 || (order_of_[s.user] != kNone && order_of_[s.user] == order_of_[element] + 1);
@@ -191,7 +189,7 @@ void Scheduler::guard(uint32_t element, NameId condition) {
 
 //   fails   an unconnected input                  E1007
 bool Scheduler::checkOperands(uint32_t element, const Call& call) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const bool pair = call.op->form == Form::Chain || call.op->form == Form::Pair;
   const size_t least = pair ? 2 : 1;
   std::string open;
@@ -212,7 +210,7 @@ bool Scheduler::checkOperands(uint32_t element, const Call& call) {
 }
 
 void Scheduler::resolveOperator(uint32_t element, Call& call) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   failed_[element] = !checkOperands(element, call);
   if (failed_[element]) return;
   const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
@@ -231,13 +229,13 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
   for (size_t k = 1; k < call.arguments.size(); ++k)
     value = build_.binary(call.op->op, value, call.arguments[k].value, e.loc);
 
-  if (!call.has_en) {
+  if (call.en == nullptr) {
     if (eno != kNone) keep(eno, build_.boolean(true, e.loc), wireName(element) + "_ENO");
     if (result != kNone) return giveResult(element, result, value);
     const NameId unread = newTemporary(wireName(element), e.loc);
     return assign(build_.name(unread, e.loc), value, e.loc);
   }
-  ExprId condition = valueOf(e, call.en);
+  ExprId condition = valueOf(e, *call.en);
   const bool guards = soleTarget(result) == kNone && hasTargets(element);
   if (eno != kNone) {
     keep(eno, condition, wireName(element) + "_ENO");
@@ -261,7 +259,7 @@ NameId Scheduler::keptEnable(uint32_t element, ExprId condition) {
 
 // `target := callee(EN := en, arguments, ENO => eno)`
 void Scheduler::callWithEno(uint32_t element, Call& call, uint32_t eno, uint32_t result) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   addControl(element, call, eno);
   const ExprId value = build_.call(call.callee, call.arguments, e.loc);
   if (soleTarget(result) == kNone) guard(element, graph_.sources[eno].temporary);
@@ -270,10 +268,10 @@ void Scheduler::callWithEno(uint32_t element, Call& call, uint32_t eno, uint32_t
 
 // The arguments for EN and ENO.
 void Scheduler::addControl(uint32_t element, Call& call, uint32_t eno) {
-  const DiagramElement& e = graph_.elements[element];
-  if (call.has_en) {
-    const Loc loc = call.en.name.loc;
-    call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});
+  const Element& e = graph_.elements[element];
+  if (call.en != nullptr) {
+    const Ident& name = call.en->name;
+    call.arguments.insert(call.arguments.begin(), {name, valueOf(e, *call.en), false, false, name.loc});
   }
   if (eno == kNone || graph_.sources[eno].uses == 0) return;
   Source& s = graph_.sources[eno];
@@ -283,7 +281,7 @@ void Scheduler::addControl(uint32_t element, Call& call, uint32_t eno) {
 
 // The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   const bool reads_eno = eno != kNone && graph_.sources[eno].uses > 0;
   const bool function = call.signature.kind == SignatureKind::Function ||
@@ -307,14 +305,14 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
   const bool sole = soleTarget(result) != kNone;
   if (reads_eno) {
     guard(element, graph_.sources[eno].temporary);
-  } else if (call.has_en && (!function || outputs || !sole) && hasTargets(element)) {
+  } else if (call.en != nullptr && (!function || outputs || !sole) && hasTargets(element)) {
     const NameId name = keptEnable(element, call.arguments[0].value);
     call.arguments[0].value = build_.name(name, e.loc);
     guard(element, name);
   }
   const ExprId value = build_.call(call.callee, call.arguments, tree_.loc(call.callee));
   if (result == kNone) return emit(build_.callStatement(value));
-  if (call.has_en || reads_eno) return assign(targetOf(element, result), value, e.loc);
+  if (call.en != nullptr || reads_eno) return assign(targetOf(element, result), value, e.loc);
   if (outputs) return keep(result, value, wireName(element));
   giveResult(element, result, value);
 }
@@ -329,7 +327,7 @@ bool Scheduler::checkBlock(const DiagramElement& e) {
 }
 
 void Scheduler::resolveBox(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   Call call;
   if (!e.path && !e.operand) return;
   if (isOperator(e)) {
@@ -341,7 +339,7 @@ void Scheduler::resolveBox(uint32_t element) {
     failed_[element] = true;
     return;
   }
-  call.signature = signatureOf(signatures_, e);
+  call.signature = signatureOf(signatures_, e, e.hidden);
   if (!fillArguments(element, call)) {
     failed_[element] = true;
     return;

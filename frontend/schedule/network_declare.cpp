@@ -16,8 +16,9 @@ namespace {
 
 class Declarer {
  public:
-  Declarer(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, std::string_view prefix)
-      : tree_(tree), names_(names), signatures_(signatures), prefix_(prefix) {
+  Declarer(Tree& tree, Names& names, Signatures& signatures, NetworkVariables& variables, const PouDecl& pou,
+           std::string_view prefix)
+      : tree_(tree), names_(names), signatures_(signatures), variables_(variables), prefix_(prefix) {
     forEachSection(tree_, pou, signatures_.madeSections(pou), [&](const SectionDecl& section) {
       for (const DeclId var : tree_.list(section.vars))
         for (const Ident& name : tree_.list(tree_.as<VarDecl>(var).names))
@@ -27,30 +28,32 @@ class Declarer {
   }
 
   void run(Slice<DiagramElement> elements) {
-    for (DiagramElement& e : tree_.list(elements)) {
-      if (const NameId hidden = ofElement(e)) e.hidden = hidden;
-      for (DiagramPin& pin : tree_.list(e.pins)) {
+    const Tree& written = tree_;
+    for (const DiagramElement& e : written.list(elements)) {
+      if (const NameId hidden = ofElement(e)) variables_.hide(e, hidden);
+      for (const DiagramPin& pin : written.list(e.pins)) {
         if (pin.edge == EdgeKind::None) continue;
         const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.string(pin.name.name));
-        pin.hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
+        variables_.hide(pin, declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc));
       }
     }
   }
 
   // Variables for values of other cycles. Call after run(), which tells blocks from functions.
   void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
+    const Tree& written = tree_;
     Graph graph;
-    if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
+    if (!graph.build(tree_, names_, diagnostics, pou.diagram, variables_)) return;
     BoxTypes types(tree_, names_, signatures_, pou, graph);
     for (const uint32_t source : readBeforeExecution(tree_, names_, graph)) {
       const Source& s = graph.sources[source];
-      const DiagramElement& e = graph.elements[s.element];
+      const Element& e = graph.elements[s.element];
       const TypeExprId type = types.of(source);
       if (!type) continue;
       std::string base = (e.name.name ? std::string(names_.string(e.name.name)) : "wire") + "_" + number(e);
-      DiagramPin* own = nullptr;
+      const DiagramPin* own = nullptr;
       uint32_t results = 0;
-      for (DiagramPin& pin : tree_.list(e.pins)) {
+      for (const DiagramPin& pin : tree_.list(e.pins)) {
         if (pin.direction != PinDirection::Output) continue;
         if (s.pin.name && names_.same(pin.name.name, s.pin.name)) own = &pin;
         results += isEnableOutput(names_.string(pin.name.name)) ? 0 : 1;
@@ -58,7 +61,10 @@ class Declarer {
       if (s.pin.name && (results > 1 || isEnableOutput(names_.string(s.pin.name))))
         base += "_" + std::string(names_.string(s.pin.name));
       const NameId name = declare(base, type, e.loc);
-      (own != nullptr ? own->stored : tree_.list(pou.diagram.elements)[s.element].stored) = name;
+      if (own != nullptr)
+        variables_.store(*own, name);
+      else
+        variables_.store(written.list(pou.diagram.elements)[s.element], name);
     }
   }
 
@@ -104,6 +110,7 @@ class Declarer {
   Tree& tree_;
   Names& names_;
   Signatures& signatures_;
+  NetworkVariables& variables_;
   std::string_view prefix_;
   std::vector<uint32_t> taken_;  // keys of the names that the POU declares, sorted
   std::vector<DeclId> vars_;
@@ -111,14 +118,14 @@ class Declarer {
 
 }  // namespace
 
-DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, const PouDecl& pou,
-                       SectionKind kind, std::string_view prefix) {
-  Declarer declarer(tree, names, signatures, pou, prefix);
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                       NetworkVariables& variables, const PouDecl& pou, SectionKind kind, std::string_view prefix) {
+  Declarer declarer(tree, names, signatures, variables, pou, prefix);
   declarer.run(pou.diagram.elements);
   declarer.keepValues(diagnostics, pou);
   if (declarer.vars().empty()) return {};
   const Loc loc = tree.loc(declarer.vars().front());
-  return TreeBuilder(tree).section(kind, declarer.vars(), loc, kHidden);
+  return TreeBuilder(tree).section(kind, declarer.vars(), loc, SectionMaker::Networks);
 }
 
 }  // namespace rung::diagram

@@ -38,7 +38,7 @@ class Search {
   // Variables, in-outs and the outputs of instances can be read at any time.
   bool isComputed(uint32_t source) const {
     const Source& s = graph_.sources[source];
-    const DiagramElement& e = graph_.elements[s.element];
+    const Element& e = graph_.elements[s.element];
     if (e.kind == ElementKind::Compose || e.kind == ElementKind::InOut) return false;
     if (e.kind != ElementKind::Box) return true;
     if (s.pin.name && isEnableOutput(names_.string(s.pin.name))) return true;

@@ -14,6 +14,11 @@ namespace rung::diagram {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
+// An element of a body, with the hidden variables that it works on and that keeps its value (network_variables.h).
+struct Element : DiagramElement {
+  NameId hidden, stored;
+};
+
 // The source of wires: an element, or one output of a box. Connectors are not sources: wires are followed through them.
 struct Source {
   uint32_t element;
@@ -30,7 +35,7 @@ struct Source {
 };
 
 // A box whose outputs can be read before it is called: they have the values of the last cycle.
-bool keepsState(const DiagramElement& e);
+bool keepsState(const Element& e);
 // Runs at its place in the execution order even if an expression could replace it.
 bool runsInLoops(const DiagramElement& e);
 // The modifiers of a pin or element.
@@ -47,9 +52,10 @@ struct InputWalk {
 class Graph {
  public:
   // False: an error was reported.
-  bool build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram);
+  bool build(const Tree& tree, const Names& names, Diagnostics& diagnostics, const Diagram& diagram,
+             const NetworkVariables& variables);
 
-  std::vector<DiagramElement> elements;
+  std::vector<Element> elements;
   std::vector<Source> sources;
   std::vector<uint32_t> first_source;  // of each element, or kNone
   std::vector<uint32_t> network;       // by element: equal where wires connect them
@@ -109,8 +115,8 @@ class Graph {
   void exclude(const Diagram& diagram);
   std::string nameOf(const DiagramElement& e) const { return describe(*tree_, *names_, e); }
 
-  Tree* tree_ = nullptr;
-  Names* names_ = nullptr;
+  const Tree* tree_ = nullptr;
+  const Names* names_ = nullptr;
   Diagnostics* diagnostics_ = nullptr;
   std::vector<End> ends_;  // of connectors and continuations
   std::unordered_map<uint64_t, uint32_t> by_pin_;

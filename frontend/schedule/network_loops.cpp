@@ -125,7 +125,7 @@ class LoopOrder {
   }
 
   std::tuple<bool, uint32_t, int32_t, int32_t, uint32_t> rank(uint32_t k) const {
-    const DiagramElement& e = graph_.elements[k];
+    const Element& e = graph_.elements[k];
     return {!runsInLoops(e), e.network, e.placed ? e.x : 0, e.placed ? e.y : 0, k};
   }
 

@@ -86,7 +86,7 @@ std::string forbidden(const Modifiable& m, const Allowed& allowed) {
 //   fails   box 4 ADD [IN1 := 1, IN2 := 2, OUT SET =>];  box 5 NOT [IN := 4(OUT), OUT =>];               E1021
 void Scheduler::checkModifiers() {
   for (uint32_t k = 0; k < graph_.elements.size(); ++k) {
-    DiagramElement& e = graph_.elements[k];
+    Element& e = graph_.elements[k];
     const DiagramPin* input = graph_.inputPin(k);
     const std::string words = forbidden(e, ofElement(e, input != nullptr && !input->wires.empty()));
     if (!words.empty()) {

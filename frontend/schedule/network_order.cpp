@@ -44,7 +44,7 @@ bool acts(const DiagramElement& e) {
 
 }  // namespace
 
-bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden); }
+bool keepsState(const Element& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden); }
 
 bool runsInLoops(const DiagramElement& e) {
   return e.kind == ElementKind::Box || e.kind == ElementKind::Execute || e.kind == ElementKind::Compose ||
@@ -53,7 +53,7 @@ bool runsInLoops(const DiagramElement& e) {
 
 // Wires are followed through it. A connector that joins several wires or changes their value is an element.
 bool Graph::isLink(uint32_t element) const {
-  const DiagramElement& e = elements[element];
+  const Element& e = elements[element];
   if (e.kind == ElementKind::Continuation) return true;
   if (e.kind != ElementKind::Connector) return false;
   const DiagramPin* pin = inputPin(element);
@@ -99,7 +99,7 @@ bool Graph::runs(uint32_t element) const {
 bool Graph::isOrdered(uint32_t element) const { return elements[element].order != 0 && acts(elements[element]); }
 
 bool Graph::isTarget(uint32_t element) const {
-  const DiagramElement& e = elements[element];
+  const Element& e = elements[element];
   if (e.kind != ElementKind::Output && e.kind != ElementKind::Coil && e.kind != ElementKind::InOut) return false;
   const DiagramPin* pin = inputPin(element);
   return pin != nullptr && pin->wires.count == 1;
@@ -125,7 +125,7 @@ Graph::End Graph::endOf(uint32_t link) {
   End end{link, {}};
   while (end.element != kNone && isLink(end.element)) {
     const uint32_t at = end.element;
-    const DiagramElement& e = elements[at];
+    const Element& e = elements[at];
     if (ends_[at].element == kWalked) diagnostics_->report(diag::WireLoop, e.loc);
     if (ends_[at].element != kOpen) {
       end = ends_[at].element == kWalked ? End{kNone, {}} : ends_[at];
@@ -148,7 +148,7 @@ Graph::End Graph::endOf(uint32_t link) {
 }
 
 uint32_t Graph::nextInput(InputWalk& walk) const {
-  const DiagramElement& e = elements[walk.element];
+  const Element& e = elements[walk.element];
   while (walk.pin < e.pins.count) {
     const DiagramPin& pin = tree_->list(e.pins)[walk.pin];
     if (walk.wire < pin.wires.count) return sourceOf(pin, walk.wire++);
@@ -190,7 +190,7 @@ bool Graph::connect() {
   bool ok = true;                                         // a second error on the same cause is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
-    const DiagramElement& e = elements[k];
+    const Element& e = elements[k];
     if (e.kind == ElementKind::Connector && e.name.name) connectors.emplace_back(names_->key(e.name.name).index, k);
   }
   std::sort(connectors.begin(), connectors.end());
@@ -201,7 +201,7 @@ bool Graph::connect() {
     diagnostics_->report(diag::DuplicateConnector, name.loc, {names_->string(name.name)})
         .declaredHere(elements[connectors[k - 1].second].name.loc);
   }
-  for (DiagramElement& e : elements) {
+  for (Element& e : elements) {
     if (e.kind != ElementKind::Continuation) continue;
     const auto found = std::lower_bound(connectors.begin(), connectors.end(),
                                         std::pair{e.name.name ? names_->key(e.name.name).index : 0u, 0u});
@@ -213,7 +213,7 @@ bool Graph::connect() {
   first_source.assign(elements.size(), kNone);
   first_wire_ = kNone;
   uint32_t end = 0;
-  for (const DiagramElement& e : elements)
+  for (const Element& e : elements)
     for (const DiagramPin& pin : tree_->list(e.pins)) {
       if (pin.wires.empty()) continue;
       first_wire_ = std::min(first_wire_, pin.wires.first);
@@ -253,7 +253,7 @@ void Graph::separate() {
   const auto join = [&](uint32_t a, uint32_t b) { parent[root(std::max(a, b))] = root(std::min(a, b)); };
   std::vector<std::pair<uint32_t, uint32_t>> numbered;  // network of the file, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
-    const DiagramElement& e = elements[k];
+    const Element& e = elements[k];
     if (isRail(e.kind) || isLink(k)) continue;
     if (e.network != 0) numbered.emplace_back(e.network, k);
     for (const DiagramPin& pin : tree_->list(e.pins))
@@ -272,13 +272,13 @@ void Graph::separate() {
 void Graph::sortRoots() {
   bool placed = false;
   const DiagramElement* first = nullptr;
-  for (const DiagramElement& e : elements) {
+  for (const Element& e : elements) {
     if (!e.placed || isRail(e.kind) || e.kind == ElementKind::Comment) continue;
     if (first == nullptr) first = &e;
     placed = placed || e.x != first->x || e.y != first->y;
     ordered = ordered || e.order != 0;
   }
-  for (const DiagramElement& e : elements) ordered = ordered || e.order != 0;
+  for (const Element& e : elements) ordered = ordered || e.order != 0;
 
   struct Key {
     uint32_t number_in_file;  // the network's number in the file
@@ -287,7 +287,7 @@ void Graph::sortRoots() {
     auto operator<=>(const Key&) const = default;
   };
   const auto keyOf = [&](uint32_t k) {
-    const DiagramElement& e = elements[k];
+    const Element& e = elements[k];
     const bool has_position = placed && e.placed;
     return Key{e.kind == ElementKind::Continuation ? 0 : e.network, has_position ? e.y : 0, has_position ? e.x : 0, k};
   };
@@ -320,8 +320,8 @@ void Graph::sortRoots() {
 //   fails   two outputs with ORDER 3        E1017
 void Graph::checkExecutionOrder() {
   for (size_t k = 1; k < roots.size(); ++k) {
-    const DiagramElement& before = elements[roots[k - 1]];
-    const DiagramElement& e = elements[roots[k]];
+    const Element& before = elements[roots[k - 1]];
+    const Element& e = elements[roots[k]];
     if (e.order == 0 || e.order != before.order) continue;
     diagnostics_->report(diag::DuplicateExecutionOrder, e.loc, {std::to_string(e.order)}).declaredHere(before.loc);
   }
@@ -329,7 +329,7 @@ void Graph::checkExecutionOrder() {
 
 // Excludes the elements of disabled networks.
 void Graph::exclude(const Diagram& diagram) {
-  for (DiagramElement& e : elements) {
+  for (Element& e : elements) {
     if (e.network == 0 || e.network > diagram.networks.count) continue;
     if (!tree_->list(diagram.networks)[e.network - 1].disabled) continue;
     e.kind = ElementKind::Comment;
@@ -340,11 +340,14 @@ void Graph::exclude(const Diagram& diagram) {
   }
 }
 
-bool Graph::build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram) {
+bool Graph::build(const Tree& tree, const Names& names, Diagnostics& diagnostics, const Diagram& diagram,
+                  const NetworkVariables& variables) {
   tree_ = &tree;
   names_ = &names;
   diagnostics_ = &diagnostics;
-  elements.assign(tree.list(diagram.elements).begin(), tree.list(diagram.elements).end());
+  elements.clear();
+  for (const DiagramElement& e : tree.list(diagram.elements))
+    elements.push_back({e, variables.hidden(e), variables.stored(e)});
   exclude(diagram);
   if (!connect()) return false;
   separate();

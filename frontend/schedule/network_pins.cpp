@@ -15,9 +15,9 @@ const PinSignature* nextInput(const Signature& signature, size_t& at) {
 
 }  // namespace
 
-Signature signatureOf(Signatures& signatures, const DiagramElement& e) {
+Signature signatureOf(Signatures& signatures, const DiagramElement& e, NameId hidden) {
   if (e.operand) return signatures.of(e.operand);
-  return e.hidden ? signatures.of(e.hidden) : signatures.of(e.path);
+  return hidden ? signatures.of(hidden) : signatures.of(e.path);
 }
 
 bool hasPin(const Names& names, const Signature& signature, const Ident& pin) {
@@ -39,11 +39,11 @@ bool bindsByName(const Tree& tree, const Names& names, const DiagramElement& e, 
   return !(any && all_unknown && !signature.pins.empty());
 }
 
-void markInOuts(const Tree& tree, const Names& names, Signatures& signatures, const Diagram& diagram,
-                std::vector<bool>& in_outs) {
+void markInOuts(const Tree& tree, const Names& names, Signatures& signatures, const NetworkVariables& variables,
+                const Diagram& diagram, std::vector<bool>& in_outs) {
   for (const DiagramElement& e : tree.list(diagram.elements)) {
     if (e.kind != ElementKind::Box || (!e.path && !e.operand)) continue;
-    Signature signature = signatureOf(signatures, e);
+    Signature signature = signatureOf(signatures, e, variables.hidden(e));
     if (signature.pins.empty() && e.operand && e.path) signature = signatures.of(e.path);  // the instance is unknown
     const bool named = bindsByName(tree, names, e, signature);
     size_t next = 0;

@@ -124,7 +124,7 @@ NameId Scheduler::newTemporary(const std::string& base, Loc loc) {
 }
 
 std::string Scheduler::wireName(uint32_t element) const {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const std::string number = std::to_string(e.number);
   if (e.kind == ElementKind::Box && e.name.name) return std::string(names_.string(e.name.name)) + "_" + number;
   return "wire_" + number;
@@ -197,7 +197,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
     value = joined(pin, 0, pin.wires.count);
   }
   if (pin.direction == PinDirection::InOut) return value;  // modifiers are an error
-  if (pin.edge != EdgeKind::None) value = sensed(pin.hidden, value, e.loc);
+  if (pin.edge != EdgeKind::None) value = sensed(variables_.hidden(pin), value, e.loc);
   return pin.negated ? inverted(value, e.loc) : value;
 }
 
@@ -214,14 +214,14 @@ ExprId Scheduler::read(uint32_t source) {
   const DiagramPin* pin = graph_.outputPin(source);
   if (pin == nullptr || (!pin->negated && pin->edge == EdgeKind::None)) return plainValue(source);
   const Loc loc = graph_.elements[graph_.sources[source].element].loc;
-  const ExprId value = pin->edge == EdgeKind::None ? plainValue(source) : outputOf(pin->hidden, loc);
+  const ExprId value = pin->edge == EdgeKind::None ? plainValue(source) : outputOf(variables_.hidden(*pin), loc);
   return pin->negated ? inverted(value, loc) : value;
 }
 
 ExprId Scheduler::plainValue(uint32_t source) {
   Source& s = graph_.sources[source];
   const uint32_t element = s.element;
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   if (s.failed) return build_.error(e.loc);
   if (s.temporary) return build_.name(s.temporary, e.loc);
   if (s.pending) return std::exchange(s.pending, {});
@@ -290,7 +290,7 @@ void Scheduler::detectEdges(uint32_t element) {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
     const DiagramPin* pin = graph_.outputPin(s);
     if (pin == nullptr || pin->edge == EdgeKind::None || graph_.sources[s].uses == 0) continue;
-    sensed(pin->hidden, plainValue(s), graph_.elements[element].loc);
+    sensed(variables_.hidden(*pin), plainValue(s), graph_.elements[element].loc);
   }
 }
 
@@ -310,7 +310,7 @@ void Scheduler::resolve(uint32_t element) {
     case ElementKind::Select: return resolveComposer(element);
     case ElementKind::Input: {
       const uint32_t source = graph_.first_source[element];
-      const DiagramElement& e = graph_.elements[element];
+      const Element& e = graph_.elements[element];
       if (source == kNone) return;
       if (e.edge != EdgeKind::None)
         graph_.sources[source].pending = sensed(e.hidden, plainValue(source), e.loc);
@@ -327,7 +327,7 @@ void Scheduler::resolve(uint32_t element) {
 
 // Tells whether the variable of a contact may be read wherever its wire is read: nothing in its network changes it.
 bool Scheduler::readable(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const DiagramPin* pin = graph_.inputPin(element);
   if (e.edge != EdgeKind::None || (pin != nullptr && !graph_.isAlwaysTrue(*pin))) return false;
   if (tree_.kind(e.operand) != ExprKind::Name || network_calls_[graph_.network[element]]) return false;
@@ -337,7 +337,7 @@ bool Scheduler::readable(uint32_t element) {
 
 //   fails   an unconnected contact        E1007
 void Scheduler::resolveContact(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const DiagramPin* pin = graph_.inputPin(element);
   if (pin == nullptr || pin->wires.empty()) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
   const uint32_t source = graph_.first_source[element];
@@ -365,7 +365,7 @@ void Scheduler::resolveConnector(uint32_t element) {
   if (source == kNone) return;
   Source& s = graph_.sources[source];
   s.height = heightOf(graph_.elements[element]);
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   if (e.edge != EdgeKind::None) {
     const ExprId edge = sensed(e.hidden, valueOf(e, *graph_.inputPin(element)), e.loc);
     s.pending = e.negated ? inverted(edge, e.loc) : edge;
@@ -376,7 +376,7 @@ void Scheduler::resolveConnector(uint32_t element) {
 }
 
 void Scheduler::assignTo(uint32_t element, ExprId value, PinStorage storage, NameId guard) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   if (e.edge != EdgeKind::None) value = sensed(e.hidden, value, e.loc);
   if (e.negated) value = inverted(value, e.loc);
   const AssignOp op = storage == PinStorage::Set     ? AssignOp::Set
@@ -390,7 +390,7 @@ void Scheduler::assignTo(uint32_t element, ExprId value, PinStorage storage, Nam
 //   warns   an unconnected coil or variable        W1018
 void Scheduler::resolveAssignment(uint32_t element) {
   if (assigned_[element]) return;
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const DiagramPin* pin = graph_.inputPin(element);
   if (pin == nullptr || pin->wires.empty()) {
     if (e.kind == ElementKind::InOut) return;
@@ -420,7 +420,7 @@ PinStorage Scheduler::storageOf(const DiagramElement& e) const {
 
 // A composer fills its structure; a selector reads the members of its input.
 void Scheduler::resolveComposer(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     const ExprId value = valueOf(e, pin);
@@ -440,7 +440,7 @@ void Scheduler::resolveComposer(uint32_t element) {
 }
 
 void Scheduler::resolveExecute(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   const DiagramPin* en = pinNamed(e, kEnable, PinDirection::Input);
   if (en == nullptr) en = graph_.inputPin(element);
   ExprId condition;
@@ -458,7 +458,7 @@ void Scheduler::resolveExecute(uint32_t element) {
 }
 
 void Scheduler::resolveJump(uint32_t element) {
-  const DiagramElement& e = graph_.elements[element];
+  const Element& e = graph_.elements[element];
   if (e.kind == ElementKind::Label) {
     emit(build_.label(e.name));
     return;
@@ -478,7 +478,7 @@ void Scheduler::resolveJump(uint32_t element) {
 void Scheduler::checkCoils() {
   std::vector<std::pair<uint32_t, uint32_t>> coils;  // key of the name, element
   for (const uint32_t k : graph_.roots) {
-    const DiagramElement& e = graph_.elements[k];
+    const Element& e = graph_.elements[k];
     if (e.kind == ElementKind::Jump || e.kind == ElementKind::Return) return;
     if (e.kind == ElementKind::Coil && storageOf(e) == PinStorage::None && tree_.kind(e.operand) == ExprKind::Name)
       coils.emplace_back(names_.key(tree_.as<NameExpr>(e.operand).name).index, k);
@@ -486,7 +486,7 @@ void Scheduler::checkCoils() {
   std::stable_sort(coils.begin(), coils.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (size_t k = 1; k < coils.size(); ++k) {
     if (coils[k].first != coils[k - 1].first) continue;
-    const DiagramElement& e = graph_.elements[coils[k].second];
+    const Element& e = graph_.elements[coils[k].second];
     diagnostics_.report(diag::DuplicateCoil, tree_.loc(e.operand), {names_.string(tree_.as<NameExpr>(e.operand).name)})
         .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), diag::OtherCoil);
   }
@@ -495,12 +495,12 @@ void Scheduler::checkCoils() {
 // Warns of a holding coil of a variable that is not retained. TM/TP manual 5.3.4.
 //   warns   coil HOLDING (q) with q declared in VAR        W1015
 void Scheduler::checkHolding(const PouDecl& pou) {
-  for (const DiagramElement& e : graph_.elements) {
+  for (const Element& e : graph_.elements) {
     if (!e.holding || tree_.kind(e.operand) != ExprKind::Name) continue;
     const NameId name = tree_.as<NameExpr>(e.operand).name;
     for (const DeclId s : tree_.list(pou.sections)) {
       const SectionDecl& section = tree_.as<SectionDecl>(s);
-      if ((section.h.bits & (kRetain | kPersistent)) != 0 || section.section == SectionKind::External) continue;
+      if (section.qualifiers.isKept() || section.section == SectionKind::External) continue;
       for (const DeclId v : tree_.list(section.vars))
         for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
           if (names_.same(declared.name, name))
@@ -514,7 +514,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
 //   fails   coil 3 (n) := 2;  with n : INT          E1020
 void Scheduler::checkBooleans() {
   for (uint32_t k = 0; k < graph_.elements.size(); ++k) {
-    const DiagramElement& e = graph_.elements[k];
+    const Element& e = graph_.elements[k];
     if ((e.kind != ElementKind::Contact && e.kind != ElementKind::Coil) || !e.operand) continue;
     const std::string type = signatures_.typeUnlessBool(e.operand);
     if (type.empty()) continue;
@@ -527,7 +527,7 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
   const Diagram& diagram = pou.diagram;
   language_ = diagram.language;
   if (pou.pou_kind == PouKind::Function) function_ = "a function";
-  if (!graph_.build(tree_, names_, diagnostics_, diagram)) return {};
+  if (!graph_.build(tree_, names_, diagnostics_, diagram, variables_)) return {};
   checkCoils();
   checkHolding(pou);
   const size_t count = graph_.elements.size();
@@ -541,13 +541,14 @@ ScheduledBody Scheduler::run(const PouDecl& pou) {
   checkBooleans();
   for (uint32_t s = 0; s < graph_.sources.size(); ++s) {
     const DiagramPin* pin = graph_.sources[s].pin.name ? graph_.outputPin(s) : nullptr;
-    graph_.sources[s].temporary = pin != nullptr ? pin->stored : graph_.elements[graph_.sources[s].element].stored;
+    graph_.sources[s].temporary =
+        pin != nullptr ? variables_.stored(*pin) : graph_.elements[graph_.sources[s].element].stored;
   }
   network_calls_.assign(count, false);
   order_of_.assign(count, kNone);
   for (uint32_t k = 0; k < graph_.roots.size(); ++k) order_of_[graph_.roots[k]] = k;
   for (uint32_t k = 0; k < count; ++k) {
-    const DiagramElement& e = graph_.elements[k];
+    const Element& e = graph_.elements[k];
     if ((e.kind == ElementKind::Box && !isOperator(e)) || e.kind == ElementKind::Execute)
       network_calls_[graph_.network[k]] = true;
     const bool writes = e.kind == ElementKind::Coil || e.kind == ElementKind::Output || e.kind == ElementKind::InOut;
@@ -576,15 +577,15 @@ std::vector<uint32_t> executionOrder(Tree& tree, Names& names, Diagnostics& diag
   };
   Graph graph;
   std::vector<uint32_t> order;
-  if (!graph.build(tree, names, diagnostics, diagram)) return order;
+  if (!graph.build(tree, names, diagnostics, diagram, {})) return order;
   ExecutionWalk walk(graph);
   for (const uint32_t root : graph.roots) walk.run(root, Visitor{graph, order});
   return order;
 }
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                               EdgeCoils edge_coils, const PouDecl& pou) {
-  return Scheduler(tree, names, diagnostics, signatures, edge_coils).run(pou);
+                               const NetworkVariables& variables, EdgeCoils edge_coils, const PouDecl& pou) {
+  return Scheduler(tree, names, diagnostics, signatures, variables, edge_coils).run(pou);
 }
 
 }  // namespace rung::diagram

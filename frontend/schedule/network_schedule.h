@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "frontend/schedule/edge_coils.h"
+#include "frontend/schedule/network_variables.h"
 #include "frontend/schedule/scheduled_body.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/signatures.h"
@@ -21,16 +22,16 @@
 namespace rung::diagram {
 
 ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                               EdgeCoils edge_coils, const PouDecl& pou);
+                               const NetworkVariables& variables, EdgeCoils edge_coils, const PouDecl& pou);
 
 // The elements of a body, by their index, in the order in which they run: boxes, composers and selectors, variables
 // that are written, coils, jumps, labels, returns. Empty: the wires are wrong, which was reported. Pictures show it.
 std::vector<uint32_t> executionOrder(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram);
 
 // The hidden variables of a body of networks, as a section of `kind`: instances that detect edges, instances of blocks
-// without a name, composed structures, values of functions that are fed back. None: none needed. `prefix`: of their
-// names, where the body is an action and they are declared with its owner.
-DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, const PouDecl& pou,
-                       SectionKind kind, std::string_view prefix);
+// without a name, composed structures, values of functions that are fed back. None: none needed. `variables` tells
+// later which is whose. `prefix`: of their names, where the body is an action and they are declared with its owner.
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                       NetworkVariables& variables, const PouDecl& pou, SectionKind kind, std::string_view prefix);
 
 }  // namespace rung::diagram

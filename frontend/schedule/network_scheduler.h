@@ -27,8 +27,14 @@ constexpr uint16_t kMaxHeight = 100;
 
 class Scheduler {
  public:
-  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, EdgeCoils edge_coils)
-      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures), edge_coils_(edge_coils) {}
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+            const NetworkVariables& variables, EdgeCoils edge_coils)
+      : tree_(tree),
+        names_(names),
+        diagnostics_(diagnostics),
+        signatures_(signatures),
+        variables_(variables),
+        edge_coils_(edge_coils) {}
 
   ScheduledBody run(const PouDecl& pou);
 
@@ -127,6 +133,7 @@ class Scheduler {
   Names& names_;
   Diagnostics& diagnostics_;
   Signatures& signatures_;
+  const NetworkVariables& variables_;
   EdgeCoils edge_coils_;
   NetworkLanguage language_ = NetworkLanguage::Ladder;
   const char* function_ = nullptr;  // the kind of POU if it keeps no state

@@ -33,7 +33,7 @@ class SfcBuilder {
   ExprId noTime() { return build_.literal(LiteralKind::Duration, 0, loc_); }
   ExprId noBits() { return build_.literal(LiteralKind::Integer, 0, loc_, names_.intern("LWORD")); }
   ExprId bits(uint64_t word) {
-    return build_.literal(LiteralKind::Integer, word, loc_, names_.intern("LWORD"), kLiteralBased);
+    return build_.literal(LiteralKind::Integer, word, loc_, names_.intern("LWORD"), {.is_based = true});
   }
   ExprId negation(ExprId operand) { return build_.unary(UnaryOp::Not, operand, loc_); }
   ExprId binary(BinaryOp op, ExprId left, ExprId right) { return build_.binary(op, left, right, loc_); }

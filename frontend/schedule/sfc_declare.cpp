@@ -58,7 +58,7 @@ void SfcDeclarer::declare(std::span<const Ident> names, TypeExprId type, ExprId 
 }
 
 DeclId SfcDeclarer::section(SectionKind kind) {
-  const DeclId made = build_.section(kind, vars_, chart_.pou_.body_begin, kOfChart);
+  const DeclId made = build_.section(kind, vars_, chart_.pou_.body_begin, SectionMaker::Chart);
   vars_.clear();
   return made;
 }

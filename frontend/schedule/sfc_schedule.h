@@ -37,8 +37,8 @@ struct ChartContext {
   std::vector<const PouDecl*> around;
 };
 
-// The sections of the chart's variables (kOfChart); of a POU without a chart those of its conditions, which charts of
-// its actions use.
+// The sections of the chart's variables (SectionMaker::Chart); of a POU without a chart those of its conditions, which
+// charts of its actions use.
 Slice<DeclId> declareSfc(const Charts& charts, const PouDecl& pou, const ChartContext& context);
 // The name of a variable with which a chart is controlled, such as SFCInit.
 bool isSfcFlag(std::string_view name);

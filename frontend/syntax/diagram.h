@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A body of networks as the parser creates it: the elements of LD, FBD and CFC with their wires, in the order of the
-// file. It stays in the tree until the scheduler (frontend/schedule/network_schedule.h) turns it into statements. One
+// file. The scheduler (frontend/schedule/network_schedule.h) turns it into statements. One
 // model serves the three languages, which differ only in how an editor shows them. IEC 61131-3 ed. 3, 8; TM/TP
 // manual 5.1 to 5.3 and 5.6. `rung graph` draws from here too, so an element keeps its position where the file has one.
 #pragma once
@@ -53,8 +53,6 @@ struct DiagramPin {
   EdgeKind edge;
   PinStorage storage;
   Slice<DiagramWire> wires;  // several wires are joined by OR
-  NameId hidden;             // declareNetworks(): the instance that detects its edge
-  NameId stored;             // declareNetworks(): of an output: the variable that keeps its value
 };
 struct DiagramElement {
   ElementKind kind;
@@ -64,9 +62,6 @@ struct DiagramElement {
   uint32_t network;  // the number of its network; 0: inferred from wires
   uint32_t order;    // its place in the execution order; 0: inferred from wires and positions
   Ident name;
-  NameId hidden;  // declareNetworks(): the instance that detects its edge; of a box or Compose: the instance or
-                  // variable it works on
-  NameId stored;  // declareNetworks(): the variable that keeps the value of wires from it that name no pin
   ExprId path;
   ExprId operand;
   Slice<DiagramPin> pins;  // inputs, in-outs and outputs in the order of the file

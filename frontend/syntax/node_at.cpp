@@ -9,7 +9,7 @@ namespace rung {
 namespace {
 
 bool isInHalves(const Tree& tree, DeclId id) {
-  return tree.kind(id) == DeclKind::Property && tree.decl(id).bits == kInHalves;
+  return tree.kind(id) == DeclKind::Property && tree.as<PropertyDecl>(id).in_halves;
 }
 
 class Finder {

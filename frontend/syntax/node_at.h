@@ -39,7 +39,7 @@ void withId(NodeRef node, Visit&& visit) {
 }
 
 // The source of a node with all its children: its range (Tree::range), and of a POU also the members that follow its
-// END_…. The second half of a property of edition 4 (kInHalves) is outside of the property.
+// END_…. The second half of a property of edition 4 (in_halves) is outside of the property.
 Range extentOf(const Tree& tree, NodeRef node);
 
 // From the declaration of the file to the innermost node. Empty: between declarations.

@@ -102,23 +102,27 @@ struct ExprHeader {
   uint8_t in_parens : 1;  // written in parentheses (needed by the printer and for `-2**2`)
   uint8_t has_room : 1;   // Tree::add() left room in front of it
   uint8_t op;             // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;           // LiteralExpr, CallExpr, NewExpr: flags below
   Loc loc;                // first token; for Binary the operator, for Member the member name, for Call the callee
   Loc end;                // one past the last token, without parentheses around it; none: not written
 };
-constexpr ExprHeader header(ExprKind kind, Loc loc, uint8_t op = 0, uint8_t bits = 0) {
-  return {kind, 0, 0, op, bits, loc, {}};
-}
+constexpr ExprHeader header(ExprKind kind, Loc loc, uint8_t op = 0) { return {kind, 0, 0, op, loc, {}}; }
 
 struct ErrorExpr {
   ExprHeader h;
 };
 
-enum LiteralBits : uint8_t { kLiteralLong = 1, kLiteralNegative = 2, kLiteralBased = 4, kLiteralOverflows = 8 };
+// How a literal is written.
+struct LiteralForm {
+  bool is_long : 1 = false;      // LT#, LD#, LTOD#, LDT#
+  bool is_negative : 1 = false;  // INT#-5, T#-1s
+  bool is_based : 1 = false;     // 16#FF
+  bool overflows : 1 = false;    // T#1h90m: a unit that is not the first one
+};
 struct LiteralExpr {
-  ExprHeader h;        // op: LiteralKind, bits: LiteralBits
+  ExprHeader h;        // op: LiteralKind
   NameId prefix;       // INT in INT#5; none for untyped and for T#, D#, …
   uint32_t low, high;  // value, or StringId for strings
+  LiteralForm form;
   LiteralKind literal() const { return static_cast<LiteralKind>(h.op); }
   uint64_t value() const { return low | (static_cast<uint64_t>(high) << 32); }
   StringId string() const { return {low, high}; }
@@ -201,12 +205,12 @@ struct Argument {  // a | pin := a | pin => a | NOT pin => a | pin := (left open
   bool negated;    // NOT pin =>
   Loc loc;
 };
-constexpr uint8_t kBareCall = 1;  // CallExpr: `name;` without parentheses
 struct CallExpr {
   ExprHeader h;
   ExprId callee;
   Slice<Argument> arguments;
-  Loc end;  // the closing parenthesis
+  Loc end;       // the closing parenthesis
+  bool is_bare;  // `name;` without parentheses
 };
 struct RangeExpr {
   ExprHeader h;
@@ -244,11 +248,11 @@ struct AnyValueExpr {  // its type: __SYSTEM.AnyType, or with `facts` __SYSTEM.V
   ExprId facts;         // a StructInit: all members but the address
   uint32_t type_class;  // __SYSTEM.TYPE_CLASS
 };
-constexpr uint8_t kOnlyType = 1;
-struct NewExpr {  // __NEW(what), __NEW(what, count); with kOnlyType `what` alone, as in SIZEOF(POINTER TO INT)
+struct NewExpr {  // __NEW(what), __NEW(what, count)
   ExprHeader h;
   TypeExprId allocated;
-  ExprId count;  // none: one
+  ExprId count;    // none: one
+  bool only_type;  // `what` alone, as in SIZEOF(POINTER TO INT)
 };
 struct AddressOfExpr {  // its type: a pointer or reference to that of the lvalue
   ExprHeader h;
@@ -348,12 +352,10 @@ struct LabelStmt {
 
 struct TypeExprHeader {
   TypeExprKind kind;
-  uint8_t bits;
-  uint16_t spare;
   Loc loc;
   Loc end;  // one past the last token
 };
-constexpr TypeExprHeader header(TypeExprKind kind, Loc loc) { return {kind, 0, 0, loc, {}}; }
+constexpr TypeExprHeader header(TypeExprKind kind, Loc loc) { return {kind, loc, {}}; }
 struct ErrorTypeExpr {
   TypeExprHeader h;
 };
@@ -414,25 +416,21 @@ struct PointerTypeExpr {
 
 struct DeclHeader {
   DeclKind kind;
-  uint8_t bits;
   Loc loc;  // of the name where there is one, else the keyword
   Loc doc;  // first `///` line above; none: no doc comment
   Slice<Pragma> pragmas;
   Loc begin, end;  // of the whole declaration; of a POU begin is the first pragma before it
 };
 constexpr DeclHeader header(DeclKind kind, Loc loc, Loc doc = {}, Slice<Pragma> pragmas = {}) {
-  return {kind, 0, loc, doc, pragmas, loc, {}};
+  return {kind, loc, doc, pragmas, loc, {}};
 }
-// DeclHeader::bits of a POU and of a TYPE entry: syntax errors removed declarations from it, so a name that is missing
-// in it is not reported again.
-constexpr uint8_t kBrokenDeclarations = 1;
 
-enum DeclBits : uint8_t { kInternal = 1 };  // of types and namespaces: INTERNAL
 struct TypeDecl {
-  DeclHeader h; /* bits: DeclBits */
+  DeclHeader h;
   NameId name;
   TypeExprId type;
   ExprId init;
+  bool is_internal;  // INTERNAL
 };
 
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
@@ -464,6 +462,7 @@ struct PouDecl {
   BodyKind body_kind;
   bool closed;        // has its END_…
   bool uses_eno;      // ENO is an operand in its body
+  bool is_broken;     // syntax errors removed declarations from it: a name that it lacks is not reported again
   TypeExprId result;  // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;  // of a body in ST
@@ -481,23 +480,23 @@ struct PouDecl {
   Loc cpp_file_begin, cpp_file_end;  // {C++ file} … {END_C++}, equal: none
 };
 
-enum PropertyBits : uint8_t { kInHalves = 1 };  // PROPERTY_GET, PROPERTY_SET: edition 4
-
 // PROPERTY name : type. Its accessors are methods of the same name: the getter has its type as result, the setter has
 // an input of that name and type.
 struct PropertyDecl {
-  DeclHeader h; /* bits: PropertyBits */
+  DeclHeader h;
   NameId name;
   AccessLevel access;
   uint8_t modifiers;
+  bool in_halves;  // PROPERTY_GET, PROPERTY_SET: edition 4
   TypeExprId type;
   DeclId get, set;  // Pou; none: not declared
 };
 
 struct NamespaceDecl {
-  DeclHeader h; /* bits: DeclBits */
+  DeclHeader h;
   Slice<Ident> path;
   Slice<DeclId> decls;
+  bool is_internal;  // INTERNAL
 };
 struct UsingDecl {
   DeclHeader h;
@@ -505,26 +504,24 @@ struct UsingDecl {
 };
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
-// kHidden: of variables that a scheduler needs and the source does not declare.
-// kGeneric: VAR_GENERIC CONSTANT, whose values each instance gives. kOfChart: the state of a chart, likewise made by
-// its scheduler.
-enum SectionBits : uint8_t {
-  kConstant = 1,
-  kRetain = 2,
-  kPersistent = 4,
-  kNonRetain = 8,
-  kHidden = 16,
-  kGeneric = 32,
-  kOfChart = 64
+struct Qualifiers {
+  bool constant = false, retain = false, persistent = false, non_retain = false;
+  bool generic = false;  // VAR_GENERIC CONSTANT, whose values each instance gives
+
+  bool isKept() const { return retain || persistent; }
+  bool operator==(const Qualifiers&) const = default;
 };
+// Who made a section that the source does not have.
+enum class SectionMaker : uint8_t { None, Networks, Chart };
 struct SectionDecl {
-  DeclHeader h; /* bits: SectionBits */
+  DeclHeader h;
   SectionKind section;
   AccessLevel access;
+  Qualifiers qualifiers;
+  SectionMaker maker;
   Slice<DeclId> vars;
 };
 
-constexpr uint16_t kReferenceInit = 2;  // VarDecl: `REF= x` instead of `:= x`
 struct VarDecl {
   DeclHeader h;
   Slice<Ident> names;  // empty: unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name (`init`: the path)
@@ -532,6 +529,7 @@ struct VarDecl {
   ExprId init;         // none: the type's default
   EdgeKind edge;
   bool located;
+  bool read_only;         // of VAR_ACCESS: without READ_WRITE
   DirectAddress address;  // when located; of a member of a structure: its given offset, with a size
   Loc address_loc;
 };
@@ -559,7 +557,7 @@ struct ProgramInstanceDecl {  // PROGRAM name WITH task : type(args)
   Slice<Ident> type;
   Slice<Argument> arguments;
   Slice<Ident> block_tasks;  // (block WITH task, …): both names, alternating
-  uint8_t section_bits;      // PROGRAM RETAIN name
+  Qualifiers qualifiers;     // PROGRAM RETAIN name
 };
 
 }  // namespace rung

@@ -179,10 +179,10 @@ void StPrinter::clock(uint64_t ns) {
 
 void StPrinter::time(const LiteralExpr& e) {
   constexpr uint64_t kDay = 86'400'000'000'000;
-  if ((e.h.bits & kLiteralLong) != 0) out += 'L';
+  if (e.form.is_long) out += 'L';
   const uint64_t value = e.value();
   const auto days = [&] {  // until 2554, or before 1970
-    if ((e.h.bits & kLiteralNegative) == 0) return static_cast<int64_t>(value / kDay);
+    if (!e.form.is_negative) return static_cast<int64_t>(value / kDay);
     return -static_cast<int64_t>((0 - value + kDay - 1) / kDay);
   };
   if (e.literal() == LiteralKind::Date) {
@@ -212,7 +212,7 @@ void StPrinter::time(const LiteralExpr& e) {
                                     {1, "ns"}};
   out += "T#";
   uint64_t rest = e.value();
-  if ((e.h.bits & kLiteralNegative) != 0) {
+  if (e.form.is_negative) {
     out += '-';
     rest = -rest;
   }
@@ -232,9 +232,9 @@ void StPrinter::literal(const LiteralExpr& e) {
   switch (e.literal()) {
     case LiteralKind::Bool: out += e.value() != 0 ? "TRUE" : "FALSE"; return;
     case LiteralKind::Integer: {
-      if ((e.h.bits & kLiteralNegative) != 0) out += '-';
+      if (e.form.is_negative) out += '-';
       char digits[20];
-      const bool based = (e.h.bits & kLiteralBased) != 0;
+      const bool based = e.form.is_based;
       const auto end = std::to_chars(digits, digits + sizeof digits, e.value(), based ? 16 : 10).ptr;
       if (based) out += "16#";
       for (const char* d = digits; d != end; ++d) out += upper(*d);
@@ -343,7 +343,7 @@ void StPrinter::type(TypeExprId id) {
 }
 
 void StPrinter::newExpr(const NewExpr& e) {
-  if ((e.h.bits & kOnlyType) != 0) return type(e.allocated);
+  if (e.only_type) return type(e.allocated);
   out += "__NEW(";
   type(e.allocated);
   if (e.count) between(", ", e.count, "");
@@ -432,7 +432,7 @@ void StPrinter::bitAccess(const BitAccessExpr& e) {
 
 void StPrinter::call(const CallExpr& e) {
   expr(e.callee, kPrimary);
-  if ((e.h.bits & kBareCall) == 0) arguments(e.arguments);
+  if (!e.is_bare) arguments(e.arguments);
 }
 
 void StPrinter::repeat(const RepeatExpr& e) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/il.h"
 #include "frontend/syntax/sfc.h"
@@ -136,35 +137,27 @@ void Tree::parenthesize(ExprId id, Loc open, Loc close_end) {
 
 namespace {
 
-// The operand with which an expression begins; none: it begins with a token of its own.
-ExprId firstOperand(const Tree& tree, ExprId id) {
-  switch (tree.kind(id)) {
-    case ExprKind::Member: return tree.as<MemberExpr>(id).base;
-    case ExprKind::Index: return tree.as<IndexExpr>(id).base;
-    case ExprKind::Deref: return tree.as<DerefExpr>(id).base;
-    case ExprKind::BitAccess: return tree.as<BitAccessExpr>(id).base;
-    case ExprKind::Binary: return tree.as<BinaryExpr>(id).left;
-    case ExprKind::Assign: return tree.as<AssignExpr>(id).target;
-    case ExprKind::Call: return tree.as<CallExpr>(id).callee;
-    case ExprKind::Range: return tree.as<RangeExpr>(id).low;
-    case ExprKind::Repeat: return tree.as<RepeatExpr>(id).count;
-    case ExprKind::Convert: return tree.as<ConvertExpr>(id).operand;
-    case ExprKind::AnyValue: return tree.as<AnyValueExpr>(id).value;
-    case ExprKind::This:
-    case ExprKind::Super:
-    case ExprKind::New:
-    case ExprKind::AddressOf:
-    case ExprKind::Bound:
-    case ExprKind::Error:
-    case ExprKind::Literal:
-    case ExprKind::Name:
-    case ExprKind::TypedName:
-    case ExprKind::Address:
-    case ExprKind::Unary:
-    case ExprKind::ArrayInit:
-    case ExprKind::StructInit: return {};
+bool beginsWithOperand(ExprKind kind) {
+  switch (shape(kind)) {
+    case ExprShape::Leaf: return false;
+    case ExprShape::Step: return true;
+    case ExprShape::Operation: return kind != ExprKind::Unary && kind != ExprKind::New;
+    case ExprShape::Initializer: return kind == ExprKind::Repeat;
+    case ExprShape::Inserted: return kind == ExprKind::Convert || kind == ExprKind::AnyValue;
   }
-  return {};
+  return false;
+}
+
+// The operand with which an expression begins, the first in its row of nodes.def; none: it begins with a token of its
+// own.
+ExprId firstOperand(const Tree& tree, ExprId id) {
+  ExprId first;
+  if (!beginsWithOperand(tree.kind(id))) return first;
+  forEachField(tree, id, [&](const auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, ExprId>)
+      if (!first) first = field;
+  });
+  return first;
 }
 
 }  // namespace

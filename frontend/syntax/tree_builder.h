@@ -17,15 +17,15 @@ class TreeBuilder {
 
   // ---- expressions
   ExprId error(Loc loc) { return add(ErrorExpr{header(ExprKind::Error, loc)}); }
-  ExprId literal(LiteralKind kind, uint64_t value, Loc loc, NameId prefix = {}, uint8_t bits = 0) {
-    LiteralExpr node{header(ExprKind::Literal, loc, static_cast<uint8_t>(kind), bits), prefix, 0, 0};
+  ExprId literal(LiteralKind kind, uint64_t value, Loc loc, NameId prefix = {}, LiteralForm form = {}) {
+    LiteralExpr node{header(ExprKind::Literal, loc, static_cast<uint8_t>(kind)), prefix, 0, 0, form};
     node.setValue(value);
     return add(node);
   }
   ExprId text(LiteralKind kind, std::string_view characters, Loc loc, NameId prefix = {}) {
     const StringId string = tree_.addString(characters);
-    return add(
-        LiteralExpr{header(ExprKind::Literal, loc, static_cast<uint8_t>(kind)), prefix, string.first, string.length});
+    return add(LiteralExpr{
+        header(ExprKind::Literal, loc, static_cast<uint8_t>(kind)), prefix, string.first, string.length, {}});
   }
   ExprId boolean(bool value, Loc loc, NameId prefix = {}) {
     return literal(LiteralKind::Bool, value ? 1u : 0u, loc, prefix);
@@ -56,8 +56,8 @@ class TreeBuilder {
   ExprId binary(BinaryOp op, ExprId left, ExprId right, Loc loc) {
     return add(BinaryExpr{header(ExprKind::Binary, loc, static_cast<uint8_t>(op)), left, right});
   }
-  ExprId call(ExprId callee, Slice<Argument> arguments, Loc loc, Loc end, uint8_t bits = 0) {
-    return add(CallExpr{header(ExprKind::Call, loc, 0, bits), callee, arguments, end});
+  ExprId call(ExprId callee, Slice<Argument> arguments, Loc loc, Loc end, bool is_bare = false) {
+    return add(CallExpr{header(ExprKind::Call, loc), callee, arguments, end, is_bare});
   }
   ExprId call(ExprId callee, std::span<const Argument> arguments, Loc loc) {
     return call(callee, tree_.addList<Argument>(arguments), loc, loc);
@@ -73,15 +73,13 @@ class TreeBuilder {
     return add(StructInitExpr{header(ExprKind::StructInit, loc), tree_.addList<FieldInit>(fields)});
   }
   ExprId newObject(TypeExprId allocated, ExprId count, Loc loc) {
-    return add(NewExpr{header(ExprKind::New, loc), allocated, count});
+    return add(NewExpr{header(ExprKind::New, loc), allocated, count, false});
   }
   ExprId assignment(ExprId target, ExprId value, Loc loc) {
     return add(AssignExpr{header(ExprKind::Assign, loc), target, value});
   }
   // The type in SIZEOF(POINTER TO INT).
-  ExprId typeOperand(TypeExprId type, Loc loc) {
-    return add(NewExpr{header(ExprKind::New, loc, 0, kOnlyType), type, {}});
-  }
+  ExprId typeOperand(TypeExprId type, Loc loc) { return add(NewExpr{header(ExprKind::New, loc), type, {}, true}); }
   // ---- expressions of checked programs
   ExprId convert(ExprId operand, Loc loc) { return add(ConvertExpr{header(ExprKind::Convert, loc), operand}); }
   ExprId bound(ExprId array, uint32_t index, Loc loc) {
@@ -145,13 +143,14 @@ class TreeBuilder {
                                      init,
                                      EdgeKind::None,
                                      false,
+                                     false,
                                      {},
                                      {}});
   }
-  DeclId section(SectionKind kind, std::span<const DeclId> variables, Loc loc, uint8_t bits = 0) {
-    SectionDecl node{header(DeclKind::Section, loc), kind, AccessLevel::None, tree_.addList<DeclId>(variables)};
-    node.h.bits = bits;
-    return tree_.add<DeclId>(node);
+  DeclId section(SectionKind kind, std::span<const DeclId> variables, Loc loc,
+                 SectionMaker maker = SectionMaker::None) {
+    return tree_.add<DeclId>(SectionDecl{
+        header(DeclKind::Section, loc), kind, AccessLevel::None, {}, maker, tree_.addList<DeclId>(variables)});
   }
 
  private:

@@ -47,9 +47,9 @@ void TreeExprPrinter::literal(const LiteralExpr& e) {
     name(e.prefix);
     out += '#';
   }
-  const bool negative = (e.h.bits & kLiteralNegative) != 0;
+  const bool negative = e.form.is_negative;
   const auto nanoseconds = [&](const char* short_prefix, const char* long_prefix) {
-    out += (e.h.bits & kLiteralLong) != 0 ? long_prefix : short_prefix;
+    out += e.form.is_long ? long_prefix : short_prefix;
     if (negative)
       out += std::to_string(static_cast<int64_t>(e.value()));
     else

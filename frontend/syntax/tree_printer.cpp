@@ -45,7 +45,7 @@ class Printer : public TreeExprPrinter {
 
  private:
   void pragmas(const DeclHeader& h);
-  void sectionBits(uint8_t b);
+  void qualifiers(const Qualifiers& q);
   void modifiers(AccessLevel access, uint8_t bits);
   void typeList(const char* what, Slice<TypeExprId> list, int depth);
   void stmts(Slice<StmtId> list, int depth) {
@@ -302,12 +302,12 @@ void Printer::print(const PointerTypeExpr& t, int depth) {
   typeExpr(t.target, depth + 1);
 }
 
-void Printer::sectionBits(uint8_t b) {
-  if ((b & kConstant) != 0) out += " constant";
-  if ((b & kRetain) != 0) out += " retain";
-  if ((b & kPersistent) != 0) out += " persistent";
-  if ((b & kNonRetain) != 0) out += " non_retain";
-  if ((b & kGeneric) != 0) out += " generic";
+void Printer::qualifiers(const Qualifiers& q) {
+  if (q.constant) out += " constant";
+  if (q.retain) out += " retain";
+  if (q.persistent) out += " persistent";
+  if (q.non_retain) out += " non_retain";
+  if (q.generic) out += " generic";
 }
 
 void Printer::decl(DeclId id, int depth) {
@@ -326,7 +326,7 @@ void Printer::decl(DeclId id, int depth) {
 
 void Printer::print(const TypeDecl& d, int depth) {
   spaced(d.name);
-  if ((d.h.bits & kInternal) != 0) out += " internal";
+  if (d.is_internal) out += " internal";
   pragmas(d.h);
   optional(" := ", d.init);
   typeExpr(d.type, depth + 1);
@@ -386,7 +386,7 @@ void Printer::print(const PropertyDecl& d, int depth) {
 void Printer::print(const NamespaceDecl& d, int depth) {
   out += ' ';
   path(d.path, ".");
-  if ((d.h.bits & kInternal) != 0) out += " internal";
+  if (d.is_internal) out += " internal";
   for (DeclId m : tree_.list(d.decls)) decl(m, depth + 1);
 }
 
@@ -399,7 +399,7 @@ void Printer::print(const SectionDecl& d, int depth) {
   static const char* const kSections[] = {" local",  " input", " output", " in_out", " temp",  " external",
                                           " global", " stat",  " inst",   " access", " config"};
   out += kSections[static_cast<size_t>(d.section)];
-  sectionBits(d.h.bits);
+  qualifiers(d.qualifiers);
   modifiers(d.access, 0);
   pragmas(d.h);
   for (DeclId v : tree_.list(d.vars)) decl(v, depth + 1);
@@ -437,7 +437,7 @@ void Printer::print(const TaskDecl& d, int) {
 
 void Printer::print(const ProgramInstanceDecl& d, int) {
   spaced(d.name);
-  sectionBits(d.section_bits);
+  qualifiers(d.qualifiers);
   if (d.task.name) {
     out += " with ";
     name(d.task.name);

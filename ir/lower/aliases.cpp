@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proves from names alone that two variables do not overlap in memory. In: checked expressions. Out: yes, or "not
 // sure". Called by calls.cpp before it lets a chain of string functions work in the variable that is assigned.
+#include <algorithm>
+
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 
 namespace rung::ir {
 
@@ -52,56 +55,47 @@ bool PlaceLowering::areApart(sema::VarId a, sema::VarId b) const {
 
 bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
   constexpr uint8_t kChecksOfConversions = kCheckSubrange | kCheckConvert;
-  switch (tree_.kind(id)) {
-    case rung::ExprKind::Literal:
-    case rung::ExprKind::TypedName: return true;
-    case rung::ExprKind::Name:
-    case rung::ExprKind::Member: {
-      if (constantOf(project_, id)) return true;
-      sema::VarId root = rootVar(id);
-      return root && areApart(root, variable);
-    }
-    case rung::ExprKind::Convert:
-      return (in_.options.checks & kChecksOfConversions) == 0 &&
+  const rung::ExprKind kind = tree_.kind(id);
+  switch (shape(kind)) {
+    case ExprShape::Leaf:
+      if (kind == rung::ExprKind::Literal || kind == rung::ExprKind::TypedName) return true;
+      return kind == rung::ExprKind::Name && isApartFrom(id, variable);
+    case ExprShape::Step: return kind == rung::ExprKind::Member && isApartFrom(id, variable);
+    case ExprShape::Operation:
+      if (kind == rung::ExprKind::Unary) return isApart(tree_.as<rung::UnaryExpr>(id).operand, variable);
+      if (kind == rung::ExprKind::Binary) return operandsAreApart(tree_.as<rung::BinaryExpr>(id), variable);
+      return kind == rung::ExprKind::Call && argumentsAreApart(id, variable);
+    case ExprShape::Inserted:
+      return kind == rung::ExprKind::Convert && (in_.options.checks & kChecksOfConversions) == 0 &&
              isApart(tree_.as<rung::ConvertExpr>(id).operand, variable);
-    case rung::ExprKind::Unary: return isApart(tree_.as<rung::UnaryExpr>(id).operand, variable);
-    case rung::ExprKind::Binary: {
-      const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
-      if (node.op() == BinaryOp::Power) return false;
-      if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) {  // a fault would leave the variable changed
-        auto divisor = constantOf(project_, node.right);
-        if (!divisor || !TypeTable::isScalar(types_.plainKind(divisor->type)) || divisor->bits == 0) return false;
-      }
-      return isApart(node.left, variable) && isApart(node.right, variable);
-    }
-    case rung::ExprKind::Call: {
-      if (!calls().isPlainCall(id)) return false;
-      const sema::Call& call = project_.call(sema::meaning(tree_, id).call);
-      if (call.kind != sema::CallKind::Function) return false;
-      const sema::Pou& pou = project_.pou(call.pou);
-      if (!pou.pragmas.pure || !pou.pragmas.native) return false;
-      for (const sema::Binding& binding : call.bindings)
-        if (binding.value && !isApart(binding.value, variable)) return false;
-      return true;
-    }
-    case rung::ExprKind::Error:
-    case rung::ExprKind::Index:
-    case rung::ExprKind::This:
-    case rung::ExprKind::Super:
-    case rung::ExprKind::Deref:
-    case rung::ExprKind::BitAccess:
-    case rung::ExprKind::Address:
-    case rung::ExprKind::AddressOf:
-    case rung::ExprKind::Bound:
-    case rung::ExprKind::New:
-    case rung::ExprKind::Assign:
-    case rung::ExprKind::AnyValue:
-    case rung::ExprKind::Range:
-    case rung::ExprKind::ArrayInit:
-    case rung::ExprKind::Repeat:
-    case rung::ExprKind::StructInit: return false;
+    case ExprShape::Initializer: return false;
   }
   return false;
+}
+
+bool PlaceLowering::isApartFrom(rung::ExprId id, sema::VarId variable) const {
+  if (sema::constantOf(project_, id)) return true;
+  const sema::VarId root = rootVar(id);
+  return root && areApart(root, variable);
+}
+
+bool PlaceLowering::operandsAreApart(const rung::BinaryExpr& node, sema::VarId variable) const {
+  if (node.op() == BinaryOp::Power) return false;
+  if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) {  // a fault would leave the variable changed
+    const auto divisor = sema::constantOf(project_, node.right);
+    if (!divisor || !TypeTable::isScalar(types_.plainKind(divisor->type)) || divisor->bits == 0) return false;
+  }
+  return isApart(node.left, variable) && isApart(node.right, variable);
+}
+
+bool PlaceLowering::argumentsAreApart(rung::ExprId id, sema::VarId variable) const {
+  if (!calls().isPlainCall(id)) return false;
+  const sema::Call& call = project_.call(sema::meaning(tree_, id).call);
+  if (call.kind != sema::CallKind::Function) return false;
+  const sema::Pou& pou = project_.pou(call.pou);
+  if (!pou.pragmas.pure || !pou.pragmas.native) return false;
+  return std::all_of(call.bindings.begin(), call.bindings.end(),
+                     [&](const sema::Binding& binding) { return !binding.value || isApart(binding.value, variable); });
 }
 
 }  // namespace rung::ir

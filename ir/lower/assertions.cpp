@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 #include "sema/intermediate.h"
 
 namespace rung::ir {
@@ -45,7 +46,7 @@ NameId CallLowering::comparedOperands(const rung::CallExpr& node, const rung::Bi
     while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<rung::ConvertExpr>(side).operand;
     const TypeKind kind = types_.info(strip(sema::typeOf(tree_, side))).kind;
     const bool is_self_explanatory =
-        tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && constantOf(project_, side));
+        tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && sema::constantOf(project_, side));
     return is_self_explanatory ? std::string() : text;
   };
   const std::string left_name = name(condition.left, left), right_name = name(condition.right, right);
@@ -86,7 +87,7 @@ void CallLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& 
   stmt.third = c;
   if (count > operands && call.bindings[operands].value) {
     const rung::ExprId message = call.bindings[operands].value;
-    if (const auto text = constantOf(project_, message))
+    if (const auto text = sema::constantOf(project_, message))
       stmt.text = NameId{static_cast<uint32_t>(text->bits)};
     else
       stmt.message = lowerAfter({&stmt.first, &stmt.second, &stmt.third}, [&] { return values().lowerValue(message); });

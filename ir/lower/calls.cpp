@@ -20,42 +20,47 @@ ExprId CallLowering::placeOf(Target& target) {
 ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
   const rung::CallExpr& node = tree_.as<rung::CallExpr>(id);
   const sema::Call& call = project_.call(sema::meaning(node.h).call);
-  Loc loc = node.h.loc;
+  const bool is_conditional = call.en || call.eno || call.eno_memory;
+  return is_conditional ? lowerConditionalCall(call, node, target) : lowerPlainCall(call, node, target, {});
+}
+
+// A call that does not ask whether it may run. `instance`: of a block, where it is known; none: not yet evaluated.
+ExprId CallLowering::lowerPlainCall(const sema::Call& call, const rung::CallExpr& node, Target* target,
+                                    ExprId instance) {
+  switch (call.kind) {
+    case sema::CallKind::Function: return lowerFunctionCall(call, node, target);
+    case sema::CallKind::Method: return lowerMethodCall(call, node, target);
+    case sema::CallKind::Operator: return lowerOperator(call, node);
+    case sema::CallKind::Instance:
+      lowerBlockCall(call, node, instance ? instance : stable(places().lowerPlace(call.instance)));
+      return {};
+    case sema::CallKind::Program: lowerBlockCall(call, node, places().lowerPlace(node.callee)); return {};
+    case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
+    case sema::CallKind::Attempt: return values().lowerAttempt(call, node.h.loc);
+    case sema::CallKind::Delete: values().lowerDelete(call, node.h.loc); return {};
+  }
+  return {};
+}
+
+// EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and keeps the outputs.
+ExprId CallLowering::lowerConditionalCall(const sema::Call& call, const rung::CallExpr& node, Target* target) {
+  const Loc loc = node.h.loc;
   PlaceLowering::Instance instance;
-
-  auto plain = [&](Target* to) -> ExprId {
-    switch (call.kind) {
-      case sema::CallKind::Function: return lowerFunctionCall(call, node, to);
-      case sema::CallKind::Method: return lowerMethodCall(call, node, to);
-      case sema::CallKind::Operator: return lowerOperator(call, node);
-      case sema::CallKind::Instance:
-        lowerBlockCall(call, node, instance.place ? instance.place : stable(places().lowerPlace(call.instance)));
-        return {};
-      case sema::CallKind::Program: lowerBlockCall(call, node, places().lowerPlace(node.callee)); return {};
-      case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
-      case sema::CallKind::Attempt: return values().lowerAttempt(call, loc);
-      case sema::CallKind::Delete: values().lowerDelete(call, loc); return {};
-    }
-    return {};
-  };
-  if (!call.en && !call.eno && !call.eno_memory) return plain(target);
   if (call.eno_memory) instance = places().lowerInstance(call.instance, call.eno_memory);
-
-  // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and keeps the outputs.
-  ExprId en = call.en ? values().lowerValue(call.en) : constantBool(true, loc);
-  ExprId eno = temp(types::kBool, loc);
+  const ExprId en = call.en ? values().lowerValue(call.en) : constantBool(true, loc);
+  const ExprId eno = temp(types::kBool, loc);
   assign(copy(eno), en, loc);
   ExprId result;
-  TypeId result_type = sema::meaning(node.h).type ? strip(sema::meaning(node.h).type) : TypeId{};
-  bool has_result = result_type && types_.kind(result_type) != TypeKind::None &&
-                    call.kind != sema::CallKind::Instance && call.kind != sema::CallKind::Program &&
-                    call.kind != sema::CallKind::Assertion;
+  const TypeId written = sema::meaning(node.h).type, result_type = written ? strip(written) : TypeId{};
+  const bool has_result = result_type && types_.kind(result_type) != TypeKind::None &&
+                          call.kind != sema::CallKind::Instance && call.kind != sema::CallKind::Program &&
+                          call.kind != sema::CallKind::Assertion;
   if (has_result && !target) {
     result = temp(result_type, loc);
     assign(copy(result), zero(result_type, loc), loc);
   }
   StmtId body = block([&] {
-    ExprId value = plain(nullptr);
+    ExprId value = lowerPlainCall(call, node, nullptr, instance.place);
     if (!has_result || !value) return;
     if (target) {
       ExprId place = lowerAfter({&value}, [&] { return placeOf(*target); });
@@ -64,23 +69,29 @@ ExprId CallLowering::lowerCall(rung::ExprId id, Target* target) {
       assign(copy(result), value, loc);
     }
   });
-  if (call.eno || call.eno_memory) {
-    StmtId guarded = body;
-    body = block([&] {
-      StmtId failed = block([&] { assign(copy(eno), constantBool(false, loc), loc); });
-      append(loc, TryStmt{.body_block = guarded, .catch_block = failed, .catches = true});
-    });
-  }
+  if (call.eno || call.eno_memory) body = clearingOnFault(eno, body, loc);
   append(loc, IfStmt{.condition = copy(eno), .then_block = body});
   if (call.eno_memory) assign(instance.eno, copy(eno), loc);
+  storeEno(call, eno, loc);
+  if (has_result && target) target->stored = true;
+  return result;
+}
+
+// The statements, after a fault in which `eno` is FALSE.
+StmtId CallLowering::clearingOnFault(ExprId eno, StmtId statements, Loc loc) {
+  return block([&] {
+    const StmtId failed = block([&] { assign(copy(eno), constantBool(false, loc), loc); });
+    append(loc, TryStmt{.body_block = statements, .catch_block = failed, .catches = true});
+  });
+}
+
+void CallLowering::storeEno(const sema::Call& call, ExprId eno, Loc loc) {
   if (call.eno && call.eno_is_pin) {  // the callee has set it, if it ran
     const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
     append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, copy(eno), loc), .then_block = none});
   } else if (call.eno) {
     storeOutput(call.eno, eno, false, loc);
   }
-  if (has_result && target) target->stored = true;
-  return result;
 }
 
 void CallLowering::storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc) {

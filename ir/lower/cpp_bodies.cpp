@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 
 namespace rung::ir {
 
@@ -53,7 +54,7 @@ void ModuleLowering::addCppVariable(CppBody& cpp, sema::VarId id, NameId list, b
       break;
     case sema::Storage::Local:
       if (of_object || !var.init) break;
-      if (const auto value = constantOf(project, var.init))
+      if (const auto value = sema::constantOf(project, var.init))
         cpp.initial.push_back({{}, own.name, type, bitsOf(*value), false});
       break;
     case sema::Storage::Field: break;

@@ -10,6 +10,7 @@
 
 #include "ir/lower/lowering.h"
 #include "ir/string_end.h"
+#include "sema/declarations/constants.h"
 
 namespace rung::ir {
 
@@ -144,7 +145,7 @@ ExprId CallLowering::defaultArgument(sema::VarId pin_id, rung::ExprId init, Loc 
   TypeId type = strip(pin.type);
   if (!isAggregate(type)) {
     if (init)
-      if (auto value = constantOf(project_, init)) return convertValue(ofValue(*value, loc), type, loc);
+      if (auto value = sema::constantOf(project_, init)) return convertValue(ofValue(*value, loc), type, loc);
     if (!init && in_.records.isZero(type)) return zero(type, loc);
   }
   ExprId place = temp(type, loc);

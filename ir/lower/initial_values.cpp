@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 
 namespace rung::ir {
 
@@ -120,7 +121,7 @@ bool ObjectLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
     }
     return true;
   }
-  auto value = constantOf(project_, init);
+  auto value = sema::constantOf(project_, init);
   if (!value) return false;
   if (TypeTable::isString(types_.plainKind(type)))
     return storeString(types_, type, project_.names.string(NameId{static_cast<uint32_t>(value->bits)}), to);
@@ -141,7 +142,7 @@ bool ObjectLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
       if (!ok || next >= count) return;
       if (tree_.kind(item) == rung::ExprKind::Repeat) {
         const RepeatExpr& repeat = tree_.as<RepeatExpr>(item);
-        auto times = constantOf(project_, repeat.count);
+        auto times = sema::constantOf(project_, repeat.count);
         if (!times) {
           ok = false;
           return;
@@ -374,7 +375,7 @@ void ObjectLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId i
         continue;
       }
       const RepeatExpr& repeat = tree_.as<RepeatExpr>(item);
-      auto times = constantOf(project_, repeat.count);
+      auto times = sema::constantOf(project_, repeat.count);
       for (uint64_t i = 0; times && i < times->bits && items.size() < count; ++i) {
         if (repeat.elements.empty())
           items.push_back({});

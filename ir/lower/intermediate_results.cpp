@@ -3,6 +3,7 @@
 // on narrow integers. Out: operations in the native type, or, where only the last bits are wanted, in the type that
 // wants them: `i := i + 1` adds in INT. Called by values.cpp and by all who see a value uncut.
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 #include "sema/intermediate.h"
 
 namespace rung::ir {
@@ -49,7 +50,7 @@ ExprId ValueLowering::operate(rung::ExprId id, TypeId type) {
   const Loc loc = tree_.expr(id).loc;
   if (tree_.kind(id) == rung::ExprKind::Unary) {
     const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
-    if (const auto value = uncutConstant(project_, id)) return convertValue(ofValue(*value, loc), type, loc);
+    if (const auto value = sema::uncutConstant(project_, id)) return convertValue(ofValue(*value, loc), type, loc);
     const ExprId operand = lowerIn(node.operand, type);
     return node.op() == UnaryOp::Plus ? operand : arithmetic(unary(Op::Neg, type, operand, loc));
   }

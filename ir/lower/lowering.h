@@ -119,11 +119,6 @@ struct ModuleLowering {
   size_t next_to_lower_ = 0;
 };
 
-// The scalar or string value of a checked constant expression; none when it is not that simple.
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
-// The same of an intermediate result (sema/intermediate.h) in its own type.
-std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId expr);
-
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
 // The parts of an ARRAY[*] argument: the address of the first element, and the bounds.
@@ -173,9 +168,13 @@ class PlaceLowering : public BodyPart {
   bool isApart(rung::ExprId value, sema::VarId variable) const;
 
  private:
+  bool isApartFrom(rung::ExprId place, sema::VarId variable) const;
+  bool operandsAreApart(const rung::BinaryExpr& node, sema::VarId variable) const;
+  bool argumentsAreApart(rung::ExprId call, sema::VarId variable) const;
   ExprId named(rung::ExprId expr);
   sema::VarId ownTemporary(sema::VarId id) const;
   ExprId indexed(const rung::IndexExpr& node);
+  ExprId lowerStep(rung::ExprId expr);
   ExprId dereferenced(rung::ExprId expr);
   ExprId directAddress(rung::ExprId expr);
   ExprId memberPlace(rung::ExprId expr);
@@ -256,6 +255,10 @@ class CallLowering : public BodyPart {
   bool isPlainCall(rung::ExprId expr) const;  // unconditional: without EN and ENO
 
  private:
+  ExprId lowerPlainCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId instance);
+  ExprId lowerConditionalCall(const sema::Call& call, const rung::CallExpr& node, Target* target);
+  StmtId clearingOnFault(ExprId eno, StmtId statements, Loc loc);
+  void storeEno(const sema::Call& call, ExprId eno, Loc loc);
   void lowerTarget(Target& target);
   ExprId lowerMethodCall(const sema::Call& call, const rung::CallExpr& node, Target* target);
   void storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc);

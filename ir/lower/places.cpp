@@ -200,37 +200,27 @@ ExprId PlaceLowering::directAddress(rung::ExprId id) {
 }
 
 ExprId PlaceLowering::lowerPlace(rung::ExprId id) {
-  switch (tree_.kind(id)) {
-    case rung::ExprKind::Name: return named(id);
-    case rung::ExprKind::Member: return memberPlace(id);
-    case rung::ExprKind::Index: return indexed(tree_.as<rung::IndexExpr>(id));
-    case rung::ExprKind::Deref: return dereferenced(id);
-    case rung::ExprKind::BitAccess: {
-      const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
-      const ExprId base = lowerPlace(node.base);
-      return add(node.h.loc, strip(sema::meaning(node.h).type), BitsExpr{.base = base, .position = node.position});
-    }
-    case rung::ExprKind::Address: return directAddress(id);
-    case rung::ExprKind::This:
-    case rung::ExprKind::Super:
-    case rung::ExprKind::Error:
-    case rung::ExprKind::Literal:
-    case rung::ExprKind::TypedName:
-    case rung::ExprKind::Unary:
-    case rung::ExprKind::Binary:
-    case rung::ExprKind::Call:
-    case rung::ExprKind::Range:
-    case rung::ExprKind::ArrayInit:
-    case rung::ExprKind::Repeat:
-    case rung::ExprKind::StructInit:
-    case rung::ExprKind::Convert:
-    case rung::ExprKind::Bound:
-    case rung::ExprKind::New:
-    case rung::ExprKind::Assign:
-    case rung::ExprKind::AnyValue:
-    case rung::ExprKind::AddressOf: return values().lowerValue(id);
+  const rung::ExprKind kind = tree_.kind(id);
+  switch (shape(kind)) {
+    case ExprShape::Step: return lowerStep(id);
+    case ExprShape::Leaf:
+      if (kind == rung::ExprKind::Name) return named(id);
+      return kind == rung::ExprKind::Address ? directAddress(id) : values().lowerValue(id);
+    case ExprShape::Operation:
+    case ExprShape::Initializer:
+    case ExprShape::Inserted: return values().lowerValue(id);
   }
   return {};
+}
+
+ExprId PlaceLowering::lowerStep(rung::ExprId id) {
+  const rung::ExprKind kind = tree_.kind(id);
+  if (kind == rung::ExprKind::Member) return memberPlace(id);
+  if (kind == rung::ExprKind::Index) return indexed(tree_.as<rung::IndexExpr>(id));
+  if (kind == rung::ExprKind::Deref) return dereferenced(id);
+  const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
+  const ExprId base = lowerPlace(node.base);
+  return add(node.h.loc, strip(sema::meaning(node.h).type), BitsExpr{.base = base, .position = node.position});
 }
 
 }  // namespace rung::ir

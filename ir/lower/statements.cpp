@@ -5,6 +5,7 @@
 
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
+#include "sema/declarations/constants.h"
 #include "sema/intermediate.h"
 
 namespace rung::ir {
@@ -227,7 +228,7 @@ void StatementLowering::lowerCase(const CaseStmt& stmt) {
         low = tree_.as<RangeExpr>(label).low;
         high = tree_.as<RangeExpr>(label).high;
       }
-      auto from = constantOf(project_, low), to = constantOf(project_, high);
+      auto from = sema::constantOf(project_, low), to = sema::constantOf(project_, high);
       RUNG_INVARIANT(from && to, "a CASE label is constant");
       body_.ranges.push_back({from->asSigned(), to->asSigned()});
       ++created.ranges.count;
@@ -247,7 +248,7 @@ void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   ExprId control = stable(places().lowerPlace(stmt.control));
   TypeId type = typeOf(control), plain = types_.plain(type);
   std::optional<Value> step = Value{plain, 1};
-  if (stmt.step) step = constantOf(project_, stmt.step);
+  if (stmt.step) step = sema::constantOf(project_, stmt.step);
   ExprId from = convertValue(values().lowerValue(stmt.from), type, loc);
   Limit limit;
   const Block outer = build_.open();

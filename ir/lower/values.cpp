@@ -4,100 +4,10 @@
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 #include "ir/string_end.h"
+#include "sema/declarations/constants.h"
 #include "sema/intermediate.h"
 
 namespace rung::ir {
-
-static std::optional<Value> constantOperand(const sema::Project& project, rung::ExprId id, TypeId native) {
-  const auto value = native ? uncutConstant(project, id) : constantOf(project, id);
-  if (!value || !TypeTable::isScalar(project.types.plainKind(value->type))) return std::nullopt;
-  return native ? types::convert(project.types, *value, native).value : value;
-}
-
-// The value of an item of an enumeration, or of a constant.
-static std::optional<Value> valueOfEntity(const sema::Project& project, sema::Entity entity) {
-  if (entity.entityKind() == sema::EntityKind::EnumValue) {
-    const sema::EnumValue& value = project.enum_values[entity.index];
-    return Value{project.types.resolve(value.type), static_cast<uint64_t>(value.value)};
-  }
-  if (entity.entityKind() != sema::EntityKind::Var) return std::nullopt;
-  const sema::Var* var = &project.vars[entity.index];
-  if (var->external) var = &project.var(var->external);
-  if (!var->constant || !var->has_value) return std::nullopt;
-  return Value{project.types.resolve(var->value.type), var->value.bits};
-}
-
-static std::optional<Value> convertedConstant(const sema::Project& project, rung::ExprId id, TypeId native) {
-  const TypeTable& types = project.types;
-  const auto operand = uncutConstant(project, project.tree.as<rung::ConvertExpr>(id).operand);
-  if (!operand) return std::nullopt;
-  if (native) return types::convert(types, *operand, native).value;
-  const TypeId to = types.resolve(sema::typeOf(project.tree, id));
-  if (TypeTable::isString(types.plainKind(operand->type))) {
-    if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
-    const std::string_view text = project.names.string(NameId{static_cast<uint32_t>(operand->bits)});
-    if (text.size() > types.info(types.plain(to)).length) return std::nullopt;
-    return Value{to, operand->bits};
-  }
-  if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
-  return types::convert(types, *operand, to, sema::roundingOf(sema::meaning(project.tree, id))).value;
-}
-
-static std::optional<Value> unaryConstant(const sema::Project& project, const rung::UnaryExpr& node, TypeId native) {
-  const auto operand = constantOperand(project, node.operand, native);
-  if (!operand || node.op() == UnaryOp::Plus) return operand;
-  const Op op = node.op() == UnaryOp::Not ? Op::Not : Op::Neg;
-  return types::apply(project.types, project.names, op, *operand).value;
-}
-
-static std::optional<Value> binaryConstant(const sema::Project& project, const rung::BinaryExpr& node, TypeId native) {
-  const Op op = sema::operatorOf(node.op());
-  const TypeId type = types::isComparison(op) ? sema::comparedType(project, node.left, node.right) : native;
-  const auto left = constantOperand(project, node.left, type);
-  const auto right = constantOperand(project, node.right, type);
-  if (!left || !right) return std::nullopt;
-  const types::Outcome outcome = types::apply(project.types, project.names, op, *left, *right);
-  if (outcome.fault != types::Fault::None) return std::nullopt;
-  return outcome.value;
-}
-
-std::optional<Value> uncutConstant(const sema::Project& project, rung::ExprId id) {
-  const Tree& tree = project.tree;
-  const TypeId native = sema::uncutType(project, id);
-  switch (tree.kind(id)) {
-    case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
-    case rung::ExprKind::Name:
-    case rung::ExprKind::Member:
-    case rung::ExprKind::TypedName: return valueOfEntity(project, sema::meaning(tree, id).entity);
-    case rung::ExprKind::Convert: return convertedConstant(project, id, native);
-    case rung::ExprKind::Unary: return unaryConstant(project, tree.as<rung::UnaryExpr>(id), native);
-    case rung::ExprKind::Binary: return binaryConstant(project, tree.as<rung::BinaryExpr>(id), native);
-    case rung::ExprKind::Error:
-    case rung::ExprKind::This:
-    case rung::ExprKind::Super:
-    case rung::ExprKind::Index:
-    case rung::ExprKind::Deref:
-    case rung::ExprKind::BitAccess:
-    case rung::ExprKind::Address:
-    case rung::ExprKind::AddressOf:
-    case rung::ExprKind::Bound:
-    case rung::ExprKind::New:
-    case rung::ExprKind::Assign:
-    case rung::ExprKind::AnyValue:
-    case rung::ExprKind::Call:
-    case rung::ExprKind::Range:
-    case rung::ExprKind::ArrayInit:
-    case rung::ExprKind::Repeat:
-    case rung::ExprKind::StructInit: return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
-  const auto value = uncutConstant(project, id);
-  if (!value || !sema::uncutType(project, id)) return value;
-  return types::convert(project.types, *value, project.types.resolve(sema::typeOf(project.tree, id))).value;
-}
 
 ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
   return ofValue(sema::valueOf(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
@@ -109,7 +19,7 @@ ExprId ValueLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Name:
     case rung::ExprKind::Member:
     case rung::ExprKind::TypedName: {
-      if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
+      if (auto value = sema::constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
       if (tree_.kind(id) == rung::ExprKind::Member) {
         // lowerPlace returns here only for an expression that is not an lvalue.
         const MemberExpr& node = tree_.as<MemberExpr>(id);
@@ -160,7 +70,7 @@ ExprId ValueLowering::closed(ExprId place) {
 
 ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
-  if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
+  if (auto value = sema::constantOf(project_, id)) return ofValue(*value, node.h.loc);
   if (sema::uncutType(project_, id)) return lowerIn(id, strip(sema::meaning(node.h).type));
   ExprId operand = lowerValue(node.operand);
   TypeId type = strip(sema::meaning(node.h).type);
@@ -291,7 +201,7 @@ ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circ
 }
 
 ExprId ValueLowering::lowerConvert(rung::ExprId id) {
-  if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
+  if (auto value = sema::constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
   const TypeKind kind = types_.kind(strip(sema::meaning(node.h).type));
   if (kind == TypeKind::Record || kind == TypeKind::Array) return lowerPart(node);

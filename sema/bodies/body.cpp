@@ -37,12 +37,12 @@ static void schedule(Context& context, const PouDecl& decl) {
     declareTemporaries(context, made.temporaries);
   };
   if (kind == BodyKind::Network) {
-    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.options.edge_coils,
-                                   decl));
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, context.project.network_variables,
+                                   context.project.options.edge_coils, decl));
   } else if (kind == BodyKind::Il) {
     take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.profile().short_circuit));
   } else {
-    if ((decl.h.bits & kBrokenDeclarations) != 0) return;
+    if (decl.is_broken) return;
     const auto body = text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou));
     if (!body) return;
     pou.body.statements = *body;

@@ -21,6 +21,7 @@
 #include "sema/bodies/names.h"
 #include "sema/bodies/objects.h"
 #include "sema/bodies/operator_calls.h"
+#include "sema/bodies/outside_access.h"
 #include "sema/bodies/overloads.h"
 #include "sema/bodies/pointers.h"
 #include "sema/bodies/pseudo_functions.h"
@@ -273,8 +274,9 @@ TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type
     return type;
   if (type == types::kError || context.tree().kind(expr) != ExprKind::Call) return type;
   CallExpr& node = context.code().as<CallExpr>(expr);
-  if (!meaning(node.h).call || context.symbols.call(meaning(node.h).call).bindings.size() != 1) return type;
-  ExprId value = context.symbols.call(meaning(node.h).call).bindings[0].value;
+  Meaning& known = meaning(node.h);
+  if (!known.call || context.symbols.call(known.call).bindings.size() != 1) return type;
+  ExprId value = context.symbols.call(known.call).bindings[0].value;
   while (value && context.tree().kind(value) == ExprKind::Convert)
     value = context.tree().as<ConvertExpr>(value).operand;
   const PouId names = value ? itemNamesOf(context, context.type(value)) : PouId{};
@@ -282,11 +284,11 @@ TypeId nameOfItem(Context& context, ExprId& expr, const Pou& callee, TypeId type
   wrapConvert(context, value, types::kLInt);
   const VarId pin = pinsOf(context, names)[0];
   noteCall(context, names, node.h.loc);
-  Call& call = context.symbols.call(meaning(node.h).call);
+  Call& call = context.symbols.call(known.call);
   call.pou = names;
   call.bindings[0].pin = pin;
   call.bindings[0].value = value;
-  meaning(node.h).type = types::idOf(TypeKind::String);
+  known.type = types::idOf(TypeKind::String);
   if (wide) wrapConvert(context, expr, types::idOf(TypeKind::WString));
   return context.type(expr);
 }
@@ -320,6 +322,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
 
 TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool as_statement) {
   CallExpr& node = context.code().as<CallExpr>(expr);
+  Meaning& known = meaning(node.h);
   resolvePou(context, pou);
   noteCall(context, pou, node.h.loc);
   const Arguments arguments = matchArguments(context, node, pou);
@@ -337,12 +340,12 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   bindArguments(context, node, pou, arguments, call);
   if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   context.rules->call(context, node, call);
-  meaning(node.h).call = addCall(context, std::move(call));
+  known.call = addCall(context, std::move(call));
   if (!as_statement) {
     context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  return meaning(node.h).type = {};
+  return known.type = {};
 }
 
 TypeId refuse(Context& context, CallExpr& node) {
@@ -684,13 +687,6 @@ void readProperty(Context& context, ExprId& expr, ExprId value) {
   context.replace(expr, value);
 }
 
-// Of a block or program, which was most likely meant to be called.
-bool isInstance(const Context& context, TypeId type) {
-  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  return info.kind == TypeKind::Record && info.record_kind != types::RecordKind::Struct &&
-         info.record_kind != types::RecordKind::Union;
-}
-
 // `name;` calls an action, a program or a method without parameters, or reads a property (codesys). Anything else does
 // nothing.
 // False: not a call.
@@ -720,7 +716,8 @@ bool isBareCall(Context& context, ExprId& expr) {
   if (found.entityKind() == EntityKind::Var && !context.type(node.callee)) check(context, callee, {}, Access::Read);
   const TypeId type = context.type(node.callee);
   const bool is_value = found.entityKind() == EntityKind::Var || found.entityKind() == EntityKind::None;
-  if (!type || type == types::kError || !is_value || isInstance(context, type)) {
+  const bool is_block = type && isInstance(context, type);  // most likely meant to be called
+  if (!type || type == types::kError || !is_value || is_block) {
     if (type != types::kError) context.report(diag::NoEffect, begin, {shown});
     return false;
   }
@@ -734,7 +731,7 @@ bool isBareCall(Context& context, ExprId& expr) {
 
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
   CallExpr& node = context.code().as<CallExpr>(expr);
-  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, expr)) return meaning(node.h).type = types::kError;
+  if (node.is_bare && !isBareCall(context, expr)) return meaning(node.h).type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.code().as<NameExpr>(node.callee);
     meaning(callee.h).entity = lookUp(context, callee, callee.h.loc);

@@ -139,36 +139,23 @@ class Changes {
     if (!id) return;
     const ExprKind kind = tree_.kind(id);
     if (writes) change(id);
-    switch (kind) {
-      case ExprKind::Deref: return expression(tree_.as<DerefExpr>(id).base, false);
-      case ExprKind::Member:
-      case ExprKind::BitAccess: return expression(tree_.base(id), writes);
-      case ExprKind::Index:
-        for (const ExprId index : tree_.list(tree_.as<IndexExpr>(id).indices)) expression(index, false);
-        return expression(tree_.base(id), writes);
-      case ExprKind::AddressOf: return expression(tree_.as<AddressOfExpr>(id).lvalue, true);
-      case ExprKind::Assign:
-        expression(tree_.as<AssignExpr>(id).target, true);
-        return expression(tree_.as<AssignExpr>(id).value, false);
-      case ExprKind::StructInit: return members(tree_.as<StructInitExpr>(id));
-      case ExprKind::Call: return call(tree_.as<CallExpr>(id));
-      case ExprKind::Error:
-      case ExprKind::Literal:
-      case ExprKind::Name:
-      case ExprKind::TypedName:
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Address:
-      case ExprKind::Unary:
-      case ExprKind::Binary:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::Repeat:
-      case ExprKind::Convert:
-      case ExprKind::Bound:
-      case ExprKind::AnyValue:
-      case ExprKind::New: forEachChild(tree_, id, [&](auto child) { visit(child); });
+    if (shape(kind) == ExprShape::Step) return step(id, writes);
+    if (kind == ExprKind::AddressOf) return expression(tree_.as<AddressOfExpr>(id).lvalue, true);
+    if (kind == ExprKind::StructInit) return members(tree_.as<StructInitExpr>(id));
+    if (kind == ExprKind::Call) return call(tree_.as<CallExpr>(id));
+    if (kind == ExprKind::Assign) {
+      expression(tree_.as<AssignExpr>(id).target, true);
+      return expression(tree_.as<AssignExpr>(id).value, false);
     }
+    forEachChild(tree_, id, [&](auto child) { visit(child); });
+  }
+
+  // Who writes through a pointer does not change the pointer.
+  void step(ExprId id, bool writes) {
+    const ExprKind kind = tree_.kind(id);
+    if (kind == ExprKind::Index)
+      for (const ExprId index : tree_.list(tree_.as<IndexExpr>(id).indices)) expression(index, false);
+    expression(tree_.base(id), writes && kind != ExprKind::Deref);
   }
 
   // Members of an instance: `block : Mover := (cam := (…))`. The address of an array in a cam is not a change.

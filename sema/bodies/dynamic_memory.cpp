@@ -75,23 +75,22 @@ bool mayBeAllocated(Context& context, TypeId type, TypeExprId what) {
 //   fails   p := __NEW(Main);                                       E0592
 TypeId checkNew(Context& context, ExprId& expr) {
   NewExpr& node = context.code().as<NewExpr>(expr);
-  if (meaning(node.h).type) return meaning(node.h).type;                               // checked before
-  if (!context.profile().dynamic_memory) return meaning(node.h).type = types::kError;  // reported by the lexer
+  Meaning& known = meaning(node.h);
+  if (known.type) return known.type;                                         // checked before
+  if (!context.profile().dynamic_memory) return known.type = types::kError;  // reported by the lexer
   TypeId type = resolveType(context, node.allocated);
   if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
-  if (type == types::kError || !mayBeAllocated(context, type, node.allocated))
-    return meaning(node.h).type = types::kError;
+  if (type == types::kError || !mayBeAllocated(context, type, node.allocated)) return known.type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!ensureLayout(context, type)) {
     context.report(diag::TypeTooLarge, context.tree().loc(node.allocated), {context.types().toString(type)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   uint32_t elements = 0;
   const CallId constructor = checkConstructor(context, node.allocated, elements);
   const CallId memory = poolCall(context, "Allocate", node.h.loc);
-  if (!memory) return meaning(node.h).type = types::kError;
+  if (!memory) return known.type = types::kError;
   context.symbols.call(memory).constructor = constructor;
-  Meaning& known = meaning(node.h);
   known.call = memory;
   known.type = context.types().pointer(type);
   context.types().layout(known.type);

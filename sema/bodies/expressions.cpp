@@ -68,14 +68,15 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Acc
 
 TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.code().as<IndexExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr, access);
   if (TypeTable::isString(info->kind) && count == 1 && context.profile().indexed_strings) {
-    meaning(node.h).type = checkCharacter(context, node, base, access);
-    if (meaning(node.h).type != types::kError) context.rules->expression(context, expr);
-    return meaning(node.h).type;
+    known.type = checkCharacter(context, node, base, access);
+    if (known.type != types::kError) context.rules->expression(context, expr);
+    return known.type;
   }
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
@@ -94,28 +95,29 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
       ok = false;
     }
   }
-  if (!ok) return meaning(node.h).type = types::kError;
-  meaning(node.h).is_writable = context.meaning(node.base).is_writable;
-  meaning(node.h).type = info->base;
+  if (!ok) return known.type = types::kError;
+  known.is_writable = context.meaning(node.base).is_writable;
+  known.type = info->base;
   context.rules->expression(context, expr);
   for (uint32_t i = 0; i < info->dimensions.size(); ++i)
     callBoundsCheck(context, context.code().list(node.indices)[i], info->dimensions[i]);
-  return meaning(node.h).type;
+  return known.type;
 }
 
 TypeId checkDeref(Context& context, ExprId& expr, Access access) {
   DerefExpr& node = context.code().as<DerefExpr>(expr);
-  if (meaning(node.h).type) return meaning(node.h).type;  // of a reference that was checked before
+  Meaning& known = meaning(node.h);
+  if (known.type) return known.type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
-  if (base == types::kError) return meaning(node.h).type = types::kError;
+  if (base == types::kError) return known.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
   if (info.kind != TypeKind::Pointer) {
     context.report(diag::NotAPointer, node.h.loc, {context.types().toString(base)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  meaning(node.h).is_writable = 1;
+  known.is_writable = 1;
   callPointerCheck(context, node.base, info.base, access);
-  return meaning(node.h).type = info.base;
+  return known.type = info.base;
 }
 
 TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
@@ -128,10 +130,11 @@ TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
 // %IX0.3, %QW5: a view of the image without a declaration.
 TypeId checkAddress(Context& context, ExprId& expr) {
   AddressExpr& node = context.code().as<AddressExpr>(expr);
-  meaning(node.h).is_writable = 1;
+  Meaning& known = meaning(node.h);
+  known.is_writable = 1;
   if (isHierarchical(context, node.address)) {
     const VarId named = hierarchicalVar(context, node.address, node.h.loc, {});
-    if (!named) return meaning(node.h).type = types::kError;
+    if (!named) return known.type = types::kError;
     const Var& var = context.symbols.var(named);
     const ExprId name = makeName(context, var.name, entity(named), node.h.loc);
     context.code().expr(name).in_parens = node.h.in_parens;
@@ -139,9 +142,9 @@ TypeId checkAddress(Context& context, ExprId& expr) {
     context.replace(expr, typed(context, name, var.type));
     return var.type;
   }
-  if (!resolveAddress(context, node.address, node.h.loc, {})) return meaning(node.h).type = types::kError;
+  if (!resolveAddress(context, node.address, node.h.loc, {})) return known.type = types::kError;
   const TypeId declared = declaredAddressType(context, node.address);
-  return meaning(node.h).type = declared ? declared : addressType(node.address);
+  return known.type = declared ? declared : addressType(node.address);
 }
 
 // A REFERENCE is used like its target.
@@ -188,13 +191,14 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
 
 TypeId checkBitOf(Context& context, ExprId expr) {
   BitAccessExpr& node = context.code().as<BitAccessExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeId base = context.type(node.base);
-  if (!base || base == types::kError) return meaning(node.h).type = types::kError;
+  if (!base || base == types::kError) return known.type = types::kError;
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
   if ((!TypeTable::isBits(kind) && !integer) || (integer && !context.profile().bits_of_integers)) {
     context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const uint32_t count = TypeTable::bitWidth(kind) / node.width;
   if (node.position >= count) {
@@ -204,14 +208,14 @@ TypeId checkBitOf(Context& context, ExprId expr) {
       context.report(diag::BitOutOfRange, node.h.loc,
                      {std::to_string(node.position), context.types().toString(base), std::to_string(count - 1)});
     }
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  meaning(node.h).is_writable = context.meaning(node.base).is_writable;
+  known.is_writable = context.meaning(node.base).is_writable;
   switch (node.width) {
-    case 8: return meaning(node.h).type = types::kByte;
-    case 16: return meaning(node.h).type = types::kWord;
-    case 32: return meaning(node.h).type = types::kDWord;
-    default: return meaning(node.h).type = types::kBool;
+    case 8: return known.type = types::kByte;
+    case 16: return known.type = types::kWord;
+    case 32: return known.type = types::kDWord;
+    default: return known.type = types::kBool;
   }
 }
 
@@ -240,7 +244,7 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
     const LiteralExpr& node = tree.as<LiteralExpr>(expr);
     if (node.literal() != LiteralKind::Integer && node.literal() != LiteralKind::Bool) return std::nullopt;
     const auto value = static_cast<int64_t>(node.value());
-    return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+    return node.form.is_negative ? -value : value;
   }
   const Entity entity = entityOf(context, expr);
   if (entity.entityKind() == EntityKind::EnumValue) return context.symbols.enum_values[entity.index].value;

@@ -227,6 +227,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
 
 TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced) {
   CallExpr& node = context.code().as<CallExpr>(expr);
+  Meaning& known = meaning(node.h);
   Arguments arguments = matchArguments(context, node, pou);
   const size_t declared = pinsOf(context, pou).size();
   if (arguments.slots.size() > declared) return foldCall(context, expr, pou, arguments, expected);
@@ -236,9 +237,9 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   Call call;
   call.kind = CallKind::Function;
   bindControlPins(context, node, arguments, call);
-  if (!checkRequiredPins(context, node, pou, arguments)) return meaning(node.h).type = types::kError;
+  if (!checkRequiredPins(context, node, pou, arguments)) return known.type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
-  if (!operands.ok) return meaning(node.h).type = types::kError;
+  if (!operands.ok) return known.type = types::kError;
   // A string has the largest capacity inside: one instance serves every length. C functions know no named types.
   const bool native = context.symbols.pou(pou).pragmas.native;
   const auto normal = [&](TypeId type) {
@@ -254,7 +255,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     types_by_pin.push_back(type ? normal(type) : types::kInt);
   }
   if (generic.pragmas.bytes && !checkBytes(context, node, generic, types_by_pin, expected))
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   TypeId result = generic.result ? operands.typeFor(context, generic.result) : TypeId{};
   if (generic.result && !result) {  // TRUNC: the result is any integer that is wanted
     result = forced ? forced : types::kDInt;
@@ -264,13 +265,13 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   }
   if (result) result = normal(result);
   call.pou = generic.generic ? instantiate(context, pou, types_by_pin, result) : pou;
-  if (!call.pou) return meaning(node.h).type = types::kError;
+  if (!call.pou) return known.type = types::kError;
   context.symbols.pou(call.pou).progress.used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
-  meaning(node.h).is_constant = generic.library && generic.pragmas.pure && !native && !call.en && !call.eno;
+  known.is_constant = generic.library && generic.pragmas.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
     if (!operands.values[i]) continue;
-    meaning(node.h).is_constant = meaning(node.h).is_constant && context.meaning(operands.values[i]).is_constant;
+    known.is_constant = known.is_constant && context.meaning(operands.values[i]).is_constant;
     Binding binding;
     binding.pin = pins[i];
     binding.value = operands.values[i];
@@ -278,8 +279,8 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     call.bindings.push_back(binding);
   }
   const TypeId type = context.symbols.pou(call.pou).result;
-  meaning(node.h).call = addCall(context, std::move(call));
-  return meaning(node.h).type = type;
+  known.call = addCall(context, std::move(call));
+  return known.type = type;
 }
 
 }  // namespace rung::sema

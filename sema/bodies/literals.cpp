@@ -35,7 +35,7 @@ Bounds boundsOf(const types::TypeTable& table, TypeKind kind) {
   return {0, (Int128{1} << width) - 1};
 }
 
-std::string toString(Int128 value) {
+std::string decimal(Int128 value) {
   if (value == 0) return "0";
   const bool negative = value < 0;
   std::string digits;
@@ -49,14 +49,14 @@ std::string toString(Int128 value) {
 
 Int128 literalValue(const LiteralExpr& node) {
   const Int128 value = node.value();
-  return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+  return node.form.is_negative ? -value : value;
 }
 
 bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind); }
 
 bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
   context.report(diag::ConstantOutOfRange, context.tree().begin(expr),
-                 {toString(value), context.types().toString(to), toString(bounds.low), toString(bounds.high)});
+                 {decimal(value), context.types().toString(to), decimal(bounds.low), decimal(bounds.high)});
   context.type(expr) = types::kError;
   return false;
 }
@@ -145,7 +145,8 @@ void setIntegerType(Context& context, ExprId& expr, TypeId to) {
     if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
       // -32768 is one value: its magnitude alone does not fit.
       const ExprId literal = context.code().duplicate(node.operand);
-      context.code().expr(literal).bits ^= kLiteralNegative;
+      LiteralForm& form = context.code().as<LiteralExpr>(literal).form;
+      form.is_negative = !form.is_negative;
       context.replace(expr, literal);
     }
   } else if (tree.kind(expr) == ExprKind::Binary) {
@@ -189,7 +190,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
   const Int128 bits = (Int128{1} << width) + value;
   const Loc loc = context.tree().begin(expr);
-  context.report(diag::NegativeWithoutSign, loc, {toString(value), context.types().toString(to), toString(bits)});
+  context.report(diag::NegativeWithoutSign, loc, {decimal(value), context.types().toString(to), decimal(bits)});
   context.replace(expr, makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc));
   return true;
 }
@@ -205,7 +206,7 @@ bool adaptPattern(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
     return false;
   const Int128 stored = value - (Int128{1} << width);
   const Loc loc = context.tree().begin(expr);
-  context.report(diag::SignBitSet, loc, {toString(value), context.types().toString(to), toString(stored)});
+  context.report(diag::SignBitSet, loc, {decimal(value), context.types().toString(to), decimal(stored)});
   context.replace(expr, makeInteger(context, to, stored, loc));
   return true;
 }
@@ -304,8 +305,9 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
 
 TypeId checkTypedNumber(Context& context, ExprId& expr) {
   LiteralExpr& node = context.code().as<LiteralExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeId type = prefixType(context, node);
-  if (type == types::kError) return meaning(node.h).type = type;
+  if (type == types::kError) return known.type = type;
   const TypeKind kind = context.types().plainKind(type);
   if (types::TypeTable::isReal(kind) &&
       (node.literal() == LiteralKind::Real || node.literal() == LiteralKind::Integer)) {
@@ -319,9 +321,9 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
       reportRange(context, expr, literalValue(node), type, {0, 1});
       return types::kError;
     }
-    return meaning(node.h).type = type;
+    return known.type = type;
   }
-  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return meaning(node.h).type = type;
+  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return known.type = type;
   if ((types::TypeTable::isString(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
     if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, expr);
@@ -337,22 +339,23 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
     return meaning(text.h).type = types::kError;
   }
   context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
-  return meaning(node.h).type = types::kError;
+  return known.type = types::kError;
 }
 
 // T# and similar: the long form where it is written or wanted, else the short one when the value fits.
 TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
                  int64_t unit) {
+  Meaning& known = meaning(node.h);
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
   // IEC 61131-3 ed. 2, 2.2.3.1: only the most significant unit may overflow. CODESYS, "TIME Constants".
   //   passes  T#90m        fails  T#1h90m        E0246, in codesys W0258
-  if ((node.h.bits & kLiteralOverflows) != 0)
+  if (node.form.overflows)
     context.report(context.profile().overflowing_durations ? diag::DurationOverflowWarning : diag::DurationOverflow,
                    node.h.loc, {context.symbols.sources.tokenAt(node.h.loc)});
   // A duration is 64 bits of nanoseconds; LTIME with a sign has one bit less, without one no negative values.
-  const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
+  const bool is_long = node.form.is_long || wanted == longer;
   const bool is_signed = context.types().isSigned(longer);
-  const bool is_negative = (node.h.bits & kLiteralNegative) != 0 && node.value() != 0;
+  const bool is_negative = node.form.is_negative && node.value() != 0;
   const bool beyond = is_signed ? !is_negative && node.value() >> 63 != 0 : is_negative;
   if (is_long && longer == TypeKind::LTime && beyond) {
     const uint64_t low = is_signed ? uint64_t{1} << 63 : 0, high = ~uint64_t{0} >> (is_signed ? 1 : 0);
@@ -360,9 +363,9 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(longer)),
                     types::toString(context.types(), context.names(), {types::kLTime, low}),
                     types::toString(context.types(), context.names(), {types::kLTime, high})});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  if (is_long) return meaning(node.h).type = types::idOf(longer);
+  if (is_long) return known.type = types::idOf(longer);
   const int64_t count = static_cast<int64_t>(node.value()) / unit;
   const Bounds bounds = boundsOf(context.types(), shorter);
   const bool negative = static_cast<int64_t>(node.value()) < 0;
@@ -373,7 +376,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                    {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(shorter)),
                     types::toString(context.types(), context.names(), low),
                     types::toString(context.types(), context.names(), high)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   if (static_cast<int64_t>(node.value()) % unit != 0) {
     const types::Value stored{types::idOf(shorter), static_cast<uint64_t>(count)};
@@ -382,7 +385,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
                     types::toString(context.types(), context.names(), stored),
                     unit == 1'000'000 ? "milliseconds" : "seconds", context.types().toString(types::idOf(longer))});
   }
-  return meaning(node.h).type = types::idOf(shorter);
+  return known.type = types::idOf(shorter);
 }
 
 TypeId checkString(Context& context, ExprId& expr, TypeId expected) {
@@ -419,14 +422,14 @@ void retypeString(Context& context, ExprId& expr, TypeId wanted) {
 
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
   LiteralExpr& node = context.code().as<LiteralExpr>(expr);
-  meaning(node.h).is_constant = 1;
+  Meaning& known = meaning(node.h);
+  known.is_constant = 1;
   switch (node.literal()) {
-    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::kBool;
+    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : known.type = types::kBool;
     case LiteralKind::Integer:
-      return node.prefix ? checkTypedNumber(context, expr)
-                         : meaning(node.h).type = types::idOf(TypeKind::IntegerLiteral);
+      return node.prefix ? checkTypedNumber(context, expr) : known.type = types::idOf(TypeKind::IntegerLiteral);
     case LiteralKind::Real:
-      return node.prefix ? checkTypedNumber(context, expr) : meaning(node.h).type = types::idOf(TypeKind::RealLiteral);
+      return node.prefix ? checkTypedNumber(context, expr) : known.type = types::idOf(TypeKind::RealLiteral);
     case LiteralKind::String:
     case LiteralKind::WString:
       return node.prefix ? checkTypedNumber(context, expr) : checkString(context, expr, expected);
@@ -436,9 +439,9 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
       return checkSpan(context, node, expected, TypeKind::TimeOfDay, TypeKind::LTimeOfDay, 1'000'000);
     case LiteralKind::DateTime:
       return checkSpan(context, node, expected, TypeKind::DateTime, TypeKind::LDateTime, 1'000'000'000);
-    case LiteralKind::Null: return meaning(node.h).type = types::idOf(TypeKind::NullLiteral);
+    case LiteralKind::Null: return known.type = types::idOf(TypeKind::NullLiteral);
   }
-  return meaning(node.h).type = types::kError;
+  return known.type = types::kError;
 }
 
 // Forbids, in iec, a constant outside the subrange that it is assigned to; codesys warns, and takes the nearer bound.
@@ -452,7 +455,7 @@ bool isInSubrange(Context& context, ExprId expr, Int128 value, TypeId subrange) 
   if (value >= low && value <= high) return true;
   context.report(context.profile().free_subranges ? diag::OutsideSubrange : diag::NotInSubrange,
                  context.tree().begin(expr),
-                 {toString(value), context.types().toString(subrange), toString(low), toString(high)});
+                 {decimal(value), context.types().toString(subrange), decimal(low), decimal(high)});
   return false;
 }
 

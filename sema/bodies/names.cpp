@@ -225,8 +225,15 @@ Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
   return Entity::of(EntityKind::Error, 0);
 }
 
+// Of a name that was reported: who reads it says nothing more.
+TypeId unknown(Meaning& known) {
+  known.entity = Entity::of(EntityKind::Error, 0);
+  return known.type = types::kError;
+}
+
 TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access access) {
   MemberExpr& node = context.code().as<MemberExpr>(expr);
+  Meaning& known = meaning(node.h);
   Entity found;
   TypeId record;
   if (qualifier.entityKind() == EntityKind::Pou && isBlockType(context, PouId{qualifier.index})) {
@@ -259,12 +266,11 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
           .report(diag::UnknownMember, node.h.loc,
                   {string(context, nameOf(context, node.base)), string(context, node.member)})
           .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
-    return meaning(node.h).type = types::kError;
+    return unknown(known);
   }
   if (qualifier.entityKind() == EntityKind::Namespace && !checkVisible(context, found, node.h.loc))
     found = Entity::of(EntityKind::Error, 0);
-  meaning(node.h).entity = found;
+  known.entity = found;
   return useEntity(context, expr, found, node.h.loc, node.member, access, false);
 }
 
@@ -366,33 +372,34 @@ static bool isSharedGlobal(const Context& context, Entity entity) {
 
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
   NameExpr& node = context.code().as<NameExpr>(expr);
-  meaning(node.h).entity = resolveName(context, node, expected);
-  if (isSharedGlobal(context, meaning(node.h).entity) && differsByResource(context, keyOf(context, node.name))) {
+  Meaning& known = meaning(node.h);
+  known.entity = resolveName(context, node, expected);
+  if (isSharedGlobal(context, known.entity) && differsByResource(context, keyOf(context, node.name))) {
     if (isFirstReport(context, node.name))
       context.report(diag::GlobalDiffers, node.h.loc, {string(context, node.name)});
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    known.entity = Entity::of(EntityKind::Error, 0);
   }
-  if (meaning(node.h).entity.entityKind() == EntityKind::Pou && meaning(node.h).entity.index == context.pou.index) {
+  if (known.entity.entityKind() == EntityKind::Pou && known.entity.index == context.pou.index) {
     // The name of a function is its result inside its body.
     if (const VarId result = context.symbols.pou(context.pou).result_var) {
-      meaning(node.h).entity = Entity::of(EntityKind::Var, result.index);
+      known.entity = Entity::of(EntityKind::Var, result.index);
     }
   }
-  if (meaning(node.h).entity.entityKind() == EntityKind::Var &&
-      context.symbols.vars[meaning(node.h).entity.index].temporary != 0)
-    temporaryType(context, VarId{meaning(node.h).entity.index}, expected);
-  return useEntity(context, expr, meaning(node.h).entity, node.h.loc, node.name, access, true);
+  if (known.entity.entityKind() == EntityKind::Var && context.symbols.vars[known.entity.index].temporary != 0)
+    temporaryType(context, VarId{known.entity.index}, expected);
+  return useEntity(context, expr, known.entity, node.h.loc, node.name, access, true);
 }
 
 TypeId checkTypedName(Context& context, ExprId& expr) {
   TypedNameExpr& node = context.code().as<TypedNameExpr>(expr);
+  Meaning& known = meaning(node.h);
   Entity type = lookUp(context, node.type_name.name, node.type_name.loc);
   if (type.entityKind() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
     if (const TypeId hidden = lookUpType(context, node.type_name.name))
       type = Entity::of(EntityKind::Type, hidden.index);
   }
   if (type.entityKind() != EntityKind::Type) {
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    known.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {
       if (isFirstReport(context, node.type_name.name))
         context.report(diag::UnknownName, node.type_name.loc, {string(context, node.type_name.name)})
@@ -400,28 +407,27 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
     } else {
       context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const TypeId enumeration = context.types().resolve(TypeId{type.index});
   if (context.types().info(enumeration).kind != TypeKind::Enum) {
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
+    known.entity = Entity::of(EntityKind::Error, 0);
     if (enumeration != types::kError) {
       context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
-  meaning(node.h).entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
-  if (meaning(node.h).entity.entityKind() != EntityKind::EnumValue) {
+  known.entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
+  if (known.entity.entityKind() != EntityKind::EnumValue) {
     if (isFirstReportOfMember(context, enumeration, node.item.name))
       context
           .report(diag::UnknownMember, node.item.loc,
                   {string(context, node.type_name.name), string(context, node.item.name)})
           .didYouMean(nearestField(context, enumeration, node.item.name));
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
-    return meaning(node.h).type = types::kError;
+    return unknown(known);
   }
-  meaning(node.h).is_constant = 1;
-  return meaning(node.h).type = context.symbols.enum_values[meaning(node.h).entity.index].type;
+  known.is_constant = 1;
+  return known.type = context.symbols.enum_values[known.entity.index].type;
 }
 
 // `phase : Phase; … Phase.Idle`: where the variable has no such member, the name means the enumeration that the
@@ -441,6 +447,7 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
 //   fails   VAR ready : INT := 3; END_VAR            status.ready := TRUE;       E0591
 std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base) {
   MemberExpr& node = context.code().as<MemberExpr>(expr);
+  Meaning& known = meaning(node.h);
   const TypeKind kind = context.types().plainKind(base);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return std::nullopt;
   const Entity found = lookUp(context, node.member);
@@ -449,11 +456,10 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   if (context.symbols.var(id).external) id = context.symbols.var(id).external;
   ensureVarType(context, id);
   const Var& var = context.symbols.var(id);
-  if (var.type == types::kError) return meaning(node.h).type = types::kError;
+  if (var.type == types::kError) return known.type = types::kError;
   const TypeKind index = context.types().plainKind(var.type);
   if (!types::TypeTable::isInteger(index) && !types::TypeTable::isBits(index)) return std::nullopt;
-  meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
-  meaning(node.h).type = types::kError;
+  unknown(known);
   if (!context.profile().named_bits) {
     context.report(diag::NamedBitExtension, node.h.loc);
     return types::kError;
@@ -496,39 +502,44 @@ TypeId checkEno(Context& context, ExprId& expr, PouId block, Access access) {
   return useVar(context, expr, memory, access);
 }
 
+// `color.Red` where the variable `color` hides the enumeration.
+static TypeId checkHiddenItem(Context& context, ExprId& expr, TypeId base, Entity hidden, Access access) {
+  const MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  if (context.profile().hidden_enumerations) {
+    Meaning& qualifier = context.meaning(node.base);
+    qualifier.entity = hidden;
+    qualifier.type = {};
+    return checkWhole(context, expr, hidden, access);
+  }
+  const std::string typed = toString(context, nameOf(context, node.base)) + "#" + toString(context, node.member);
+  context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})
+      .didYouMean(typed);
+  return unknown(meaning(node.h));
+}
+
+// `base.member` of what has no members: a bit with a name, or a mistake.
+static TypeId checkMemberOfValue(Context& context, ExprId& expr, TypeId base) {
+  const TypeId resolved = context.types().resolve(base);
+  if (const auto type = checkNamedBit(context, expr, resolved)) return *type;
+  const MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  if (context.types().kind(resolved) == TypeKind::Pointer)
+    context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)});
+  else
+    context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)});
+  return unknown(meaning(node.h));
+}
+
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.code().as<MemberExpr>(expr);
+  Meaning& known = meaning(node.h);
   TypeId base = checkBase(context, node.base, access);
   base = throughObject(context, node.base, base);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
-  if (base == types::kError) return meaning(node.h).type = types::kError;
-  const Entity hidden = hiddenEnumeration(context, node, base);
-  if (hidden && !context.profile().hidden_enumerations) {
-    const std::string typed =
-        std::string(string(context, nameOf(context, node.base))) + "#" + std::string(string(context, node.member));
-    context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})
-        .didYouMean(typed);
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
-    return meaning(node.h).type = types::kError;
-  }
-  if (hidden) {
-    NameExpr& name = context.code().as<NameExpr>(node.base);
-    meaning(name.h).entity = hidden;
-    meaning(name.h).type = {};
-    return checkWhole(context, expr, hidden, access);
-  }
+  if (base == types::kError) return known.type = types::kError;
+  if (const Entity hidden = hiddenEnumeration(context, node, base))
+    return checkHiddenItem(context, expr, base, hidden, access);
   const TypeId record = context.types().resolve(base);
-  const types::TypeInfo& info = context.types().info(record);
-  if (info.kind != TypeKind::Record) {
-    if (const auto type = checkNamedBit(context, expr, record)) return *type;
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
-    if (info.kind == TypeKind::Pointer) {
-      context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)});
-    } else {
-      context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)});
-    }
-    return meaning(node.h).type = types::kError;
-  }
+  if (context.types().kind(record) != TypeKind::Record) return checkMemberOfValue(context, expr, base);
   const PouId object = pouOf(context, record);
   const VarId member = findMember(context, record, node.member);
   if (!member && object) {
@@ -545,14 +556,13 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!member && is_block && isNamed(context, node.member, kEnableOutput))
     return checkEno(context, expr, object, access);
   if (!member) {
-    meaning(node.h).entity = Entity::of(EntityKind::Error, 0);
     if (isFirstReportOfMember(context, record, node.member))
       context.report(diag::UnknownMember, node.h.loc, {context.types().toString(base), string(context, node.member)})
           .didYouMean(nearestField(context, record, node.member));
-    return meaning(node.h).type = types::kError;
+    return unknown(known);
   }
-  meaning(node.h).entity = Entity::of(EntityKind::Var, member.index);
-  if (!checkOutsideAccess(context, node, member, access)) return meaning(node.h).type = types::kError;
+  known.entity = Entity::of(EntityKind::Var, member.index);
+  if (!checkOutsideAccess(context, node, member, access)) return known.type = types::kError;
   const TypeId type = useVar(context, expr, member, access);
   return type;
 }

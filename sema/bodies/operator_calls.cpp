@@ -5,6 +5,8 @@
 // {operator 'convert'}.
 #include "sema/bodies/operator_calls.h"
 
+#include <optional>
+
 #include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversion_calls.h"
@@ -27,40 +29,16 @@ namespace {
 
 using types::TypeTable;
 
-bool infixOf(types::Op op, BinaryOp& out) {
-  switch (op) {
-    case types::Op::Add: out = BinaryOp::Add; return true;
-    case types::Op::Sub: out = BinaryOp::Subtract; return true;
-    case types::Op::Mul: out = BinaryOp::Multiply; return true;
-    case types::Op::Div: out = BinaryOp::Divide; return true;
-    case types::Op::Mod: out = BinaryOp::Modulo; return true;
-    case types::Op::Power: out = BinaryOp::Power; return true;
-    case types::Op::Neg:
-    case types::Op::And:
-    case types::Op::Or:
-    case types::Op::Xor:
-    case types::Op::Not:
-    case types::Op::Shl:
-    case types::Op::Shr:
-    case types::Op::Sar:
-    case types::Op::Rol:
-    case types::Op::Ror:
-    case types::Op::Eq:
-    case types::Op::Ne:
-    case types::Op::Lt:
-    case types::Op::Le:
-    case types::Op::Gt:
-    case types::Op::Ge:
-    case types::Op::Min:
-    case types::Op::Max:
-    case types::Op::Abs: return false;
-  }
-  return false;
+// The arithmetic operator that a function is; none: another one.
+std::optional<BinaryOp> infixOf(types::Op op) {
+  for (const BinaryOp infix :
+       {BinaryOp::Add, BinaryOp::Subtract, BinaryOp::Multiply, BinaryOp::Divide, BinaryOp::Modulo, BinaryOp::Power})
+    if (operatorOf(infix) == op) return infix;
+  return std::nullopt;
 }
 
 bool isArithmetic(const auto& pragmas) {
-  BinaryOp infix;
-  return pragmas.operator_kind == OperatorKind::Op && (pragmas.op == types::Op::Abs || infixOf(pragmas.op, infix));
+  return pragmas.operator_kind == OperatorKind::Op && (pragmas.op == types::Op::Abs || infixOf(pragmas.op));
 }
 
 bool isTime(const Context& context, TypeId type) {
@@ -104,46 +82,51 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
   return context.type(value);
 }
 
+// What EXPT, DIV and MOD ask of their operands. False: an error was reported.
+bool checkOperation(Context& context, const CallExpr& node, types::Op op, std::vector<ExprId>& operands,
+                    TypeId expected, TypeId& result) {
+  if (op == types::Op::Power && operands.size() == 2 && operands[0] && operands[1]) {
+    result = power(context, operands[0], operands[1], expected, node.h.loc);
+    if (result == types::kError) return false;
+  }
+  if ((op == types::Op::Div || op == types::Op::Mod) && operands.size() > 1 && operands[1]) {
+    if (!checkDivisor(context, operands[1], op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo)) return false;
+    callDivisorCheck(context, operands[1]);
+  }
+  return true;
+}
+
 }  // namespace
 
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expected, TypeId forced) {
   CallExpr& node = context.code().as<CallExpr>(expr);
+  Meaning& known = meaning(node.h);
   const Pou& pou = context.symbols.pou(id);
   const Arguments arguments = matchArguments(context, node, id);
   if (!arguments.ok) {
     return checkRefused(context, node, arguments);
   }
-  if (!checkRequiredPins(context, node, id, arguments)) return meaning(node.h).type = types::kError;
-  BinaryOp infix;
-  bool checked = false;
-  if (pou.pragmas.operator_kind == OperatorKind::Op && infixOf(pou.pragmas.op, infix) && infix != BinaryOp::Power) {
+  if (!checkRequiredPins(context, node, id, arguments)) return known.type = types::kError;
+  const auto infix = pou.pragmas.operator_kind == OperatorKind::Op ? infixOf(pou.pragmas.op) : std::nullopt;
+  const bool checked = infix && infix != BinaryOp::Power;
+  if (checked) {
     ExprId value = expr;
-    if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
+    if (const TypeId type = infixTimes(context, value, arguments, *infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
       context.replace(expr, value);
       return context.type(expr) = type;
     }
-    checked = true;
   }
   GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced, checked);
-  if (!operands.ok) return meaning(node.h).type = types::kError;
+  if (!operands.ok) return known.type = types::kError;
   TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
   if (!result) result = expected ? expected : types::kDInt;
-  if (pou.pragmas.operator_kind == OperatorKind::Op) {
-    if (pou.pragmas.op == types::Op::Power && operands.values.size() == 2 && operands.values[0] && operands.values[1]) {
-      result = power(context, operands.values[0], operands.values[1], expected, node.h.loc);
-      if (result == types::kError) return meaning(node.h).type = result;
-    }
-    if ((pou.pragmas.op == types::Op::Div || pou.pragmas.op == types::Op::Mod) && operands.values.size() > 1 &&
-        operands.values[1]) {
-      const BinaryOp op = pou.pragmas.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
-      if (!checkDivisor(context, operands.values[1], op)) return meaning(node.h).type = types::kError;
-      callDivisorCheck(context, operands.values[1]);
-    }
-  }
+  if (pou.pragmas.operator_kind == OperatorKind::Op &&
+      !checkOperation(context, node, pou.pragmas.op, operands.values, expected, result))
+    return known.type = types::kError;
   if (pou.pragmas.operator_kind == OperatorKind::Convert && arguments.en == 0 && arguments.eno == 0) {
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
-    if (!value) return meaning(node.h).type = types::kError;
+    if (!value) return known.type = types::kError;
     wrapConvert(context, value, forced ? forced : result);
     context.replace(expr, value);
     return context.type(expr);
@@ -159,11 +142,11 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   }
   bool constant = arguments.en == 0 && arguments.eno == 0;
   for (const ExprId value : operands.values) constant &= !value || context.meaning(value).is_constant;
-  meaning(node.h).is_constant = constant;
+  known.is_constant = constant;
   const bool is_conditional = arguments.en != 0 || arguments.eno != 0;
   markIntermediate(context.symbols, expr, result, context.isWide() && !is_conditional && isArithmetic(pou.pragmas));
-  meaning(node.h).call = addCall(context, std::move(call));
-  meaning(node.h).type = result;
+  known.call = addCall(context, std::move(call));
+  known.type = result;
   if (pou.pragmas.operator_kind == OperatorKind::Convert && operands.values[0])
     markRounding(context.symbols, expr, context.type(operands.values[0]), context.isWide());
   context.rules->expression(context, expr);

@@ -173,33 +173,15 @@ bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp:
 
 // Both sides are untyped: the result is, too, except of comparisons. None when the sides must be typed first.
 TypeId combineUntyped(Context& context, BinaryExpr& node) {
+  const BinaryOp op = node.op();
+  if (isComparison(op) || op == BinaryOp::OrElse || op == BinaryOp::AndThen) return {};
+  if (op == BinaryOp::Power) return types::idOf(TypeKind::RealLiteral);
   const bool real = context.type(node.left) == types::idOf(TypeKind::RealLiteral) ||
                     context.type(node.right) == types::idOf(TypeKind::RealLiteral);
-  switch (node.op()) {
-    case BinaryOp::Add:
-    case BinaryOp::Subtract:
-    case BinaryOp::Multiply: break;
-    case BinaryOp::Modulo:
-      if (real) return reportOperand(context, "MOD", types::kReal, node.h.loc);
-      [[fallthrough]];
-    case BinaryOp::Divide:
-      if (!checkDivisor(context, node.right, node.op())) return types::kError;
-      break;
-    case BinaryOp::Power: return types::idOf(TypeKind::RealLiteral);
-    case BinaryOp::Or:
-    case BinaryOp::Xor:
-    case BinaryOp::And:
-      if (real) return reportOperand(context, spelling(node.op()), types::kReal, node.h.loc);
-      break;
-    case BinaryOp::OrElse:
-    case BinaryOp::AndThen:
-    case BinaryOp::Equal:
-    case BinaryOp::NotEqual:
-    case BinaryOp::Less:
-    case BinaryOp::LessEqual:
-    case BinaryOp::Greater:
-    case BinaryOp::GreaterEqual: return {};
-  }
+  if (real && (operandsOf(op) == Operands::Bits || op == BinaryOp::Modulo))
+    return reportOperand(context, spelling(op), types::kReal, node.h.loc);
+  const bool divides = op == BinaryOp::Divide || op == BinaryOp::Modulo;
+  if (divides && !checkDivisor(context, node.right, op)) return types::kError;
   return types::idOf(real ? TypeKind::RealLiteral : TypeKind::IntegerLiteral);
 }
 

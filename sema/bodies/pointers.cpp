@@ -107,7 +107,7 @@ namespace {
 void toNumber(Context& context, ExprId& expr) { wrapConvert(context, expr, types::kLInt); }
 
 bool isPointer(const Context& context, TypeId type) { return context.types().kind(type) == TypeKind::Pointer; }
-bool isWhole(const Context& context, TypeId type) {
+bool isWholeNumber(const Context& context, TypeId type) {
   const TypeKind kind = context.types().plainKind(type);
   return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind) || kind == TypeKind::IntegerLiteral;
 }
@@ -148,23 +148,24 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
 
 TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.code().as<IndexExpr>(expr);
+  Meaning& known = meaning(node.h);
   const Loc loc = node.h.loc;
   if (!context.profile().indexed_pointers) {
     context.report(diag::IndexOfPointer, loc);
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const ExprId pointer = node.base;
   const TypeId type = context.type(pointer);
   ExprId index = context.tree().list(node.indices)[0];
   const TypeId given = checkExpr(context, index);
-  if (given == types::kError) return meaning(node.h).type = types::kError;
-  if (!isWhole(context, given)) {
+  if (given == types::kError) return known.type = types::kError;
+  if (!isWholeNumber(context, given)) {
     context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(given)});
-    return meaning(node.h).type = types::kError;
+    return known.type = types::kError;
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;
   if (const PouId pou = pouOf(context, target)) resolvePou(context, pou);
-  if (!ensureLayout(context, target)) return meaning(node.h).type = types::kError;
+  if (!ensureLayout(context, target)) return known.type = types::kError;
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
@@ -185,7 +186,7 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   BinaryExpr& node = context.code().as<BinaryExpr>(self);
   const TypeId left = context.type(node.left), right = context.type(node.right);
   const bool both = isPointer(context, left) && isPointer(context, right);
-  if (!both && !isWhole(context, isPointer(context, left) ? right : left)) return {};
+  if (!both && !isWholeNumber(context, isPointer(context, left) ? right : left)) return {};
   const BinaryOp op = node.op();
   const bool comparison = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
   if (!context.profile().pointer_arithmetic || (both && comparison)) return {};

@@ -24,7 +24,7 @@ TypeId checkSizeOf(Context& context, ExprId& expr, const PseudoCall& call) {
   }
   if (!type && context.tree().kind(operand) == ExprKind::New) {  // SIZEOF(POINTER TO INT)
     NewExpr& node = context.code().as<NewExpr>(operand);
-    if ((node.h.bits & kOnlyType) != 0) type = meaning(node.h).type = resolveType(context, node.allocated);
+    if (node.only_type) type = meaning(node.h).type = resolveType(context, node.allocated);
   }
   if (!type) type = check(context, operand, {}, Access::Address);
   if (isUntyped(context, type)) type = finalizeUntyped(context, operand);

@@ -175,7 +175,7 @@ void checkCallStatement(Context& context, StmtId id) {
     check(context, node.call, {}, Access::Read);
     return;
   }
-  const bool bare = (context.tree().expr(node.call).bits & kBareCall) != 0;  // reported
+  const bool bare = context.tree().as<CallExpr>(node.call).is_bare;  // reported
   checkCall(context, node.call, {}, true);
   if (context.tree().kind(node.call) == ExprKind::Call) return;
   const TypeId type = context.type(node.call);

@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "cam/design/jumps.h"
 #include "cam/design/text_form.h"
 #include "frontend/syntax/children.h"
 #include "sema/bodies/constant_cams.h"
@@ -25,8 +26,6 @@ namespace {
 
 using cam::exactText;
 using cam::Kind;
-
-constexpr double kSmallestJump = 1e-9;  // of the stroke: more than rounding
 
 std::string rowName(const Context& context, const ConstantCam& cam, size_t row) {
   const size_t per_row = cam.cam.kind == Kind::Pairs ? 2 : 1;
@@ -59,7 +58,7 @@ class Checker {
           .declaredHere(array().loc);
       return false;
     }
-    const int64_t least = table_.kind == Kind::Polynomials ? 1 : 2;
+    const auto least = static_cast<int64_t>(table_.leastRows());
     if (cam_.elements >= least) return true;
     context_.report(diag::CamTablePoints, cam_.elements_loc,
                     {name(), std::to_string(cam_.elements), std::to_string(least)});
@@ -120,20 +119,13 @@ class Checker {
 
   // Where two polynomials meet.
   bool isContinuous() {
-    const cam::Curve curve = curveOf(table_);
-    const cam::Extremes slave = curve.extremes(0);
-    const double margin =
-        kSmallestJump * std::max(slave.high.value - slave.low.value, 1e-3 * std::fabs(slave.peak().value));
-    const std::span<const cam::Piece> pieces = curve.pieces();
-    for (size_t i = 1; i < pieces.size(); ++i) {
-      const double x = pieces[i].from, jump = pieces[i].at(x, 0) - pieces[i - 1].at(x, 0);
-      if (std::fabs(jump) <= margin) continue;
-      size_t row = 0;
-      while (row + 1 < table_.rowCount() && table_.masterAt(row) < x) ++row;
-      context_.report(diag::CamTableJump, cam_.rows[row], {name(), exactText(jump), exactText(x)});
-      return false;
-    }
-    return true;
+    const std::vector<cam::Jump> jumps = cam::jumpsOf(curveOf(table_));
+    if (jumps.empty()) return true;
+    const auto [x, size] = jumps.front();
+    size_t row = 0;
+    while (row + 1 < table_.rowCount() && table_.masterAt(row) < x) ++row;
+    context_.report(diag::CamTableJump, cam_.rows[row], {name(), exactText(size), exactText(x)});
+    return false;
   }
 
   Context& context_;
@@ -234,11 +226,9 @@ class Selections {
 void checkClosure(Context& context, const ConstantCam& cam, const Selections& selections) {
   const Loc loc = selections.repeats(cam.var);
   if (!loc) return;
-  const cam::Curve curve = curveOf(cam.cam);
-  const cam::Extremes slave = curve.extremes(0);
-  const double jump = curve.at(cam.cam.start, 0) - curve.pieces().back().at(cam.cam.end, 0);
-  if (std::fabs(jump) <= kSmallestJump * (slave.high.value - slave.low.value)) return;
-  context.report(diag::CamTableClosure, loc, {cam.cam.name, exactText(jump)}).declaredHere(cam.name);
+  const auto jump = cam::jumpOfRepeat(cam.cam, curveOf(cam.cam), cam::Repeat::Closed);
+  if (!jump) return;
+  context.report(diag::CamTableClosure, loc, {cam.cam.name, exactText(*jump)}).declaredHere(cam.name);
 }
 
 }  // namespace

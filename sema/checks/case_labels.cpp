@@ -22,7 +22,7 @@ bool less(int64_t a, int64_t b, bool is_signed) {
   return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
 }
 
-std::string toString(Context& context, int64_t low, int64_t high, TypeId selector) {
+std::string labelText(Context& context, int64_t low, int64_t high, TypeId selector) {
   const auto one = [&](int64_t value) {
     return types::toString(context.types(), context.names(), types::Value{selector, static_cast<uint64_t>(value)});
   };
@@ -72,7 +72,7 @@ void checkCaseLabels(Context& context, const CaseStmt& node) {
     if (widest != nullptr && !less(widest->high, label.low, is_signed)) {
       const Label& later = widest->loc < label.loc ? label : *widest;
       const Label& first = widest->loc < label.loc ? *widest : label;
-      context.report(diag::DuplicateLabel, later.loc, {toString(context, later.low, later.high, selector)})
+      context.report(diag::DuplicateLabel, later.loc, {labelText(context, later.low, later.high, selector)})
           .note(first.loc, diag::FirstLabel);
     }
     if (widest == nullptr || less(widest->high, label.high, is_signed)) widest = &label;

@@ -111,7 +111,7 @@ bool isConstructor(const Context& context, const Pou& method) {
   return sameIdentifier(context.names().string(method.name), "FB_Init");
 }
 
-void checkConstructor(Context& context, PouId id) {
+void checkConstructorInputs(Context& context, PouId id) {
   if (!isConstructor(context, context.symbols.pou(id)) || isBroken(context, id) || context.symbols.pou(id).library)
     return;
   resolvePou(context, id);
@@ -197,7 +197,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.symbols.pou(id);
   const Pou& owner = context.symbols.pou(object);
   if (method.kind != PouKind::Method) return;
-  checkConstructor(context, id);
+  checkConstructorInputs(context, id);
   if ((method.object.modifiers & kAbstract) != 0 && (owner.object.modifiers & kAbstract) == 0) {
     context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
@@ -262,7 +262,7 @@ void checkHalves(Context& context, PouId object) {
        context.tree().list(context.tree().as<PouDecl>(context.symbols.pou(object).decl).members)) {
     if (context.tree().kind(member) != DeclKind::Property) continue;
     const Property& property = context.symbols.properties[context.symbols.pou(object).object.properties[index++]];
-    if (context.tree().as<PropertyDecl>(member).h.bits == kInHalves && property.get && property.set)
+    if (context.tree().as<PropertyDecl>(member).in_halves && property.get && property.set)
       checkHalves(context, property);
   }
 }

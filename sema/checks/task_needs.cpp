@@ -28,7 +28,7 @@ struct Need {
   std::string_view priorities;  // words for the message
 };
 
-std::string_view valueOf(Context& context, const Pou& pou, NameId attribute) {
+std::string_view attributeValue(Context& context, const Pou& pou, NameId attribute) {
   const DeclHeader& header = context.tree().decl(pou.decl);
   const Pragma* const pragma = header.pragmas.empty() ? nullptr : findPragma(context, header, attribute);
   return pragma == nullptr ? std::string_view() : context.tree().string(pragma->value);
@@ -52,8 +52,8 @@ std::vector<Need> needsOf(Context& context) {
   for (uint32_t i = 0; i < context.project.pous.size(); ++i) {
     const Pou& pou = context.symbols.pou(PouId{i});
     if (!pou.library || !pou.decl) continue;
-    Need need{PouId{i}, valueOf(context, pou, interval), 0, valueOf(context, pou, priorities)};
-    const std::string_view least = valueOf(context, pou, priority);
+    Need need{PouId{i}, attributeValue(context, pou, interval), 0, attributeValue(context, pou, priorities)};
+    const std::string_view least = attributeValue(context, pou, priority);
     std::from_chars(least.data(), least.data() + least.size(), need.priority);
     if (!need.intervals.empty() || need.priority > 0 || !need.priorities.empty()) needs.push_back(need);
   }

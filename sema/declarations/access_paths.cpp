@@ -212,7 +212,7 @@ struct AccessPathResolver {
     if (declared == types::kError) return;
     out.name = name.name;
     out.loc = name.loc;
-    out.read_only = decl.h.bits != 0;
+    out.read_only = decl.read_only;
     TypeId type = declared;
     Ident last = name;
     if (decl.located) {

@@ -20,7 +20,7 @@ namespace rung::sema {
 
 namespace {
 
-std::string toString(const Context& context, const DirectAddress& address) {
+std::string addressText(const Context& context, const DirectAddress& address) {
   std::string text = "%";
   text += address.area;
   if (address.size_given) text += address.size;
@@ -48,7 +48,7 @@ void use(Project& project, types::AreaId area, uint64_t end) {
 
 std::optional<types::AreaId> areaOf(Context& context, const DirectAddress& address, Loc loc) {
   if (const auto area = types::findArea(context.project.options.areas, address.area)) return area;
-  context.report(diag::AddressForm, loc, {toString(context, address)});
+  context.report(diag::AddressForm, loc, {addressText(context, address)});
   return std::nullopt;
 }
 
@@ -75,7 +75,7 @@ TypeId addressType(const DirectAddress& address) {
 //   fails   v AT %QW5 : BOOL; in iec                    E0374
 //   fails   VAR_CONFIG Main.v AT %QW5.1 : INT;          E0344 (see isHierarchical)
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type) {
-  const std::string text = toString(context, address);
+  const std::string text = addressText(context, address);
   const auto path = context.tree().list(address.path);
   const uint32_t unit = address.size_given ? unitBytes(address.size) : 0;
   const bool is_bit = unit == 0;
@@ -143,7 +143,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   Project& project = context.project;
   Scopes& scopes = context.scopes;
   const TypeId type = user ? project.var(user).type : addressType(address);
-  const std::string text = toString(context, address);
+  const std::string text = addressText(context, address);
   if (!type || type == types::kError) return {};
   if (isBitAddress(address) && context.types().kind(type) != types::TypeKind::Bool) {
     context.report(diag::AddressType, loc, {text, context.types().toString(type)});

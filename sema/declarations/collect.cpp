@@ -311,7 +311,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.type = decl.type;
   named.file = file;
   named.library = library != kNoLibrary;
-  named.internal = (decl.h.bits & kInternal) != 0;
+  named.internal = decl.is_internal;
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
@@ -528,9 +528,9 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
 static int rankOf(const Context& context, const DeclInRegion& placed) {
   if (libraryOfSource(context, placed.file) == kNoLibrary) return 0;
   const Tree& tree = context.tree();
-  const bool internal = tree.kind(placed.decl) == DeclKind::Pou
-                            ? tree.as<PouDecl>(placed.decl).access == AccessLevel::Internal
-                            : (tree.decl(placed.decl).bits & kInternal) != 0;
+  const DeclKind kind = tree.kind(placed.decl);
+  const bool internal = (kind == DeclKind::Pou && tree.as<PouDecl>(placed.decl).access == AccessLevel::Internal) ||
+                        (kind == DeclKind::Type && tree.as<TypeDecl>(placed.decl).is_internal);
   return internal ? 2 : 1;
 }
 

@@ -310,7 +310,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
                  const std::vector<DeclaredTask>& tasks) {
   Project& project = context.project;
   ProgramInstance instance;
-  instance.retain = (decl.section_bits & kRetain) != 0;
+  instance.retain = decl.qualifiers.retain;
   instance.name = decl.name;
   instance.resource = part.resource;
   instance.configuration = part.configuration;

@@ -3,6 +3,8 @@
 // tuple of types or values, so that the instance is checked and lowered like any other POU.
 #include "sema/declarations/generics.h"
 
+#include <algorithm>
+
 #include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
 #include "sema/declarations/collect.h"
@@ -39,9 +41,7 @@ std::string identifierOf(const types::TypeTable& table, TypeId type) {
 
 // ---- VAR_GENERIC CONSTANT
 
-bool isGenericSection(const Tree& tree, DeclId section) {
-  return (tree.as<SectionDecl>(section).h.bits & kGeneric) != 0;
-}
+bool isGenericSection(const Tree& tree, DeclId section) { return tree.as<SectionDecl>(section).qualifiers.generic; }
 
 std::vector<Ident> genericsOf(const Tree& tree, const PouDecl& block) {
   std::vector<Ident> names;
@@ -184,6 +184,49 @@ PouId instantiateBlock(Context& context, PouId block_id, const NamedTypeExpr& wr
   return block_id;
 }
 
+namespace {
+
+// What the generic types of the pins and of the result mean in one instance, each once.
+std::vector<Substitution> substitutionsOf(const Context& context, const Pou& generic,
+                                          std::span<const TypeId> types_by_pin, TypeId result) {
+  std::vector<Substitution> all;
+  const auto substitute = [&](TypeId declared, TypeId actual) {
+    const types::TypeKind kind = context.types().kind(declared);
+    const bool is_known =
+        std::any_of(all.begin(), all.end(), [&](const Substitution& known) { return known.generic == kind; });
+    if (types::TypeTable::isGeneric(kind) && actual && !is_known) all.push_back({kind, actual});
+  };
+  size_t pin = 0;
+  for (const VarId id : generic.vars) {
+    const Var& var = context.symbols.var(id);
+    if (var.section != SectionKind::Input && var.section != SectionKind::InOut && var.section != SectionKind::Output)
+      continue;
+    if (pin < types_by_pin.size()) substitute(var.type, types_by_pin[pin]);
+    ++pin;
+  }
+  if (generic.result) substitute(generic.result, result);
+  return all;
+}
+
+// The generic function again, not yet resolved, with a declaration of its own.
+Pou instanceOf(const Symbols& symbols, PouId generic, DeclId decl, NameId unique_name) {
+  Pou pou = symbols.pou(generic);
+  pou.decl = decl;
+  pou.vars.clear();
+  pou.pins.clear();
+  pou.progress.pins_ready = false;
+  pou.result = {};
+  pou.result_var = {};
+  pou.generic = pou.extensible = false;
+  pou.progress.body = Pou::Progress::Body::New;
+  pou.progress.used = true;
+  pou.instance.of = generic;
+  pou.unique_name = unique_name;
+  return pou;
+}
+
+}  // namespace
+
 PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> types_by_pin, TypeId result) {
   Symbols& symbols = context.symbols;
   Scopes& scopes = context.scopes;
@@ -191,26 +234,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   const Pou& generic = symbols.pou(generic_id);
   if (!generic.generic) return generic_id;
 
-  std::vector<Substitution> substitutions;
-  const auto substitute = [&](TypeId declared, TypeId actual) {
-    const types::TypeKind kind = context.types().kind(declared);
-    if (!types::TypeTable::isGeneric(kind) || !actual) return;
-    for (const Substitution& known : substitutions) {
-      if (known.generic == kind) return;  // a generic name means one type
-    }
-    substitutions.push_back({kind, actual});
-  };
-  size_t pin = 0;
-  for (const VarId id : generic.vars) {
-    const Var& var = symbols.var(id);
-    if (var.section != SectionKind::Input && var.section != SectionKind::InOut && var.section != SectionKind::Output) {
-      continue;
-    }
-    if (pin < types_by_pin.size()) substitute(var.type, types_by_pin[pin]);
-    ++pin;
-  }
-  if (generic.result) substitute(generic.result, result);
-
+  std::vector<Substitution> substitutions = substitutionsOf(context, generic, types_by_pin, result);
   std::string unique = toString(context, generic.unique_name) + "__";
   for (size_t i = 0; i < substitutions.size(); ++i) {
     if (i > 0) unique += '_';
@@ -226,20 +250,8 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
                               generic.library ? Dialect::Library : symbols.profile.dialect, symbols.diagnostics);
   for (const DeclId decl : symbols.tree.list(decls)) {
     if (symbols.tree.kind(decl) != DeclKind::Pou) continue;
-    Pou pou = generic;
-    pou.decl = decl;
-    pou.vars.clear();
-    pou.pins.clear();
-    pou.progress.pins_ready = false;
-    pou.result = {};
-    pou.result_var = {};
-    pou.generic = pou.extensible = false;
-    pou.progress.body = Pou::Progress::Body::New;
-    pou.progress.used = true;
-    pou.instance.of = generic_id;
-    pou.unique_name = unique_name;
     const PouId id{static_cast<uint32_t>(symbols.pous.size())};
-    symbols.pous.push_back(std::move(pou));
+    symbols.pous.push_back(instanceOf(symbols, generic_id, decl, unique_name));
     scopes.pous.emplace_back();
     scopes.pous.back().substitutions = std::move(substitutions);
     scopes.instances.insert(key, entity(id));

@@ -41,7 +41,7 @@ struct Initializer {
   bool plainLiteral(ExprId id, TypeId type) const {
     if (tree().kind(id) != ExprKind::Literal) return false;
     const LiteralExpr& literal = tree().as<LiteralExpr>(id);
-    if (literal.prefix || (literal.h.bits & kLiteralNegative) != 0) return false;
+    if (literal.prefix || literal.form.is_negative) return false;
     const TypeKind kind = context.types().kind(type);
     bool ok = false;
     if (literal.literal() == LiteralKind::Integer) {
@@ -90,44 +90,38 @@ struct Initializer {
     if (depth > 1000) return false;
     const ExprHeader& header = tree().expr(id);
     if (meaning(header).type == types::kError) return true;
-    switch (header.kind) {
-      case ExprKind::Literal: return true;
-      case ExprKind::Convert: return isStatic(tree().as<ConvertExpr>(id).operand, depth + 1);
-      case ExprKind::AddressOf: return true;
-      case ExprKind::Unary: return isStatic(tree().as<UnaryExpr>(id).operand, depth + 1);
-      case ExprKind::Binary:
-        return isStatic(tree().as<BinaryExpr>(id).left, depth + 1) &&
-               isStatic(tree().as<BinaryExpr>(id).right, depth + 1);
-      case ExprKind::Call: {
-        const CallExpr& node = tree().as<CallExpr>(id);
-        if (!meaning(node.h).call) return true;
-        const Call& call = context.symbols.call(meaning(node.h).call);
-        if (call.kind != CallKind::Function && call.kind != CallKind::Operator) return false;
-        for (const Binding& binding : call.bindings) {
-          if (binding.is_output || (binding.value && !isStatic(binding.value, depth + 1))) return false;
-        }
-        return true;
-      }
-      case ExprKind::Name:
-      case ExprKind::TypedName:
-      case ExprKind::Member: return evaluate(context, id).has_value() || isReadable(id, depth + 1);
-      case ExprKind::Error: return true;
-      case ExprKind::Index:
-      case ExprKind::Deref:
-      case ExprKind::BitAccess:
-      case ExprKind::Address: return isReadable(id, depth + 1);
-      case ExprKind::This:
-      case ExprKind::Super:
-      case ExprKind::Bound:
-      case ExprKind::New:
-      case ExprKind::Assign:
-      case ExprKind::AnyValue:
-      case ExprKind::Range:
-      case ExprKind::ArrayInit:
-      case ExprKind::Repeat:
-      case ExprKind::StructInit: return false;
+    const ExprKind kind = header.kind;
+    switch (shape(kind)) {
+      case ExprShape::Leaf:
+        if (kind == ExprKind::Literal || kind == ExprKind::Error) return true;
+        if (kind == ExprKind::Address) return isReadable(id, depth + 1);
+        return (kind == ExprKind::Name || kind == ExprKind::TypedName) && isKnown(id, depth);
+      case ExprShape::Step: return kind == ExprKind::Member ? isKnown(id, depth) : isReadable(id, depth + 1);
+      case ExprShape::Operation: return isStaticOperation(id, depth);
+      case ExprShape::Inserted:
+        return kind == ExprKind::AddressOf ||
+               (kind == ExprKind::Convert && isStatic(tree().as<ConvertExpr>(id).operand, depth + 1));
+      case ExprShape::Initializer: return false;
     }
     return false;
+  }
+
+  bool isKnown(ExprId id, uint32_t depth) { return evaluate(context, id).has_value() || isReadable(id, depth + 1); }
+
+  bool isStaticOperation(ExprId id, uint32_t depth) {
+    const ExprKind kind = tree().kind(id);
+    if (kind == ExprKind::Unary) return isStatic(tree().as<UnaryExpr>(id).operand, depth + 1);
+    if (kind == ExprKind::Binary)
+      return isStatic(tree().as<BinaryExpr>(id).left, depth + 1) &&
+             isStatic(tree().as<BinaryExpr>(id).right, depth + 1);
+    if (kind != ExprKind::Call) return false;
+    const Meaning& known = context.meaning(id);
+    if (!known.call) return true;
+    const Call& call = context.symbols.call(known.call);
+    if (call.kind != CallKind::Function && call.kind != CallKind::Operator) return false;
+    return std::all_of(call.bindings.begin(), call.bindings.end(), [&](const Binding& binding) {
+      return !binding.is_output && (!binding.value || isStatic(binding.value, depth + 1));
+    });
   }
 
   // Forbids initial values that are not known before the program runs. IEC 61131-3 ed. 3, 6.5.1.2. In codesys they may

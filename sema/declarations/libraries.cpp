@@ -19,9 +19,9 @@ bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 // Words, punctuation and pragmas of a source; comments, strings and numbers are skipped.
-class Scanner {
+class WordScanner {
  public:
-  explicit Scanner(std::string_view source) : source_(source) {}
+  explicit WordScanner(std::string_view source) : source_(source) {}
 
   enum class Kind : uint8_t { End, Word, Pragma, Punctuation };
   Kind next() {
@@ -90,24 +90,24 @@ class Scanner {
   size_t begin_ = 0, at_ = 0;
 };
 
-using Kind = Scanner::Kind;
+using Kind = WordScanner::Kind;
 
 // Skips everything up to one of the words; true when it was found.
-bool skipTo(Scanner& scan, std::string_view word) {
+bool skipTo(WordScanner& scan, std::string_view word) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Word && (scan.token()[0] | 32) == 'e' && scan.is(word)) return true;
   }
   return false;
 }
 
-void skipTo(Scanner& scan, char punctuation) {
+void skipTo(WordScanner& scan, char punctuation) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Punctuation && scan.isPunctuation(punctuation)) return;
   }
 }
 
 // The items of an enumeration; the opening parenthesis was read.
-void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
+void scanItems(WordScanner& scan, std::vector<std::string_view>& names) {
   uint32_t depth = 1;
   bool expected = true;
   for (Kind kind = scan.next(); kind != Kind::End && depth > 0; kind = scan.next()) {
@@ -121,7 +121,7 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
 }
 
 // `bare`: items of enumerations are names in their own right.
-void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
+void scanTypes(WordScanner& scan, std::vector<std::string_view>& names, bool bare) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind != Kind::Word) continue;
     if (scan.is("END_TYPE")) return;
@@ -144,7 +144,7 @@ void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
   }
 }
 
-void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
+void scanGlobals(WordScanner& scan, std::vector<std::string_view>& names) {
   bool in_name = true;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Punctuation) {
@@ -160,7 +160,7 @@ void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
 }
 
 // The last name of `Library.Base`. Returns the kind of the token after it.
-Kind scanBase(Scanner& scan, std::string_view& base) {
+Kind scanBase(WordScanner& scan, std::string_view& base) {
   Kind kind = scan.next();
   while (kind == Kind::Word) {
     base = scan.token();
@@ -172,8 +172,8 @@ Kind scanBase(Scanner& scan, std::string_view& base) {
 }
 
 // CODESYS 2.3 exports the actions of a POU after it.
-void skipActions(Scanner& scan) {
-  for (Scanner ahead = scan; ahead.next() == Kind::Word && ahead.is("ACTION") && skipTo(ahead, "END_ACTION");)
+void skipActions(WordScanner& scan) {
+  for (WordScanner ahead = scan; ahead.next() == Kind::Word && ahead.is("ACTION") && skipTo(ahead, "END_ACTION");)
     scan = ahead;
 }
 
@@ -190,7 +190,7 @@ uint8_t standardsOf(std::string_view pragma) {
 
 std::vector<IndexedBlock> indexLibrary(std::string_view source) {
   std::vector<IndexedBlock> blocks;
-  Scanner scan(source);
+  WordScanner scan(source);
   bool has_pragma = false, bare = true, is_configuration = false;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {

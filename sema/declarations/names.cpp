@@ -274,7 +274,7 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 
 bool isBroken(const Context& context, PouId id) {
   const DeclId decl = id ? context.symbols.pou(id).decl : DeclId{};
-  if (decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0) return true;
+  if (decl && context.tree().as<PouDecl>(decl).is_broken) return true;
   return id && (context.symbols.pou(id).object.unresolved || isBroken(context, context.symbols.pou(id).owner));
 }
 

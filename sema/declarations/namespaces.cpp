@@ -113,7 +113,7 @@ struct Collector {
       region = addRegion(context, region, around);
     }
     if (decl.path.empty()) return;  // reported by the parser
-    if ((decl.h.bits & kInternal) != 0) spaceAt(context, around).internal = true;
+    if (decl.is_internal) spaceAt(context, around).internal = true;
     collect(decl.decls, file, region, false);
   }
 };
@@ -157,15 +157,24 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
   return found;
 }
 
-// The namespace that declares an entity.
-uint32_t spaceAround(Context& context, Entity found) {
+// The namespace that declares an entity, and whether only that may use it.
+struct Declared {
+  uint32_t space = kNoLibrary;
+  bool is_internal = false;
+};
+Declared declaredIn(Context& context, Entity found) {
   switch (found.entityKind()) {
-    case EntityKind::Pou: return spaceOf(context, context.scopes.pous[found.index].region);
+    case EntityKind::Pou:
+      return {spaceOf(context, context.scopes.pous[found.index].region),
+              context.symbols.pous[found.index].access == AccessLevel::Internal};
     case EntityKind::Type: {
       const NamedType* named = context.scopes.named(TypeId{found.index});
-      return named == nullptr ? kNoLibrary : spaceOf(context, named->region);
+      return named == nullptr ? Declared{} : Declared{spaceOf(context, named->region), named->internal};
     }
-    case EntityKind::Namespace: return spaceAt(context, found.index).outer;
+    case EntityKind::Namespace: {
+      const Namespace& space = spaceAt(context, found.index);
+      return {space.outer, space.internal};
+    }
     case EntityKind::None:
     case EntityKind::Error:
     case EntityKind::Var:
@@ -174,26 +183,7 @@ uint32_t spaceAround(Context& context, Entity found) {
     case EntityKind::Property:
     case EntityKind::Program: break;
   }
-  return kNoLibrary;
-}
-
-bool isInternal(Context& context, Entity found) {
-  switch (found.entityKind()) {
-    case EntityKind::Pou: return context.symbols.pous[found.index].access == AccessLevel::Internal;
-    case EntityKind::Type: {
-      const NamedType* named = context.scopes.named(TypeId{found.index});
-      return named != nullptr && named->internal;
-    }
-    case EntityKind::Namespace: return spaceAt(context, found.index).internal;
-    case EntityKind::None:
-    case EntityKind::Error:
-    case EntityKind::Var:
-    case EntityKind::EnumValue:
-    case EntityKind::GlobalList:
-    case EntityKind::Property:
-    case EntityKind::Program: break;
-  }
-  return false;
+  return {};
 }
 
 // Forbids USING of a name that is not a namespace.   fails   USING Sytem.Strings;                E0404
@@ -351,9 +341,8 @@ bool isInside(const Context& context, RegionId declared) {
 }
 
 bool isVisible(Context& context, Entity found) {
-  if (!isInternal(context, found)) return true;
-  const uint32_t space = spaceAround(context, found);
-  if (space == kNoLibrary) return true;
+  const auto [space, is_internal] = declaredIn(context, found);
+  if (!is_internal || space == kNoLibrary) return true;
   for (uint32_t at = spaceOf(context, context.region); at != kNoLibrary; at = spaceAt(context, at).outer)
     if (at == space) return true;
   return false;
@@ -369,7 +358,7 @@ bool checkVisible(Context& context, Entity found, Loc loc) {
   if (isNamespace(found)) name = spaceAt(context, found.index).name;
   context.report(diag::NotAccessible, loc,
                  {context.names().string(name), "INTERNAL",
-                  context.names().string(spaceAt(context, spaceAround(context, found)).name)});
+                  context.names().string(spaceAt(context, declaredIn(context, found).space).name)});
   return false;
 }
 

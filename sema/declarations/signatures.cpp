@@ -49,50 +49,39 @@ ProjectSignatures::Resolved ProjectSignatures::memberOf(const Resolved& base, Na
 
 ProjectSignatures::Resolved ProjectSignatures::resolve(ExprId path) {
   const Tree& tree = context_.tree();
-  const types::TypeTable& table = context_.types();
-  switch (tree.kind(path)) {
-    case ExprKind::Name: return resolve(lookUp(context_, tree.as<NameExpr>(path)));
-    case ExprKind::Member: {
-      const MemberExpr& node = tree.as<MemberExpr>(path);
-      return memberOf(resolve(node.base), node.member);
-    }
-    case ExprKind::Index: {
-      const TypeId base = resolve(tree.as<IndexExpr>(path).base).type;
-      const TypeKind kind = base ? table.info(base).kind : TypeKind::None;
-      if (kind != TypeKind::Array && kind != TypeKind::Pointer) return {};
-      return {{}, plainType(table.info(base).base)};
-    }
-    case ExprKind::Deref: {
-      const TypeId base = resolve(tree.as<DerefExpr>(path).base).type;
-      if (!base || table.info(base).kind != TypeKind::Pointer) return {{}, base};
-      return {{}, plainType(table.info(base).base)};
-    }
-    case ExprKind::This:
-    case ExprKind::Super: {
-      PouId object = objectOf(context_);
-      if (object && tree.kind(path) == ExprKind::Super) object = context_.project.pou(object).base;
-      return {{}, object ? context_.project.pou(object).record : TypeId{}};
-    }
-    case ExprKind::Error:
-    case ExprKind::Literal:
-    case ExprKind::TypedName:
-    case ExprKind::New:
-    case ExprKind::Assign:
-    case ExprKind::BitAccess:
-    case ExprKind::Address:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Call:
-    case ExprKind::Range:
-    case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
-    case ExprKind::Convert:
-    case ExprKind::Bound:
-    case ExprKind::AnyValue:
-    case ExprKind::AddressOf: break;
+  const ExprKind kind = tree.kind(path);
+  switch (shape(kind)) {
+    case ExprShape::Leaf:
+      if (kind == ExprKind::Name) return resolve(lookUp(context_, tree.as<NameExpr>(path)));
+      return kind == ExprKind::This || kind == ExprKind::Super ? ownObject(kind) : Resolved{};
+    case ExprShape::Step: return resolveStep(path);
+    case ExprShape::Operation:
+    case ExprShape::Initializer:
+    case ExprShape::Inserted: break;
   }
   return {};
+}
+
+ProjectSignatures::Resolved ProjectSignatures::ownObject(ExprKind kind) {
+  PouId object = objectOf(context_);
+  if (object && kind == ExprKind::Super) object = context_.project.pou(object).base;
+  return {{}, object ? context_.project.pou(object).record : TypeId{}};
+}
+
+ProjectSignatures::Resolved ProjectSignatures::resolveStep(ExprId path) {
+  const Tree& tree = context_.tree();
+  const types::TypeTable& table = context_.types();
+  const ExprKind kind = tree.kind(path);
+  if (kind == ExprKind::BitAccess) return {};
+  if (kind == ExprKind::Member) {
+    const MemberExpr& node = tree.as<MemberExpr>(path);
+    return memberOf(resolve(node.base), node.member);
+  }
+  const TypeId base = resolve(tree.base(path)).type;
+  const TypeKind of = base ? table.info(base).kind : TypeKind::None;
+  if (of == TypeKind::Pointer || (of == TypeKind::Array && kind == ExprKind::Index))
+    return {{}, plainType(table.info(base).base)};
+  return kind == ExprKind::Deref ? Resolved{{}, base} : Resolved{};
 }
 
 // The declared type of the result, if it is a name that means the same everywhere.

@@ -29,6 +29,8 @@ class ProjectSignatures final : public Signatures {
     TypeId type;
   };
   Resolved resolve(ExprId path);
+  Resolved resolveStep(ExprId path);
+  Resolved ownObject(ExprKind kind);  // of THIS or SUPER
   Resolved resolve(Entity entity);
   Resolved memberOf(const Resolved& base, NameId member);
   Signature signatureOf(const Resolved& resolved);

@@ -40,8 +40,6 @@ constexpr int64_t kMaxStringLength = 1 << 20;
 
 // Flags in TypeExprHeader::bits.
 
-std::string toString(int64_t number) { return std::to_string(number); }
-
 // TwinCAT reaches the types of its type system, which libraries and the system declare, by the namespace Global too.
 bool isGlobalNamespace(Context& context, NameId name) {
   return context.profile().global_namespace && sameIdentifier(context.names().string(name), "Global") &&
@@ -198,7 +196,7 @@ TypeId resolveString(Context& context, TypeExprId id) {
   const int64_t least = context.profile().empty_strings ? 0 : 1;  // CODESYS knows STRING(0), which holds '' alone
   if (*length < least || *length > kMaxStringLength) {
     context.report(diag::StringLength, context.tree().begin(expr.length),
-                   {toString(*length), toString(least), toString(kMaxStringLength)});
+                   {std::to_string(*length), std::to_string(least), std::to_string(kMaxStringLength)});
     return types::kError;
   }
   const auto capacity = static_cast<uint32_t>(*length);
@@ -232,14 +230,16 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     if (!low || !high) {
       ok = false;
     } else if (*low > *high && (!context.profile().empty_arrays || *low - 1 != *high)) {
-      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {toString(*low), toString(*high)});
+      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low),
+                     {std::to_string(*low), std::to_string(*high)});
       ok = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
       context.report(diag::ArrayBoundOutside, context.tree().begin(bound.low));
       ok = false;
     } else {
       if (*low > *high)
-        context.report(diag::EmptyArray, context.tree().begin(bound.low), {toString(*low), toString(*high)});
+        context.report(diag::EmptyArray, context.tree().begin(bound.low),
+                       {std::to_string(*low), std::to_string(*high)});
       dimensions.push_back({*low, *high});
     }
   }
@@ -266,7 +266,7 @@ TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
 bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
   const types::Value value{types::idOf(TypeKind::LInt), static_cast<uint64_t>(number)};
   if (!types::convert(context.types(), value, base).overflow) return true;
-  context.report(diag::ValueOutOfType, loc, {toString(number), context.types().toString(base)});
+  context.report(diag::ValueOutOfType, loc, {std::to_string(number), context.types().toString(base)});
   return false;
 }
 
@@ -283,7 +283,8 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
          fits(context, base, *high, context.tree().begin(expr.high));
   }
   if (ok && *low > *high) {
-    context.report(diag::SubrangeReversed, context.tree().begin(expr.low), {toString(*low), toString(*high)});
+    context.report(diag::SubrangeReversed, context.tree().begin(expr.low),
+                   {std::to_string(*low), std::to_string(*high)});
     ok = false;
   }
   if (!ok) {  // its users stay silent

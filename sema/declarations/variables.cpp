@@ -84,7 +84,7 @@ Storage storageOf(const Context& context, SectionKind section, PouId pou, const 
   return Storage::Field;
 }
 
-Context contextOf(Context& context, VarId id) {
+Context contextAt(Context& context, VarId id) {
   const Var& var = context.symbols.var(id);
   if (var.pou) return atPou(context, var.pou);
   if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
@@ -136,11 +136,11 @@ Var describeVar(Context& context, DeclId decl_id, const SectionDecl& section, Po
   var.edge = decl.edge;
   // TwinCAT accepts VAR_INPUT CONSTANT, but the input can be set, and written in its block.
   const bool settable = section.section == SectionKind::Input && context.profile().settable_constant_inputs;
-  var.constant = (section.h.bits & kConstant) != 0 && !settable;
-  var.keeping.persistent = (section.h.bits & kPersistent) != 0;
-  var.keeping.retain = (section.h.bits & kRetain) != 0 || var.keeping.persistent;
-  var.keeping.non_retain = (section.h.bits & kNonRetain) != 0;
-  var.generic = (section.h.bits & kGeneric) != 0;
+  var.constant = section.qualifiers.constant && !settable;
+  var.keeping.persistent = section.qualifiers.persistent;
+  var.keeping.retain = section.qualifiers.isKept();
+  var.keeping.non_retain = section.qualifiers.non_retain;
+  var.generic = section.qualifiers.generic;
   var.pou = pou;
   var.list = list;
   if (pou)
@@ -424,7 +424,7 @@ bool checkDepth(Context& context, VarId id) {
 void ensureVarType(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
   if (symbols.var(id).type || !symbols.var(id).decl) return;
-  Context there = contextOf(context, id);
+  Context there = contextAt(context, id);
   const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (!checkDepth(context, id)) {
     symbols.var(id).type = types::kError;
@@ -542,7 +542,7 @@ void ensureInitialValue(Context& context, VarId id) {
   if (state == State::Done) return;
   if (var.section == SectionKind::External && var.external && !decl.init) return;
   if (state == State::Busy) return reportCycle(context, id);
-  Context there = contextOf(context, id);
+  Context there = contextAt(context, id);
   ensureVarType(context, id);
   if (!checkDepth(context, id)) return setUnknown(context, id);
   context.scopes.initial_values[decl_id] = State::Busy;
@@ -591,8 +591,8 @@ static void declareHidden(Context& context, PouId id) {
   const auto declare = [&](const PouDecl& of, std::string_view prefix) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
-    const DeclId section =
-        diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, signatures, of, kind, prefix);
+    const DeclId section = diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, signatures,
+                                                    context.project.network_variables, of, kind, prefix);
     if (section) added.push_back(section);
   };
   declare(decl, {});
@@ -653,16 +653,16 @@ static bool keepsEno(Context& context, VarId id) {
 //   passes  VAR RETAIN n : INT; END_VAR      fails  VAR_TEMP RETAIN n : INT; END_VAR      E0372
 void checkModifiers(Context& context, const SectionDecl& section) {
   if (context.library) return;
-  constexpr uint8_t kBoth = kRetain | kNonRetain;
-  if ((section.h.bits & kBoth) == kBoth) {
+  const Qualifiers& written = section.qualifiers;
+  if (written.retain && written.non_retain) {
     context.report(diag::RetainTwice, section.h.loc);
     return;
   }
   const bool lives = section.section == SectionKind::Stat || section.section == SectionKind::Inst ||
                      section.section == SectionKind::External;
   const bool of_call = context.pou && isFunction(context.symbols.pou(context.pou).kind) && !lives;
-  if (of_call && (section.h.bits & (kRetain | kPersistent)) != 0) {
-    const std::string_view word = (section.h.bits & kRetain) != 0 ? "RETAIN" : "PERSISTENT";
+  if (of_call && written.isKept()) {
+    const std::string_view word = written.retain ? "RETAIN" : "PERSISTENT";
     if (!context.profile().retain_in_functions)
       context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
     else
@@ -670,8 +670,8 @@ void checkModifiers(Context& context, const SectionDecl& section) {
     return;
   }
   const LanguageProfile& profile = context.profile();
-  const bool retain = (section.h.bits & (kRetain | kPersistent)) != 0 && !profile.retain_without_memory;
-  const bool constant = (section.h.bits & kConstant) != 0;
+  const bool retain = written.isKept() && !profile.retain_without_memory;
+  const bool constant = written.constant;
   const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
   if (retain && constant)
     context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
@@ -700,7 +700,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
   checkModifiers(there, section);
-  const bool of_chart = (section.h.bits & kOfChart) != 0;
+  const bool of_chart = section.maker == SectionMaker::Chart;
   const size_t first_var = symbols.vars.size();
   for (const DeclId var : there.tree().list(section.vars)) {
     if (section.section == SectionKind::Stat) {

@@ -169,6 +169,25 @@ Outcome integerPower(const TypeTable& table, const Value& left, const Value& rig
   return out;
 }
 
+// A product of 64 bits, which Int128 may not hold.
+Outcome multiplyLong(const TypeTable& table, const Value& left, const Value& right, TypeKind kind) {
+  Outcome out;
+  out.value = {left.type, wrap(table, kind, left.bits * right.bits)};
+  if (table.isSigned(kind)) {
+    int64_t ignored;
+    out.overflow = __builtin_mul_overflow(left.asSigned(), right.asSigned(), &ignored);
+  } else {
+    uint64_t ignored;
+    out.overflow = __builtin_mul_overflow(left.bits, right.bits, &ignored);
+  }
+  return out;
+}
+
+uint64_t rotatedLeft(uint64_t bits, uint64_t by, uint32_t width) {
+  const auto n = static_cast<uint32_t>(by % width);
+  return n == 0 ? bits : bits << n | bits >> (width - n);
+}
+
 Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Value& right, TypeKind kind) {
   const uint32_t width = TypeTable::bitWidth(kind);
   const uint64_t mask = width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
@@ -181,18 +200,7 @@ Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Val
   switch (op) {
     case Op::Add: return ofExact(table, left.type, kind, a + b);
     case Op::Sub: return ofExact(table, left.type, kind, a - b);
-    case Op::Mul: {
-      if (width < 64) return ofExact(table, left.type, kind, a * b);
-      Outcome out = ofBits(left.bits * right.bits);
-      if (table.isSigned(kind)) {
-        int64_t ignored;
-        out.overflow = __builtin_mul_overflow(left.asSigned(), right.asSigned(), &ignored);
-      } else {
-        uint64_t ignored;
-        out.overflow = __builtin_mul_overflow(left.bits, right.bits, &ignored);
-      }
-      return out;
-    }
+    case Op::Mul: return width < 64 ? ofExact(table, left.type, kind, a * b) : multiplyLong(table, left, right, kind);
     case Op::Div:
     case Op::Mod: {
       if (b == 0) {
@@ -212,14 +220,8 @@ Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Val
     case Op::Shl: return ofBits(right.bits >= width ? 0 : left.bits << right.bits);
     case Op::Shr: return ofBits(right.bits >= width ? 0 : (left.bits & mask) >> right.bits);
     case Op::Sar: return ofBits(static_cast<uint64_t>(a >> std::min<uint64_t>(right.bits, 64)));
-    case Op::Rol:
-    case Op::Ror: {
-      const uint32_t n = static_cast<uint32_t>(right.bits % width);
-      const uint32_t left_by = op == Op::Rol ? n : width - n;
-      if (n == 0) return ofBits(left.bits);
-      const uint64_t bits = left.bits & mask;
-      return ofBits(bits << left_by | bits >> (width - left_by));
-    }
+    case Op::Rol: return ofBits(rotatedLeft(left.bits & mask, right.bits, width));
+    case Op::Ror: return ofBits(rotatedLeft(left.bits & mask, width - right.bits % width, width));
     case Op::Eq:
     case Op::Ne:
     case Op::Lt:

@@ -31,6 +31,52 @@ void TypeTable::place(TypeId id, uint32_t align) {
     if (!field.by_reference) place(field.type, align);
 }
 
+bool TypeTable::layoutArray(TypeInfo& info) {
+  const bool fits = layout(info.base);
+  const TypeInfo& element = types_[info.base.index];
+  info.align = element.align;
+  info.least_align = element.least_align;
+  info.size = info.dimensions.empty() ? 0 : element.size;
+  for (const Dimension& dimension : info.dimensions) {
+    const uint64_t count = std::max<uint64_t>(dimension.count(), 1);  // C++ has no array without elements
+    if (info.size > kMaxSize / count) return false;
+    info.size *= count;
+  }
+  return fits;
+}
+
+bool TypeTable::layoutRecord(TypeInfo& info) {
+  bool fits = true;
+  uint64_t end = 0;
+  uint32_t align = 1;
+  for (Field& field : info.fields) {
+    uint64_t size = pointer_size_;
+    if (!field.by_reference) {
+      fits = layout(field.type) && fits;
+      size = types_[field.type.index].size;
+      info.least_align = std::max(info.least_align, types_[field.type.index].least_align);
+    }
+    const uint32_t field_align = fieldAlign(field);
+    const uint64_t offset = info.record_kind == RecordKind::Union ? field.given_offset : alignUp(end, field_align);
+    if (offset + size >= kMaxSize) {
+      fits = false;
+      break;
+    }
+    field.offset = static_cast<uint32_t>(offset);
+    end = std::max(end, offset + size);
+    align = std::max(align, field_align);
+  }
+  info.align = info.placed_align = align;
+  info.size = end == 0 ? align : alignUp(end, align);
+  if (info.record_kind != RecordKind::Struct && info.record_kind != RecordKind::Union) info.least_align = align;
+  for (const Field& field : info.fields) {
+    if (field.pack == 0 || (!field.by_reference && fieldAlign(field) == types_[field.type.index].align)) continue;
+    has_misaligned = true;
+    if (!field.by_reference) place(field.type, fieldAlign(field));
+  }
+  return fits;
+}
+
 bool TypeTable::layout(TypeId id) {
   TypeInfo& info = types_[id.index];  // types never move
   if (info.laid_out) return info.size < kMaxSize;
@@ -44,53 +90,13 @@ bool TypeTable::layout(TypeId id) {
     info.align = types_[info.base.index].align;
     info.least_align = types_[info.base.index].least_align;
   } else if (info.kind == TypeKind::Array) {
-    fits = layout(info.base);
-    const TypeInfo& element = types_[info.base.index];
-    info.align = element.align;
-    info.least_align = element.least_align;
-    info.size = info.dimensions.empty() ? 0 : element.size;
-    for (const Dimension& dimension : info.dimensions) {
-      const uint64_t count = std::max<uint64_t>(dimension.count(), 1);  // C++ has no array without elements
-      if (info.size > kMaxSize / count) {
-        fits = false;
-        break;
-      }
-      info.size *= count;
-    }
+    fits = layoutArray(info);
   } else if (info.kind == TypeKind::Record) {
-    uint64_t end = 0;
-    uint32_t align = 1;
-    for (Field& field : info.fields) {
-      uint64_t size = pointer_size_;
-      if (!field.by_reference) {
-        fits = layout(field.type) && fits;
-        size = types_[field.type.index].size;
-        info.least_align = std::max(info.least_align, types_[field.type.index].least_align);
-      }
-      const uint32_t field_align = fieldAlign(field);
-      const uint64_t offset = info.record_kind == RecordKind::Union ? field.given_offset : alignUp(end, field_align);
-      if (offset + size >= kMaxSize) {
-        fits = false;
-        break;
-      }
-      field.offset = static_cast<uint32_t>(offset);
-      if (offset + size > end) end = offset + size;
-      if (field_align > align) align = field_align;
-    }
-    info.align = info.placed_align = align;
-    info.size = end == 0 ? align : alignUp(end, align);
-    if (info.record_kind != RecordKind::Struct && info.record_kind != RecordKind::Union) info.least_align = align;
-    for (const Field& field : info.fields) {
-      if (field.pack == 0 || (!field.by_reference && fieldAlign(field) == types_[field.type.index].align)) continue;
-      has_misaligned = true;
-      if (!field.by_reference) place(field.type, fieldAlign(field));
-    }
+    fits = layoutRecord(info);
   }  // scalars and strings are laid out from the start; literal and generic types have no memory
-  if (!fits || info.size >= kMaxSize) {
-    info.size = kMaxSize;
-    return false;
-  }
-  return true;
+  if (fits && info.size < kMaxSize) return true;
+  info.size = kMaxSize;
+  return false;
 }
 
 }  // namespace rung::types

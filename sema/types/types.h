@@ -242,6 +242,8 @@ class TypeTable {
 
  private:
   void place(TypeId id, uint32_t align);
+  bool layoutArray(TypeInfo& info);
+  bool layoutRecord(TypeInfo& info);
   // The id is that of an elementary or generic type, which is its kind. Most types are: they need no look-up.
   static bool isKind(TypeId id) { return id.index < static_cast<uint32_t>(TypeKind::Enum); }
   TypeId plainOfNamed(TypeId id) const;

@@ -257,7 +257,7 @@ class Productions {
   }
   bool isPlainNumber(ExprId id) const {
     if (id && tree_.kind(id) == ExprKind::Unary) return isPlainNumber(tree_.as<UnaryExpr>(id).operand);
-    return isNumber(id) && !tree_.as<LiteralExpr>(id).prefix && (tree_.expr(id).bits & kLiteralBased) == 0;
+    return isNumber(id) && !tree_.as<LiteralExpr>(id).prefix && !tree_.as<LiteralExpr>(id).form.is_based;
   }
 
   void check(TypeExprId id) {
@@ -360,7 +360,7 @@ class Productions {
     if (pou.pou_kind == PouKind::Function && (kind == SectionKind::External || kind == SectionKind::Temp))
       of3("VAR_EXTERNAL and VAR_TEMP of functions are");
     if (kind == SectionKind::Input || kind == SectionKind::Output || kind == SectionKind::InOut)
-      if ((section.h.bits & kConstant) != 0) ofNone("CONSTANT of an input, output or in-out is");
+      if (section.qualifiers.constant) ofNone("CONSTANT of an input, output or in-out is");
     for (const DeclId v : tree_.list(section.vars)) {
       if (tree_.kind(v) != DeclKind::Var) continue;
       const auto& var = tree_.as<VarDecl>(v);
@@ -505,7 +505,7 @@ class Productions {
   void checkCall(ExprId id) {
     if (!id || tree_.kind(id) != ExprKind::Call) return;
     const auto& call = tree_.as<CallExpr>(id);
-    if ((call.h.bits & kBareCall) != 0) ofNone("a call without parentheses is");
+    if (call.is_bare) ofNone("a call without parentheses is");
     if (tree_.kind(call.callee) != ExprKind::Name) return of3("a call of anything but an identifier is");
     if (functions_.count(key(tree_.as<NameExpr>(call.callee).name)) != 0) of3("a function called as a statement is");
   }

@@ -51,7 +51,7 @@ void Declarations::noteGlobals(DeclId id, size_t section, const std::vector<Edit
       const std::string name = source_.spelling(one.name), key = upper(name);
       const auto is_same = [&](const Global& global) { return global.key == key; };
       if (std::none_of(globals.begin(), globals.end(), is_same))
-        globals.push_back({key, name, written, (declared.h.bits & kConstant) != 0, section});
+        globals.push_back({key, name, written, declared.qualifiers.constant, section});
     }
   }
 }

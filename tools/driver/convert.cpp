@@ -90,7 +90,8 @@ std::vector<std::pair<Loc, std::string>> drawnComments(const Tree& tree, const D
 template <class Visit>
 void forEachSectionOfChart(const sema::Project& project, const PouDecl& decl, const Visit& visit) {
   for (const DeclId id : project.madeSections(decl))
-    if (const SectionDecl& section = project.tree.as<SectionDecl>(id); (section.h.bits & kOfChart) != 0) visit(section);
+    if (const SectionDecl& section = project.tree.as<SectionDecl>(id); section.maker == SectionMaker::Chart)
+      visit(section);
 }
 
 std::string_view wordOf(SectionKind kind) {
@@ -245,7 +246,7 @@ void Converter::printHidden(sema::PouId id) {
   std::string lines;
   for (const DeclId s : compilation_.project->madeSections(decl)) {
     const SectionDecl& section = tree.as<SectionDecl>(s);
-    if ((section.h.bits & kHidden) == 0) continue;
+    if (section.maker != SectionMaker::Networks) continue;
     for (const DeclId v : tree.list(section.vars)) {
       const VarDecl& var = tree.as<VarDecl>(v);
       const NameId name = tree.list(var.names)[0].name;

@@ -100,7 +100,7 @@ int listLibraries(const ProjectOptions& project, Sink& sink) {
 }
 
 // The header of a declaration: everything up to the body, with the doc comment above it.
-std::string header(std::string_view text, const sema::IndexedBlock& block) {
+std::string headerOf(std::string_view text, const sema::IndexedBlock& block) {
   size_t begin = block.begin;
   for (;;) {  // `///` lines above
     size_t line_end = text.rfind('\n', begin == 0 ? 0 : begin - 1);
@@ -140,7 +140,7 @@ int listSignature(const ProjectOptions& project, const std::string& signature, S
     for (std::string_view name : block.names) {
       known.push_back(name);
       if (!sameIdentifier(name, signature)) continue;
-      const std::string declaration = header(text, block);
+      const std::string declaration = headerOf(text, block);
       list.add("// " + std::string(where) + "\n" + declaration,
                JsonRow().text("file", where).text("declaration", declaration));
     }

@@ -91,7 +91,7 @@ void addHeaders(Hash& hash, const std::string& folder) {
   }
 }
 
-struct Unit {
+struct CompileUnit {
   std::string source;  // path below the work folder
   std::string key, object;
   const OutputFile* user_file = nullptr;  // contains a body in C++ that the user wrote
@@ -126,8 +126,8 @@ class Builder {
     tool_key_ = tool.hex();
 
     findUnits();
-    std::vector<Unit*> missing;
-    for (Unit& unit : units_)
+    std::vector<CompileUnit*> missing;
+    for (CompileUnit& unit : units_)
       if (!cache_.has(unit.object)) missing.push_back(&unit);
     if (request_.keep && !writeFiles()) return false;
     if (missing.empty()) return true;
@@ -145,7 +145,7 @@ class Builder {
     process.arguments.insert(process.arguments.end(), user_flags_.begin(), user_flags_.end());
     process.arguments.push_back("-o");
     process.arguments.push_back(out);
-    for (const Unit& unit : units_) process.arguments.push_back(unit.object);
+    for (const CompileUnit& unit : units_) process.arguments.push_back(unit.object);
     process.arguments.insert(process.arguments.end(), after.begin(), after.end());
     for (std::string& flag : splitFlags(std::getenv("LDFLAGS"))) process.arguments.push_back(std::move(flag));
     process.log = work_ + "/link.log";
@@ -161,7 +161,7 @@ class Builder {
     process.arguments.push_back("rcsD");
     process.arguments.push_back(out);
     // ar keeps base names only: the units' own names instead of the cache's, so `ar t` shows readable names.
-    for (const Unit& unit : units_) {
+    for (const CompileUnit& unit : units_) {
       std::string name = work_ + "/" + baseName(unit.source) + ".o";
       if (::link(unit.object.c_str(), name.c_str()) != 0 && symlink(unit.object.c_str(), name.c_str()) != 0)
         return fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
@@ -187,9 +187,9 @@ class Builder {
     Hash hash;
     hash.add(tool_key_);
     hash.add(text);
-    Unit unit{"rung_main.cpp", hash.hex(), {}};
+    CompileUnit unit{"rung_main.cpp", hash.hex(), {}};
     unit.object = cache_.path(unit.key, "o");
-    std::vector<Unit*> missing;
+    std::vector<CompileUnit*> missing;
     if (!cache_.has(unit.object)) missing.push_back(&unit);
     if (std::string error = writeFile(work_ + "/rung_main.cpp", text); !error.empty()) return fail(kUsage, error);
     if (!missing.empty() && !compileUnits(missing)) return false;
@@ -200,7 +200,7 @@ class Builder {
   std::string linkKey() const {
     Hash hash;
     hash.add(tool_key_);
-    for (const Unit& unit : units_) hash.add(unit.key);
+    for (const CompileUnit& unit : units_) hash.add(unit.key);
     for (const std::string& flag : splitFlags(std::getenv("LDFLAGS"))) hash.add(flag);
     addFile(hash, installation().runtime_library);
     return hash.hex();
@@ -308,7 +308,7 @@ class Builder {
       units_.push_back({"batch_" + std::to_string(i) + ".cpp", key.hex(), {}});
       batch_files_.push_back({units_.back().source, batch_source[i]});
     }
-    for (Unit& unit : units_) unit.object = cache_.path(unit.key, "o");
+    for (CompileUnit& unit : units_) unit.object = cache_.path(unit.key, "o");
   }
 
   bool writeFiles() {
@@ -334,7 +334,7 @@ class Builder {
     return ok || fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
   }
 
-  bool compileUnits(const std::vector<Unit*>& missing) {
+  bool compileUnits(const std::vector<CompileUnit*>& missing) {
     const std::string header = precompiled(missing.size());
     std::vector<Process> processes;
     for (size_t i = 0; i < missing.size(); i++) {
@@ -418,7 +418,7 @@ class Builder {
   }
 
   // `units`: the unit that each process compiles.
-  bool run(std::vector<Process>& processes, const char* label, const std::vector<Unit*>* units = nullptr) {
+  bool run(std::vector<Process>& processes, const char* label, const std::vector<CompileUnit*>* units = nullptr) {
     uint32_t jobs = request_.jobs != 0 ? request_.jobs : processorCount();
     const Process* failed = runAll(processes, jobs, label, sink_);
     if (failed == nullptr) return true;
@@ -439,7 +439,7 @@ class Builder {
                                "cannot execute", "Cannot allocate memory", "Killed signal", "Disk quota"})
       if (log.content.find(phrase) != std::string::npos || failed->exit_code > 128)
         return fail(kUsage, "`" + failed->arguments[0] + "` failed while " + label + ":\n" + first);
-    if (const Unit* unit = units == nullptr ? nullptr : (*units)[static_cast<size_t>(failed - processes.data())];
+    if (const CompileUnit* unit = units == nullptr ? nullptr : (*units)[static_cast<size_t>(failed - processes.data())];
         unit != nullptr && unit->user_file != nullptr) {
       result_.refusals = refusalsOf(*unit->user_file, log.content);
       first.pop_back();
@@ -458,7 +458,7 @@ class Builder {
   Sink& sink_;
   std::vector<std::string> compiler_, user_flags_, flags_;
   std::string tool_key_, work_;
-  std::vector<Unit> units_;
+  std::vector<CompileUnit> units_;
   std::vector<OutputFile> batch_files_;
   std::unordered_map<std::string, std::string> closures_, contents_;
   std::unordered_map<std::string, std::vector<std::string>> includes_;

@@ -1,61 +1,82 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Looks for names that two files of one CMake target declare in unnamed namespaces: a unity build, which
-tools/quickstart.sh makes, compiles such files together. Functions may share a name when their parameters differ.
+"""Looks for names in unnamed namespaces that a unity build, which tools/quickstart.sh makes, would confuse, as it compiles
+the files of one CMake target together: two files of a target declare the same name, functions with the same parameters; or
+one declares a name that a header in an enclosing namespace has, and hides it from the unnamed namespaces of all files.
 Called by checks/private_names.sh."""
 import collections
+import functools
+import os
 import re
 import sys
 
-from sources import code_only, read, tracked
+from sources import ROOT, code_only, read, tracked
 
 TEMPLATE = re.compile(r"template <(?:[^<>]|<[^<>]*>)*> ?(?:requires .*?\) )?")
 TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)")
 FUNCTION = re.compile(r"(?:[\w:<>,*&\[\]]+ )+?[*&]*(\w+)\((.*)\)")
 VARIABLE = re.compile(r"(?:(?:constexpr|const|static|inline|thread_local|[\w:<>,*&]+) )+[*&]*([A-Za-z_]\w*)(?:\[[^\]]*\])* ?(?:=|\{|$)")
+NAMESPACE = re.compile(r"(?:inline )?namespace ?([\w:]*)")
+LINKAGE = re.compile(r"extern")
+DEFAULT = re.compile(r" = [^,]*")
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 HOST = ("stdlib/runtime/host/", "stdlib/nct/control/")  # one target
+WHOLE = ("frontend/import", "frontend/source", "codegen", "sema")  # targets with the folders below them
+INCLUDE_FOLDERS = ("", "stdlib/runtime/include", "stdlib/runtime")
+
+# `scope` are the namespaces around it, "" is an unnamed one; `parameters` is None for types and variables.
+Declaration = collections.namedtuple("Declaration", "scope name parameters")
 
 
 def target_of(path):
     """The folder whose sources are compiled into one target."""
-    parts = path.split("/")
-    if parts[0] == "frontend":
-        return "/".join(parts[:2])
-    if parts[0] == "sema":
-        return "sema/types" if parts[1] == "types" else "sema"
-    if parts[0] == "ir":
-        return "/".join(parts[:2]) if parts[1] in ("lower", "interpreter") else "ir"
-    return "/".join(parts[:-1])
+    if path.startswith("sema/types/"):
+        return "sema/types"
+    for folder in WHOLE:
+        if path.startswith(folder + "/"):
+            return folder
+    return os.path.dirname(path)
 
 
-def private_declarations(source):
-    """(name, parameters) of what stands directly in an unnamed namespace; parameters is None of types and variables."""
-    source = code_only(source)
-    for opening in re.finditer(r"\bnamespace\s*\{", source):
-        at, depth, begin = opening.end(), 0, opening.end()
-        while at < len(source) and not (depth == 0 and source[at] == "}"):
-            if source[at] == "{" or source[at] == ";":
-                if depth == 0:
-                    yield from declaration(" ".join(source[begin:at].split()))
-                    begin = at + 1
-                depth += source[at] == "{"
-            elif source[at] == "}":
+@functools.cache
+def declarations(path):
+    """What stands directly in a namespace of the file."""
+    source = code_only(read(path))
+    found, scope = [], []
+    begin, depth = 0, 0  # depth counts the braces of a body; namespaces are in `scope`
+    for mark in re.finditer(r"[{};]", source):
+        if mark.group() == "}":
+            if depth > 0:
                 depth -= 1
-                begin = at + 1
-            at += 1
+            elif scope:
+                scope.pop()
+            begin = mark.end()
+            continue
+        if depth == 0:
+            head = " ".join(source[begin:mark.start()].split())
+            begin = mark.end()
+            opened = NAMESPACE.fullmatch(head)
+            if mark.group() == "{" and (opened or LINKAGE.fullmatch(head)):
+                scope.append(opened.group(1).split("::") if opened else [])
+                continue
+            around = tuple(name for names in scope for name in names)
+            found += [Declaration(around, name, parameters) for name, parameters in declared(head, mark.group())]
+        depth += mark.group() == "{"
+    return found
 
 
-def declaration(head):
+def declared(head, end):
+    """(name, parameters) of a declaration that `end` follows."""
     head = TEMPLATE.sub("", re.sub(r"\[\[\w+\]\] ?", "", head)).strip()
     before_value = head.split("=")[0]
-    if head.startswith("namespace "):
+    if NAMESPACE.match(head):
         return
     if match := TYPE.match(head):
-        if "(" not in before_value:
+        if "(" not in before_value and end == "{":
             yield match.group(1), None
     elif match := re.match(r"using (\w+) =", head):
         yield match.group(1), None
-    elif match := FUNCTION.match(before_value):
+    elif match := FUNCTION.match(DEFAULT.sub("", head)):
         yield match.group(1), re.sub(r" ?\w+(?= ?(?:,|$))", "", match.group(2))
     elif match := VARIABLE.match(head):
         yield match.group(1), None
@@ -63,22 +84,71 @@ def declaration(head):
             yield further.group(1), None
 
 
+@functools.cache
+def included(path):
+    """The project's headers that a file includes itself."""
+    folders = (os.path.dirname(path), *INCLUDE_FOLDERS)
+    candidates = ([os.path.join(folder, header) for folder in folders] for header in INCLUDE.findall(read(path)))
+    return [next(c for c in some if is_file(c)) for some in candidates if any(map(is_file, some))]
+
+
+@functools.cache
+def is_file(path):
+    return os.path.isfile(os.path.join(ROOT, path))
+
+
+def headers_of(paths):
+    """All headers that these files include, directly or not."""
+    seen, pending = set(), list(paths)
+    while pending:
+        for header in included(pending.pop()):
+            if header not in seen:
+                seen.add(header)
+                pending.append(header)
+    return seen
+
+
+def repeated(files):
+    """Names that unnamed namespaces of two of these files declare."""
+    places = collections.defaultdict(set)
+    for path in files:
+        for declaration in declarations(path):
+            if "" in declaration.scope:
+                places[declaration.scope, declaration.name].add((path, declaration.parameters))
+    for (_, name), found in sorted(places.items()):
+        kinds = {parameters for _, parameters in found}
+        clash = None in kinds and len({path for path, _ in found}) > 1
+        if clash or any(len({path for path, p in found if p == parameters}) > 1 for parameters in kinds):
+            yield f"`{name}` is declared in the unnamed namespaces of {', '.join(sorted({path for path, _ in found}))}"
+
+
+def hiding(files):
+    """Names in unnamed namespaces of these files that hide one of a header that any of them includes."""
+    public = collections.defaultdict(list)
+    for header in headers_of(files):
+        for declaration in declarations(header):
+            if "" not in declaration.scope:
+                public[declaration.name].append((header, declaration))
+    for path in files:
+        for private in declarations(path):
+            if "" not in private.scope:
+                continue
+            around = private.scope[:private.scope.index("")]
+            for header, other in public[private.name]:
+                if other.scope == around[:len(other.scope)]:
+                    yield f"{path}: `{private.name}` in its unnamed namespace hides that of {header}"
+
+
 def main():
-    names = collections.defaultdict(set)
+    targets = collections.defaultdict(list)
     for path in tracked(".cpp"):
-        if path.startswith(("tests/", "stdlib/")) and not path.startswith(HOST):
-            continue  # programs of their own, and a library of which products link single files
-        for name, parameters in private_declarations(read(path)):
-            names[target_of(path), name].add((path, parameters))
-    bad = 0
-    for (_, name), places in sorted(names.items()):
-        kinds = collections.Counter(parameters for _, parameters in places)
-        clash = None in kinds and len({path for path, _ in places}) > 1
-        clash = clash or any(len({path for path, p in places if p == parameters}) > 1 for parameters in kinds)
-        if clash:
-            print(f"`{name}` is declared in the unnamed namespaces of {', '.join(sorted({path for path, _ in places}))}")
-            bad = 1
-    return bad
+        if path.startswith(HOST):
+            targets["host"].append(path)
+        elif not path.startswith(("tests/", "stdlib/")):  # programs of their own, and a library that is linked file by file
+            targets[target_of(path)].append(path)
+    found = [line for _, files in sorted(targets.items()) for line in (*repeated(files), *sorted(set(hiding(files))))]
+    print(*found, sep="\n", end="\n" if found else "")
+    return bool(found)
 
 
 if __name__ == "__main__":

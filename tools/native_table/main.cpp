@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "codegen/cxx/print.h"
 #include "codegen/native_header.h"
 #include "codegen/signature.h"
 #include "codegen/types.h"
@@ -31,6 +32,7 @@
 
 namespace {
 
+namespace cxx = rung::codegen::cxx;
 using rung::TypeId;
 using rung::sema::Context;
 using rung::sema::PouId;
@@ -146,47 +148,81 @@ bool withNatives(const LibrarySources& libraries, rung::Dialect dialect, uint32_
   return true;
 }
 
-// `table`: the thunks by the name of the C function.
-void addThunks(const rung::ir::Module& module, std::map<std::string, std::string>& table) {
-  for (size_t i = 1; i < module.bodies.size(); ++i) {
-    const rung::ir::Body& body = module.bodies[i];
-    if (!body.native) continue;
-    const std::string function = rung::ir::nativeName(module, body);
-    if (table.contains(function)) continue;
-    const TypeTable& types = module.types;
-    std::string arguments = "ctx";
-    uint32_t slot = 0;
-    const auto next = [&] { return "slots + " + std::to_string(slot++); };
-    if (body.self) arguments += ", at<void*>(" + next() + ")";
-    for (const rung::ir::Local& local : rung::ir::parameters(body)) {
-      const TypeKind kind = types.kind(local.type);
-      std::string type = "void*";
-      if (kind != TypeKind::Array && kind != TypeKind::Record) {
-        type = rung::codegen::scalarType(types, local.type);
-        if (local.by_reference) type += '*';
-      }
-      arguments += ", at<" + type + ">(" + next() + ")";
+// The function that the interpreter calls for each native body: it takes the arguments from slots of 64 bits.
+class Thunks {
+ public:
+  // Those of a module that are not known yet.
+  void add(const rung::ir::Module& module) {
+    for (size_t i = 1; i < module.bodies.size(); ++i) {
+      const rung::ir::Body& body = module.bodies[i];
+      if (!body.native) continue;
+      const std::string function = rung::ir::nativeName(module, body);
+      if (!by_function_.contains(function)) by_function_[function] = make(module, body, function);
     }
-    std::string call = function + '(' + arguments;
-    if (body.result && rung::ir::isAggregate(types, body.result)) {
-      const bool is_string = TypeTable::isString(types.kind(body.result));
-      const std::string type =
-          is_string ? std::string(rung::codegen::scalarType(types, body.result)) + '*' : std::string("void*");
-      call += ", at<" + type + ">(" + next() + ')';
-      if (is_string) call += ", at<uint32_t>(" + next() + ')';
-      call += ");";
-    } else if (body.result) {
-      call = "put(" + next() + ", " + call + "));";
-    } else {
-      call += ");";
-    }
-    std::string& created = table[function];
-    created = "extern \"C\" ";
-    rung::codegen::appendSignature(created, module, body);
-    created +=
-        ";\nstatic void call_" + function + "(rung_context* ctx, [[maybe_unused]] uint64_t* slots) { " + call + " }\n";
   }
-}
+
+  // Both in the order of the C functions.
+  std::string definitions() const {
+    cxx::Declarations all;
+    for (const auto& [function, thunk] : by_function_) {
+      all.add(thunk.native);
+      all.add(thunk.caller);
+    }
+    std::string out;
+    cxx::print(out, tree_, all);
+    return out;
+  }
+  std::string rows() const {
+    std::string out;
+    for (const auto& [function, thunk] : by_function_) out += "    {\"" + function + "\", call_" + function + "},\n";
+    return out;
+  }
+
+ private:
+  struct Thunk {
+    cxx::Function* native;
+    cxx::Function* caller;
+  };
+
+  Thunk make(const rung::ir::Module& module, const rung::ir::Body& body, const std::string& function) {
+    const TypeTable& types = module.types;
+    slots_ = 0;
+    std::vector<cxx::Ex> arguments{tree_.fixed("ctx")};
+    if (body.self) arguments.push_back(slot("void*"));
+    for (const rung::ir::Local& local : rung::ir::parameters(body))
+      arguments.push_back(slot(typeOf(types, local.type, local.by_reference)));
+    const bool is_aggregate = body.result && rung::ir::isAggregate(types, body.result);
+    const bool is_string = is_aggregate && TypeTable::isString(types.kind(body.result));
+    if (is_aggregate) arguments.push_back(slot(typeOf(types, body.result, is_string)));
+    if (is_string) arguments.push_back(slot("uint32_t"));  // its capacity
+    cxx::Ex call = tree_.call(function, arguments);
+    if (body.result && !is_aggregate) call = tree_.call("put", {nextSlot(), call});
+
+    cxx::Function* const native = rung::codegen::signatureOf(tree_, module, body);
+    native->prefix = "extern \"C\"";
+    cxx::Function* const caller = tree_.declaration<cxx::Function>();
+    caller->prefix = "static";
+    caller->result.base = "void";
+    caller->name = tree_.kept("call_" + function);
+    caller->parameters.add(tree_.variable(cxx::Type{"rung_context", "*", {}}, "ctx"));
+    caller->parameters.add(tree_.variable(cxx::Type{"[[maybe_unused]] uint64_t", "*", {}}, "slots"));
+    caller->form = cxx::Function::Form::OneLine;
+    caller->body = tree_.stmt(cxx::StmtKind::Expression, call);
+    return {native, caller};
+  }
+
+  static std::string typeOf(const TypeTable& types, TypeId type, bool by_reference) {
+    const TypeKind kind = types.kind(type);
+    if (kind == TypeKind::Array || kind == TypeKind::Record) return "void*";
+    return std::string(rung::codegen::scalarType(types, type)) + (by_reference ? "*" : "");
+  }
+  cxx::Ex nextSlot() { return tree_.infix(cxx::Op::Add, tree_.fixed("slots"), tree_.number(slots_++)); }
+  cxx::Ex slot(const std::string& type) { return tree_.call("at<" + type + ">", {nextSlot()}); }
+
+  cxx::Tree tree_;
+  std::map<std::string, Thunk> by_function_;
+  uint32_t slots_ = 0;  // that the function being made has used
+};
 
 // Adds the declarations of each library's native blocks and methods by its name, and the functions that take records.
 void addDeclarations(const rung::ir::Module& module, std::map<std::string, std::string>& of_library) {
@@ -267,11 +303,11 @@ int main(int argc, char** argv) {
     libraries.files.push_back(
         {libraries.names.back().c_str(), libraries.paths.back().c_str(), libraries.contents.back()});
   }
-  std::map<std::string, std::string> table;
+  Thunks thunks;
   for (const rung::LanguageProfile& profile : rung::kProfiles) {
     if (!profile.is_chosen) continue;
     if (!withNatives(libraries, profile.dialect, sizeof(void*),
-                     [&](const rung::ir::Module& module) { addThunks(module, table); }))
+                     [&](const rung::ir::Module& module) { thunks.add(module); }))
       return 1;
   }
 
@@ -282,12 +318,8 @@ int main(int argc, char** argv) {
       "  return value;\n}\n"
       "template <class T>\nvoid put(uint64_t* slot, T value) {\n  memcpy(slot, &value, sizeof value);\n}\n\n"
       "}  // namespace\n\n";
-  std::string rows;
-  for (const auto& [function, thunk] : table) {
-    out += thunk;
-    rows += "    {\"" + function + "\", call_" + function + "},\n";
-  }
-  out += "\nnamespace rung::natives {\n\nconst ir::interpreter::Native table[] = {\n" + rows +
+  out += thunks.definitions();
+  out += "\nnamespace rung::natives {\n\nconst ir::interpreter::Native table[] = {\n" + thunks.rows() +
          "};\nconst size_t count = sizeof table / sizeof table[0];\n\n}  // namespace rung::natives\n";
   std::string blocks;
   if (!header(libraries, blocks)) return 1;

@@ -67,17 +67,12 @@ bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std
   return is_done;
 }
 
-// Not where a condition of a pragma may ask what other files declare, nor where schedulers have noted something in the
-// tree.
+// Not where a condition of a pragma may ask what other files declare.
 bool Analysis::canKeepTrees() const {
   const Sources& sources = compilation_.sources;
   const std::vector<driver::InputFile>& files = compilation_.inputs.files;
-  const bool has_conditions = std::any_of(files.begin(), files.end(), [&](const driver::InputFile& file) {
+  return std::none_of(files.begin(), files.end(), [&](const driver::InputFile& file) {
     return sources.sourceText(file.file).data() != sources.original(file.file).data();
-  });
-  const sema::Project& project = *compilation_.project;
-  return !has_conditions && std::none_of(project.pous.begin(), project.pous.end(), [&](const sema::Pou& pou) {
-    return !pou.library && pou.decl && compilation_.tree.as<PouDecl>(pou.decl).body_kind == BodyKind::Network;
   });
 }
 

@@ -98,7 +98,7 @@ bool EditedFile::findBodies(DeclId id, Loc base, std::string_view text, std::vec
   const Tree& tree = of_.tree;
   if (tree.kind(id) == DeclKind::Property) {
     const PropertyDecl& property = tree.as<PropertyDecl>(id);
-    if ((property.h.bits & kInHalves) != 0) return false;
+    if (property.in_halves) return false;
     return (!property.get || findBodies(property.get, base, text, out)) &&
            (!property.set || findBodies(property.set, base, text, out));
   }
@@ -314,7 +314,7 @@ DeclId EditedFile::splice(DeclId old, DeclId parsed, std::vector<NewBody>& bodie
   }
   PouDecl pou = tree.as<PouDecl>(old);
   const PouDecl& with = tree.as<PouDecl>(parsed);
-  if (pou.name != with.name || pou.h.bits != with.h.bits || pou.uses_eno != with.uses_eno ||
+  if (pou.name != with.name || pou.is_broken != with.is_broken || pou.uses_eno != with.uses_eno ||
       pou.sections.count != with.sections.count || pou.members.count != with.members.count)
     return {};
   pou.body = with.body;

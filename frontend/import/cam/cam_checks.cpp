@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/design/jumps.h"
 #include "cam/design/text_form.h"
 #include "cam/design/words.h"
 #include "frontend/import/diagnostics.h"
@@ -21,8 +22,6 @@ using cam::Kind;
 using cam::Piece;
 using cam::Repeat;
 
-constexpr double kSmallestJump = 1e-9;  // of the stroke: more than rounding
-
 struct NumberRange {
   double low, high;
   bool is_whole;
@@ -34,6 +33,17 @@ constexpr NumberRange kRanges[] = {{0, 0, true},
                                    {0, 4294967295, true},
                                    {-3.4028234663852886e38, 3.4028234663852886e38, false},
                                    {-1.7976931348623157e308, 1.7976931348623157e308, false}};
+
+// What to do when the cam jumps where it repeats.
+const char* adviceFor(Repeat repeat) {
+  switch (repeat) {
+    case Repeat::Never: return "";
+    case Repeat::Closed: return "let it end where it begins, or write `repeat relative` or `repeat modulo PERIOD`";
+    case Repeat::Modulo: return "let both ends differ by a multiple of the slave's period";
+    case Repeat::Relative: return "let it begin at 0, because each period is added to the end of the last one";
+  }
+  return "";
+}
 
 class Checker {
  public:
@@ -63,7 +73,7 @@ class Checker {
   }
 
   bool hasRows() {
-    const size_t count = cam_.rowCount(), least = cam_.kind == Kind::Polynomials ? 1 : 2;
+    const size_t count = cam_.rowCount(), least = cam_.leastRows();
     const std::string_view word = wordOf(cam::kRowWords, cam_.kind);
     if (count < least) {
       report(diag::CamTooFew, at_.name, {cam_.name, std::to_string(count), word, std::to_string(least)});
@@ -164,33 +174,10 @@ class Checker {
 
   // Where two polynomials meet, and where the cam repeats.
   void checkJumps(const Curve& curve) {
-    const cam::Extremes slave = curve.extremes(0);
-    const double stroke = slave.high.value - slave.low.value;
-    const double margin = kSmallestJump * std::max(stroke, std::fabs(slave.peak().value) * 1e-3);
-    const std::span<const Piece> pieces = curve.pieces();
-    for (size_t i = 1; i < pieces.size(); ++i) {
-      const double x = pieces[i].from, jump = pieces[i].at(x, 0) - pieces[i - 1].at(x, 0);
-      if (std::fabs(jump) > margin) report(diag::CamJump, rowFrom(x), {cam_.name, exactText(jump), exactText(x)});
-    }
-    const double first = pieces.front().at(cam_.start, 0), last = pieces.back().at(cam_.end, 0);
-    double jump = 0;
-    const char* advice = "";
-    switch (cam_.repeat) {
-      case Repeat::Never: return;
-      case Repeat::Closed:
-        jump = first - last;
-        advice = "let it end where it begins, or write `repeat relative` or `repeat modulo PERIOD`";
-        break;
-      case Repeat::Modulo:
-        jump = std::remainder(first - last, cam_.slave_period);
-        advice = "let both ends differ by a multiple of the slave's period";
-        break;
-      case Repeat::Relative:
-        jump = first;
-        advice = "let it begin at 0, because each period is added to the end of the last one";
-        break;
-    }
-    if (std::fabs(jump) > margin) report(diag::CamClosure, at_.repeat, {cam_.name, exactText(jump), advice});
+    for (const cam::Jump& jump : cam::jumpsOf(curve))
+      report(diag::CamJump, rowFrom(jump.x), {cam_.name, exactText(jump.size), exactText(jump.x)});
+    if (const auto jump = cam::jumpOfRepeat(cam_, curve, cam_.repeat))
+      report(diag::CamClosure, at_.repeat, {cam_.name, exactText(*jump), adviceFor(cam_.repeat)});
   }
 
   Cam& cam_;

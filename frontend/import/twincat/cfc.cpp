@@ -33,7 +33,7 @@ constexpr ObjectKind kObjects[] = {{"CFCInputElement", ElementKind::Input},
                                    {"CFCSinkConnectionMark", ElementKind::Continuation},
                                    {"CFCCommentElement", ElementKind::Comment}};
 
-const ObjectKind* kindOf(std::string_view type) {
+const ObjectKind* objectNamed(std::string_view type) {
   const auto* found =
       std::find_if(std::begin(kObjects), std::end(kObjects), [&](const ObjectKind& row) { return row.type == type; });
   return found == std::end(kObjects) ? nullptr : found;
@@ -110,7 +110,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
     wires_[archive_.number(item, "DestPinId")].push_back(&item);
     return true;
   }
-  const ObjectKind* object = kindOf(type);
+  const ObjectKind* object = objectNamed(type);
   if (object == nullptr) {
     archive_.reportObject(diagnostics_, item, "CFC", name_);
     return false;
@@ -248,7 +248,7 @@ void CfcReader::run(const Element& body) {
   for (const Element& e : archive_.items(items)) {
     if (Archive::isNothing(e)) continue;
     ++number;
-    if (const ObjectKind* object = kindOf(archive_.typeOf(e))) write(e, object->kind, number);
+    if (const ObjectKind* object = objectNamed(archive_.typeOf(e))) write(e, object->kind, number);
   }
   writer_.endBody(body.end);
 }

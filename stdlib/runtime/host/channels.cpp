@@ -27,18 +27,18 @@ constexpr int64_t kLongestWaitMs = 1000;
 constexpr uint32_t kGenerations = 1u << 20;  // handles fit into 32 bits
 constexpr uint64_t kWakeEvent = 0, kChannelEvent = uint64_t{1} << 32;
 
-Channels& channelsOf(void* data) { return *static_cast<Channels*>(data); }
+Channels& asChannels(void* data) { return *static_cast<Channels*>(data); }
 
 const rung_channels kChannelTable = {
-    [](void* data, const rung_channel_settings* settings) { return channelsOf(data).open(*settings); },
-    [](void* data, int64_t channel, rung_channel_status* status) { return channelsOf(data).status(channel, *status); },
+    [](void* data, const rung_channel_settings* settings) { return asChannels(data).open(*settings); },
+    [](void* data, int64_t channel, rung_channel_status* status) { return asChannels(data).status(channel, *status); },
     [](void* data, int64_t channel, void* bytes, uint64_t count, rung_endpoint* from) {
-      return channelsOf(data).read(channel, bytes, count, from);
+      return asChannels(data).read(channel, bytes, count, from);
     },
     [](void* data, int64_t channel, const void* bytes, uint64_t count, const rung_endpoint* to) {
-      return channelsOf(data).write(channel, bytes, count, to);
+      return asChannels(data).write(channel, bytes, count, to);
     },
-    [](void* data, int64_t channel) { return channelsOf(data).close(channel); },
+    [](void* data, int64_t channel) { return asChannels(data).close(channel); },
 };
 
 bool isSerial(uint8_t kind) { return kind == RUNG_CHANNEL_SERIAL || kind == RUNG_CHANNEL_MODBUS_RTU; }

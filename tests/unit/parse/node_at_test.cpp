@@ -26,7 +26,7 @@ void checkNodes(const ParsedFile& f, const std::string& path) {
       const auto where = [&] { return path + ": `" + std::string(f.textOf(range)) + "`"; };
       const bool in_halves = node.category == NodeRef::Category::Decl &&
                              f.tree.kind(DeclId{node.word}) == DeclKind::Property &&
-                             f.tree.decl(DeclId{node.word}).bits == kInHalves;
+                             f.tree.as<PropertyDecl>(DeclId{node.word}).in_halves;
       if (in_halves) continue;  // its second half is elsewhere
       EXPECT_TRUE(range.begin <= loc && loc < range.end) << where();
       EXPECT_TRUE(holds(outer, range)) << where() << " within `" << f.textOf(outer) << "`";

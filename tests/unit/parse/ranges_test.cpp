@@ -62,7 +62,7 @@ class RangeCheck {
   }
   // Members that follow the END_… of their block, and the second half of a property of edition 4.
   bool isShared(DeclId parent, DeclId child) const {
-    const bool in_halves = tree_.kind(parent) == DeclKind::Property && tree_.decl(parent).bits == kInHalves;
+    const bool in_halves = tree_.kind(parent) == DeclKind::Property && tree_.as<PropertyDecl>(parent).in_halves;
     return in_halves || (tree_.kind(parent) == DeclKind::Pou && tree_.decl(parent).end <= tree_.decl(child).begin);
   }
 
@@ -80,7 +80,7 @@ class RangeCheck {
     reparse(std::string(textOf(range)), [&](FileId file) {
       const ExprId again = text::parseExpression(tree_, names_, sources_, file, Dialect::Codesys, diagnostics_);
       EXPECT_TRUE(again) << where(range);
-      if (!again || (tree_.expr(id).bits & kBareCall) != 0) return;
+      if (!again || (tree_.kind(id) == ExprKind::Call && tree_.as<CallExpr>(id).is_bare)) return;
       EXPECT_EQ(printExpression(tree_, names_, again), printExpression(tree_, names_, id)) << where(range);
     });
   }

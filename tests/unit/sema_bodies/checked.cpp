@@ -107,7 +107,7 @@ class Printer {
       return;
     }
     out.append(type).append("#");
-    if ((node.h.bits & kLiteralNegative) != 0) out += "-";
+    if (node.form.is_negative) out += "-";
     if (node.literal() == LiteralKind::Real) {
       types::Value value{types::kLReal, node.value()};
       out += types::toString(c_.project.types, c_.names, value);

@@ -10,7 +10,7 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kSensorCount = 4;
-constexpr int64_t kPeriodUnitNs = 1'000'000, kSecond = 1'000'000'000;
+constexpr int64_t kPeriodUnitNs = 1'000'000, kSecondNs = 1'000'000'000;
 constexpr double kRemoteCodes = 10;  // of a degree: 16 bits hold -454.0 to 3272.0
 
 // Table 4-11, by the codes of table 4-10, in degrees Celsius.
@@ -22,7 +22,7 @@ constexpr Range kSensors[] = {{200, 1800}, {-270, 1000}, {-210, 1200}, {-270, 13
 constexpr int64_t kPeriodsMs[] = {250, 250, 500, 1000};  // 0 is not a code: the shortest
 
 constexpr uint32_t kSensorOn = 1 << 0, kFahrenheit = 1 << 1, kLimits = 1 << 4;
-constexpr uint32_t kAbove = 1, kBelow = 2;  // Overrun
+constexpr uint32_t kOverrunAbove = 1, kOverrunBelow = 2;  // Overrun
 
 struct Setting {
   uint32_t flags, sensor, period, lag;
@@ -89,8 +89,8 @@ class Temperature final : public SimulatedModule {
 
   uint32_t overrun(uint32_t channel, const Setting& is, double value) const {
     if ((is.flags & kSensorOn) == 0 || (is.flags & kLimits) == 0) return 0;
-    if (value > signedOutput(upper_, channel)) return kAbove;
-    return value < signedOutput(lower_, channel) ? kBelow : 0;
+    if (value > signedOutput(upper_, channel)) return kOverrunAbove;
+    return value < signedOutput(lower_, channel) ? kOverrunBelow : 0;
   }
 
   void readSignals(int64_t now_ns) override {
@@ -99,7 +99,7 @@ class Temperature final : public SimulatedModule {
       const bool is_on = (is.flags & kSensorOn) != 0;
       double value = 0;
       if (is_on) {
-        const int64_t lag_ns = std::min(is.lag, 100u) * kSecond;
+        const int64_t lag_ns = std::min(is.lag, 100u) * kSecondNs;
         value =
             samplers_[i].sample(shown(sensors_[i].value, is), kPeriodsMs[is.period] * kPeriodUnitNs, lag_ns, now_ns);
       }
