@@ -106,7 +106,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;
-      const std::string what = assignValue(symbols_.module(), variables_[columns[i]], row.cells[i], true);
+      const std::string what = checkValue(symbols_.module(), variables_[columns[i]], row.cells[i]);
       if (!what.empty()) return fail(row, i, what);
       settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
     }
