@@ -153,8 +153,8 @@ void Exchange::giveShared(const Copy& copy) {
 }
 
 void Exchange::drop(rung_context& context) const {
-  context.areas = memory_.context().areas;
-  context.blocks = memory_.context().blocks;
+  context.areas = memory_.common().areas;
+  context.blocks = memory_.common().blocks;
 }
 
 void Exchange::makeSafe(uint32_t task) {

@@ -312,6 +312,22 @@ TEST_P(Engines, TheSimulatedNetworkIsRestored) {
   }
 }
 
+// Between two activations the session's own context is that of the memory that all tasks share, not a task's copy.
+TEST_P(Engines, NoCopyStaysAfterAnActivation) {
+  const Loaded loaded("tests/unit/tools/sessions/tasks", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  ASSERT_GT(loaded.module->tasks.count, 1u);
+  Machine machine(*loaded.module, {}, 1);
+  Session& session = machine.session();
+  for (int64_t cycle = 0; cycle < 5; ++cycle) {
+    machine.finishCycle(cycle);
+    for (uint32_t i = 0; i < loaded.module->areas.count; ++i)
+      EXPECT_EQ(session.context().areas[i], session.memory().area(i)) << "cycle " << cycle;
+    for (uint32_t i = 0; i < loaded.module->blocks.count; ++i)
+      EXPECT_EQ(session.context().blocks[i], session.memory().block(i)) << "cycle " << cycle;
+  }
+}
+
 TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
   const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
   ASSERT_NE(loaded.module, nullptr);
