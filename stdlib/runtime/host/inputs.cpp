@@ -85,7 +85,11 @@ bool Inputs::load(const std::string& path, std::string& error) {
     }
     Variable variable;
     std::string what;
-    if (!symbols_.find(names[i], variable, what)) return fail(header, i, what);
+    if (!symbols_.find(names[i], variable, what)) {
+      if (names[i] != kForcedColumn || i + 1 != names.size()) return fail(header, i, what);
+      columns.push_back(kIgnored);
+      continue;
+    }
     columns.push_back(static_cast<uint32_t>(variables_.size()));
     variables_.push_back(std::move(variable));
   }

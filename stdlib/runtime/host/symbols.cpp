@@ -46,6 +46,14 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates) {
   const std::string from = lowerCase(written.substr(0, 64));
   size_t best = std::max<size_t>(from.size() < 4 ? 1 : 2, from.size() / 3) + 1;
@@ -77,11 +85,19 @@ std::string didYouMean(std::string_view written, const std::vector<std::string_v
 std::vector<std::string> splitList(std::string_view list) {
   std::vector<std::string> parts;
   int depth = 0;
+  char quote = 0;  // of the string that is open
   size_t begin = 0;
   for (size_t i = 0; i <= list.size(); ++i) {
-    if (i < list.size() && list[i] == '[') ++depth;
-    if (i < list.size() && list[i] == ']') --depth;
-    if (i < list.size() && (list[i] != ',' || depth > 0)) continue;
+    const char c = i < list.size() ? list[i] : ',';
+    if (i < list.size() && quote != 0) {
+      if (c == '$') ++i;
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '\'' || c == '"') quote = c;
+    if (c == '[') ++depth;
+    if (c == ']') --depth;
+    if (i < list.size() && (c != ',' || depth > 0 || quote != 0)) continue;
     std::string_view part = list.substr(begin, i - begin);
     while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
     while (!part.empty() && part.back() == ' ') part.remove_suffix(1);

@@ -75,6 +75,8 @@ class Symbols {
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
 std::string backquoted(std::string_view text);  // `text` in backquotes, as messages quote it
 std::string lowerCase(std::string_view text);
+bool isBlank(char c);                             // a blank, a tab or a carriage return
+std::string_view trimmed(std::string_view text);  // without blanks at both ends
 // Splits at commas outside of brackets and quotes, and trims blanks around the parts.
 std::vector<std::string> splitList(std::string_view list);
 

@@ -28,12 +28,6 @@ int64_t loadInteger(uint8_t kind, uint32_t size, const uint8_t* from) {
   return is_signed ? static_cast<int64_t>(bits << shift) >> shift : static_cast<int64_t>(bits);
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
 
 std::string typeName(const LoadedModule& module, const rung_type& type) {

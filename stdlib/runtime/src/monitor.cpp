@@ -109,16 +109,10 @@ rung_access parseEnum(const rung_module& module, const rung_type& type, const ch
   return RUNG_ACCESS_OK;
 }
 
-bool isSame(const rung_variable& a, const rung_variable& b) {
-  return a.storage == b.storage && a.bit == b.bit && a.index == b.index && a.pointers == b.pointers &&
-         a.type->kind == b.type->kind && a.type->size == b.type->size &&
-         memcmp(a.offsets, b.offsets, (a.pointers + 1u) * sizeof a.offsets[0]) == 0;
-}
-
 // The number of the row of a variable; forces.count: it has none.
 uint32_t rowOf(const rung_forces& forces, const rung_variable& variable) {
   uint32_t i = 0;
-  while (i < forces.count && !isSame(forces.rows[i].variable, variable)) ++i;
+  while (i < forces.count && !rung_is_same_variable(&forces.rows[i].variable, &variable)) ++i;
   return i;
 }
 
@@ -145,6 +139,13 @@ void keep(rung_forces& forces, uint32_t row, const rung_variable& variable) {
 }  // namespace
 
 extern "C" {
+
+bool rung_is_same_variable(const rung_variable* one, const rung_variable* other) {
+  return one->storage == other->storage && one->bit == other->bit && one->index == other->index &&
+         one->pointers == other->pointers && one->type->kind == other->type->kind &&
+         one->type->size == other->type->size &&
+         memcmp(one->offsets, other->offsets, (one->pointers + 1u) * sizeof one->offsets[0]) == 0;
+}
 
 void* rung_address(const rung_context* context, const rung_variable* variable) {
   uint8_t* at = variable->storage == RUNG_IN_AREA ? context->areas[variable->index]

@@ -130,7 +130,7 @@ TEST_F(Monitor, TextsAreCut) {
 
 TEST_F(Monitor, ForcesHoldUntilTheyAreTakenBack) {
   EXPECT_EQ(force("Main.count", "12"), RUNG_ACCESS_OK);
-  EXPECT_EQ(text("Main.count"), "0");  // nobody has applied it
+  EXPECT_EQ(text("Main.count"), "0");  // it was not applied
   EXPECT_EQ(applied("Main.count"), "12");
   write("Main.count", "3");
   EXPECT_EQ(applied("Main.count"), "12");

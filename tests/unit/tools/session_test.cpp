@@ -90,6 +90,7 @@ class Machine {
   void drive(int64_t cycle) {
     std::mt19937 random(seed_ * 7919u + static_cast<uint32_t>(cycle));
     if (random() % 8 == 0) command(random());
+    if (random() % 4 == 0) force(random());
     for (const Variable& input : inputs_) {
       if (random() % 3 != 0) continue;
       const uint32_t value = random() % 30;
@@ -111,7 +112,7 @@ class Machine {
     }
     session_.completeCycle();
     session_.stopAfterSingleCycle();
-    return row + '\n' + session_.tasks().statistics(0);
+    return row + '\n' + session_.tasks().statistics(0) + session_.forces().list();
   }
 
   std::string memory() {
@@ -125,6 +126,17 @@ class Machine {
   }
 
  private:
+  // Forces or unforces one of the leaves, or unforces all.
+  void force(uint32_t random) {
+    host::Command command;
+    const Variable& leaf = leaves_[random % leaves_.size()];
+    command.kind = random / 65536 % 3 == 0 ? host::Command::Unforce : host::Command::Force;
+    std::string text;
+    host::formatValue(session_.module(), leaf, text);
+    command.values.push_back({random / 65536 % 9 == 0 ? "*" : leaf.path, text});
+    EXPECT_EQ(session_.obey(command).error, "");
+  }
+
   void command(uint32_t random) {
     host::Command command;
     const bool is_stopped = session_.isStopped();

@@ -75,6 +75,10 @@ typedef enum rung_access {
   RUNG_ACCESS_FULL     /* of the table of forces */
 } rung_access;
 
+/* Whether two paths led to the same place of the same type. Aliases by pointers and views of an area are other places.
+ */
+bool rung_is_same_variable(const rung_variable* one, const rung_variable* other);
+
 /* Where the variable, or the byte of its bit, is; null: a pointer on the path is. */
 void* rung_address(const rung_context* context, const rung_variable* variable);
 
