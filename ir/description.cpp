@@ -366,12 +366,12 @@ class Describer {
     out_.names[at] = row + 1;
   }
 
-  // A quarter more rows than names keeps the way to a name short.
+  // Twice as many rows as names keep the way to a name short, and the way to the end of a search for none.
   void addNames() {
     constexpr size_t kFew = 32;
     const size_t count = out_.symbols.size() + out_.fields.size();
     if (count <= kFew) return;
-    out_.names.resize(count + count / 4 + 1);
+    out_.names.resize(2 * count);
     uint32_t row = 0;
     for (const rung_symbol& symbol : out_.symbols) addName(RUNG_NONE, symbol.name, row++);
     std::vector<uint32_t> owners(out_.fields.size());

@@ -72,6 +72,13 @@ bool numberOf(const LoadedModule& module, const Variable& variable, double& valu
 }
 
 void formatValue(const LoadedModule& module, const Variable& variable, std::string& to) {
+  constexpr uint32_t kMostOften = 127;  // strings and enumerations may be longer
+  char room[kMostOften + 1];
+  const uint32_t length = rung_read_text(variable.context, &variable, room, kMostOften);
+  if (length < kMostOften) {
+    to.append(room, length);
+    return;
+  }
   const size_t begin = to.size();
   const uint32_t capacity = rung_text_capacity(&module.description, &variable);
   to.resize(begin + capacity + 1);

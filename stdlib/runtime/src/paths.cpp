@@ -39,10 +39,15 @@ size_t sizeOf(const rung_path& path) { return static_cast<size_t>(path.end - pat
 
 // The symbols of a module, or the fields of one record of it.
 struct Scope {
-  const rung_module* module;
-  uint32_t first, count;  // indices
-  uint32_t base;          // of the rows in rung_names: what is added to the index
+  const rung_names* names;  // null: the module has none
+  uint32_t first, count;    // indices
+  uint32_t base;            // of the rows in rung_names: what is added to the index
 };
+
+const rung_names* namesOf(const rung_module& module) {
+  const rung_extension* const extension = rung_find_extension(&module.extensions, RUNG_NAMES);
+  return extension == nullptr ? nullptr : static_cast<const rung_names*>(extension->data);
+}
 
 uint32_t slotAt(const rung_table& slots, uint32_t index) {
   const void* const row = rung_row(&slots, index);
@@ -52,13 +57,12 @@ uint32_t slotAt(const rung_table& slots, uint32_t index) {
 // The first index of the scope, by the hash of its name, that matches; RUNG_NONE: none does.
 template <class Match>
 uint32_t findIn(const Scope& scope, uint32_t hash, Match matches) {
-  const rung_extension* const extension = rung_find_extension(&scope.module->extensions, RUNG_NAMES);
-  if (extension == nullptr) {
+  if (scope.names == nullptr) {
     for (uint32_t i = scope.first; i < scope.first + scope.count; ++i)
       if (matches(i)) return i;
     return RUNG_NONE;
   }
-  const rung_table& slots = static_cast<const rung_names*>(extension->data)->slots;
+  const rung_table& slots = scope.names->slots;
   uint32_t at = rung_name_slot(hash, slots.count);
   for (uint32_t turn = 0; turn < slots.count; ++turn) {
     const uint32_t row = slotAt(slots, at);
@@ -80,8 +84,8 @@ bool fitsPrefix(const rung_module& module, const rung_symbol& symbol, const char
 }
 
 // The longest name of a symbol that begins at `begin`; `end` is after it.
-uint32_t findSymbolAt(const rung_module& module, const rung_path& path, const char* begin, const char*& end) {
-  const Scope all{&module, 0, module.symbols.count, 0};
+uint32_t findSymbolAt(const rung_module& module, const Scope& all, const rung_path& path, const char* begin,
+                      const char*& end) {
   const auto before = static_cast<size_t>(begin - path.at);
   uint32_t found = RUNG_NONE, hash = rung_name_seed(RUNG_NONE);
   for (const char* at = begin; at != path.end;) {
@@ -103,12 +107,13 @@ uint32_t findSymbolAt(const rung_module& module, const rung_path& path, const ch
 
 // The symbol with the longest path at the front.
 bool findSymbol(const rung_module& module, rung_path& path, rung_variable& variable) {
+  const Scope all{namesOf(module), 0, module.symbols.count, 0};
   const char* end = path.at;
   uint32_t found = RUNG_NONE;
   const char* begin = path.at;
   for (uint32_t prefixes = 0; prefixes <= kMostPrefixes; ++prefixes) {
     const char* its_end = path.at;
-    const uint32_t symbol = findSymbolAt(module, path, begin, its_end);
+    const uint32_t symbol = findSymbolAt(module, all, path, begin, its_end);
     if (symbol != RUNG_NONE && its_end > end) {
       found = symbol;
       end = its_end;
@@ -306,7 +311,7 @@ rung_path_error stepToBit(rung_path& path, const rung_path& name, rung_variable&
 uint32_t findField(const rung_module& module, const rung_type& record, const rung_path& name) {
   uint32_t hash = rung_name_seed(record.first);
   for (const char* c = name.at; c != name.end; ++c) hash = rung_name_hash(hash, *c);
-  return findIn({&module, record.first, record.count, module.symbols.count}, hash, [&](uint32_t i) {
+  return findIn({namesOf(module), record.first, record.count, module.symbols.count}, hash, [&](uint32_t i) {
     const rung_field& field = *rung_field_at(&module, i);
     return (field.flags & RUNG_FIELD_BASE) == 0 && rung_equal_names(name.at, sizeOf(name), module.strings + field.name);
   });
@@ -471,7 +476,7 @@ uint32_t rung_path_of_symbol(const rung_module* module, uint32_t index, char* pa
   for (const char* c = name; *c != 0; ++c) hash = rung_name_hash(hash, *c);
   const size_t size = strlen(name);
   const bool is_shared =
-      RUNG_NONE != findIn({module, 0, module->symbols.count, 0}, hash, [&](uint32_t i) {
+      RUNG_NONE != findIn({namesOf(*module), 0, module->symbols.count, 0}, hash, [&](uint32_t i) {
         return i != index && rung_equal_names(name, size, module->strings + rung_symbol_at(module, i)->name);
       });
   const char* const prefix = is_shared ? module->strings + symbol.path : "";
