@@ -5,6 +5,7 @@
 
 namespace {
 
+constexpr uint8_t kNoBit = 255;
 constexpr uint32_t kMostPrefixes = 4;  // `Config.Resource.`, `Config.Namespace.List.`
 
 constexpr rung_type elementary(rung_type_kind kind, uint32_t size) {
@@ -22,13 +23,13 @@ bool isNameCharacter(char c) {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-// The decimal number at the front; false: there is none, or it has more than 64 bits.
-bool takeNumber(rung_path& path, uint64_t& number) {
+// The decimal number at the front; false: there is none, or it is above all that a path may have.
+bool takeNumber(rung_path& path, uint32_t& number) {
+  constexpr uint32_t kMost = 400'000'000;
   const char* const begin = path.at;
   for (number = 0; path.at != path.end && isDigit(*path.at); ++path.at) {
-    const auto digit = static_cast<uint64_t>(*path.at - '0');
-    if (number > (UINT64_MAX - digit) / 10) return false;
-    number = number * 10 + digit;
+    if (number > kMost) return false;
+    number = number * 10 + static_cast<uint32_t>(*path.at - '0');
   }
   return path.at != begin;
 }
@@ -37,41 +38,58 @@ size_t sizeOf(const rung_path& path) { return static_cast<size_t>(path.end - pat
 
 // ---- names
 
-// The symbols of a module, or the fields of one record of it.
-struct Scope {
-  const rung_names* names;  // null: the module has none
-  uint32_t first, count;    // indices
-  uint32_t base;            // of the rows in rung_names: what is added to the index
-};
-
 const rung_names* namesOf(const rung_module& module) {
   const rung_extension* const extension = rung_find_extension(&module.extensions, RUNG_NAMES);
   return extension == nullptr ? nullptr : static_cast<const rung_names*>(extension->data);
 }
 
-uint32_t slotAt(const rung_table& slots, uint32_t index) {
-  const void* const row = rung_row(&slots, index);
-  return slots.row_size == 2 ? *static_cast<const uint16_t*>(row) : *static_cast<const uint32_t*>(row);
-}
+// The search for a name among the symbols of a module, or among the fields of one record. The name is the first column
+// of both tables.
+struct Search {
+  const rung_module* module;
+  const rung_table* table;
+  const rung_names* names;  // null: the module has none
+  uint32_t first, count;    // of the rows of the table
+  uint32_t base;            // what is added to them in rung_names
+  uint32_t hash;
+  const char* name;
+  size_t size;
+  uint32_t at = 0, left = 0;  // the next row of the table, or of rung_names; how many remain
 
-// The first index of the scope, by the hash of its name, that matches; RUNG_NONE: none does.
-template <class Match>
-uint32_t findIn(const Scope& scope, uint32_t hash, Match matches) {
-  if (scope.names == nullptr) {
-    for (uint32_t i = scope.first; i < scope.first + scope.count; ++i)
-      if (matches(i)) return i;
+  void add(char c) { hash = rung_name_hash(hash, c); }
+  void begin() {
+    at = names == nullptr ? 0 : rung_name_slot(hash, names->slots.count);
+    left = names == nullptr ? count : names->slots.count;
+  }
+  // The next row with the name; RUNG_NONE: none.
+  uint32_t next() {
+    for (; left != 0; --left, ++at) {
+      uint32_t index = at;  // from `first`
+      if (names != nullptr) {
+        const uint32_t number = slot();
+        if (number == 0) break;
+        index = number - 1 - base - first;
+      }
+      if (index >= count) continue;
+      const void* const row = rung_row(table, first + index);
+      if (!rung_equal_names(name, size, module->strings + *static_cast<const uint32_t*>(row))) continue;
+      --left, ++at;
+      return first + index;
+    }
     return RUNG_NONE;
   }
-  const rung_table& slots = scope.names->slots;
-  uint32_t at = rung_name_slot(hash, slots.count);
-  for (uint32_t turn = 0; turn < slots.count; ++turn) {
-    const uint32_t row = slotAt(slots, at);
-    if (row == 0) return RUNG_NONE;
-    const uint32_t index = row - 1 - scope.base;
-    if (index - scope.first < scope.count && matches(index)) return index;
-    if (++at == slots.count) at = 0;
+
+ private:
+  uint32_t slot() {
+    const rung_table& slots = names->slots;
+    if (at == slots.count) at = 0;
+    const void* const row = rung_row(&slots, at);
+    return slots.row_size == 2 ? *static_cast<const uint16_t*>(row) : *static_cast<const uint32_t*>(row);
   }
-  return RUNG_NONE;
+};
+
+Search amongSymbols(const rung_module& module, const char* name) {
+  return {&module, &module.symbols, namesOf(module), 0, module.symbols.count, 0, rung_name_seed(RUNG_NONE), name, 0};
 }
 
 // `before` is what the path has in front of the symbol's name: nothing, `Config.Resource.` or `Resource.`.
@@ -84,36 +102,38 @@ bool fitsPrefix(const rung_module& module, const rung_symbol& symbol, const char
 }
 
 // The longest name of a symbol that begins at `begin`; `end` is after it.
-uint32_t findSymbolAt(const rung_module& module, const Scope& all, const rung_path& path, const char* begin,
-                      const char*& end) {
-  const auto before = static_cast<size_t>(begin - path.at);
-  uint32_t found = RUNG_NONE, hash = rung_name_seed(RUNG_NONE);
+uint32_t findSymbolAt(Search& search, const rung_path& path, const char* begin, const char*& end) {
+  search.hash = rung_name_seed(RUNG_NONE);
+  search.name = begin;
+  uint32_t found = RUNG_NONE;
   for (const char* at = begin; at != path.end;) {
-    for (; at != path.end && isNameCharacter(*at); ++at) hash = rung_name_hash(hash, *at);
-    const uint32_t symbol = findIn(all, hash, [&](uint32_t i) {
-      const rung_symbol& row = *rung_symbol_at(&module, i);
-      return rung_equal_names(begin, static_cast<size_t>(at - begin), module.strings + row.name) &&
-             fitsPrefix(module, row, path.at, before);
-    });
+    for (; at != path.end && isNameCharacter(*at); ++at) search.add(*at);
+    search.size = static_cast<size_t>(at - begin);
+    search.begin();
+    uint32_t symbol;
+    do {
+      symbol = search.next();
+    } while (symbol != RUNG_NONE && !fitsPrefix(*search.module, *rung_symbol_at(search.module, symbol), path.at,
+                                                static_cast<size_t>(begin - path.at)));
     if (symbol != RUNG_NONE) {
       found = symbol;
       end = at;
     }
     if (at == path.end || *at != '.') break;
-    hash = rung_name_hash(hash, *at++);
+    search.add(*at++);
   }
   return found;
 }
 
 // The symbol with the longest path at the front.
 bool findSymbol(const rung_module& module, rung_path& path, rung_variable& variable) {
-  const Scope all{namesOf(module), 0, module.symbols.count, 0};
+  Search search = amongSymbols(module, path.at);
   const char* end = path.at;
   uint32_t found = RUNG_NONE;
   const char* begin = path.at;
   for (uint32_t prefixes = 0; prefixes <= kMostPrefixes; ++prefixes) {
     const char* its_end = path.at;
-    const uint32_t symbol = findSymbolAt(module, all, path, begin, its_end);
+    const uint32_t symbol = findSymbolAt(search, path, begin, its_end);
     if (symbol != RUNG_NONE && its_end > end) {
       found = symbol;
       end = its_end;
@@ -147,25 +167,8 @@ void enterField(const rung_module& module, const rung_field& field, rung_variabl
 
 // ---- addresses
 
-// A part of an area; `bit` is 255 where it is not a BOOL.
-rung_path_error findPlace(const rung_module& module, uint32_t area, uint64_t byte, const rung_type& type, uint8_t bit,
-                          rung_path& path, rung_variable& variable) {
-  path.detail = area;
-  if (byte + type.size > rung_area_at(&module, area)->size) return RUNG_PATH_OUTSIDE;
-  variable.type = &type;
-  variable.flags = 0;
-  variable.storage = RUNG_IN_AREA;
-  variable.bit = bit;
-  variable.pointers = 0;
-  variable.index = area;
-  variable.offsets[0] = static_cast<uint32_t>(byte);
-  path.at = path.end;
-  path.detail = RUNG_NONE;
-  return RUNG_PATH_OK;
-}
-
-// The area whose prefix the path begins with; RUNG_NONE: none.
-uint32_t findArea(const rung_module& module, rung_path& rest) {
+// The area whose prefix is at the front; RUNG_NONE: none.
+uint32_t takeArea(const rung_module& module, rung_path& rest) {
   for (uint32_t i = 0; i < module.areas.count; ++i) {
     const char* const prefix = module.strings + rung_area_at(&module, i)->prefix;
     const size_t size = strlen(prefix);
@@ -176,63 +179,74 @@ uint32_t findArea(const rung_module& module, rung_path& rest) {
   return RUNG_NONE;
 }
 
-// `%IX0.3`, `%QB4`, `%MW6`, `%IX5` (byte 0, bit 5): the area itself, declared or not.
-rung_path_error findAddress(const rung_module& module, rung_path& path, rung_variable& variable) {
-  rung_path rest = path;
-  const uint32_t area = findArea(module, rest);
-  if (area == RUNG_NONE) return RUNG_PATH_ADDRESS;
-  const rung_type* type = &kBool;
-  if (rest.at != rest.end && rung_lower(*rest.at) >= 'a') {
-    static const char kWidths[] = "xbwdl";
-    const char* const width = static_cast<const char*>(memchr(kWidths, rung_lower(*rest.at++), 5));
-    if (width == nullptr) return RUNG_PATH_WIDTH;
-    if (width != kWidths) type = &kBitStrings[width - kWidths - 1];
+// What an address names: the number of a unit of 1 << shift bytes, and of a BOOL a bit.
+struct Address {
+  uint32_t number = 0, shift = 0, bit = kNoBit;
+};
+
+// `X0.3`, `B4`, `W6`, and `5` or `X5` (byte 0, bit 5).
+rung_path_error readAddress(rung_path& rest, Address& address) {
+  const char width = rest.at != rest.end ? rung_lower(*rest.at) : char{0};
+  if (width >= 'a') ++rest.at;
+  if (width >= 'a' && width != 'x') {
+    static const char kWidths[] = "bwdl";
+    const char* const found = strchr(kWidths, width);
+    if (found == nullptr) return RUNG_PATH_WIDTH;
+    address.shift = static_cast<uint32_t>(found - kWidths);
+    return takeNumber(rest, address.number) && rest.at == rest.end ? RUNG_PATH_OK : RUNG_PATH_ADDRESS;
   }
-  uint64_t byte = 0, bit = 0;
-  if (!takeNumber(rest, byte)) return RUNG_PATH_ADDRESS;
-  if (type == &kBool && rest.at != rest.end && *rest.at == '.') {
-    ++rest.at;
-    if (!takeNumber(rest, bit) || bit > 7) return RUNG_PATH_ADDRESS;
-  } else if (type == &kBool) {
-    bit = byte % 8;
-    byte /= 8;
-  }
-  if (rest.at != rest.end) return RUNG_PATH_ADDRESS;
-  if (byte < UINT32_MAX) byte *= type->size;  // %QW2 is the bytes 4 and 5
-  return findPlace(module, area, byte, *type, type == &kBool ? static_cast<uint8_t>(bit) : uint8_t{255}, path,
-                   variable);
+  if (!takeNumber(rest, address.number)) return RUNG_PATH_ADDRESS;
+  address.bit = address.number % 8;
+  if (rest.at == rest.end) return address.number /= 8, RUNG_PATH_OK;
+  const bool is_complete = *rest.at++ == '.' && takeNumber(rest, address.bit) && address.bit < 8 && rest.at == rest.end;
+  return is_complete ? RUNG_PATH_OK : RUNG_PATH_ADDRESS;
 }
 
-// `9056` and `9056.17`: words and bits of the NCT ladder's memory, %ND9056 and %NX36226.1. False: not of this form.
-bool findNctAddress(const rung_module& module, rung_path& path, rung_variable& variable, rung_path_error& error) {
-  const size_t size = sizeOf(path);
-  if (size != 4 && (size != 7 || path.at[4] != '.')) return false;
-  for (size_t i = 0; i < size; ++i)
-    if (i != 4 && !isDigit(path.at[i])) return false;
-  rung_path rest = path, area_path = {"%N", nullptr, 0};
-  area_path.end = area_path.at + 2;
-  uint64_t word = 0, bit = 0;
-  takeNumber(rest, word);
-  if (size == 7) {
-    ++rest.at;
-    takeNumber(rest, bit);
-    if (bit > 31) return false;
+// `9056` and `9056.17`: words and bits of the NCT ladder's memory.
+rung_path_error readNctAddress(rung_path& rest, Address& address) {
+  const char* const begin = rest.at;
+  if (!takeNumber(rest, address.number) || rest.at - begin != 4) return RUNG_PATH_UNKNOWN;
+  address.shift = 2;
+  if (rest.at == rest.end) return RUNG_PATH_OK;
+  uint32_t bit = 0;
+  if (*rest.at++ != '.' || !takeNumber(rest, bit) || rest.at - begin != 7 || rest.at != rest.end || bit > 31)
+    return RUNG_PATH_UNKNOWN;
+  address = {address.number * 4 + bit / 8, 0, bit % 8};
+  return RUNG_PATH_OK;
+}
+
+// A part of an area, declared or not.
+rung_path_error findAddress(const rung_module& module, rung_path& path, rung_variable& variable) {
+  if (path.at == path.end || (*path.at != '%' && !isDigit(*path.at))) return RUNG_PATH_UNKNOWN;
+  const bool is_nct = *path.at != '%';
+  rung_path rest = path;
+  Address address;
+  rung_path_error error = RUNG_PATH_OK;
+  if (is_nct) {
+    error = readNctAddress(rest, address);
+    rest.at = "%N";
+    rest.end = rest.at + 2;
   }
-  const uint32_t area = findArea(module, area_path);
-  error = RUNG_PATH_ADDRESS;
-  if (area == RUNG_NONE) return true;
-  const uint64_t byte = word * 4 + bit / 8;
-  error = size == 4 ? findPlace(module, area, byte, kBitStrings[2], 255, path, variable)
-                    : findPlace(module, area, byte, kBool, static_cast<uint8_t>(bit % 8), path, variable);
-  return true;
+  const uint32_t area = takeArea(module, rest);
+  if (error == RUNG_PATH_OK && area == RUNG_NONE) error = RUNG_PATH_ADDRESS;
+  if (error == RUNG_PATH_OK && !is_nct) error = readAddress(rest, address);
+  if (error != RUNG_PATH_OK) return error;
+  path.detail = area;
+  if (address.number >= rung_area_at(&module, area)->size >> address.shift) return RUNG_PATH_OUTSIDE;
+  variable.type = address.bit == kNoBit ? &kBitStrings[address.shift] : &kBool;
+  variable.flags = 0;
+  variable.storage = RUNG_IN_AREA;
+  variable.bit = static_cast<uint8_t>(address.bit);
+  variable.pointers = 0;
+  variable.index = area;
+  variable.offsets[0] = address.number << address.shift;
+  path.at = path.end;
+  path.detail = RUNG_NONE;
+  return RUNG_PATH_OK;
 }
 
 rung_path_error findRoot(const rung_module& module, rung_path& path, rung_variable& variable) {
-  if (findSymbol(module, path, variable)) return RUNG_PATH_OK;
-  if (path.at != path.end && *path.at == '%') return findAddress(module, path, variable);
-  rung_path_error error = RUNG_PATH_UNKNOWN;
-  findNctAddress(module, path, variable, error);
-  return error;
+  return findSymbol(module, path, variable) ? RUNG_PATH_OK : findAddress(module, path, variable);
 }
 
 // ---- steps
@@ -250,18 +264,23 @@ void takeBlanks(rung_path& path) {
   while (path.at != path.end && *path.at == ' ') ++path.at;
 }
 
+// Bounds are DINT; a dimension may be empty.
+uint32_t lengthOf(const rung_dimension& dimension) {
+  return dimension.high < dimension.low ? 0 : static_cast<uint32_t>(dimension.high - dimension.low) + 1;
+}
+
 // The index of one dimension, from 0; after it and blanks `rest` ends.
-rung_path_error takeIndex(rung_path& rest, const rung_dimension& dimension, uint64_t& index) {
+rung_path_error takeIndex(rung_path& rest, const rung_dimension& dimension, uint32_t& index) {
   takeBlanks(rest);
   const bool is_negative = rest.at != rest.end && *rest.at == '-';
   if (is_negative) ++rest.at;
-  uint64_t magnitude = 0;
-  if (!takeNumber(rest, magnitude) || magnitude > uint64_t{INT64_MAX} + (is_negative ? 1 : 0)) return RUNG_PATH_INDEX;
+  uint32_t magnitude = 0;
+  if (!takeNumber(rest, magnitude)) return RUNG_PATH_INDEX;
   takeBlanks(rest);
   if (rest.at != rest.end) return RUNG_PATH_INDEX;
-  const auto number = static_cast<int64_t>(is_negative ? 0 - magnitude : magnitude);
+  const int64_t number = is_negative ? -int64_t{magnitude} : int64_t{magnitude};
   if (number < dimension.low || number > dimension.high) return RUNG_PATH_RANGE;
-  index = static_cast<uint64_t>(number) - static_cast<uint64_t>(dimension.low);
+  index = static_cast<uint32_t>(number - dimension.low);
   return RUNG_PATH_OK;
 }
 
@@ -270,7 +289,7 @@ rung_path_error stepToElement(const rung_module& module, rung_path& path, rung_v
   if (type.kind != RUNG_ARRAY) return RUNG_PATH_NO_ARRAY;
   const char* const close = static_cast<const char*>(memchr(path.at, ']', sizeOf(path)));
   if (close == nullptr) return RUNG_PATH_BRACKET;
-  uint64_t element = 0;
+  uint32_t element = 0;
   rung_path rest{path.at + 1, close, 0};
   takeBlanks(rest);
   uint32_t written = rest.at == close ? 0 : 1;
@@ -280,14 +299,14 @@ rung_path_error stepToElement(const rung_module& module, rung_path& path, rung_v
     const rung_dimension& dimension = *rung_dimension_at(&module, type.first + d);
     const char* const comma = static_cast<const char*>(memchr(rest.at, ',', static_cast<size_t>(close - rest.at)));
     rest.end = comma != nullptr ? comma : close;
-    uint64_t index = 0;
+    uint32_t index = 0;
     path.detail = d;
     if (const rung_path_error error = takeIndex(rest, dimension, index)) return error;
-    element = element * (static_cast<uint64_t>(dimension.high) - static_cast<uint64_t>(dimension.low) + 1) + index;
+    element = element * lengthOf(dimension) + index;
     rest.at = rest.end + (comma != nullptr ? 1 : 0);
   }
   variable.type = rung_type_at(&module, type.element);
-  variable.offsets[variable.pointers] += static_cast<uint32_t>(element * variable.type->size);
+  variable.offsets[variable.pointers] += element * variable.type->size;
   path.at = close + 1;
   path.detail = RUNG_NONE;
   return RUNG_PATH_OK;
@@ -297,24 +316,34 @@ rung_path_error stepToElement(const rung_module& module, rung_path& path, rung_v
 rung_path_error stepToBit(rung_path& path, const rung_path& name, rung_variable& variable) {
   rung_path digits = name;
   if (sizeOf(name) > 2 && name.at[0] == '%' && rung_lower(name.at[1]) == 'x') digits.at += 2;
-  uint64_t bit = 0;
-  if (!takeNumber(digits, bit) || digits.at != name.end || bit >= uint64_t{variable.type->size} * 8)
-    return RUNG_PATH_NO_BIT;
+  uint32_t bit = 0;
+  if (!takeNumber(digits, bit) || digits.at != name.end || bit / 8 >= variable.type->size) return RUNG_PATH_NO_BIT;
   variable.type = &kBool;
-  variable.offsets[variable.pointers] += static_cast<uint32_t>(bit / 8);  // little-endian
+  variable.offsets[variable.pointers] += bit / 8;  // little-endian
   variable.bit = static_cast<uint8_t>(bit % 8);
   path.at = name.end;
   path.detail = RUNG_NONE;
   return RUNG_PATH_OK;
 }
 
+// The field of this name that the record declares itself.
 uint32_t findField(const rung_module& module, const rung_type& record, const rung_path& name) {
-  uint32_t hash = rung_name_seed(record.first);
-  for (const char* c = name.at; c != name.end; ++c) hash = rung_name_hash(hash, *c);
-  return findIn({namesOf(module), record.first, record.count, module.symbols.count}, hash, [&](uint32_t i) {
-    const rung_field& field = *rung_field_at(&module, i);
-    return (field.flags & RUNG_FIELD_BASE) == 0 && rung_equal_names(name.at, sizeOf(name), module.strings + field.name);
-  });
+  Search search{&module,
+                &module.fields,
+                namesOf(module),
+                record.first,
+                record.count,
+                module.symbols.count,
+                rung_name_seed(record.first),
+                name.at,
+                sizeOf(name)};
+  for (const char* c = name.at; c != name.end; ++c) search.add(*c);
+  search.begin();
+  uint32_t field;
+  do {
+    field = search.next();
+  } while (field != RUNG_NONE && (rung_field_at(&module, field)->flags & RUNG_FIELD_BASE) != 0);
+  return field;
 }
 
 // The block that a record extends: its memory is in that of the record. Null: none.
@@ -352,7 +381,7 @@ rung_path_error stepToField(const rung_module& module, rung_path& path, const ru
 rung_path_error stepToMember(const rung_module& module, rung_path& path, rung_variable& variable) {
   rung_path name{path.at + 1, path.at + 1, 0};
   while (name.end != path.end && isNameCharacter(*name.end)) ++name.end;
-  const bool has_bits = variable.type->kind >= RUNG_BYTE && variable.type->kind <= RUNG_ULINT && variable.bit == 255;
+  const bool has_bits = variable.type->kind >= RUNG_BYTE && variable.type->kind <= RUNG_ULINT && variable.bit == kNoBit;
   return has_bits ? stepToBit(path, name, variable) : stepToField(module, path, name, variable);
 }
 
@@ -369,7 +398,7 @@ class Walk {
     const rung_walk wanted = visit_(data_, &part);
     if (wanted != RUNG_WALK_ENTER) return wanted != RUNG_WALK_END;
     if (variable.type->kind == RUNG_RECORD) return visitFields(variable, size);
-    return variable.type->kind != RUNG_ARRAY || visitElements(variable, size);
+    return variable.type->kind != RUNG_ARRAY || visitElements(variable, size, 0, 0);
   }
 
  private:
@@ -381,11 +410,11 @@ class Walk {
     size += static_cast<uint32_t>(length);
     return true;
   }
-  bool append(uint32_t& size, int64_t number) {
-    char digits[21];
+  bool append(uint32_t& size, int32_t number) {
+    char digits[12];
     char* at = digits + sizeof digits - 1;
     *at = 0;
-    auto rest = number < 0 ? 0 - static_cast<uint64_t>(number) : static_cast<uint64_t>(number);
+    auto rest = number < 0 ? 0 - static_cast<uint32_t>(number) : static_cast<uint32_t>(number);
     do {
       *--at = static_cast<char>('0' + rest % 10);
       rest /= 10;
@@ -412,37 +441,26 @@ class Walk {
     return true;
   }
 
-  // `number`: of the element, the last index counting fastest.
-  bool appendIndices(uint32_t& size, const rung_type& array, uint64_t number) {
-    uint64_t below = 1;  // elements for each index of the dimension
-    for (uint32_t d = 1; d < array.count; ++d) below *= lengthOf(array, d);
-    for (uint32_t d = 0; d < array.count; ++d) {
-      const int64_t low = rung_dimension_at(&module_, array.first + d)->low;
-      if (!append(size, d == 0 ? "[" : ",")) return false;
-      if (!append(size, static_cast<int64_t>(static_cast<uint64_t>(low) + number / below))) return false;
-      number %= below;
-      if (d + 1 < array.count) below /= lengthOf(array, d + 1);
-    }
-    return append(size, "]");
-  }
-  uint64_t lengthOf(const rung_type& array, uint32_t dimension) const {
-    const rung_dimension& is = *rung_dimension_at(&module_, array.first + dimension);
-    return is.high < is.low ? 0 : static_cast<uint64_t>(is.high) - static_cast<uint64_t>(is.low) + 1;
-  }
-
-  bool visitElements(const rung_variable& variable, uint32_t size) {
+  // The elements with all indices of the dimensions from `d` on; `number`: of the indices before.
+  bool visitElements(const rung_variable& variable, uint32_t size, uint32_t d, uint32_t number) {
     const rung_type& type = *variable.type;
-    const rung_type* const element = rung_type_at(&module_, type.element);
-    uint64_t count = 1;
-    for (uint32_t d = 0; d < type.count; ++d) count *= lengthOf(type, d);
-    for (uint64_t number = 0; number < count; ++number) {
-      rung_variable part = variable;
-      part.type = element;
-      part.offsets[part.pointers] += static_cast<uint32_t>(number * element->size);
+    const rung_dimension& dimension = *rung_dimension_at(&module_, type.first + d);
+    const uint32_t length = lengthOf(dimension);
+    number *= length;
+    for (uint32_t i = 0; i < length; ++i, ++number) {
       uint32_t its_size = size;
-      if (appendIndices(its_size, type, number) && !visit(part, its_size, nullptr, nullptr)) return false;
-      path_[size] = 0;
+      if (!append(its_size, d == 0 ? "[" : ",") || !append(its_size, static_cast<int32_t>(dimension.low + i)))
+        return true;
+      if (d + 1 < type.count) {
+        if (!visitElements(variable, its_size, d + 1, number)) return false;
+        continue;
+      }
+      rung_variable part = variable;
+      part.type = rung_type_at(&module_, type.element);
+      part.offsets[part.pointers] += number * part.type->size;
+      if (append(its_size, "]") && !visit(part, its_size, nullptr, nullptr)) return false;
     }
+    path_[size] = 0;
     return true;
   }
 
@@ -472,13 +490,13 @@ void rung_variable_of_symbol(const rung_module* module, uint32_t index, rung_var
 uint32_t rung_path_of_symbol(const rung_module* module, uint32_t index, char* path, uint32_t capacity) {
   const rung_symbol& symbol = *rung_symbol_at(module, index);
   const char* const name = module->strings + symbol.name;
-  uint32_t hash = rung_name_seed(RUNG_NONE);
-  for (const char* c = name; *c != 0; ++c) hash = rung_name_hash(hash, *c);
-  const size_t size = strlen(name);
-  const bool is_shared =
-      RUNG_NONE != findIn({namesOf(*module), 0, module->symbols.count, 0}, hash, [&](uint32_t i) {
-        return i != index && rung_equal_names(name, size, module->strings + rung_symbol_at(module, i)->name);
-      });
+  Search search = amongSymbols(*module, name);
+  for (; name[search.size] != 0; ++search.size) search.add(name[search.size]);
+  search.begin();
+  uint32_t other = search.next();
+  if (other == index) other = search.next();
+  const size_t size = search.size;
+  const bool is_shared = other != RUNG_NONE;
   const char* const prefix = is_shared ? module->strings + symbol.path : "";
   const size_t prefix_size = strlen(prefix);
   if (prefix_size + size >= capacity) return 0;

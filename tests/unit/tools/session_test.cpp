@@ -293,6 +293,35 @@ TEST_P(Engines, NoCopyStaysAfterAnActivation) {
   }
 }
 
+// With the table of names and without it: each variable of a program, and wrong paths made from its path.
+TEST_P(Engines, NamesAreFoundAlike) {
+  const Loaded loaded("samples/packaging_line", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  ASSERT_NE(rung_find_extension(&loaded.module->extensions, RUNG_NAMES), nullptr);
+  rung_module plain = *loaded.module;
+  plain.extensions = {};
+  Session session(*loaded.module, {}, {});
+  std::vector<Variable> leaves;
+  for (const Variable& root : session.symbols().roots()) session.symbols().expand(root, leaves);
+  ASSERT_GT(leaves.size(), 100u);
+  const auto find = [](const rung_module& module, const std::string& path) {
+    rung_variable variable{};
+    if (!rung_find(&module, path.c_str(), &variable)) return std::string("none");
+    return std::to_string(variable.storage) + ' ' + std::to_string(variable.index) + ' ' +
+           std::to_string(variable.offsets[variable.pointers]) + ' ' + std::to_string(variable.bit);
+  };
+  for (const Variable& leaf : leaves) {
+    EXPECT_EQ(find(*loaded.module, leaf.path), std::to_string(leaf.storage) + ' ' + std::to_string(leaf.index) + ' ' +
+                                                   std::to_string(leaf.offsets[0]) + ' ' + std::to_string(leaf.bit))
+        << leaf.path;
+    for (size_t size = 1; size <= leaf.path.size(); ++size) {
+      const std::string part = leaf.path.substr(0, size), end = leaf.path.substr(size);
+      EXPECT_EQ(find(*loaded.module, part), find(plain, part)) << part;
+      EXPECT_EQ(find(*loaded.module, end), find(plain, end)) << end;
+    }
+  }
+}
+
 TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
   const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
   ASSERT_NE(loaded.module, nullptr);
