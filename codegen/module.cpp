@@ -177,7 +177,9 @@ class Describer {
       const std::string function = "init" + number(is.type);
       code_ += "\nstatic void " + function + "(rung_context* ctx, void* instance) {\n  ";
       appendFunctionName(code_, module_, body);
-      code_ += "(*static_cast<" + recordName(types_, body.self) + "*>(instance), ctx);\n}\n";
+      const bool is_init = body.kind == ir::BodyKind::Init;  // a maker takes any instance, as methods do
+      code_ += is_init ? "(*static_cast<" + recordName(types_, body.self) + "*>(instance), ctx);\n}\n"
+                       : "(instance, ctx);\n}\n";
       initialisers_.row({number(is.type), function}, typeName(is.type));
     }
   }

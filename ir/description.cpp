@@ -122,11 +122,14 @@ class Describer {
     return index;
   }
 
-  // The records of the table of types that have initial values.
+  // The records of the table of types that have initial values, or FB_Init.
   void addInitialisers() {
-    for (const Record& record : module_.records) {
-      const auto known = type_number_.find(types_.resolve(record.type).index);
-      if (record.init && known != type_number_.end()) out_.initialisers.push_back({known->second, record.init});
+    std::unordered_map<uint32_t, BodyId> bodies;  // by record
+    for (const Record& record : module_.records) bodies[types_.resolve(record.type).index] = record.init;
+    for (const BodyId maker : module_.makers) bodies[types_.resolve(module_.body(maker).self).index] = maker;
+    for (const auto& [record, body] : bodies) {
+      const auto known = type_number_.find(record);
+      if (body && known != type_number_.end()) out_.initialisers.push_back({known->second, body});
     }
     std::sort(out_.initialisers.begin(), out_.initialisers.end(),
               [](const auto& a, const auto& b) { return a.type < b.type; });

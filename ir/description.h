@@ -63,7 +63,7 @@ struct Description {
   std::vector<rung_range> retain, persistent;
   struct Initialiser {
     uint32_t type;
-    BodyId body;  // of kind Init
+    BodyId body;  // of kind Init, or a maker
   };
   std::vector<Initialiser> initialisers;  // by type
   std::vector<uint32_t> resources;

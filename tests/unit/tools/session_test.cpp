@@ -328,7 +328,8 @@ TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
   Session session(*loaded.module, {}, {});
   ASSERT_TRUE(session.init().isComplete());
   uint32_t checked = 0;
-  for (const char* const path : {"Main.base", "Main.cell", "Main.holder", "Main.empty", "Main.limits", "Main.t"}) {
+  for (const char* const path :
+       {"Main.base", "Main.cell", "Main.holder", "Main.empty", "Main.limits", "Main.t", "Main.prepared"}) {
     Variable declared;
     std::string error;
     ASSERT_TRUE(session.symbols().find(path, declared, error)) << error;
@@ -340,7 +341,29 @@ TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
         << path;
     ++checked;
   }
-  EXPECT_EQ(checked, 6u);
+  EXPECT_EQ(checked, 7u);
+}
+
+// 3 * 2, and 6 of cells[2]; a declaration gives arguments that a new instance does not have.
+TEST_P(Engines, ANewInstanceRunsFbInit) {
+  const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  Session session(*loaded.module, {}, {});
+  ASSERT_TRUE(session.init().isComplete());
+  const auto made = [&](const std::string& path, const std::string& member) {
+    Variable whole, part;
+    std::string text;
+    EXPECT_TRUE(session.symbols().find(path, whole, text)) << text;
+    EXPECT_TRUE(session.symbols().find(path + member, part, text)) << text;
+    EXPECT_EQ(rung_init_instance(&session.context(), static_cast<uint32_t>(whole.type - rung_type_at(loaded.module, 0)),
+                                 whole.address()),
+              RUNG_FAULT_NONE);
+    host::formatValue(session.module(), part, text);
+    return text;
+  };
+  EXPECT_EQ(made("Main.prepared", ".n"), "12");
+  EXPECT_EQ(made("Main.prepared", ".order"), "'base own after'");
+  EXPECT_EQ(made("Main.sized", ".size"), "1");
 }
 
 INSTANTIATE_TEST_SUITE_P(, Engines, testing::Values(Engine::Interpreter, Engine::Native), [](const auto& test) {

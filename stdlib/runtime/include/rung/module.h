@@ -645,8 +645,7 @@ typedef const rung_module* (*rung_module_function)(void);
 uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*));
 
 /* Sets an instance to the initial values of its type, a record: zeros, then what rung_initialiser says, guarded in the
- * same way. Of a block with FB_Init it does not call that of the instance itself, whose arguments its declaration has.
- */
+ * same way: FB_Init runs, of the instance itself only where it has no inputs but the two of the system. */
 uint8_t rung_init_instance(rung_context* ctx, uint32_t type, void* instance);
 
 /* Leaves generated code. Called by checks. */
