@@ -22,17 +22,27 @@ class Ranges {
     while (sorted_ < ranges.count && isNext(sorted_)) ++sorted_;
   }
 
-  // Whether a range has the whole variable.
-  bool has(const rung_variable& variable) {
-    const uint32_t index = find(variable);
-    if (index == RUNG_NONE) return false;
+  // The range that has the whole variable; RUNG_NONE: none.
+  uint32_t find(const rung_variable& variable) const {
+    if (variable.pointers > 0) return RUNG_NONE;
+    uint32_t low = 0, high = variable.storage == RUNG_IN_BLOCK ? sorted_ : 0;
+    while (low < high) {  // the last range that begins at or before the variable
+      const uint32_t middle = (low + high) / 2;
+      const rung_range& range = rangeOf(ranges_, middle);
+      const bool is_after =
+          range.block > variable.index || (range.block == variable.index && range.offset > variable.offsets[0]);
+      (is_after ? high : low) = is_after ? middle : middle + 1;
+    }
+    if (low > 0 && holds(rangeOf(ranges_, low - 1), variable)) return low - 1;
+    for (uint32_t i = sorted_; i < ranges_.count; ++i)
+      if (holds(rangeOf(ranges_, i), variable)) return i;
+    return RUNG_NONE;
+  }
+  // Where the value of a variable in this range is in a slot. Quick where the next one is near.
+  uint32_t offsetOf(const rung_variable& variable, uint32_t index) {
     for (; at_ < index; ++at_) offset_ += rangeOf(ranges_, at_).size;
     for (; at_ > index; --at_) offset_ -= rangeOf(ranges_, at_ - 1).size;
-    return true;
-  }
-  // Of the last variable that `has` found: where its value is in a slot.
-  uint32_t offsetOf(const rung_variable& variable) const {
-    const rung_range& range = rangeOf(ranges_, at_);
+    const rung_range& range = rangeOf(ranges_, index);
     return (range.block & RUNG_RANGE_BIT) != 0 ? offset_ : offset_ + variable.offsets[0] - range.offset;
   }
   uint32_t end() const {
@@ -49,27 +59,6 @@ class Ranges {
     if (index == 0) return true;
     const rung_range& before = rangeOf(ranges_, index - 1);
     return range.block > before.block || (range.block == before.block && range.offset > before.offset);
-  }
-
-  uint32_t find(const rung_variable& variable) const {
-    if (variable.pointers > 0) return RUNG_NONE;
-    if (variable.storage == RUNG_IN_AREA) {
-      for (uint32_t i = sorted_; i < ranges_.count; ++i)
-        if (holds(rangeOf(ranges_, i), variable)) return i;
-      return RUNG_NONE;
-    }
-    uint32_t low = 0, high = sorted_;  // the last range that begins at or before the variable
-    while (low < high) {
-      const uint32_t middle = (low + high) / 2;
-      const rung_range& range = rangeOf(ranges_, middle);
-      const bool is_after =
-          range.block > variable.index || (range.block == variable.index && range.offset > variable.offsets[0]);
-      (is_after ? high : low) = is_after ? middle : middle + 1;
-    }
-    if (low > 0 && holds(rangeOf(ranges_, low - 1), variable)) return low - 1;
-    for (uint32_t i = sorted_; i < ranges_.count; ++i)
-      if (holds(rangeOf(ranges_, i), variable)) return i;
-    return RUNG_NONE;
   }
 
   static bool holds(const rung_range& range, const rung_variable& variable) {
@@ -96,12 +85,16 @@ class Keeping {
   explicit Keeping(const rung_module& module)
       : retained_(module.retain, 0), persistent_(module.persistent, retained_.end()) {}
 
-  Kept of(const rung_variable& variable) {
-    if (retained_.has(variable)) return Kept::Retained;
-    return persistent_.has(variable) ? Kept::Persistent : Kept::Not;
+  Kept of(const rung_variable& variable) const {
+    if (retained_.find(variable) != RUNG_NONE) return Kept::Retained;
+    return persistent_.find(variable) != RUNG_NONE ? Kept::Persistent : Kept::Not;
   }
-  uint32_t offsetOf(const rung_variable& variable, Kept kept) const {
-    return (kept == Kept::Retained ? retained_ : persistent_).offsetOf(variable);
+  // Where the value of a variable is in a slot; RUNG_NONE: it is not kept.
+  uint32_t offsetOf(const rung_variable& variable) {
+    const uint32_t retained = retained_.find(variable);
+    if (retained != RUNG_NONE) return retained_.offsetOf(variable, retained);
+    const uint32_t persistent = persistent_.find(variable);
+    return persistent != RUNG_NONE ? persistent_.offsetOf(variable, persistent) : RUNG_NONE;
   }
 
  private:
@@ -229,11 +222,11 @@ rung_walk listPart(void* data, const rung_part* part) {
   auto& all = *static_cast<Listing*>(data);
   return visitValue(*all.module, *part, [&](const rung_part& value) {
     const rung_variable& is = *value.variable;
-    const Kept kept = all.keeping.of(is);
-    if (kept == Kept::Not) return;
+    const uint32_t offset = all.keeping.offsetOf(is);
+    if (offset == RUNG_NONE) return;
     all.lines.put(value.path);
     all.lines.field(is.type->kind);
-    all.lines.field(all.keeping.offsetOf(is, kept));
+    all.lines.field(offset);
     all.lines.field(is.type->size);
     all.lines.put('\t');
     all.lines.put(all.module->strings + is.type->name);
@@ -259,7 +252,7 @@ uint32_t takeNumber(char*& at) {
 }
 
 // One line of a directory, in the room for a path.
-void restoreLine(rung_context& context, Keeping& keeping, const rung_slot& header, const uint8_t* values,
+void restoreLine(rung_context& context, const Keeping& keeping, const rung_slot& header, const uint8_t* values,
                  rung_start start, rung_migration& migration) {
   char* at = migration.path;
   Old old{takeField(at), 0, 0, "", nullptr, 255};
@@ -311,7 +304,7 @@ void rung_retain_migrate(rung_context* context, const void* slot, rung_start sta
   const auto* const values = static_cast<const uint8_t*>(slot) + sizeof header;
   const char* at = reinterpret_cast<const char*>(values) + header.value_bytes;
   const char* const end = reinterpret_cast<const char*>(values) + header.length;
-  Keeping keeping(*context->module);
+  const Keeping keeping(*context->module);
   while (at < end) {
     const auto* const line_end = static_cast<const char*>(memchr(at, '\n', static_cast<size_t>(end - at)));
     if (line_end == nullptr) return;

@@ -123,17 +123,24 @@ uint8_t* roomFor(const rung_forces& forces, uint32_t row, const rung_variable& v
   return forces.values + forces.value_bytes;
 }
 
+void removeRow(rung_forces& forces, uint32_t row) {
+  --forces.count;
+  memmove(forces.rows + row, forces.rows + row + 1, (forces.count - row) * sizeof forces.rows[0]);
+}
+
 // The row, or a new one, becomes the last; its value is set.
 void keep(rung_forces& forces, uint32_t row, const rung_variable& variable) {
-  rung_forced forced{variable, forces.value_bytes, 0};
+  uint32_t value = forces.value_bytes;
   if (row < forces.count) {
-    forced = forces.rows[row];
-    memmove(forces.rows + row, forces.rows + row + 1, (forces.count - row - 1) * sizeof forced);
-    --forces.count;
+    value = forces.rows[row].value;
+    removeRow(forces, row);
   } else {
     forces.value_bytes += variable.type->size;
   }
-  forces.rows[forces.count++] = forced;
+  rung_forced& forced = forces.rows[forces.count++];
+  forced.variable = variable;
+  forced.value = value;
+  forced.is_held = 0;
 }
 
 }  // namespace
@@ -261,11 +268,9 @@ bool rung_unforce(rung_forces* forces, const rung_variable* variable) {
   const uint32_t value = forces->rows[row].value, size = variable->type->size;
   memmove(forces->values + value, forces->values + value + size, forces->value_bytes - value - size);
   forces->value_bytes -= size;
-  --forces->count;
-  for (uint32_t i = 0; i < forces->count; ++i) {
-    if (i >= row) forces->rows[i] = forces->rows[i + 1];
+  removeRow(*forces, row);
+  for (uint32_t i = 0; i < forces->count; ++i)
     if (forces->rows[i].value > value) forces->rows[i].value -= size;
-  }
   return true;
 }
 

@@ -269,45 +269,40 @@ uint32_t lengthOf(const rung_dimension& dimension) {
   return dimension.high < dimension.low ? 0 : static_cast<uint32_t>(dimension.high - dimension.low) + 1;
 }
 
-// The index of one dimension, from 0; after it and blanks `rest` ends.
-rung_path_error takeIndex(rung_path& rest, const rung_dimension& dimension, uint32_t& index) {
+// A number with its sign, and the blanks around it.
+bool takeSigned(rung_path& rest, int64_t& number) {
   takeBlanks(rest);
   const bool is_negative = rest.at != rest.end && *rest.at == '-';
   if (is_negative) ++rest.at;
   uint32_t magnitude = 0;
-  if (!takeNumber(rest, magnitude)) return RUNG_PATH_INDEX;
+  if (!takeNumber(rest, magnitude)) return false;
   takeBlanks(rest);
-  if (rest.at != rest.end) return RUNG_PATH_INDEX;
-  const int64_t number = is_negative ? -int64_t{magnitude} : int64_t{magnitude};
-  if (number < dimension.low || number > dimension.high) return RUNG_PATH_RANGE;
-  index = static_cast<uint32_t>(number - dimension.low);
-  return RUNG_PATH_OK;
+  number = is_negative ? -int64_t{magnitude} : int64_t{magnitude};
+  return true;
 }
 
 rung_path_error stepToElement(const rung_module& module, rung_path& path, rung_variable& variable) {
   const rung_type& type = *variable.type;
   if (type.kind != RUNG_ARRAY) return RUNG_PATH_NO_ARRAY;
-  const char* const close = static_cast<const char*>(memchr(path.at, ']', sizeOf(path)));
-  if (close == nullptr) return RUNG_PATH_BRACKET;
-  uint32_t element = 0;
-  rung_path rest{path.at + 1, close, 0};
-  takeBlanks(rest);
-  uint32_t written = rest.at == close ? 0 : 1;
-  for (const char* c = rest.at; c != close; ++c) written += *c == ',' ? 1 : 0;
-  if (written != type.count) return RUNG_PATH_DIMENSIONS;
-  for (uint32_t d = 0; d < type.count; ++d) {
-    const rung_dimension& dimension = *rung_dimension_at(&module, type.first + d);
-    const char* const comma = static_cast<const char*>(memchr(rest.at, ',', static_cast<size_t>(close - rest.at)));
-    rest.end = comma != nullptr ? comma : close;
-    uint32_t index = 0;
+  rung_path rest = path;
+  rest.end = static_cast<const char*>(memchr(path.at, ']', sizeOf(path)));
+  if (rest.end == nullptr) return RUNG_PATH_BRACKET;
+  uint32_t element = 0, d = 0;
+  do {
     path.detail = d;
-    if (const rung_path_error error = takeIndex(rest, dimension, index)) return error;
-    element = element * lengthOf(dimension) + index;
-    rest.at = rest.end + (comma != nullptr ? 1 : 0);
-  }
+    ++rest.at;  // after `[` or `,`
+    int64_t index = 0;
+    const bool is_number = takeSigned(rest, index), is_last = rest.at == rest.end;
+    if (!is_number && d == 0 && is_last) return RUNG_PATH_DIMENSIONS;
+    if (!is_number || (!is_last && *rest.at != ',')) return RUNG_PATH_INDEX;
+    if (is_last != (d + 1 == type.count)) return RUNG_PATH_DIMENSIONS;
+    const rung_dimension& dimension = *rung_dimension_at(&module, type.first + d);
+    if (index < dimension.low || index > dimension.high) return RUNG_PATH_RANGE;
+    element = element * lengthOf(dimension) + static_cast<uint32_t>(index - dimension.low);
+  } while (++d < type.count);
   variable.type = rung_type_at(&module, type.element);
   variable.offsets[variable.pointers] += element * variable.type->size;
-  path.at = close + 1;
+  path.at = rest.end + 1;
   path.detail = RUNG_NONE;
   return RUNG_PATH_OK;
 }
@@ -359,23 +354,23 @@ const rung_field* baseOf(const rung_module& module, const rung_type& record) {
 rung_path_error stepToField(const rung_module& module, rung_path& path, const rung_path& name,
                             rung_variable& variable) {
   if (variable.type->kind != RUNG_RECORD) return RUNG_PATH_NO_RECORD;
-  rung_variable inside = variable;
-  for (;;) {
-    const uint32_t index = findField(module, *inside.type, name);
-    if (index != RUNG_NONE) {
-      const rung_field& field = *rung_field_at(&module, index);
-      enterField(module, field, inside);
-      setFlags(inside, field.flags);
-      if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0 && !addPointer(inside)) return RUNG_PATH_DEPTH;
-      variable = inside;
-      path.at = name.end;
-      path.detail = index;
-      return RUNG_PATH_OK;
-    }
-    const rung_field* const base = baseOf(module, *inside.type);
+  uint32_t index, offset = 0;  // of the base in the record
+  for (const rung_type* record = variable.type; (index = findField(module, *record, name)) == RUNG_NONE;) {
+    const rung_field* const base = baseOf(module, *record);
     if (base == nullptr) return RUNG_PATH_NO_FIELD;
-    enterField(module, *base, inside);
+    record = rung_type_at(&module, base->type);
+    offset += base->offset;
   }
+  const rung_field& field = *rung_field_at(&module, index);
+  const bool is_reference = (field.flags & RUNG_FIELD_BY_REFERENCE) != 0;
+  if (is_reference && variable.pointers == RUNG_VARIABLE_POINTERS) return RUNG_PATH_DEPTH;
+  enterField(module, field, variable);
+  variable.offsets[variable.pointers] += offset;
+  setFlags(variable, field.flags);
+  if (is_reference) addPointer(variable);
+  path.at = name.end;
+  path.detail = index;
+  return RUNG_PATH_OK;
 }
 
 rung_path_error stepToMember(const rung_module& module, rung_path& path, rung_variable& variable) {
