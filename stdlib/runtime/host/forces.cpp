@@ -30,7 +30,8 @@ void Forces::force(const Variable& variable, std::string_view value) {
   table_.value_capacity = static_cast<uint32_t>(values_.size());
   unforce(variable);
   names_.push_back(variable);
-  rung_force_text(&table_, &symbols_.module().description, &variable, value.data(), value.size());
+  const std::string_view literal = trimmed(value);
+  rung_force_text(&table_, &symbols_.module().description, &variable, literal.data(), literal.size());
 }
 
 void Forces::unforce(const Variable& variable) {
@@ -47,8 +48,7 @@ void Forces::unforceAll() {
 
 std::string Forces::list() const {
   // The table is memory like any other.
-  void* const block = table_.values;
-  void* blocks[] = {block};
+  void* blocks[] = {table_.values};
   rung_context context{};
   context.blocks = blocks;
   context.module = &symbols_.module().description;

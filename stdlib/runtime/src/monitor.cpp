@@ -159,9 +159,10 @@ void* rung_address(const rung_context* context, const rung_variable* variable) {
                                                   : static_cast<uint8_t*>(context->blocks[variable->index]);
   at += variable->offsets[0];
   for (uint32_t i = 1; i <= variable->pointers; ++i) {
-    memcpy(&at, at, sizeof at);
-    if (at == nullptr) return nullptr;
-    at += variable->offsets[i];
+    uint8_t* target;
+    memcpy(&target, at, sizeof target);
+    if (target == nullptr) return nullptr;
+    at = target + variable->offsets[i];
   }
   return at;
 }
