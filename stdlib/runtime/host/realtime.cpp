@@ -392,9 +392,9 @@ bool Realtime::between(const std::function<void()>& act) {
   constexpr int64_t kPatienceNs = 100 * kMillisecondNs, kMomentNs = 20'000;
   for (const int64_t begin = monotonicNs(); monotonicNs() - begin < kPatienceNs;
        sleepUntil(monotonicNs() + kMomentNs)) {
+    const std::unique_lock<std::mutex> resting = rest();  // in this order, as cycle() does
     const std::lock_guard<PriorityMutex> held(activity_);
     if (active_ > 0) continue;
-    const std::unique_lock<std::mutex> resting = rest();
     act();
     return true;
   }
