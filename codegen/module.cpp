@@ -78,12 +78,20 @@ class Table {
     if (!about.empty()) comment(about);
     rows_ += '\n';
   }
+  // A number of a table of numbers, many in a line.
+  void cell(uint64_t is) {
+    constexpr uint64_t kInALine = 16;
+    rows_ += (count_ % kInALine == 0 ? "  " : " ") + number(is) + ',';
+    if (++count_ % kInALine == 0) rows_ += '\n';
+  }
   bool empty() const { return count_ == 0; }
   uint64_t count() const { return count_; }
 
   std::string declaration() const { return std::string(type_) + ' ' + name_ + "[]"; }
   void define(std::string& out, const char* storage) const {
-    if (!empty()) out += std::string("\n// ") + columns_ + '\n' + storage + declaration() + " = {\n" + rows_ + "};\n";
+    if (!empty())
+      out += std::string("\n// ") + columns_ + '\n' + storage + declaration() + " = {\n" + rows_ +
+             (rows_.back() == '\n' ? "" : "\n") + "};\n";
   }
   // The table in the description.
   std::string cell() const {
@@ -193,6 +201,7 @@ class Describer {
     }
     addKept(retain_, is_.retain);
     addKept(persistent_, is_.persistent);
+    for (const uint32_t is : is_.names) names_.cell(is);
     for (const uint32_t is : is_.resources) resources_.row({number(is)}, text(is));
     for (const rung_write& is : is_.writes) {
       writes_.row({number(is.area), number(is.mask), number(is.offset), number(is.size)},
@@ -238,7 +247,7 @@ class Describer {
         "// ends with what it is about.\n#include <string.h>\n\n#include \"rung/module.h\"\n\n" +
         openNamespace(name_space_) + '\n' + functions_.declarations() + '\n' + textSource();
     for (const Table* table : {&blocks_, &areas_, &types_rows_, &fields_, &enum_items_, &dimensions_, &symbols_,
-                               &retain_, &persistent_, &resources_, &writes_, &io_modules_})
+                               &names_, &retain_, &persistent_, &resources_, &writes_, &io_modules_})
       table->define(out, kExtern);
     out += functions_.functions();
     for (const Table* table : {&initialisers_, &tasks_, &tests_}) table->define(out, kExtern);
@@ -269,6 +278,7 @@ class Describer {
     out += "\nextern const char text[];\n";
     for (const Table* table : tables())
       if (table != &sites_ && !table->empty()) out += kExtern + table->declaration() + ";\n";
+    if (!names_.empty()) out += namesSource();
     out += "void init(rung_context* ctx);\n";
     if (module_.exit) out += "void exit(rung_context* ctx);\n";
     if (module_.safe) out += "void safe(rung_context* ctx);\n";
@@ -284,6 +294,12 @@ class Describer {
             &fields_, &enum_items_, &dimensions_, &retain_, &persistent_, &sites_,      &initialisers_, &tests_};
   }
 
+  // The extension that finds names.
+  std::string namesSource() const {
+    return kExtern + names_.declaration() + ";\nstatic const rung_names name_table = {" + names_.cell() +
+           "};\nstatic const rung_extension extensions[] = {{RUNG_NAMES, &name_table, sizeof name_table}};\n";
+  }
+
   std::string descriptionSource() const {
     std::string out = "static const rung_module description = {\n  RUNG_MODULE_ABI, RUNG_MODULE_LAYOUT, " +
                       number(types_.pointerSize()) + ", " + (module_.aligned_globals ? "RUNG_ALIGNED_GLOBALS" : "0") +
@@ -291,8 +307,9 @@ class Describer {
     appendQuoted(out, options_.module_name);
     out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n";
     for (const Table* table : tables()) out += "  " + table->cell() + ",\n";
-    return out + "  {nullptr, 0, sizeof(rung_extension)},\n  init, " + (module_.exit ? "exit" : "nullptr") + ", " +
-           (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
+    const std::string extensions = names_.empty() ? "{nullptr, 0" : "{extensions, 1";
+    return out + "  " + extensions + ", sizeof(rung_extension)},\n  init, " + (module_.exit ? "exit" : "nullptr") +
+           ", " + (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
   }
 
   const ir::Module& module_;
@@ -310,6 +327,8 @@ class Describer {
   Table enum_items_{"rung_enum_item", "enum_items", "name, value"};
   Table dimensions_{"rung_dimension", "dimensions", "low, high"};
   Table symbols_{"rung_symbol", "symbols", "name, type, storage, bit, is_program, index, offset, flags, path"};
+  Table names_{is_.names.size() <= UINT16_MAX ? "uint16_t" : "uint32_t", "names",
+               "1 + the number of a symbol or field"};
   Table retain_{"rung_range", "retain", "block, offset, size"};
   Table persistent_{"rung_range", "persistent", "block, offset, size"};
   Table initialisers_{"rung_initialiser", "initialisers", "type, init"};

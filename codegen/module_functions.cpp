@@ -28,11 +28,15 @@ Ex ModuleFunctions::clearing(uint32_t number) {
   return tree_.call("memset", {block(number), tree_.number(0), tree_.number(is_.blocks[number].size)});
 }
 
-Ex ModuleFunctions::callOn(ir::BodyId id, TypeId record, Ex instance) {
+Ex ModuleFunctions::callWith(ir::BodyId id, Ex instance) {
   declare(id);
   std::string name;
   appendFunctionName(name, module_, module_.body(id));
-  return tree_.call(name, {asRecord(record, instance), tree_.fixed("ctx")});
+  return tree_.call(name, {instance, tree_.fixed("ctx")});
+}
+
+Ex ModuleFunctions::callOn(ir::BodyId id, TypeId record, Ex instance) {
+  return callWith(id, asRecord(record, instance));
 }
 
 Ex ModuleFunctions::callOf(ir::BodyId id) {
@@ -81,8 +85,13 @@ void ModuleFunctions::define(cxx::Declarations& where, cxx::Function* made, cons
 void ModuleFunctions::addInitialiser(const std::string& name, ir::BodyId init) {
   cxx::Function* const made = function("static", name);
   made->parameters.add(tree_.variable(cxx::Type{"void", "*", {}}, "instance"));
+  const ir::Body& called = module_.body(init);
+  const Ex instance = tree_.fixed("instance");
   Statements body;
-  add(body, callOn(init, module_.body(init).self, tree_.fixed("instance")));
+  if (called.kind == ir::BodyKind::Init)
+    add(body, callOn(init, called.self, instance));
+  else
+    add(body, callWith(init, instance));  // a maker takes any instance, as methods do
   define(functions_, made, body);
 }
 

@@ -45,6 +45,7 @@ class ModuleFunctions {
   // `*static_cast<Ramp_type*>(instance)`
   cxx::Ex asRecord(TypeId record, cxx::Ex instance);
   cxx::Ex clearing(uint32_t number);
+  cxx::Ex callWith(ir::BodyId id, cxx::Ex instance);
   cxx::Ex callOn(ir::BodyId id, TypeId record, cxx::Ex instance);
   cxx::Ex callOf(ir::BodyId id);
   cxx::Ex runOf(const ir::ProgramInstance& program, uint32_t number);

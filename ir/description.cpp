@@ -32,6 +32,7 @@ class Describer {
     addIoModules();
     if (with_tests) addTests();
     addInitialisers();
+    addNames();
     out_.layout_hash = layoutHash();
     out_.aligned_globals = module_.aligned_globals;
   }
@@ -121,11 +122,14 @@ class Describer {
     return index;
   }
 
-  // The records of the table of types that have initial values.
+  // The records of the table of types that have initial values, or FB_Init.
   void addInitialisers() {
-    for (const Record& record : module_.records) {
-      const auto known = type_number_.find(types_.resolve(record.type).index);
-      if (record.init && known != type_number_.end()) out_.initialisers.push_back({known->second, record.init});
+    std::unordered_map<uint32_t, BodyId> bodies;  // by record
+    for (const Record& record : module_.records) bodies[types_.resolve(record.type).index] = record.init;
+    for (const BodyId maker : module_.makers) bodies[types_.resolve(module_.body(maker).self).index] = maker;
+    for (const auto& [record, body] : bodies) {
+      const auto known = type_number_.find(record);
+      if (body && known != type_number_.end()) out_.initialisers.push_back({known->second, body});
     }
     std::sort(out_.initialisers.begin(), out_.initialisers.end(),
               [](const auto& a, const auto& b) { return a.type < b.type; });
@@ -352,6 +356,31 @@ class Describer {
     if (access.bit != kNoBit) symbol.bit = static_cast<uint8_t>(access.bit);
     if (access.read_only) symbol.flags = RUNG_FIELD_READ_ONLY;
     add(rows, symbol, name, path);
+  }
+
+  // ---- the names of symbols and fields
+
+  void addName(uint32_t owner, uint32_t name, uint32_t row) {
+    uint32_t hash = rung_name_seed(owner);
+    for (const char* c = out_.strings.bytes().c_str() + name; *c != 0; ++c) hash = rung_name_hash(hash, *c);
+    const auto count = static_cast<uint32_t>(out_.names.size());
+    uint32_t at = rung_name_slot(hash, count);
+    while (out_.names[at] != 0) at = at + 1 == count ? 0 : at + 1;
+    out_.names[at] = row + 1;
+  }
+
+  // Twice as many rows as names keep the way to a name short, and the way to the end of a search for none.
+  void addNames() {
+    constexpr size_t kFew = 32;
+    const size_t count = out_.symbols.size() + out_.fields.size();
+    if (count <= kFew) return;
+    out_.names.resize(2 * count);
+    uint32_t row = 0;
+    for (const rung_symbol& symbol : out_.symbols) addName(RUNG_NONE, symbol.name, row++);
+    std::vector<uint32_t> owners(out_.fields.size());
+    for (const rung_type& type : out_.types)
+      if (type.kind == RUNG_RECORD) std::fill_n(owners.begin() + type.first, type.count, type.first);
+    for (size_t i = 0; i < out_.fields.size(); ++i) addName(owners[i], out_.fields[i].name, row++);
   }
 
   // ---- tasks and tests

@@ -59,10 +59,11 @@ struct Description {
   std::vector<rung_enum_item> enum_items;
   std::vector<rung_dimension> dimensions;
   std::vector<rung_symbol> symbols;  // sorted by name
+  std::vector<uint32_t> names;       // rung_names::slots; empty where there are few names
   std::vector<rung_range> retain, persistent;
   struct Initialiser {
     uint32_t type;
-    BodyId body;  // of kind Init
+    BodyId body;  // of kind Init, or a maker
   };
   std::vector<Initialiser> initialisers;  // by type
   std::vector<uint32_t> resources;

@@ -516,6 +516,7 @@ struct Module {
   std::vector<Class> classes;
   BodyId after_init;                 // a function without parameters that runs after all initialisers, or none
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
+  std::vector<BodyId> makers;        // functions on an instance that make it as a declaration without arguments does
   BodyId safe;                       // a function without parameters that sets outputs to safe values, or none
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;

@@ -87,10 +87,10 @@ int64_t TokenReader::integer() {
 
 static bool isItemWord(std::string_view word) {
   for (const char* item :
-       {"enum",      "subrange",   "struct",     "union",    "block", "program", "globals",         "area",
-        "data",      "interface",  "classes",    "dispatch", "list",  "task",    "instance",        "located",
-        "test",      "exit",       "after_init", "function", "body",  "init",    "aligned_globals", "safe",
-        "io_module", "around_task"})
+       {"enum", "subrange",  "struct",     "union",      "block",    "program", "globals",  "area",
+        "data", "interface", "classes",    "dispatch",   "list",     "task",    "instance", "located",
+        "test", "exit",      "maker",      "after_init", "function", "body",    "init",     "aligned_globals",
+        "safe", "io_module", "around_task"})
     if (word == item) return true;
   return false;
 }
@@ -558,8 +558,8 @@ void Reader::declareItem() {
   }
   if (isWord("body") || isWord("init")) return blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
   // The others have been read before, or are read later.
-  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") &&
-      !isWord("dispatch") && !isWord("around_task"))
+  if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("maker") && !isWord("after_init") &&
+      !isWord("safe") && !isWord("dispatch") && !isWord("around_task"))
     record();
 }
 
@@ -580,8 +580,8 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("exit") && !isWord("after_init") && !isWord("safe") && !isWord("dispatch") &&
-        !isWord("around_task"))
+        !isWord("test") && !isWord("exit") && !isWord("maker") && !isWord("after_init") && !isWord("safe") &&
+        !isWord("dispatch") && !isWord("around_task"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -614,11 +614,12 @@ void Reader::linkInits() {
   }
 }
 
-// exit, after_init, safe or test, and the body that it names.
+// exit, maker, after_init, safe or test, and the body that it names.
 void Reader::entryOrTest() {
   const bool is_exit = accept("exit"), is_after_init = !is_exit && accept("after_init");
   const bool is_safe = !is_exit && !is_after_init && accept("safe");
-  if (!is_exit && !is_after_init && !is_safe && !accept("test")) return;
+  const bool is_maker = !is_exit && !is_after_init && !is_safe && accept("maker");
+  if (!is_exit && !is_after_init && !is_safe && !is_maker && !accept("test")) return;
   const BodyId named = bodyNamed("body");
   if (failed_) return;
   if (is_exit)
@@ -627,6 +628,8 @@ void Reader::entryOrTest() {
     module_.after_init = named;
   else if (is_safe)
     module_.safe = named;
+  else if (is_maker)
+    module_.makers.push_back(named);
   else
     test(named);
 }

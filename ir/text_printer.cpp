@@ -441,6 +441,10 @@ void Printer::items() {
     clause("exit @", module_.exit);
     put("\n");
   }
+  for (const BodyId maker : module_.makers) {
+    clause("maker @", maker);
+    put("\n");
+  }
   for (const Test& test : module_.tests) {
     clause("test @", test.body);
     clause(" setup @", test.setup);

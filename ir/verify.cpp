@@ -235,6 +235,9 @@ void Verifier::checkTasks() {
   for (BodyId function : {module_.after_init, module_.exit, module_.safe}) requireCallable(function);
   for (const Task& task : module_.tasks)
     for (BodyId function : {task.before, task.after}) requireCallable(function);
+  for (const BodyId maker : module_.makers)
+    require(maker.index < module_.bodies.size() && isRecord(module_.body(maker).self), 2,
+            "a maker without an instance");
   seen_.clear();
   for (const Task& task : module_.tasks) requireUnique(task.name, "task", task.resource);
   for (const Located& located : module_.located)

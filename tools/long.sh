@@ -7,6 +7,7 @@
 # networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
 # mutants       40 000 corrupted programs, drawings and ladders: one error at the right place, and no crash (COUNT, FIRST)
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
+# forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
 # mutation      300 mistakes in the compiler and the runtime, drawn at random: 95 % of them are noticed (COUNT, SEED)
@@ -59,6 +60,11 @@ frames() {
   needs runtime_test
   RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-1000000} "$bin/runtime_test" --gtest_filter='Modbus.*' --gtest_brief=1
   tests/fuzz/frames/frames.sh "${SECONDS_EACH:-300}" "$first"
+}
+
+forces() {
+  needs session_test
+  RUNG_FORCES_SEED=$first RUNG_FORCES_COUNT=${COUNT:-10000} "$bin/session_test" --gtest_filter='Forces.*' --gtest_brief=1
 }
 
 modifiers() {
@@ -158,11 +164,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,26s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
+    *) sed -n '3,27s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -34,6 +34,8 @@ struct Program::Parts {
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
   std::vector<rung_initialiser> initialisers;
+  rung_names names{};
+  rung_extension extension{};
   Code::Entry init, exit, safe;
   std::vector<Code::Entry> of_initialiser, of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kTaskStack;
@@ -282,6 +284,11 @@ void Program::Parts::describe() {
   is.sites = table(code.sites);
   is.initialisers = table(initialisers);
   is.tests = table(tests);
+  if (!from.names.empty()) {
+    names.slots = table(from.names);
+    extension = {RUNG_NAMES, &names, sizeof names};
+    is.extensions = {&extension, 1, sizeof extension};
+  }
   is.init = runInit;
   is.find_callers = findCallers;
 }

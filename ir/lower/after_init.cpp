@@ -127,4 +127,36 @@ void ModuleLowering::addAfterInit() {
   module.after_init = afterInitOf(module.names.intern("after_init"), "~", called, instances.roots(), false);
 }
 
+// Whether a declaration of the block needs no arguments: FB_Init, its own or that of a base, has the two inputs of the
+// system alone.
+bool ModuleLowering::isMadeWithoutArguments(sema::PouId block) const {
+  constexpr std::ptrdiff_t kOfTheSystem = 2;
+  const std::vector<sema::PouId> methods = lifeMethodsOf(block, "FB_Init");
+  return std::all_of(methods.begin(), methods.end(), [&](sema::PouId method) {
+    const std::vector<sema::VarId>& vars = project.pou(method).vars;
+    return std::count_if(vars.begin(), vars.end(),
+                         [&](sema::VarId id) { return project.var(id).section == SectionKind::Input; }) <= kOfTheSystem;
+  });
+}
+
+// For rung_init_instance: what a new instance needs beside its initial values.
+void ModuleLowering::addMakers() {
+  for (size_t i = 0; i < module.records.size(); ++i) {
+    const TypeId record = module.records[i].type;
+    const sema::PouId block = records.pouOf(record);
+    if (!block || project.pou(block).kind != PouKind::FunctionBlock ||
+        (project.pou(block).object.modifiers & kAbstract) != 0)
+      continue;
+    if (lifeMethodsOf(block, "FB_Init").empty() && calledAfterInit(block).empty()) continue;
+    if (!isMadeWithoutArguments(block)) continue;
+    const BodyId created = addHelper(project.pou(block).unique_name, block, "~new");
+    module.makers.push_back(created);
+    Body& body = module.body(created);
+    body.self = record;
+    BodyLowering lowering(*this, body, {});
+    lowering.objects.storeInitial(lowering.code.self(body.loc), record, {}, true);
+    lowering.finish();
+  }
+}
+
 }  // namespace rung::ir

@@ -53,6 +53,7 @@ struct ModuleLowering {
   // FB_Init or FB_Exit of an object and of the objects that it extends, the outermost base first.
   std::vector<sema::PouId> lifeMethodsOf(sema::PouId object, std::string_view name) const;
   std::vector<sema::PouId> calledAfterInit(sema::PouId object) const;
+  bool isMadeWithoutArguments(sema::PouId block) const;
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
   // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
@@ -101,6 +102,7 @@ struct ModuleLowering {
   }
   BodyId endsOf(NameId name, const char* suffix, std::span<const Root> roots);
   void addExit();
+  void addMakers();
   void addDispatches();
   std::vector<sema::PouId> calledAfterGlobals() const;
   BodyId afterInitOf(NameId name, const char* suffix, std::span<const sema::PouId> called, std::span<const Root> roots,

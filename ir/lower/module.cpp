@@ -55,6 +55,7 @@ void ModuleLowering::run() {
   } while (next_to_lower_ < to_lower_.size());
   addAfterInit();
   addExit();
+  addMakers();
   lowerBodies();  // the functions that these call
   addClasses();
   addDispatches();

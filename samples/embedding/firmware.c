@@ -1,10 +1,11 @@
 /* The smallest product that runs a compiled project: it owns all memory, runs the tasks of a resource one at a time in
- * virtual time, keeps retained data in two regions of memory and prints a trace like that of `rung run`. C99, for any
- * processor. Built and run by tests/programs/embedding. See docs/embedding.md. */
+ * virtual time, keeps retained data in two regions of memory, forces a variable and prints a trace like that of
+ * `rung run`. C99, for any processor. Built and run by tests/programs/embedding. See docs/embedding.md. */
 #include <stdio.h>
 #include <string.h>
 
 #include "rung/module.h"
+#include "rung/monitor.h"
 #include "rung/retain.h"
 #include "rung/values.h"
 
@@ -16,8 +17,13 @@ static uint64_t memory[1024]; /* a product places blocks where it likes: RAM, ba
 static void *blocks[MAX_BLOCKS];
 static uint64_t inputs[16], outputs[16], flags[16]; /* %I, %Q, %M */
 static uint8_t *areas[] = {(uint8_t *)inputs, (uint8_t *)outputs, (uint8_t *)flags};
-static uint64_t fram[2][64]; /* two slots of retained data: memory that keeps its content */
+static uint64_t fram[2][128]; /* two slots of retained data: memory that keeps its content */
 static uint64_t sequence;
+static uint32_t directory_size; /* of the names of retained variables, for a later version of the program */
+static uint8_t has_directory[2];
+static rung_forced forced[4]; /* what a service engineer may force at once */
+static uint8_t forced_values[64];
+static rung_forces forces = {forced, 4, 0, forced_values, sizeof forced_values, 0};
 static rung_task_state states[MAX_TASKS]; /* statistics, which the program may read */
 static int64_t started_at;                /* the common begin of all periods */
 static uint8_t was_true[MAX_TASKS];       /* triggers of event tasks at the last sample */
@@ -37,57 +43,29 @@ static int allocate(const rung_module *module) {
   return module->tasks.count <= MAX_TASKS && rung_retain_bytes(module) <= sizeof fram[0];
 }
 
-/* Finds a global variable (`isFull`) or a variable of a program (`Main.level`): its type, or null. */
-static const rung_type *find(const rung_module *module, const char *path, const uint8_t **value, uint8_t *bit) {
-  const char *dot = strchr(path, '.');
-  for (uint32_t i = 0; i < module->symbols.count; ++i) {
-    const rung_symbol *symbol = rung_symbol_at(module, i);
-    const rung_type *type = rung_type_at(module, symbol->type);
-    const char *name = module->strings + symbol->name;
-    *value = (symbol->storage == RUNG_IN_AREA ? areas[symbol->index] : (uint8_t *)blocks[symbol->index]) +
-             symbol->offset;
-    *bit = symbol->bit;
-    if (strcmp(name, path) == 0) return type;
-    if (dot == NULL || strlen(name) != (size_t)(dot - path) || memcmp(name, path, strlen(name)) != 0) continue;
-    for (uint32_t f = 0; f < type->count; ++f) {
-      const rung_field *field = rung_field_at(module, type->first + f);
-      if (strcmp(module->strings + field->name, dot + 1) != 0) continue;
-      *value += field->offset;
-      return rung_type_at(module, field->type);
-    }
-  }
-  return NULL;
-}
-
-static void print(const rung_module *module, const char *path) {
-  const uint8_t *value;
-  uint8_t bit;
-  const rung_type *type = find(module, path, &value, &bit);
+static void print(const rung_context *context, const char *path) {
+  rung_variable variable;
   char text[RUNG_FORMATTED_SCALAR + 5 * 80];
-  if (type == NULL) return;
-  if (bit < 8) {
-    bit = *value >> bit & 1;
-    value = &bit;
-  }
-  rung_format(type->kind, type->is_signed != 0, value, text, sizeof text - 1);
+  if (!rung_find(context->module, path, &variable)) return;
+  rung_read_text(context, &variable, text, sizeof text - 1);
   printf(",%s", text);
 }
 
-static int is_true(const rung_module *module, const char *path) {
-  const uint8_t *value;
-  uint8_t bit;
-  if (find(module, path, &value, &bit) == NULL) return 0;
-  return bit < 8 ? *value >> bit & 1 : *value != 0;
+static int is_true(const rung_context *context, const char *path) {
+  rung_variable variable;
+  uint8_t value = 0;
+  return rung_find(context->module, path, &variable) && rung_read_value(context, &variable, &value, 1) && value != 0;
 }
 
 /* Whether a task runs in the cycle that begins at `now`. */
-static int is_due(const rung_module *module, uint32_t t, int64_t now) {
+static int is_due(const rung_context *context, uint32_t t, int64_t now) {
+  const rung_module *module = context->module;
   const rung_task *task = rung_task_at(module, t);
   uint8_t before = was_true[t];
   if (task->kind == RUNG_CYCLIC) return (now - started_at) % task->interval_ns == 0;
   if (task->kind == RUNG_FREEWHEELING) return 1;
   if (task->kind == RUNG_EXTERNAL) return 0; /* a product starts them from its interrupts */
-  was_true[t] = (uint8_t)is_true(module, module->strings + task->trigger);
+  was_true[t] = (uint8_t)is_true(context, module->strings + task->trigger);
   return was_true[t] && (task->kind == RUNG_STATUS || !before);
 }
 
@@ -97,11 +75,32 @@ static void make_outputs_safe(rung_context *context) {
   if (context->module->safe != NULL) rung_guarded(context, context->module->safe);
 }
 
-/* All tasks of a cycle, by priority; 0 after a fault. A product with interrupts gives each priority a context of its own. */
+static void on_lost(void *data, const char *path, rung_loss why, const char *old_type, const char *new_type) {
+  (void)data;
+  printf("%s (%s): %s%s\n", path, old_type, why == RUNG_LOSS_TYPE ? "now " : "lost", new_type);
+}
+
+/* No task runs: the values are those of a complete cycle. The older slot is written, the names once. */
+static void keep(rung_context *context) {
+  static char path[128];
+  rung_migration migration = {path, sizeof path, NULL, NULL, 0, 0};
+  const uint32_t values = rung_retain_bytes(context->module), n = sequence % 2;
+  char *slot = (char *)fram[n];
+  rung_retain_pack(context, slot);
+  if (!has_directory[n])
+    directory_size = rung_retain_directory(context->module, slot + values, sizeof fram[n] - values, &migration);
+  has_directory[n] = 1;
+  if (directory_size <= sizeof fram[n] - values) ((rung_slot *)fram[n])->length += directory_size;
+  rung_retain_seal(slot, ++sequence);
+}
+
+/* All tasks of a cycle, by priority; 0 after a fault. A product with interrupts gives each priority a context of its
+ * own. */
 static int run_cycle(rung_context *context, int64_t now) {
   const rung_module *module = context->module;
   uint8_t due[MAX_TASKS];
-  for (uint32_t t = 0; t < module->tasks.count; ++t) due[t] = (uint8_t)is_due(module, t, now);
+  rung_apply_forces(context, &forces); /* the inputs have been taken */
+  for (uint32_t t = 0; t < module->tasks.count; ++t) due[t] = (uint8_t)is_due(context, t, now);
   for (uint32_t priority = 0; priority < 32; ++priority) {
     for (uint32_t t = 0; t < module->tasks.count; ++t) {
       if (!due[t] || rung_task_at(module, t)->priority != priority) continue;
@@ -113,13 +112,11 @@ static int run_cycle(rung_context *context, int64_t now) {
         printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
         return 0;
       }
-      ++states[t].activations; /* a product with a timer also measures last_ns, longest_ns, ... */
+      rung_apply_forces(context, &forces); /* after the code, so before that of the next task and before the outputs */
+      ++states[t].activations;             /* a product with a timer also measures last_ns, longest_ns, ... */
     }
   }
-  /* No task runs: the values are those of a complete cycle. The older slot is written. */
-  rung_retain_pack(context, fram[sequence % 2]);
-  rung_retain_seal(fram[sequence % 2], sequence + 1);
-  ++sequence;
+  keep(context);
   return 1;
 }
 
@@ -129,17 +126,23 @@ static void start(rung_context *context, rung_start kind, int64_t now) {
   started_at = context->now_ns = now;
   memset(was_true, 0, sizeof was_true);
   rung_guarded(context, context->module->init);
-  if (newest != NULL && !rung_retain_unpack(context, newest, kind)) printf("retained data of another program\n");
+  if (newest != NULL && !rung_retain_unpack(context, newest, kind)) { /* of another version of the program */
+    static char path[128];
+    rung_migration migration = {path, sizeof path, on_lost, NULL, 0, 0};
+    rung_retain_migrate(context, newest, kind, &migration);
+  }
 }
 
 int main(void) {
-  static const char *const watched[] = {"Main.lamp", "Main.pump", "horn", "level", "Main.starts", "Recorder.highest",
-                                        "Alarm.alarms", "Main.message"};
+  static const char *const watched[] = {"Main.lamp",   "Main.pump",        "horn",         "level",
+                                        "Main.starts", "Recorder.highest", "Alarm.alarms", "Main.message"};
   const size_t watched_count = sizeof watched / sizeof *watched;
   const rung_module *module = plant_module();
   rung_context context = {.blocks = blocks, .areas = areas, .task_states = states};
   if (module->abi != RUNG_MODULE_ABI || !allocate(module)) return 2;
   context.module = module;
+  rung_variable level;
+  if (!rung_find(module, "level", &level)) return 2;
   start(&context, RUNG_COLD, 0);
 
   printf("cycle,time_ms");
@@ -153,13 +156,15 @@ int main(void) {
       memset(outputs, 0, sizeof outputs);
       start(&context, RUNG_WARM, now);
     }
+    if (cycle == 9) rung_force_text(&forces, module, &level, "3.0", 3); /* the service port of the product */
+    if (cycle == 11) rung_unforce(&forces, &level);
     if (!run_cycle(&context, now)) {
       make_outputs_safe(&context);
       return 3;
     }
     /* ... and writes its outputs here: areas[1] is %QB0 */
     printf("%d,%ld", cycle, (long)(now / 1000000));
-    for (size_t i = 0; i < watched_count; ++i) print(module, watched[i]);
+    for (size_t i = 0; i < watched_count; ++i) print(&context, watched[i]);
     printf("\n");
   }
   make_outputs_safe(&context);

@@ -29,6 +29,11 @@ for program in "$here"/tools/house/tsan/${1:-*}.st "$here"/tools/house/tsan/${1:
   name=${name%.*}
   driver="--driver log.so=log"
   [ -e "$here/tools/house/tsan/$name.st" ] || driver=""  # a ladder has no %I and %Q
+  commands=$here/tools/house/tsan/commands.txt
+  if [ -n "$driver" ]; then
+    sort -s -n -k 1,1 "$commands" "$here/tools/house/tsan/values.txt" > "$folder/commands.txt"
+    commands=$folder/commands.txt
+  fi
   options=$(sed -n 's,^// options: ,,p' "$program")
   "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
   ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
@@ -37,7 +42,7 @@ for program in "$here"/tools/house/tsan/${1:-*}.st "$here"/tools/house/tsan/${1:
     runner=""
     [ $rights = with ] || runner="setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-all"
     (cd "$folder" && $runner "$name/app" --realtime --for 3s $driver --retain "$name.kept" --retain-interval 5ms \
-      --control "$here/tools/house/tsan/commands.txt" --trace "$name.csv" $options > "$name.out" 2>&1) || status=$?
+      --control "$commands" --trace "$name.csv" $options > "$name.out" 2>&1) || status=$?
     if grep -q 'WARNING: ThreadSanitizer' "$folder/$name.out" || [ "${status:-0}" != 0 ]; then
       echo "$name, $rights rights: status ${status:-0}"
       head -60 "$folder/$name.out"

@@ -18,30 +18,91 @@ namespace {
 
 constexpr size_t kLongestLine = 4096;  // by a pipe, and what is read from it at once
 
-// Empty, or why the words are not a command.
-std::string parse(const std::vector<std::string>& words, Command& command) {
-  static const struct {
-    const char* name;
-    Command::Kind kind;
-  } kCommands[] = {{"stop", Command::Stop},   {"start", Command::Start}, {"cycle", Command::Cycle},
-                   {"reset", Command::Reset}, {"event", Command::Event}, {"status", Command::Status},
-                   {"quit", Command::Quit}};
-  bool known = false;
-  for (const auto& row : kCommands) {
-    if (lowerCase(words[0]) != row.name) continue;
-    command.kind = row.kind;
-    known = true;
+enum class Operand : uint8_t { None, Word, Paths, Values };
+const struct {
+  const char* name;
+  Command::Kind kind;
+  Operand operand;
+} kCommands[] = {{"stop", Command::Stop, Operand::None},        {"start", Command::Start, Operand::None},
+                 {"cycle", Command::Cycle, Operand::None},      {"reset", Command::Reset, Operand::Word},
+                 {"event", Command::Event, Operand::Word},      {"status", Command::Status, Operand::None},
+                 {"quit", Command::Quit, Operand::None},        {"get", Command::Get, Operand::Paths},
+                 {"set", Command::Set, Operand::Values},        {"force", Command::Force, Operand::Values},
+                 {"unforce", Command::Unforce, Operand::Paths}, {"forces", Command::Forces, Operand::None}};
+
+// The line up to a comment, which begins with `#` at its begin or after a blank, but not in a string.
+std::string_view withoutComment(std::string_view line) {
+  char quote = 0;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote != 0 && c == '$')
+      ++i;
+    else if (quote != 0)
+      quote = c == quote ? char{0} : quote;
+    else if (c == '\'' || c == '"')
+      quote = c;
+    else if (c == '#' && (i == 0 || isBlank(line[i - 1])))
+      return line.substr(0, i);
   }
-  if (!known) return "`" + words[0] + "` is not a command; write stop, start, cycle, reset, event, status or quit";
-  const bool has_operand = command.kind == Command::Reset || command.kind == Command::Event;
-  if (words.size() != (has_operand ? 2u : 1u))
-    return has_operand ? "`" + words[0] + "` needs one word after it" : "`" + words[0] + "` has nothing after it";
-  if (command.kind == Command::Event) command.event = words[1];
-  if (command.kind != Command::Reset) return "";
-  const std::string start = lowerCase(words[1]);
-  if (start != "warm" && start != "cold" && start != "origin") return "reset needs warm, cold or origin";
-  command.start = start == "warm" ? RUNG_WARM : start == "cold" ? RUNG_COLD : RUNG_ORIGIN;
+  return line;
+}
+
+// Takes the first word.
+std::string_view takeWord(std::string_view& text) {
+  size_t length = 0;
+  while (length < text.size() && !isBlank(text[length])) ++length;
+  const std::string_view word = text.substr(0, length);
+  text = trimmed(text.substr(length));
+  return word;
+}
+
+// `PATH`, or `PATH=VALUE`.
+std::string readValue(std::string_view item, bool has_text, Command::Value& value) {
+  const size_t equals = has_text ? item.find('=') : item.size();
+  value.path = trimmed(item.substr(0, equals));
+  if (equals == std::string_view::npos || value.path.empty())
+    return "expected PATH=VALUE, not `" + std::string(item) + "`";
+  if (has_text) value.text = trimmed(item.substr(equals + 1));
   return "";
+}
+
+std::string readStart(std::string_view word, rung_start& start) {
+  const std::string name = lowerCase(word);
+  if (name != "warm" && name != "cold" && name != "origin") return "reset needs warm, cold or origin";
+  start = name == "warm" ? RUNG_WARM : name == "cold" ? RUNG_COLD : RUNG_ORIGIN;
+  return "";
+}
+
+// What is after the name of a command: empty, or what is wrong.
+std::string readOperand(std::string_view name, Operand operand, std::string_view rest, Command& command) {
+  const std::string quoted = "`" + std::string(name) + "`";
+  if (operand == Operand::None) return rest.empty() ? "" : quoted + " has nothing after it";
+  if (operand == Operand::Word) {
+    const std::string_view word = takeWord(rest);
+    if (word.empty() || !rest.empty()) return quoted + " needs one word after it";
+    if (command.kind == Command::Reset) return readStart(word, command.start);
+    command.event = word;
+    return "";
+  }
+  const bool has_text = operand == Operand::Values;
+  for (const std::string& item : splitList(rest))
+    if (std::string what = readValue(item, has_text, command.values.emplace_back()); !what.empty()) return what;
+  if (command.values.empty()) return quoted + (has_text ? " needs PATH=VALUE after it" : " needs a path after it");
+  return "";
+}
+
+// Empty, or why the text is not a command.
+std::string parse(std::string_view text, Command& command) {
+  const std::string_view name = takeWord(text);
+  for (const auto& row : kCommands) {
+    if (lowerCase(name) != row.name) continue;
+    command.kind = row.kind;
+    return readOperand(name, row.operand, text, command);
+  }
+  std::string names;
+  for (const auto& row : kCommands)
+    names += std::string(&row == kCommands ? "" : &row + 1 == std::end(kCommands) ? " or " : ", ") + row.name;
+  return "`" + std::string(name) + "` is not a command; write " + names;
 }
 
 }  // namespace
@@ -50,30 +111,27 @@ Commands::~Commands() {
   if (pipe_ >= 0) close(pipe_);
 }
 
-bool Commands::take(std::string line, bool realtime, std::string& error) {
+bool Commands::take(std::string_view line, bool realtime, std::string& error) {
   ++line_;
-  std::istringstream in(line.substr(0, line.find('#')));
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  if (words.empty()) return true;
+  std::string_view text = trimmed(withoutComment(line));
+  if (text.empty()) return true;
   Command command;
-  const std::string& first = words[0];
+  command.location = path_ + ":" + std::to_string(line_);
+  std::string_view rest = text;
+  const std::string_view first = takeWord(rest);
   const std::from_chars_result read = std::from_chars(first.data(), first.data() + first.size(), command.cycle);
   std::string what;
   if (read.ec == std::errc{} && read.ptr == first.data() + first.size() && command.cycle >= 0) {
-    words.erase(words.begin());
+    text = rest;
   } else {
     command.cycle = -1;
     if (!realtime) what = "expected the number of a cycle before the command";
   }
-  if (what.empty() && words.empty()) what = "expected a command after the number of the cycle";
+  if (what.empty() && text.empty()) what = "expected a command after the number of the cycle";
   if (what.empty() && !pending_.empty() && command.cycle >= 0 && command.cycle < pending_.back().cycle)
     what = "the cycles are not in ascending order";
-  if (what.empty()) what = parse(words, command);
-  if (!what.empty()) {
-    error = path_ + ":" + std::to_string(line_) + ": " + what;
-    return false;
-  }
+  if (what.empty()) what = parse(text, command);
+  if (!what.empty()) return error = command.location + ": " + what, false;
   pending_.push_back(std::move(command));
   return true;
 }

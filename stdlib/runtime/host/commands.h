@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A user asks this of a running program (--control): `stop`, `start`, `cycle`, `reset warm|cold|origin`, `event NAME`,
-// `status`, `quit`, a line each. In virtual time each line begins with the cycle before which it counts; in real time
-// it may. In: a file, or in real time a pipe that stays open. Out: commands in their order. Called by run.cpp; obeyed
-// by session.cpp.
+// `status`, `quit`, `get PATH,…`, `set PATH=VALUE,…`, `force PATH=VALUE,…`, `unforce PATH,…|*`, `forces`, a line each.
+// In virtual time each line begins with the cycle before which it counts; in real time it may. In: a file, or in real
+// time a pipe that stays open. Out: commands in their order. Called by run.cpp; obeyed by session.cpp.
 #pragma once
 
 #include <deque>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rung/module.h"
@@ -14,10 +15,17 @@
 namespace rung::host {
 
 struct Command {
-  enum Kind : uint8_t { Stop, Start, Cycle, Reset, Event, Status, Quit } kind = Stop;
+  enum Kind : uint8_t { Stop, Start, Cycle, Reset, Event, Status, Quit, Get, Set, Force, Unforce, Forces } kind = Stop;
+  struct Value {
+    std::string path, text;  // of Get and Unforce without a text
+  };
   int64_t cycle = -1;  // -1: at once
   rung_start start = RUNG_WARM;
   std::string event;
+  std::vector<Value> values;
+  std::string location;  // `file:line`, for messages
+
+  bool isAboutValues() const { return kind >= Get; }
 };
 
 class Commands {
@@ -34,7 +42,7 @@ class Commands {
   bool next(int64_t cycle, Command& command, std::string& error);
 
  private:
-  bool take(std::string line, bool realtime, std::string& error);
+  bool take(std::string_view line, bool realtime, std::string& error);
   void receive(std::string& error);
 
   std::string path_;

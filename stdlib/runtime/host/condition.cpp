@@ -194,9 +194,14 @@ bool Condition::giveType(uint32_t literal, const rung_type& type) {
   Node& node = nodes_[literal];
   if (!node.unknown.empty() && type.kind != RUNG_ENUM) return fail(node.unknown);
   storage_.emplace_back(size_t{type.size} + 8);
-  node.variable = Variable{};
+  literal_blocks_.push_back(storage_.back().data());
+  literals_.blocks = literal_blocks_.data();
+  literals_.module = &symbols_.module().description;
+  node.variable = Variable();
   node.variable.type = &type;
-  node.variable.base = storage_.back().data();
+  node.variable.bit = 255;
+  node.variable.index = static_cast<uint32_t>(literal_blocks_.size() - 1);
+  node.variable.context = &literals_;
   const std::string problem = assignValue(symbols_.module(), node.variable, node.text);
   return problem.empty() || fail(problem);
 }

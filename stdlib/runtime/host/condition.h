@@ -56,6 +56,8 @@ class Condition {
   std::string error_;
   std::vector<Node> nodes_;
   std::deque<std::vector<uint8_t>> storage_;  // values of literals
+  std::vector<void*> literal_blocks_;         // a block for each
+  rung_context literals_{};
   uint32_t root_ = 0;
 };
 

@@ -8,6 +8,9 @@
 
 namespace rung::host {
 
+// The column of a trace that names what is forced; as an input it is ignored, unless a variable has the name.
+constexpr char kForcedColumn[] = "forced";
+
 struct CsvRow {
   struct Position {
     uint32_t line, column;  // from 1; columns count bytes

@@ -57,8 +57,8 @@ void Exchange::findGlobals(const Symbols& symbols) {
     leaves.clear();
     symbols.expand(symbols.root(i), leaves);
     for (const Variable& leaf : leaves)
-      if (leaf.hops.empty() && (leaf.flags & RUNG_FIELD_BY_REFERENCE) == 0)
-        runs.push_back({symbol.index, {leaf.offset, leaf.bit != 255 ? 1 : leaf.type->size, 1}});
+      if (leaf.pointers == 0)
+        runs.push_back({symbol.index, {leaf.offsets[0], leaf.bit != 255 ? 1 : leaf.type->size, 1}});
   }
   std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second.offset < b.second.offset;
@@ -153,8 +153,8 @@ void Exchange::giveShared(const Copy& copy) {
 }
 
 void Exchange::drop(rung_context& context) const {
-  context.areas = memory_.context().areas;
-  context.blocks = memory_.context().blocks;
+  context.areas = memory_.common().areas;
+  context.blocks = memory_.common().blocks;
 }
 
 void Exchange::makeSafe(uint32_t task) {

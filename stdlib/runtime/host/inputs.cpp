@@ -85,7 +85,11 @@ bool Inputs::load(const std::string& path, std::string& error) {
     }
     Variable variable;
     std::string what;
-    if (!symbols_.find(names[i], variable, what)) return fail(header, i, what);
+    if (!symbols_.find(names[i], variable, what)) {
+      if (names[i] != kForcedColumn || i + 1 != names.size()) return fail(header, i, what);
+      columns.push_back(kIgnored);
+      continue;
+    }
     columns.push_back(static_cast<uint32_t>(variables_.size()));
     variables_.push_back(std::move(variable));
   }
@@ -106,7 +110,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;
-      const std::string what = assignValue(symbols_.module(), variables_[columns[i]], row.cells[i], true);
+      const std::string what = checkValue(symbols_.module(), variables_[columns[i]], row.cells[i]);
       if (!what.empty()) return fail(row, i, what);
       settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
     }

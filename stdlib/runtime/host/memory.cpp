@@ -35,6 +35,7 @@ Memory::Memory(const LoadedModule& module) : module_(module) {
   context_.blocks = block_pointers_.data();
   context_.areas = areas_.data();
   context_.module = &module.description;
+  common_ = context_;
 }
 
 uint8_t Memory::end() { return run(module_.description.exit); }

@@ -19,6 +19,8 @@ class Memory {
 
   rung_context& context() { return context_; }
   const rung_context& context() const { return context_; }
+  // The memory that all tasks share, whichever copies the context of an activation has.
+  const rung_context& common() const { return common_; }
   uint8_t* block(uint32_t index) const { return blocks_[index]; }
   uint8_t* area(uint32_t index) const { return areas_[index]; }
   // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised. `keeps_inputs`: the
@@ -38,7 +40,7 @@ class Memory {
   uint8_t run(void (*function)(rung_context*));  // of the module; null: it has none
 
   const LoadedModule& module_;
-  rung_context context_{};
+  rung_context context_{}, common_{};
   std::vector<std::unique_ptr<uint8_t[]>> storage_;
   std::vector<uint8_t*> blocks_;
   std::vector<void*> block_pointers_;

@@ -37,6 +37,7 @@ const char kHelp[] =
     "  --set PATH=VALUE      set a variable once, before cycle 0\n"
     "  --watch PATH,...      the variables to trace (default: all)\n"
     "  --trace FILE|-        write a CSV row after each cycle\n"
+    "  --trace-forces        a column of the trace names the forced variables\n"
     "  --plot FILE           plot the variables over time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE between runs\n"
     "  --retain-interval TIME   how often the file is written (default: 1s)\n"
@@ -45,8 +46,9 @@ const char kHelp[] =
     "  --stop-on CONDITION   stop after the cycle that makes CONDITION TRUE: --stop-on 'Main.n >= 10'\n"
     "  --timeout TIME        end with exit code 3 after this real time (default: none)\n"
     "  --on-fault all|task   what a fault stops: all tasks (default), or the one that it is in\n"
-    "  --control FILE        stop, start, reset and single cycles: commands, each after the number of its cycle;\n"
-    "                        in real time also a pipe\n"
+    "  --control FILE        commands, each after the number of its cycle: stop, start, cycle, reset, get, set, force "
+    "and\n"
+    "                        others; in real time also a pipe\n"
     "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
@@ -180,6 +182,8 @@ std::string contradiction(const RunOptions& options) {
   if (options.realtime && options.trace_calls) return "--trace-calls works only in virtual time; remove --realtime";
   if (options.trace_calls && options.trace_path == "-")
     return "--trace-calls and --trace - would both write to stdout; give --trace a file";
+  if (options.trace_forces && options.trace_path.empty())
+    return "--trace-forces adds a column to the trace; name its file with --trace";
   return "";
 }
 
@@ -192,9 +196,12 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     const size_t equals = argument.find('=');
     const bool has_value = argument.compare(0, 2, "--") == 0 && equals != std::string::npos;
     const std::string name = has_value ? argument.substr(0, equals) : argument;
-    if (name == "--realtime" || name == "--trace-calls") {
+    if (name == "--realtime" || name == "--trace-calls" || name == "--trace-forces") {
       if (has_value) return name + " takes no value";
-      (name == "--realtime" ? options.realtime : options.trace_calls) = true;
+      bool& flag = name == "--realtime"      ? options.realtime
+                   : name == "--trace-calls" ? options.trace_calls
+                                             : options.trace_forces;
+      flag = true;
       continue;
     }
     const auto option = std::find_if(std::begin(kValueOptions), std::end(kValueOptions),

@@ -100,6 +100,7 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
   if (row >= 0) {
     const std::lock_guard<Exchange> lock(tasks_.exchange());
     hooks_.before(row);
+    tasks_.applyForces();
   }
   const uint8_t fault = tasks_.begin(*worker.task, worker.context, program_ns, std::max<int64_t>(0, began_ns - due_ns));
   const bool goes_on = complete(worker, fault, began_ns, program_ns, row);
@@ -354,6 +355,7 @@ void Realtime::supervise() {
     if (makes_rows) {
       const std::lock_guard<Exchange> lock(tasks_.exchange());
       hooks_.before(row);
+      if (!paused_.load()) tasks_.applyForces();
     }
     const timespec wait = timeOf(std::max<int64_t>(0, next - monotonicNs()));
     if (sigtimedwait(&signals, nullptr, &wait) > 0) {
@@ -383,6 +385,26 @@ bool Realtime::pause() {
     if (monotonicNs() - begin > kSecond) return false;
     sleepUntil(monotonicNs() + kMillisecondNs);
   }
+}
+
+// Where some task is always within an activation, all rest for a moment.
+bool Realtime::between(const std::function<void()>& act) {
+  constexpr int64_t kPatienceNs = 100 * kMillisecondNs, kMomentNs = 20'000;
+  for (const int64_t begin = monotonicNs(); monotonicNs() - begin < kPatienceNs;
+       sleepUntil(monotonicNs() + kMomentNs)) {
+    const std::unique_lock<std::mutex> resting = rest();  // in this order, as cycle() does
+    const std::lock_guard<PriorityMutex> held(activity_);
+    if (active_ > 0) continue;
+    act();
+    return true;
+  }
+  const bool was_paused = paused_.load(), is_quiet = pause();
+  if (is_quiet) {
+    const std::unique_lock<std::mutex> resting = rest();
+    act();
+  }
+  paused_.store(was_paused);
+  return is_quiet;
 }
 
 bool Realtime::cycle() {

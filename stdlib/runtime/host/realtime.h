@@ -56,6 +56,9 @@ class Realtime {
   // Lets the activations that run end, and begins no others. False: one did not end within a second.
   bool pause();
   void resume() { paused_.store(false); }
+  // Calls `act` where no activation runs, and keeps others from beginning meanwhile. False: there was no such moment
+  // within a second.
+  bool between(const std::function<void()>& act);
   // One activation of every task that no event starts, by priority; only while paused. False: the run ends.
   bool cycle();
   // The named host event that starts external tasks; false: no task waits for it.

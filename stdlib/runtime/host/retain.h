@@ -34,18 +34,9 @@ class Retain {
   bool save(std::string& error);
 
  private:
-  struct Entry {
-    unsigned kind = 0, offset = 0, size = 0;
-    std::string type;
-  };
-  std::string directory() const;
-  bool isInArea(const uint8_t* at) const;
-  static bool readEntry(const std::string& line, std::string& path, Entry& entry);
-  template <class F>
-  static void forEachEntry(const std::string& directory, F use);
-  void restoreByName(rung_start start);
-  void note(const std::string& path, const std::string& what);
-  void restoreVariable(const std::string& path, const Entry& before, const Entry& now);
+  std::string directory();
+  rung_migration room();
+  void note(const char* path, rung_loss why, const std::string& old_type, const std::string& new_type);
 
   const LoadedModule& module_;
   const Symbols& symbols_;
@@ -60,6 +51,7 @@ class Retain {
   std::vector<uint8_t> latest_;
   bool is_new_ = false;
   std::vector<uint8_t> saving_;
+  std::string path_;  // room for one
 };
 
 }  // namespace rung::host

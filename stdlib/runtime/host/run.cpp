@@ -130,6 +130,7 @@ struct Run {
   int64_t cycles = 0;
   int64_t next_save_ns = 0, next_hint_ns = INT64_MAX;  // in virtual time
   bool has_quit = false;
+  bool has_refused = false;  // a command
   bool cannot_pause = false;
   bool is_interrupted = false;  // between two cycles
   Ending command_ending;        // of an activation that a command began
@@ -289,6 +290,7 @@ int Run::prepare() {
   }
   const int started = start();
   if (started != kSuccess) return started;
+  if (options.trace_forces) trace.markForced(session.forces());
   if (!trace.open(options.trace_path, options.out, error)) return refuse(options, error);
   if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
     return refuse(options, error);
@@ -307,6 +309,9 @@ bool Run::obey(int64_t row) {
        ++turn) {
     const Answer answer = session.obey(command);
     fputs(answer.text.c_str(), options.err);
+    fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
+    if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
+    has_refused = has_refused || !answer.error.empty();
     if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
     goes_on = answer.goes_on;
     cannot_pause = answer.hangs;
@@ -364,7 +369,7 @@ int Run::finish(bool faulted, const std::string& what, const std::string& extra)
   }
   if (!refused.empty()) return refuse(options, refused);
   const bool one_stopped = std::any_of(is_reported.begin(), is_reported.end(), [](bool reported) { return reported; });
-  return one_stopped ? kFaulted : kSuccess;
+  return one_stopped ? kFaulted : has_refused ? kUsage : kSuccess;
 }
 
 // ^C: the values are those of the last complete cycle.

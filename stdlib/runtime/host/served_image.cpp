@@ -55,14 +55,17 @@ void ServedImage::applyWritten(Part& part, uint8_t* common, uint32_t size) const
   std::fill(part.written.begin(), part.written.end(), uint8_t{0});
 }
 
-void ServedImage::exchange(uint8_t* const* areas) {
+void ServedImage::exchange(uint8_t* const* areas, void (*force)(void* data), void* data) {
   if (!is_used_.load(std::memory_order_relaxed)) return;
   const std::lock_guard<PriorityMutex> lock(mutex_);
-  for (Part* const part : {&inputs_, &outputs_, &memory_}) {
-    const uint32_t size = std::min(static_cast<uint32_t>(part->bytes.size()), module_.areas[part->area].size);
-    if (has_written_ && !part->written.empty()) applyWritten(*part, areas[part->area], size);
-    std::copy_n(areas[part->area], size, part->bytes.begin());
-  }
+  const auto sizeOf = [&](const Part& part) {
+    return std::min(static_cast<uint32_t>(part.bytes.size()), module_.areas[part.area].size);
+  };
+  if (has_written_)
+    for (Part* const part : {&outputs_, &memory_}) applyWritten(*part, areas[part->area], sizeOf(*part));
+  if (force != nullptr) force(data);
+  for (Part* const part : {&inputs_, &outputs_, &memory_})
+    std::copy_n(areas[part->area], sizeOf(*part), part->bytes.begin());
   has_written_ = false;
   is_ready_.store(true);
 }

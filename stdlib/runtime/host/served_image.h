@@ -25,8 +25,9 @@ class ServedImage {
   void use() { is_used_.store(true); }
   // The copy has values of the program.
   bool isReady() const { return is_ready_.load(); }
-  // At a border of an activation; the caller holds the lock of the image.
-  void exchange(uint8_t* const* areas);
+  // At a border of an activation; the caller holds the lock of the image. `force` is called between what masters wrote
+  // and what they will see, and may be null.
+  void exchange(uint8_t* const* areas, void (*force)(void* data) = nullptr, void* data = nullptr);
   // Forgets everything: a test begins.
   void reset();
 

@@ -10,6 +10,7 @@
 #include "crashes.h"
 #include "rung/retain.h"
 #include "sockets.h"
+#include "value_format.h"
 
 namespace rung::host {
 namespace {
@@ -29,7 +30,8 @@ Session::Session(const rung_module& module, const SessionOptions& options, Sessi
       memory_(module_),
       symbols_(module_, memory_),
       drivers_(module_, memory_),
-      tasks_(symbols_, memory_, drivers_, options.interval_ns),
+      forces_(symbols_),
+      tasks_(symbols_, memory_, drivers_, forces_, options.interval_ns),
       schedule_(tasks_, memory_.context(), hsio_, options.others_go_on),
       served_(module_) {
   if (options.is_isolated) {
@@ -108,6 +110,7 @@ bool Session::load(std::string& error) {
 }
 
 void Session::switchOn() {
+  forces_.unforceAll();
   tasks_.switchOn();
   controller_.reset();
   hsio_.reset();
@@ -188,7 +191,10 @@ bool Session::activate(Ending& ending) {
       ending = testCycle();
       return ending.isComplete();
     }
-    if (!schedule_.isInRow()) schedule_.beginRow(base_ns_ + row_ * tasks_.rowNs());
+    if (!schedule_.isInRow()) {
+      tasks_.applyForces();
+      schedule_.beginRow(base_ns_ + row_ * tasks_.rowNs());
+    }
     if (schedule_.step(ending)) return true;
     if (!ending.isComplete()) return false;
   }
@@ -299,11 +305,110 @@ void Session::obeyAtRest(const Command& command, Answer& answer) {
       break;
     case Command::Status: answer.text = tasks_.statistics(0) + controller_.faults(); break;
     case Command::Quit: answer.goes_on = false; break;
+    case Command::Get:
+    case Command::Set:
+    case Command::Force:
+    case Command::Unforce:
+    case Command::Forces: break;  // obeyForValues
   }
+}
+
+// ---- values that a user reads, writes and forces
+
+bool Session::findAll(const Command& command, std::vector<Variable>& variables, std::string& error) const {
+  for (const Command::Value& value : command.values)
+    if (!symbols_.find(value.path, variables.emplace_back(), error)) return false;
+  return true;
+}
+
+std::string Session::get(const Command& command, std::string& values) const {
+  constexpr uint64_t kMost = 100'000;
+  std::vector<Variable> named, listed;
+  std::string error;
+  if (!findAll(command, named, error)) return error;
+  uint64_t total = 0;
+  for (size_t i = 0; i < named.size(); ++i) {
+    total += symbols_.count(*named[i].type, Symbols::Detail::Watched);
+    if (total > kMost) return "more than " + std::to_string(kMost) + " variables, at `" + command.values[i].path + "`";
+    named[i].path = command.values[i].path;  // as --watch shows it
+    if (named[i].type->kind == RUNG_POINTER)
+      listed.push_back(named[i]);
+    else
+      symbols_.expand(named[i], listed, Symbols::Detail::Watched);
+  }
+  for (const Variable& variable : listed) {
+    values += variable.path + " = ";
+    formatValue(module_, variable, values);
+    values += '\n';
+  }
+  return "";
+}
+
+std::string Session::set(const Command& command) {
+  std::vector<Variable> variables;
+  std::string error;
+  if (!findAll(command, variables, error)) return error;
+  for (size_t i = 0; i < variables.size(); ++i) {
+    error = checkValue(module_, variables[i], command.values[i].text);
+    if (error.empty() && variables[i].address() == nullptr)
+      error = whyRefused(module_, variables[i], RUNG_ACCESS_NULL, "");
+    if (!error.empty()) return error;
+  }
+  for (size_t i = 0; i < variables.size(); ++i) assignValue(module_, variables[i], command.values[i].text);
+  return "";
+}
+
+std::string Session::force(const Command& command) {
+  std::vector<Variable> variables;
+  std::string error;
+  if (!findAll(command, variables, error)) return error;
+  for (size_t i = 0; i < variables.size(); ++i)
+    if (error = forces_.check(variables[i], command.values[i].text); !error.empty()) return error;
+  if (!forces_.hasRoom(variables.size())) return whyRefused(module_, variables.front(), RUNG_ACCESS_FULL, "");
+  for (size_t i = 0; i < variables.size(); ++i) forces_.force(variables[i], command.values[i].text);
+  tasks_.noteForces();
+  if (!is_stopped_) tasks_.applyForces();
+  return "";
+}
+
+std::string Session::unforce(const Command& command) {
+  std::vector<Variable> variables;
+  std::string error;
+  if (command.values.size() == 1 && command.values[0].path == "*") return forces_.unforceAll(), "";
+  if (!findAll(command, variables, error)) return error;
+  for (const Variable& variable : variables) forces_.unforce(variable);
+  return "";
+}
+
+// In real time between two activations, of which none is lost.
+Answer Session::obeyForValues(const Command& command) {
+  Answer answer;
+  const auto act = [&] {
+    switch (command.kind) {
+      case Command::Get: answer.error = get(command, answer.values); break;
+      case Command::Set: answer.error = set(command); break;
+      case Command::Force: answer.error = force(command); break;
+      case Command::Unforce: answer.error = unforce(command); break;
+      case Command::Forces: answer.values = forces_.list(); break;
+      case Command::Stop:
+      case Command::Start:
+      case Command::Cycle:
+      case Command::Reset:
+      case Command::Event:
+      case Command::Status:
+      case Command::Quit: break;  // obeyAtRest
+    }
+  };
+  if (!threads_)
+    act();
+  else if (!threads_->between(act))
+    answer.error = "no moment between two activations was found within a second";
+  return answer;
 }
 
 // In real time other tasks rest meanwhile.
 Answer Session::obey(const Command& command) {
+  if (command.isAboutValues()) return obeyForValues(command);
   Answer answer;
   const bool pauses = threads_ && command.kind != Command::Event && command.kind != Command::Status;
   if (pauses && !threads_->pause()) {
@@ -322,6 +427,7 @@ Answer Session::obey(const Command& command) {
 
 void Session::transfer(StateArchive& archive) {
   memory_.transfer(archive);
+  forces_.transfer(archive);
   tasks_.transfer(archive);
   schedule_.transfer(archive);
   controller_.transfer(archive);

@@ -25,6 +25,7 @@
 #include "controller.h"
 #include "drivers.h"
 #include "files.h"
+#include "forces.h"
 #include "loaded_module.h"
 #include "memory.h"
 #include "numerical_control.h"
@@ -59,15 +60,18 @@ struct SessionHooks {
 // The answer to a command.
 struct Answer {
   bool goes_on = true;  // false: the run ends
-  std::string text;     // what was asked for
+  std::string text;     // what was asked for: about the run
+  std::string values;   // and values of variables
+  std::string error;    // what the user asked cannot be done, and nothing was
   std::string warning;  // why nothing was done
   Ending ending;        // of activations that the command began
   bool hangs = false;   // in real time: a task did not end its activation
 };
 
 // Everything that decides how the program goes on: its memory, time and tasks, the devices and the numerical control
-// that the host simulates, and the simulated network of a test. Not in it is what others hold: open files, sockets and
-// serial lines. It is restored in the session that saved it.
+// that the host simulates, forces, and the simulated network of a test. It is restored in the session that saved it.
+// Not in it is what others hold, which restoring leaves as it is: the content and position of files, connections and
+// bytes on their way, messages that were printed, values of devices that a driver serves, and the time of the machine.
 using SessionState = std::vector<uint8_t>;
 
 class Session {
@@ -136,6 +140,7 @@ class Session {
   Symbols& symbols() { return symbols_; }
   Tasks& tasks() { return tasks_; }
   const Drivers& drivers() const { return drivers_; }
+  const Forces& forces() const { return forces_; }
 
  private:
   void serve();
@@ -146,6 +151,12 @@ class Session {
   bool cycleOnce();
   bool raise(const std::string& event);
   void obeyAtRest(const Command& command, Answer& answer);
+  Answer obeyForValues(const Command& command);
+  bool findAll(const Command& command, std::vector<Variable>& variables, std::string& error) const;
+  std::string get(const Command& command, std::string& values) const;
+  std::string set(const Command& command);
+  std::string force(const Command& command);
+  std::string unforce(const Command& command);
   Ending testCycle();
   Ending call(void (*function)(rung_context*));  // of the module; null: it has none
   Ending endingOf(uint8_t fault) { return fault == RUNG_FAULT_NONE ? Ending{} : Ending::faulted(memory_.context()); }
@@ -169,6 +180,7 @@ class Session {
   Memory memory_;
   Symbols symbols_;
   Drivers drivers_;
+  Forces forces_;
   Tasks tasks_;
   Hsio hsio_;
   Schedule schedule_;

@@ -15,43 +15,26 @@ rung_type elementary(rung_type_kind kind, uint32_t size) {
   return {static_cast<uint8_t>(kind), 0, 0, 0, size, RUNG_NONE, 0, 0, 0};
 }
 const rung_type kBoolType = elementary(RUNG_BOOL, 1);
-const rung_type kByteType = elementary(RUNG_BYTE, 1);
-const rung_type kWordType = elementary(RUNG_WORD, 2);
-const rung_type kDWordType = elementary(RUNG_DWORD, 4);
-const rung_type kLWordType = elementary(RUNG_LWORD, 8);
 const rung_type kLRealType = elementary(RUNG_LREAL, 8);
 
-bool isNameCharacter(char c) {
-  return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-         static_cast<unsigned char>(c) >= 0x80 || c == '%';
-}
-// `9056` and `9056.17`, words and bits of the NCT ladder's memory, as addresses: %ND9056, %NX36226.1. Empty: neither.
-std::string addressOfNct(std::string_view path) {
-  const auto digits = [&](size_t at, size_t count) {
-    return std::all_of(path.begin() + static_cast<ptrdiff_t>(at), path.begin() + static_cast<ptrdiff_t>(at + count),
-                       [](char c) { return c >= '0' && c <= '9'; });
-  };
-  if (path.size() == 4 && digits(0, 4)) return "%ND" + std::to_string(std::stoi(std::string(path)));
-  if (path.size() != 7 || path[4] != '.' || !digits(0, 4) || !digits(5, 2)) return {};
-  const int word = std::stoi(std::string(path.substr(0, 4))), bit = std::stoi(std::string(path.substr(5)));
-  if (bit > 31) return {};
-  return "%NX" + std::to_string(word * 4 + bit / 8) + "." + std::to_string(bit % 8);
-}
+constexpr size_t kLongestPath = 16384;
 
-// The index `written` of a dimension of the array `path`.
-bool readIndex(const std::string& written, const rung_dimension& dimension, std::string_view path, int64_t& index,
-               std::string& error) {
-  const char* const end = written.data() + written.size();
-  const std::from_chars_result read = std::from_chars(written.data(), end, index);
-  if (read.ec != std::errc{} || read.ptr != end)
-    return error = backquoted(written) + " is not an index; write a number", false;
-  if (index >= dimension.low && index <= dimension.high) return true;
-  error = "index " + written + " of " + backquoted(path) + " is outside " + std::to_string(dimension.low) + ".." +
-          std::to_string(dimension.high);
-  return false;
+// The indices of `[1, 2]`, without blanks; none of `[]`.
+std::vector<std::string_view> indicesOf(std::string_view step) {
+  const size_t close = step.find(']');
+  std::string_view list = step.substr(1, close - 1);
+  std::vector<std::string_view> indices;
+  if (list.find_first_not_of(' ') == std::string_view::npos) return indices;
+  for (;;) {
+    const size_t comma = list.find(',');
+    std::string_view index = list.substr(0, comma);
+    while (!index.empty() && index.front() == ' ') index.remove_prefix(1);
+    while (!index.empty() && index.back() == ' ') index.remove_suffix(1);
+    indices.push_back(index);
+    if (comma == std::string_view::npos) return indices;
+    list.remove_prefix(comma + 1);
+  }
 }
-
-bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
 
 }  // namespace
 
@@ -61,6 +44,14 @@ std::string lowerCase(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = rung_lower(c);
   return lower;
+}
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates) {
@@ -94,11 +85,19 @@ std::string didYouMean(std::string_view written, const std::vector<std::string_v
 std::vector<std::string> splitList(std::string_view list) {
   std::vector<std::string> parts;
   int depth = 0;
+  char quote = 0;  // of the string that is open
   size_t begin = 0;
   for (size_t i = 0; i <= list.size(); ++i) {
-    if (i < list.size() && list[i] == '[') ++depth;
-    if (i < list.size() && list[i] == ']') --depth;
-    if (i < list.size() && (list[i] != ',' || depth > 0)) continue;
+    const char c = i < list.size() ? list[i] : ',';
+    if (i < list.size() && quote != 0) {
+      if (c == '$') ++i;
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '\'' || c == '"') quote = c;
+    if (c == '[') ++depth;
+    if (c == ']') --depth;
+    if (i < list.size() && (c != ',' || depth > 0 || quote != 0)) continue;
     std::string_view part = list.substr(begin, i - begin);
     while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
     while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
@@ -108,201 +107,104 @@ std::vector<std::string> splitList(std::string_view list) {
   return parts;
 }
 
-Symbols::Symbols(const LoadedModule& module, const Memory& memory) : module_(module), memory_(memory) {
-  for (uint32_t i = 0; i < module.symbols.size(); ++i) {
-    const std::string name = lowerCase(text(module.symbols[i].name));
-    if (name.empty()) continue;
-    const auto [first, is_first] = roots_.emplace(name, i);
-    if (!is_first) shared_names_.insert({first->second, i});
-    // `Config.Resource.` may precede it, or `Resource.` alone.
-    const std::string prefix = lowerCase(text(module.symbols[i].path));
-    for (size_t begin = 0; begin < prefix.size();) {
-      roots_.emplace(prefix.substr(begin) + name, i);
-      const size_t dot = prefix.find('.', begin);
-      if (dot == std::string::npos) break;
-      begin = dot + 1;
-    }
-  }
-}
+Symbols::Symbols(const LoadedModule& module, const Memory& memory) : module_(module), memory_(memory) {}
 
 void Symbols::addTerminal(std::string_view module, Terminal& wire) {
   Variable variable;
   variable.path = std::string(module) + '.' + wire.name;
   variable.type = wire.is_bool ? &kBoolType : &kLRealType;
-  variable.base = wire.is_bool ? reinterpret_cast<uint8_t*>(&wire.state) : reinterpret_cast<uint8_t*>(&wire.value);
+  variable.bit = 255;
+  variable.index = static_cast<uint32_t>(terminal_blocks_.size());
+  variable.context = &terminal_context_;
+  terminal_blocks_.push_back(wire.is_bool ? static_cast<void*>(&wire.state) : &wire.value);
+  terminal_context_.blocks = terminal_blocks_.data();
+  terminal_context_.module = &module_.description;
   terminals_.emplace(lowerCase(variable.path), variable);
 }
 
 Variable Symbols::root(uint32_t index) const {
-  const rung_symbol& symbol = module_.symbols[index];
   Variable variable;
-  variable.path = text(symbol.name);
-  if (shared_names_.count(index) != 0) variable.path.insert(0, text(symbol.path));
-  variable.type = &module_.types[symbol.type];
-  variable.base = symbol.storage == RUNG_IN_BLOCK ? memory_.block(symbol.index) : memory_.area(symbol.index);
-  variable.offset = symbol.offset;
-  variable.bit = symbol.bit;
-  variable.flags = symbol.flags;
-  if ((symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
+  char path[kLongestPath];
+  variable.path.assign(path, rung_path_of_symbol(&module_.description, index, path, sizeof path));
+  rung_variable_of_symbol(&module_.description, index, &variable);
+  variable.context = &memory_.common();
   return variable;
 }
 
-// `%IX0.3`, `%QB4`, `%MW6`: the image itself, declared or not.
-bool Symbols::findAddress(std::string_view path, Variable& variable, std::string& error) const {
-  const std::string lower = lowerCase(path);
-  size_t at = 0;
-  uint32_t index = 0;
-  for (; index < module_.areas.size(); ++index) {
-    const std::string prefix = lowerCase(text(module_.areas[index].prefix));
-    if (prefix.empty() || lower.compare(0, prefix.size(), prefix) != 0) continue;
-    at = prefix.size();
-    break;
+// ---- one path
+
+// Appends what rung_find_step has taken, names as they are declared.
+void Symbols::appendStep(std::string& path, std::string_view step, uint32_t detail) const {
+  if (step[0] != '[') {
+    path += step[0];
+    path += detail != RUNG_NONE ? text(module_.fields[detail].name) : step.substr(1);
+    return;
   }
-  if (at == 0) {
-    error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
-    return false;
+  const char* separator = "[";
+  for (const std::string_view index : indicesOf(step)) {
+    int64_t number = 0;
+    std::from_chars(index.data(), index.data() + index.size(), number);
+    path += separator + std::to_string(number);
+    separator = ",";
   }
-  const rung_type* type = &kBoolType;
-  if (at < lower.size() && lower[at] >= 'a') {
-    switch (lower[at++]) {
-      case 'x': break;
-      case 'b': type = &kByteType; break;
-      case 'w': type = &kWordType; break;
-      case 'd': type = &kDWordType; break;
-      case 'l': type = &kLWordType; break;
-      default: error = backquoted(path) + " has an unknown size; write X, B, W, D or L"; return false;
-    }
-  }
-  uint64_t byte = 0, bit = 0;
-  const char* const end = lower.data() + lower.size();
-  std::from_chars_result read = std::from_chars(lower.data() + at, end, byte);
-  bool ok = read.ec == std::errc{};
-  if (ok && type == &kBoolType && read.ptr != end && *read.ptr == '.') {
-    read = std::from_chars(read.ptr + 1, end, bit);
-    ok = read.ec == std::errc{} && bit < 8;
-  } else if (type == &kBoolType) {
-    bit = byte % 8;  // %IX5 is byte 0, bit 5
-    byte /= 8;
-  }
-  if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
-  if (!ok || read.ptr != end) {
-    error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
-    return false;
-  }
-  const rung_area& area = module_.areas[index];
-  if (byte + type->size > area.size) {
-    error =
-        backquoted(path) + " is outside the image, of which the program uses " + std::to_string(area.size) + " bytes";
-    return false;
-  }
-  variable = Variable{};
-  variable.path = std::string(path);
-  variable.type = type;
-  variable.base = memory_.area(index);
-  variable.offset = static_cast<uint32_t>(byte);
-  if (type == &kBoolType) variable.bit = static_cast<uint8_t>(bit);
-  return true;
+  path += ']';
 }
 
-// A field of a record, its own or inherited. False: `names` lists the existing ones.
-bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const {
-  const rung_type& type = *variable.type;
-  const rung_field* base = nullptr;
-  for (uint32_t i = 0; i < type.count; ++i) {
-    const rung_field& field = module_.fields[type.first + i];
-    if ((field.flags & RUNG_FIELD_BASE) != 0) {
-      base = &field;
-      continue;
-    }
-    names.push_back(text(field.name));
-    if (!rung_equal_names(name.data(), name.size(), text(field.name))) continue;
-    variable.path += '.';
-    variable.path += text(field.name);
-    variable.type = &module_.types[field.type];
-    variable.lastOffset() += field.offset;
-    variable.setFlags(field.flags);
-    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
-    return true;
-  }
-  if (base == nullptr) return false;
-  variable.type = &module_.types[base->type];
-  variable.lastOffset() += base->offset;
-  return enter(variable, name, names);
-}
-
-// One `.field`, `[i,j]`, `^` or `.bit` at the front of `rest`.
-bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
-  if (rest.front() == '^') return stepToTarget(variable, rest, error);
-  if (rest.front() == '[') return stepToElement(variable, rest, error);
-  if (rest.front() != '.')
-    return error = "expected `.field`, `[index]` or nothing after " + backquoted(variable.path), false;
-  rest.remove_prefix(1);
-  size_t length = 0;
-  while (length < rest.size() && isNameCharacter(rest[length])) ++length;
-  const std::string_view name = rest.substr(0, length);
-  rest.remove_prefix(length);
-  const bool has_bits = isInteger(*variable.type) && variable.bit == 255;
-  return has_bits ? stepToBit(variable, name, error) : stepToField(variable, name, error);
-}
-
-bool Symbols::stepToTarget(Variable& variable, std::string_view& rest, std::string& error) const {
-  if (variable.type->kind != RUNG_POINTER) return error = backquoted(variable.path) + " is not a pointer", false;
-  rest.remove_prefix(1);
-  variable.type = &module_.types[variable.type->element];
-  variable.hops.push_back(0);
-  variable.path += '^';
-  return true;
-}
-
-bool Symbols::stepToElement(Variable& variable, std::string_view& rest, std::string& error) const {
-  const rung_type& type = *variable.type;
-  if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is not an array", false;
-  const size_t close = rest.find(']');
-  if (close == std::string_view::npos) return error = "expected `]` after " + backquoted(variable.path) + "[", false;
-  const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
-  if (indices.size() != type.count)
-    return error = backquoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
-                   std::to_string(indices.size()),
-           false;
-  uint64_t element = 0;
-  std::string path = variable.path + '[';
-  for (uint32_t d = 0; d < type.count; ++d) {
-    const rung_dimension& dimension = module_.dimensions[type.first + d];
-    int64_t index = 0;
-    if (!readIndex(indices[d], dimension, variable.path, index, error)) return false;
-    element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) +
-              static_cast<uint64_t>(index - dimension.low);
-    path += (d > 0 ? "," : "") + std::to_string(index);
-  }
-  variable.path = path + ']';
-  variable.type = &module_.types[type.element];
-  variable.lastOffset() += static_cast<uint32_t>(element * variable.type->size);
-  rest.remove_prefix(close + 1);
-  return true;
-}
-
-// `name`: `3` or `%X3`.
-bool Symbols::stepToBit(Variable& variable, std::string_view name, std::string& error) const {
-  std::string_view digits = name;
-  if (digits.size() > 2 && digits[0] == '%' && (digits[1] == 'x' || digits[1] == 'X')) digits.remove_prefix(2);
-  uint32_t bit = 0;
-  const std::from_chars_result read = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
-  const bool is_number = read.ec == std::errc{} && read.ptr == digits.data() + digits.size();
-  if (!is_number || bit >= variable.type->size * 8)
-    return error = backquoted(variable.path) + " has no bit " + backquoted(name), false;
-  variable.type = &kBoolType;
-  variable.lastOffset() += bit / 8;  // little-endian
-  variable.bit = static_cast<uint8_t>(bit % 8);
-  variable.path += '.' + std::string(name);
-  return true;
-}
-
-bool Symbols::stepToField(Variable& variable, std::string_view name, std::string& error) const {
-  if (variable.type->kind != RUNG_RECORD) return error = backquoted(variable.path) + " has no fields", false;
+std::string Symbols::explainRoot(rung_path_error problem, std::string_view path, uint32_t area) const {
+  if (problem == RUNG_PATH_ADDRESS) return backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
+  if (problem == RUNG_PATH_WIDTH) return backquoted(path) + " has an unknown size; write X, B, W, D or L";
+  if (problem == RUNG_PATH_OUTSIDE)
+    return backquoted(path) + " is outside the image, of which the program uses " +
+           std::to_string(module_.areas[area].size) + " bytes";
+  if (const std::string inside = inPrograms(path); !inside.empty())
+    return "unknown variable " + backquoted(path) + "; did you mean " + backquoted(inside) + "?";
   std::vector<std::string_view> names;
-  if (enter(variable, name, names)) return true;
-  error = backquoted(variable.path) + " has no variable " + backquoted(name) + didYouMean(name, names);
-  return false;
+  for (const rung_symbol& symbol : module_.symbols) names.push_back(text(symbol.name));
+  return "unknown variable " + backquoted(path) + didYouMean(path.substr(0, path.find_first_of(".[^")), names);
+}
+
+std::string Symbols::explainIndices(rung_path_error problem, const rung_path& rest, const Variable& variable) const {
+  const std::vector<std::string_view> indices = indicesOf({rest.at, static_cast<size_t>(rest.end - rest.at)});
+  if (problem == RUNG_PATH_DIMENSIONS)
+    return backquoted(variable.path) + " has " + std::to_string(variable.type->count) + " dimension(s), not " +
+           std::to_string(indices.size());
+  const std::string written(indices[rest.detail]);
+  if (problem == RUNG_PATH_INDEX) return backquoted(written) + " is not an index; write a number";
+  const rung_dimension& dimension = module_.dimensions[variable.type->first + rest.detail];
+  return "index " + written + " of " + backquoted(variable.path) + " is outside " + std::to_string(dimension.low) +
+         ".." + std::to_string(dimension.high);
+}
+
+std::string Symbols::explainStep(rung_path_error problem, const rung_path& rest, const Variable& variable) const {
+  const std::string before = backquoted(variable.path);
+  if (problem == RUNG_PATH_DIMENSIONS || problem == RUNG_PATH_INDEX || problem == RUNG_PATH_RANGE)
+    return explainIndices(problem, rest, variable);
+  if (problem == RUNG_PATH_NO_POINTER) return before + " is not a pointer";
+  if (problem == RUNG_PATH_NO_ARRAY) return before + " is not an array";
+  if (problem == RUNG_PATH_BRACKET) return "expected `]` after " + before + "[";
+  if (problem == RUNG_PATH_NO_RECORD) return before + " has no fields";
+  if (problem == RUNG_PATH_DEPTH)
+    return "the path goes through more than " + std::to_string(RUNG_VARIABLE_POINTERS) + " pointers after " + before;
+  if (problem == RUNG_PATH_STEP) return "expected `.field`, `[index]` or nothing after " + before;
+  const std::string_view step(rest.at + 1, static_cast<size_t>(rest.end - rest.at - 1));
+  const std::string_view name = step.substr(0, step.find_first_of(".[^"));
+  if (problem == RUNG_PATH_NO_BIT) return before + " has no bit " + backquoted(name);
+  std::vector<std::string_view> names;
+  fieldNames(*variable.type, names);
+  return before + " has no variable " + backquoted(name) + didYouMean(name, names);
+}
+
+// The names of the fields of a record, then those that it inherits.
+void Symbols::fieldNames(const rung_type& record, std::vector<std::string_view>& names) const {
+  const rung_type* base = nullptr;
+  for (uint32_t i = 0; i < record.count; ++i) {
+    const rung_field& field = module_.fields[record.first + i];
+    if ((field.flags & RUNG_FIELD_BASE) != 0)
+      base = &module_.types[field.type];
+    else
+      names.push_back(text(field.name));
+  }
+  if (base != nullptr) fieldNames(*base, names);
 }
 
 // `Main.x` for an `x` of the program Main; empty when no program has such a variable.
@@ -321,34 +223,26 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   while (!path.empty() && path.front() == ' ') path.remove_prefix(1);
   while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
   if (path.empty()) return error = "expected the path of a variable", false;
+  if (!terminals_.empty())
+    if (const auto terminal = terminals_.find(lowerCase(path)); terminal != terminals_.end())
+      return variable = terminal->second, true;
 
-  const std::string lower = lowerCase(path);
-  if (const auto terminal = terminals_.find(lower); terminal != terminals_.end())
-    return variable = terminal->second, true;
-  // The longest root that ends at the end of a name.
-  size_t root_length = 0;
-  for (size_t i = 1; i <= lower.size(); ++i) {
-    if (i < lower.size() && isNameCharacter(lower[i])) continue;
-    if (roots_.count(lower.substr(0, i)) != 0) root_length = i;
-    if (i < lower.size() && lower[i] != '.') break;
+  variable = Variable();
+  variable.context = &memory_.common();
+  rung_path rest{path.data(), path.data() + path.size(), RUNG_NONE};
+  rung_path_error problem = rung_find_step(&module_.description, &rest, &variable);
+  if (problem != RUNG_PATH_OK) return error = explainRoot(problem, path, rest.detail), false;
+  variable.path = rest.detail != RUNG_NONE ? root(rest.detail).path : std::string(path);
+  while (rest.at != rest.end) {
+    const char* const begin = rest.at;
+    problem = rung_find_step(&module_.description, &rest, &variable);
+    if (problem != RUNG_PATH_OK) return error = explainStep(problem, rest, variable), false;
+    appendStep(variable.path, {begin, static_cast<size_t>(rest.at - begin)}, rest.detail);
   }
-  if (root_length == 0) {
-    if (path.front() == '%') return findAddress(path, variable, error);
-    if (const std::string address = addressOfNct(path); !address.empty()) return findAddress(address, variable, error);
-    if (const std::string inside = inPrograms(path); !inside.empty())
-      return error = "unknown variable " + backquoted(path) + "; did you mean " + backquoted(inside) + "?", false;
-    std::vector<std::string_view> names;
-    for (uint32_t i = 0; i < module_.symbols.size(); ++i) names.push_back(text(module_.symbols[i].name));
-    const std::string_view first = path.substr(0, path.find_first_of(".[^"));
-    error = "unknown variable " + backquoted(path) + didYouMean(first, names);
-    return false;
-  }
-  variable = root(roots_.at(lower.substr(0, root_length)));
-  std::string_view rest = path.substr(root_length);
-  while (!rest.empty())
-    if (!step(variable, rest, error)) return false;
   return true;
 }
+
+// ---- many variables
 
 // An axis has hundreds of variables, of which these are of interest; the others have to be named.
 namespace {
@@ -392,48 +286,29 @@ uint64_t Symbols::count(const rung_type& type, Detail detail) const {
 }
 
 void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail detail, size_t most) const {
-  const rung_type& type = *variable.type;
-  if (to.size() >= most) return;
-  if (type.kind == RUNG_RECORD) {
-    for (uint32_t i = 0; i < type.count; ++i) {
-      const rung_field& field = module_.fields[type.first + i];
-      if (!isListed(type, field, detail)) continue;
-      Variable part = variable;
-      if ((field.flags & RUNG_FIELD_BASE) == 0) {
-        part.path += '.';
-        part.path += text(field.name);
-      }
-      part.type = &module_.types[field.type];
-      part.lastOffset() += field.offset;
-      part.setFlags(field.flags);
-      expand(part, to, detail, most);
-    }
-  } else if (type.kind == RUNG_ARRAY) {
-    const rung_type& element = module_.types[type.element];
-    std::vector<int64_t> index;
-    for (uint32_t d = 0; d < type.count; ++d) {
-      const rung_dimension& dimension = module_.dimensions[type.first + d];
-      if (dimension.high < dimension.low) return;
-      index.push_back(dimension.low);
-    }
-    for (uint32_t n = 0; to.size() < most; ++n) {
-      Variable part = variable;
-      part.path += '[';
-      for (size_t d = 0; d < index.size(); ++d) part.path += (d > 0 ? "," : "") + std::to_string(index[d]);
-      part.path += ']';
-      part.type = &element;
-      part.lastOffset() += n * element.size;
-      expand(part, to, detail, most);
-      size_t d = index.size();
-      while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {
-        index[d - 1] = module_.dimensions[type.first + d - 1].low;
-        --d;
-      }
-      if (d == 0) return;
-    }
-  } else if (type.kind != RUNG_POINTER) {
-    to.push_back(variable);
-  }
+  struct Expansion {
+    const Symbols& symbols;
+    const rung_context* context;
+    std::vector<Variable>& to;
+    Detail detail;
+    size_t most;
+  } all{*this, variable.context, to, detail, most};
+  const auto visit = [](void* data, const rung_part* part) {
+    Expansion& list = *static_cast<Expansion*>(data);
+    if (list.to.size() >= list.most) return RUNG_WALK_END;
+    if (part->field != nullptr && !list.symbols.isListed(*part->owner, *part->field, list.detail))
+      return RUNG_WALK_SKIP;
+    if (part->variable->type->kind >= RUNG_ARRAY) return RUNG_WALK_ENTER;
+    Variable& leaf = list.to.emplace_back();
+    static_cast<rung_variable&>(leaf) = *part->variable;
+    leaf.path.assign(part->path, part->path_size);
+    leaf.context = list.context;
+    return RUNG_WALK_ENTER;
+  };
+  char path[kLongestPath];
+  if (variable.path.size() >= sizeof path) return;
+  memcpy(path, variable.path.c_str(), variable.path.size() + 1);
+  rung_walk_variable(&module_.description, &variable, path, sizeof path, visit, &all);
 }
 
 std::vector<Variable> Symbols::programRoots() const {

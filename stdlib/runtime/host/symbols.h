@@ -6,39 +6,22 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "memory.h"
 #include "modules/simulated.h"
+#include "rung/monitor.h"
 
 namespace rung::host {
 
-struct Variable {
+// A variable in the memory that all tasks share, or in other memory that a context describes.
+struct Variable : rung_variable {
   std::string path;
-  const rung_type* type = nullptr;
-  uint8_t* base = nullptr;
-  uint32_t offset = 0;
-  uint32_t flags = 0;          // rung_field_flags of the last field
-  uint8_t bit = 255;           // BOOL inside an image or integer: 0..7, else 255
-  std::vector<uint32_t> hops;  // each: follow the pointer stored there, then add this offset
+  const rung_context* context = nullptr;
 
-  void setFlags(uint32_t of_field) {
-    flags = of_field;
-    if ((flags & RUNG_FIELD_BIT) != 0) bit = static_cast<uint8_t>((flags >> RUNG_FIELD_BIT_SHIFT & 15) - 1);
-  }
-  // The offset that a further field or element changes.
-  uint32_t& lastOffset() { return hops.empty() ? offset : hops.back(); }
+  Variable() : rung_variable{} {}
   // nullptr when a pointer on the path is null.
-  uint8_t* address() const {
-    uint8_t* at = base + offset;
-    for (const uint32_t hop : hops) {
-      at = *reinterpret_cast<uint8_t**>(at);
-      if (at == nullptr) return nullptr;
-      at += hop;
-    }
-    return at;
-  }
+  uint8_t* address() const { return static_cast<uint8_t*>(rung_address(context, this)); }
 };
 
 class Symbols {
@@ -66,32 +49,34 @@ class Symbols {
   // Every root, whole.
   std::vector<Variable> roots() const;
   Variable root(uint32_t symbol) const;
+  // In the memory that all tasks share, not a terminal.
+  bool isShared(const Variable& variable) const { return variable.context == &memory_.common(); }
 
   const LoadedModule& module() const { return module_; }
   const char* text(uint32_t offset) const { return module_.strings + offset; }
 
  private:
-  bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
-  bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
-  bool step(Variable& variable, std::string_view& rest, std::string& error) const;
-  bool stepToTarget(Variable& variable, std::string_view& rest, std::string& error) const;
-  bool stepToElement(Variable& variable, std::string_view& rest, std::string& error) const;
-  bool stepToBit(Variable& variable, std::string_view name, std::string& error) const;
-  bool stepToField(Variable& variable, std::string_view name, std::string& error) const;
+  void appendStep(std::string& path, std::string_view step, uint32_t detail) const;
+  std::string explainRoot(rung_path_error problem, std::string_view path, uint32_t area) const;
+  std::string explainStep(rung_path_error problem, const rung_path& rest, const Variable& variable) const;
+  std::string explainIndices(rung_path_error problem, const rung_path& rest, const Variable& variable) const;
+  void fieldNames(const rung_type& record, std::vector<std::string_view>& names) const;
   bool isListed(const rung_type& type, const rung_field& field, Detail detail) const;
   std::string inPrograms(std::string_view path) const;
 
   const LoadedModule& module_;
   const Memory& memory_;
-  std::unordered_map<std::string, uint32_t> roots_;      // lower case, with and without their prefixes
   std::unordered_map<std::string, Variable> terminals_;  // by path in lower case
-  std::unordered_set<uint32_t> shared_names_;            // of symbols whose name alone is that of another one too
+  std::vector<void*> terminal_blocks_;                   // a block for each
+  rung_context terminal_context_{};
 };
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
 std::string backquoted(std::string_view text);  // `text` in backquotes, as messages quote it
 std::string lowerCase(std::string_view text);
+bool isBlank(char c);                             // a blank, a tab or a carriage return
+std::string_view trimmed(std::string_view text);  // without blanks at both ends
 // Splits at commas outside of brackets and quotes, and trims blanks around the parts.
 std::vector<std::string> splitList(std::string_view list);
 

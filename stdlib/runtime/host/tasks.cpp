@@ -36,10 +36,11 @@ bool readBool(const Variable& variable) {
   return variable.bit == 255 ? value != 0 : (value >> variable.bit & 1) != 0;
 }
 
-Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns)
+Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, Forces& forces, int64_t interval_ns)
     : symbols_(symbols),
       memory_(memory),
       drivers_(drivers),
+      forces_(forces),
       exchange_(symbols, memory),
       tasks_(symbols.module().tasks.size()),
       states_(symbols.module().tasks.size()) {
@@ -107,6 +108,7 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
     noteStart(task, now_ns + late_ns, late_ns);
     noteLost(drivers_.read(task.index, now_ns));
     exchangeServed();
+    applyForces();
   }
   exchange_.take(task.index, context);
   context.now_ns = now_ns;
@@ -115,7 +117,36 @@ uint8_t Tasks::begin(Task& task, rung_context& context, int64_t now_ns, int64_t 
   context.activation = ++task.activation;
   const uint8_t fault = guarded(&context, task.row->run);
   if (fault != RUNG_FAULT_NONE) exchange_.drop(context);
+  if (fault == RUNG_FAULT_NONE && !forces_.isEmpty()) forceAfterCode(context);
   return fault;
+}
+
+void Tasks::forceAfterCode(const rung_context& context) {
+  const std::lock_guard<Exchange> lock(exchange_);
+  forces_.apply(context);
+}
+
+// An output that a fault has made safe: a task that has stopped may write it.
+bool Tasks::isSafeOutput(const rung_variable& variable) const {
+  const LoadedModule& module = symbols_.module();
+  const auto* const at = static_cast<const uint8_t*>(rung_address(&memory_.common(), &variable));
+  const auto isPartOf = [&](const rung_write& part) {
+    const uint8_t* const begin = memory_.area(part.area) + part.offset;
+    const bool overlaps = at < begin + part.size && begin < at + variable.type->size;
+    return overlaps && (variable.bit == 255 || (part.mask >> variable.bit & 1) != 0);
+  };
+  for (const Task& task : tasks_) {
+    for (uint32_t i = 0; at != nullptr && task.stopped && i < task.row->write_count; ++i) {
+      const rung_write& part = module.writes[task.row->first_write + i];
+      if (module.areas[part.area].owner == RUNG_AREA_OUTPUT && isPartOf(part)) return true;
+    }
+  }
+  return false;
+}
+
+void Tasks::noteForces() {
+  const std::lock_guard<Exchange> lock(exchange_);
+  forces_.hold([this](const rung_variable& variable) { return isSafeOutput(variable); });
 }
 
 bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns) {
@@ -131,6 +162,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   const std::lock_guard<Exchange> lock(exchange_);
   noteEnd(task, took_ns);
   if (!goes_on) return false;
+  applyForces();
   exchangeServed();
   noteLost(drivers_.write(task.index, now_ns));
   return true;
@@ -141,6 +173,7 @@ void Tasks::stopOne(Task& task, const rung_context& context) {
   task.fault = context.fault;
   task.caller_count = context.caller_count;
   task.callers.assign(context.callers, context.callers + std::min<uint32_t>(context.caller_count, RUNG_CALLERS));
+  noteForces();
   exchange_.makeSafe(task.index);
   const std::lock_guard<Exchange> lock(exchange_);
   drivers_.write(task.index, states_[task.index].last_start_ns);
@@ -163,6 +196,7 @@ void Tasks::restart() {
     task.stopped = false;
     task.activation = task.too_long = 0;
   }
+  noteForces();
 }
 
 void Tasks::makeOutputsSafe(int64_t now_ns) {

@@ -11,6 +11,7 @@
 
 #include "drivers.h"
 #include "exchange.h"
+#include "forces.h"
 #include "served_image.h"
 #include "symbols.h"
 
@@ -53,7 +54,7 @@ struct Task {
 class Tasks {
  public:
   // `interval_ns` is the period of cyclic tasks without one, and of a row when there is no cyclic task.
-  Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, int64_t interval_ns);
+  Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, Forces& forces, int64_t interval_ns);
   // The program sees the states of its tasks from now on. False: a trigger is not a BOOL; `error` has the message.
   bool prepare(std::string& error);
 
@@ -78,6 +79,10 @@ class Tasks {
   uint8_t begin(Task& task, rung_context& context, int64_t now_ns, int64_t late_ns);
   // Its end: the outputs leave. False: the watchdog says stop.
   bool end(Task& task, rung_context& context, int64_t now_ns, int64_t took_ns);
+  // After inputs that others than devices gave; the caller holds the lock of the image. Triggers are forced, too.
+  void applyForces() const { forces_.apply(memory_.common()); }
+  // The table of forces has changed, or a task has stopped: safe outputs are not forced.
+  void noteForces();
   // After a fault, where the other tasks go on: the task stops, with safe values in what it writes.
   void stopOne(Task& task, const rung_context& context);
   // All outputs get their safe values and leave.
@@ -118,12 +123,16 @@ class Tasks {
   void noteStart(Task& task, int64_t start_ns, int64_t late_ns);
   void noteEnd(Task& task, int64_t took_ns);
   void exchangeServed() {
-    if (served_ != nullptr) served_->exchange(memory_.context().areas);
+    const auto force = [](void* tasks) { static_cast<const Tasks*>(tasks)->applyForces(); };
+    if (served_ != nullptr) served_->exchange(memory_.common().areas, force, this);
   }
+  void forceAfterCode(const rung_context& context);
+  bool isSafeOutput(const rung_variable& variable) const;
 
   const Symbols& symbols_;
   Memory& memory_;
   Drivers& drivers_;
+  Forces& forces_;
   Exchange exchange_;
   int64_t row_ns_ = 0;
   uint32_t fastest_ = RUNG_NONE;

@@ -70,8 +70,19 @@ bool Trace::open(const std::string& path, std::FILE* out, std::string& error) {
     buffer_ += ',';
     appendCell(buffer_, variable.path);
   }
+  if (forces_ != nullptr) buffer_ += std::string(",") + kForcedColumn;
   buffer_ += '\n';
   return true;
+}
+
+void Trace::appendForced() {
+  cell_.clear();
+  for (const Variable& variable : variables_) {
+    if (forces_->isEmpty() || !forces_->touches(variable)) continue;
+    cell_ += (cell_.empty() ? "" : " ") + variable.path;
+  }
+  buffer_ += ',';
+  appendCell(buffer_, cell_);
 }
 
 void Trace::row(int64_t cycle, int64_t time_ns) {
@@ -89,6 +100,7 @@ void Trace::row(int64_t cycle, int64_t time_ns) {
       formatValue(symbols_.module(), variable, buffer_);  // never needs quotes
     }
   }
+  if (forces_ != nullptr) appendForced();
   buffer_ += '\n';
   if (buffer_.size() < size_t{1} << 16) return;
   file_.write(buffer_);

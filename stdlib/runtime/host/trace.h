@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "forces.h"
 #include "output_file.h"
 #include "symbols.h"
 
@@ -21,6 +22,8 @@ class Trace {
   bool choose(const std::string& watch, Use use, std::string& error);
   // The variables of one program: of library blocks only the pins.
   bool chooseProgram(const std::string& name, std::string& error);
+  // The last column names the variables of the others that are forced. `forces` outlives the trace.
+  void markForced(const Forces& forces) { forces_ = &forces; }
   // `path`: --trace, "-" for standard output, empty for none.
   bool open(const std::string& path, std::FILE* out, std::string& error);
   void row(int64_t cycle, int64_t time_ns);
@@ -31,11 +34,13 @@ class Trace {
   const std::vector<Variable>& variables() const { return variables_; }
 
  private:
+  void appendForced();
   bool add(const Variable& variable, Symbols::Detail detail, Use use, std::string& error);
 
   const Symbols& symbols_;
   uint64_t total_ = 0;  // with those that are not listed
   std::vector<Variable> variables_;
+  const Forces* forces_ = nullptr;  // null: no column of forces
   OutputFile file_;
   std::string buffer_, cell_;
 };

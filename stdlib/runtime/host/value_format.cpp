@@ -28,35 +28,6 @@ int64_t loadInteger(uint8_t kind, uint32_t size, const uint8_t* from) {
   return is_signed ? static_cast<int64_t>(bits << shift) >> shift : static_cast<int64_t>(bits);
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
-std::string assignEnum(const LoadedModule& module, const rung_type& type, std::string_view text, uint8_t* to) {
-  std::string_view item = text;
-  const size_t separator = item.find_first_of("#.");
-  if (separator != std::string_view::npos && (item.empty() || item[0] < '0' || item[0] > '9') &&
-      lowerCase(item.substr(0, separator)) == lowerCase(module.strings + type.name))
-    item.remove_prefix(separator + 1);
-  const std::string wanted = lowerCase(item);
-  std::vector<std::string_view> names;
-  for (uint32_t i = 0; i < type.count; ++i) {
-    const rung_enum_item& entry = module.enum_items[type.first + i];
-    names.push_back(module.strings + entry.name);
-    if (lowerCase(names.back()) != wanted) continue;
-    memcpy(to, &entry.value, type.size);
-    return "";
-  }
-  uint64_t scratch;
-  if (rung_parse(integerKind(module, type), false, 0, text.data(), text.size(), &scratch)) {
-    memcpy(to, &scratch, type.size);
-    return "";
-  }
-  return "`" + std::string(text) + "` is not an item of " + typeName(module, type) + didYouMean(item, names);
-}
-
 }  // namespace
 
 std::string typeName(const LoadedModule& module, const rung_type& type) {
@@ -100,118 +71,71 @@ bool numberOf(const LoadedModule& module, const Variable& variable, double& valu
   return true;
 }
 
+void formatValue(const LoadedModule& module, const Variable& variable, std::string& to) {
+  constexpr uint32_t kMostOften = 127;  // strings and enumerations may be longer
+  char room[kMostOften + 1];
+  const uint32_t length = rung_read_text(variable.context, &variable, room, kMostOften);
+  if (length < kMostOften) {
+    to.append(room, length);
+    return;
+  }
+  const size_t begin = to.size();
+  const uint32_t capacity = rung_text_capacity(&module.description, &variable);
+  to.resize(begin + capacity + 1);
+  to.resize(begin + rung_read_text(variable.context, &variable, to.data() + begin, capacity));
+}
+
 namespace {
 
-// The scalar at `at`, as the runtime prints it.
-void appendScalar(std::string& to, uint8_t kind, bool is_signed, const uint8_t* at) {
-  char room[RUNG_FORMATTED_SCALAR + 1];
-  to.append(room, rung_format(kind, is_signed, at, room, RUNG_FORMATTED_SCALAR));
-}
-
-// The name of the item, or the number where there is none.
-void appendEnum(std::string& to, const LoadedModule& module, const rung_type& type, const uint8_t* at) {
-  const uint8_t kind = integerKind(module, type);
-  const int64_t value = loadInteger(kind, type.size, at);
-  for (uint32_t i = 0; i < type.count; ++i) {
-    const rung_enum_item& item = module.enum_items[type.first + i];
-    if (item.value == value) {
-      to += module.strings + item.name;
-      return;
-    }
+std::string notAValue(const LoadedModule& module, const rung_type& type, std::string_view text) {
+  std::string what = "`" + std::string(text) + "` is not ";
+  if (type.kind != RUNG_ENUM) {
+    what += "a value of type " + typeName(module, type);
+    if (type.kind == RUNG_STRING || type.kind == RUNG_USTRING) what += "; write '...'";
+    if (type.kind == RUNG_WSTRING) what += "; write \"...\"";
+    if (type.kind == RUNG_TIME) what += "; write T#1s500ms";
+    return what;
   }
-  appendScalar(to, kind, false, at);
-}
-
-void appendString(std::string& to, const rung_type& type, const uint8_t* at) {
-  const size_t begin = to.size();
-  std::vector<uint8_t> ended(at, at + type.size);  // other variables may overlap its final zero
-  const size_t unit = type.kind == RUNG_WSTRING ? 2 : 1;
-  memset(ended.data() + type.length * unit, 0, unit);
-  to.resize(begin + 5 * size_t{type.length} + 2);
-  to.resize(begin +
-            rung_format(type.kind, false, ended.data(), to.data() + begin, static_cast<uint32_t>(to.size() - begin)));
-}
-
-void appendPointer(std::string& to, const uint8_t* at) {
-  const void* target;
-  memcpy(&target, at, sizeof target);
-  char room[24] = "NULL";
-  if (target != nullptr)
-    snprintf(room, sizeof room, "16#%llX", static_cast<unsigned long long>(reinterpret_cast<uintptr_t>(target)));
-  to += room;
+  std::vector<std::string_view> names;
+  for (uint32_t i = 0; i < type.count; ++i) names.push_back(module.strings + module.enum_items[type.first + i].name);
+  const size_t separator = text.find_first_of("#.");
+  const bool has_type = separator != std::string_view::npos &&
+                        lowerCase(text.substr(0, separator)) == lowerCase(module.strings + type.name);
+  return what + "an item of " + typeName(module, type) +
+         didYouMean(has_type ? text.substr(separator + 1) : text, names);
 }
 
 }  // namespace
 
-void formatValue(const LoadedModule& module, const Variable& variable, std::string& to) {
-  const uint8_t* const at = variable.address();
-  if (at == nullptr) return;
-  const rung_type& type = *variable.type;
-  switch (static_cast<rung_type_kind>(type.kind)) {
-    case RUNG_BOOL: to += (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? "TRUE" : "FALSE"; return;
-    case RUNG_ENUM: return appendEnum(to, module, type, at);
-    case RUNG_STRING:
-    case RUNG_WSTRING:
-    case RUNG_USTRING: return appendString(to, type, at);
-    case RUNG_POINTER: return appendPointer(to, at);
-    case RUNG_ARRAY:
-    case RUNG_RECORD: return;  // their elements are printed
-    case RUNG_BYTE:
-    case RUNG_WORD:
-    case RUNG_DWORD:
-    case RUNG_LWORD:
-    case RUNG_SINT:
-    case RUNG_INT:
-    case RUNG_DINT:
-    case RUNG_LINT:
-    case RUNG_USINT:
-    case RUNG_UINT:
-    case RUNG_UDINT:
-    case RUNG_ULINT:
-    case RUNG_REAL:
-    case RUNG_LREAL:
-    case RUNG_TIME:
-    case RUNG_LTIME:
-    case RUNG_DATE:
-    case RUNG_LDATE:
-    case RUNG_TOD:
-    case RUNG_LTOD:
-    case RUNG_DT:
-    case RUNG_LDT:
-    case RUNG_CHAR:
-    case RUNG_WCHAR:
-    case RUNG_UCHAR: break;
-  }
-  appendScalar(to, type.kind, type.is_signed != 0, at);
-}
-
-std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text, bool dry) {
-  text = trimmed(text);
-  const rung_type& type = *variable.type;
-  if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is a constant";
-  if ((variable.flags & RUNG_FIELD_READ_ONLY) != 0) return "`" + variable.path + "` is READ_ONLY";
-  if (type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD)
-    return "`" + variable.path + "` is " + (type.kind == RUNG_ARRAY ? "an array" : "a structure") +
-           "; set its elements one by one";
-  if (type.kind == RUNG_POINTER) return "`" + variable.path + "` is a pointer and cannot be set from outside";
-
-  uint8_t* const at = variable.address();
-  if (at == nullptr && !dry) return "`" + variable.path + "` goes through a null pointer";
-  std::vector<uint8_t> scratch(dry || variable.bit != 255 ? size_t{type.size} + 8 : 0);
-  uint8_t* const to = scratch.empty() ? at : scratch.data();
-  if (type.kind == RUNG_ENUM) return assignEnum(module, type, text, to);
-  if (!rung_parse(type.kind, type.is_signed != 0, type.length, text.data(), text.size(), to)) {
-    std::string hint;
-    if (type.kind == RUNG_STRING || type.kind == RUNG_USTRING) hint = "; write '...'";
-    if (type.kind == RUNG_WSTRING) hint = "; write \"...\"";
-    if (type.kind == RUNG_TIME) hint = "; write T#1s500ms";
-    return "`" + std::string(text) + "` is not a value of type " + typeName(module, type) + hint;
-  }
-  if (variable.bit != 255 && !dry) {
-    const uint8_t mask = static_cast<uint8_t>(1u << variable.bit);
-    *at = static_cast<uint8_t>(to[0] != 0 ? *at | mask : *at & ~mask);
+std::string whyRefused(const LoadedModule& module, const Variable& variable, rung_access why, std::string_view text) {
+  const std::string name = "`" + variable.path + "`";
+  switch (why) {
+    case RUNG_ACCESS_OK: return "";
+    case RUNG_ACCESS_CONSTANT: return name + " is a constant";
+    case RUNG_ACCESS_READ_ONLY: return name + " is READ_ONLY";
+    case RUNG_ACCESS_ARRAY: return name + " is an array; set its elements one by one";
+    case RUNG_ACCESS_RECORD: return name + " is a structure; set its elements one by one";
+    case RUNG_ACCESS_POINTER: return name + " is a pointer and cannot be set from outside";
+    case RUNG_ACCESS_NULL: return name + " goes through a null pointer";
+    case RUNG_ACCESS_VALUE: return notAValue(module, *variable.type, trimmed(text));
+    case RUNG_ACCESS_SIZE: return name + " has another size than the value";
+    case RUNG_ACCESS_FULL: return "too many variables are forced; unforce some";
   }
   return "";
+}
+
+std::string checkValue(const LoadedModule& module, const Variable& variable, std::string_view text) {
+  const std::string_view literal = trimmed(text);
+  std::vector<uint8_t> value(variable.type->kind < RUNG_ARRAY ? size_t{variable.type->size} + 8 : 0);
+  const rung_access access =
+      rung_parse_value(&module.description, &variable, literal.data(), literal.size(), value.data());
+  return whyRefused(module, variable, access, literal);
+}
+
+std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text) {
+  const std::string_view literal = trimmed(text);
+  const rung_access access = rung_write_text(variable.context, &variable, literal.data(), literal.size());
+  return whyRefused(module, variable, access, literal);
 }
 
 }  // namespace rung::host

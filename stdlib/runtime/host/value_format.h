@@ -18,8 +18,11 @@ struct Integer {
 bool integerOf(const LoadedModule& module, const Variable& variable, Integer& value);
 // The value as a number: BOOL 0 or 1, TIME in its own unit. False: strings, dates, pointers, a null pointer.
 bool numberOf(const LoadedModule& module, const Variable& variable, double& value);
-// Sets the variable from a literal; returns an error message, or an empty string. `dry`: only checks.
-std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text, bool dry = false);
+// Sets the variable from a literal; returns an error message, or an empty string. The second only checks.
+std::string assignValue(const LoadedModule& module, const Variable& variable, std::string_view text);
+std::string checkValue(const LoadedModule& module, const Variable& variable, std::string_view text);
+// The message for an answer of rung/monitor.h to a value; empty: it was accepted.
+std::string whyRefused(const LoadedModule& module, const Variable& variable, rung_access why, std::string_view text);
 // The type as messages name it.
 std::string typeName(const LoadedModule& module, const rung_type& type);
 

@@ -12,7 +12,7 @@ constexpr char rung_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<ch
 // Tells whether two spellings are one identifier.
 inline bool rung_equal_names(const char* a, size_t length, const char* b) {
   for (size_t i = 0; i < length; ++i)
-    if (b[i] == 0 || rung_lower(a[i]) != rung_lower(b[i])) return false;
+    if (b[i] == 0 || (a[i] != b[i] && rung_lower(a[i]) != rung_lower(b[i]))) return false;
   return b[length] == 0;
 }
 

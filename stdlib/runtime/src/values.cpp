@@ -158,25 +158,24 @@ void formatAscii(Writer& to, uint32_t code, char quote, int hex_digits) {
   }
 }
 
-// Length of the UTF-8 sequence of a character above 0x7f at `text`, or 0 when there is none.
-int utf8Length(const unsigned char* text) {
-  const int length = text[0] >= 0xf0 && text[0] <= 0xf4 ? 4 : text[0] >= 0xe0 ? 3 : text[0] >= 0xc2 ? 2 : 0;
-  if (length == 0 || text[0] > 0xf4) return 0;
-  for (int i = 1; i < length; ++i)
+// Length of the UTF-8 sequence of a character above 0x7f at the front of `size` bytes, or 0 when there is none.
+uint32_t utf8Length(const unsigned char* text, uint32_t size) {
+  const uint32_t length = text[0] >= 0xf0 && text[0] <= 0xf4 ? 4 : text[0] >= 0xe0 ? 3 : text[0] >= 0xc2 ? 2 : 0;
+  if (length == 0 || length > size || text[0] > 0xf4) return 0;
+  for (uint32_t i = 1; i < length; ++i)
     if ((text[i] & 0xc0) != 0x80) return 0;
   const bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
   const bool outside = (text[0] == 0xed && text[1] > 0x9f) || (text[0] == 0xf4 && text[1] > 0x8f);
   return overlong || outside ? 0 : length;
 }
 
-void formatString(Writer& to, const unsigned char* text) {
+// Strings end with NUL, at the latest after `size` characters.
+void formatString(Writer& to, const unsigned char* text, uint32_t size = UINT32_MAX) {
   to.put('\'');
-  while (*text != 0) {
-    const int length = *text < 0x80 ? 0 : utf8Length(text);
-    if (length == 0)
-      formatAscii(to, *text++, '\'', 2);
-    else
-      for (int i = 0; i < length; ++i) to.put(static_cast<char>(*text++));
+  for (uint32_t at = 0; at < size && text[at] != 0;) {
+    const uint32_t length = text[at] < 0x80 ? 0 : utf8Length(text + at, size - at);
+    if (length == 0) formatAscii(to, text[at++], '\'', 2);
+    for (uint32_t i = 0; i < length; ++i) to.put(static_cast<char>(text[at++]));
   }
   to.put('\'');
 }
@@ -187,10 +186,10 @@ void putUtf8(Writer& to, uint32_t code) {
   for (uint32_t i = 0; i < count; ++i) to.put(bytes[i]);
 }
 
-void formatWString(Writer& to, const char16_t* text) {
+void formatWString(Writer& to, const char16_t* text, uint32_t size = UINT32_MAX) {
   to.put('"');
-  for (uint32_t i = 0; rung_unit(text, i) != 0; ++i) {
-    const uint32_t unit = rung_unit(text, i), next = rung_unit(text, i + 1);
+  for (uint32_t i = 0; i < size && rung_unit(text, i) != 0; ++i) {
+    const uint32_t unit = rung_unit(text, i), next = i + 1 < size ? rung_unit(text, i + 1) : 0u;
     if (unit < 0x80) {
       formatAscii(to, unit, '"', 4);
     } else if (unit >= 0xd800 && unit < 0xdc00 && next >= 0xdc00 && next < 0xe000) {
@@ -537,14 +536,13 @@ bool readWString(Reader from, uint32_t length, char16_t* to) {
   bool bad = false;
   for (;;) {
     const unsigned char* at = reinterpret_cast<const unsigned char*>(from.at);
-    // The closing quote is ASCII, so a sequence never reads past it; an incomplete one ends at `end`.
+    // The closing quote is ASCII, so a sequence never reads past it.
     if (!from.done() && *at >= 0x80) {
-      unsigned char sequence[5] = {0, 0, 0, 0, 0};
-      for (int i = 0; i < 4 && from.at + i != from.end; ++i) sequence[i] = at[i];
-      const int bytes = utf8Length(sequence);
+      const auto left = static_cast<size_t>(from.end - from.at);
+      const uint32_t bytes = utf8Length(at, left < 4 ? static_cast<uint32_t>(left) : 4);
       if (bytes == 0) return false;
-      code = sequence[0] & (0xffu >> (bytes + 1));
-      for (int i = 1; i < bytes; ++i) code = code << 6 | (sequence[i] & 0x3fu);
+      code = at[0] & (0xffu >> (bytes + 1));
+      for (uint32_t i = 1; i < bytes; ++i) code = code << 6 | (at[i] & 0x3fu);
       from.at += bytes;
     } else if (!readEscaped(from, '"', 4, code, bad)) {
       break;
@@ -609,6 +607,15 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
     case RUNG_RECORD:
     case RUNG_POINTER: break;  // parsed by the host: they need the module's tables
   }
+  return to.finish();
+}
+
+uint32_t rung_format_string(uint8_t kind, const void* value, uint32_t length, char* out, uint32_t capacity) {
+  Writer to(out, capacity);
+  if (kind == RUNG_WSTRING)
+    formatWString(to, static_cast<const char16_t*>(value), length);
+  else
+    formatString(to, static_cast<const unsigned char*>(value), length);
   return to.finish();
 }
 

@@ -13,9 +13,7 @@
 #include <tuple>
 
 #include "stdlib/runtime/host/value_format.h"
-#include "tests/unit/tools/text_sink.h"
-#include "tools/driver/compile.h"
-#include "tools/driver/module_library.h"
+#include "tests/unit/tools/loaded_project.h"
 
 namespace rung::driver {
 namespace {
@@ -24,51 +22,6 @@ using host::Ending;
 using host::Session;
 using host::SessionState;
 using host::Variable;
-
-uint32_t setting(const char* name, uint32_t otherwise) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? otherwise : static_cast<uint32_t>(std::strtoul(value, nullptr, 10));
-}
-
-// A project in this process.
-struct Loaded {
-  TextSink sink;
-  PhaseTimes times;
-  std::unique_ptr<Compilation> compilation;
-  std::unique_ptr<ir::interpreter::Program> program;
-  ModuleLibrary library;
-  const rung_module* module = nullptr;
-
-  Loaded(const std::string& project, Engine engine, bool with_tests = false) {
-    ProjectOptions options;
-    options.inputs = {std::string(RUNG_SOURCE) + "/" + project};
-    options.code.with_tests = with_tests;
-    options.code.counts_steps = true;
-    compilation = std::make_unique<Compilation>(options, times, sink);
-    std::string why;
-    if (engine != Engine::Native && compilation->translate(program, why)) {
-      module = &program->description();
-    } else if (engine == Engine::Native) {
-      loadNative();
-    }
-    if (module == nullptr) {
-      compilation->finish();
-      ADD_FAILURE() << project << ": " << sink.messages << why;
-    }
-  }
-
- private:
-  void loadNative() {
-    NativeRequest request;
-    request.parts.resize(1);
-    if (!compilation->emit(request.parts[0].files)) return;
-    Cache cache;
-    const NativeResult native = makeShared(cache, request, sink);
-    std::string error = native.exit == kSuccess ? library.open(native.path) : native.message;
-    if (error.empty()) module = library.find(compilation->options.moduleName(), error);
-    if (module == nullptr) ADD_FAILURE() << error;
-  }
-};
 
 // A session whose inputs and commands depend on the seed and the cycle alone.
 class Machine {
@@ -90,6 +43,7 @@ class Machine {
   void drive(int64_t cycle) {
     std::mt19937 random(seed_ * 7919u + static_cast<uint32_t>(cycle));
     if (random() % 8 == 0) command(random());
+    if (random() % 4 == 0) force(random());
     for (const Variable& input : inputs_) {
       if (random() % 3 != 0) continue;
       const uint32_t value = random() % 30;
@@ -111,7 +65,7 @@ class Machine {
     }
     session_.completeCycle();
     session_.stopAfterSingleCycle();
-    return row + '\n' + session_.tasks().statistics(0);
+    return row + '\n' + session_.tasks().statistics(0) + session_.forces().list();
   }
 
   std::string memory() {
@@ -125,6 +79,17 @@ class Machine {
   }
 
  private:
+  // Forces or unforces one of the leaves, or unforces all.
+  void force(uint32_t random) {
+    host::Command command;
+    const Variable& leaf = leaves_[random % leaves_.size()];
+    command.kind = random / 65536 % 3 == 0 ? host::Command::Unforce : host::Command::Force;
+    std::string text;
+    host::formatValue(session_.module(), leaf, text);
+    command.values.push_back({random / 65536 % 9 == 0 ? "*" : leaf.path, text});
+    EXPECT_EQ(session_.obey(command).error, "");
+  }
+
   void command(uint32_t random) {
     host::Command command;
     const bool is_stopped = session_.isStopped();
@@ -312,13 +277,59 @@ TEST_P(Engines, TheSimulatedNetworkIsRestored) {
   }
 }
 
+// Between two activations the session's own context is that of the memory that all tasks share, not a task's copy.
+TEST_P(Engines, NoCopyStaysAfterAnActivation) {
+  const Loaded loaded("tests/unit/tools/sessions/tasks", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  ASSERT_GT(loaded.module->tasks.count, 1u);
+  Machine machine(*loaded.module, {}, 1);
+  Session& session = machine.session();
+  for (int64_t cycle = 0; cycle < 5; ++cycle) {
+    machine.finishCycle(cycle);
+    for (uint32_t i = 0; i < loaded.module->areas.count; ++i)
+      EXPECT_EQ(session.context().areas[i], session.memory().area(i)) << "cycle " << cycle;
+    for (uint32_t i = 0; i < loaded.module->blocks.count; ++i)
+      EXPECT_EQ(session.context().blocks[i], session.memory().block(i)) << "cycle " << cycle;
+  }
+}
+
+// With the table of names and without it: each variable of a program, and wrong paths made from its path.
+TEST_P(Engines, NamesAreFoundAlike) {
+  const Loaded loaded("samples/packaging_line", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  ASSERT_NE(rung_find_extension(&loaded.module->extensions, RUNG_NAMES), nullptr);
+  rung_module plain = *loaded.module;
+  plain.extensions = {};
+  Session session(*loaded.module, {}, {});
+  std::vector<Variable> leaves;
+  for (const Variable& root : session.symbols().roots()) session.symbols().expand(root, leaves);
+  ASSERT_GT(leaves.size(), 100u);
+  const auto find = [](const rung_module& module, const std::string& path) {
+    rung_variable variable{};
+    if (!rung_find(&module, path.c_str(), &variable)) return std::string("none");
+    return std::to_string(variable.storage) + ' ' + std::to_string(variable.index) + ' ' +
+           std::to_string(variable.offsets[variable.pointers]) + ' ' + std::to_string(variable.bit);
+  };
+  for (const Variable& leaf : leaves) {
+    EXPECT_EQ(find(*loaded.module, leaf.path), std::to_string(leaf.storage) + ' ' + std::to_string(leaf.index) + ' ' +
+                                                   std::to_string(leaf.offsets[0]) + ' ' + std::to_string(leaf.bit))
+        << leaf.path;
+    for (size_t size = 1; size <= leaf.path.size(); ++size) {
+      const std::string part = leaf.path.substr(0, size), end = leaf.path.substr(size);
+      EXPECT_EQ(find(*loaded.module, part), find(plain, part)) << part;
+      EXPECT_EQ(find(*loaded.module, end), find(plain, end)) << end;
+    }
+  }
+}
+
 TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
   const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
   ASSERT_NE(loaded.module, nullptr);
   Session session(*loaded.module, {}, {});
   ASSERT_TRUE(session.init().isComplete());
   uint32_t checked = 0;
-  for (const char* const path : {"Main.base", "Main.cell", "Main.holder", "Main.empty", "Main.limits", "Main.t"}) {
+  for (const char* const path :
+       {"Main.base", "Main.cell", "Main.holder", "Main.empty", "Main.limits", "Main.t", "Main.prepared"}) {
     Variable declared;
     std::string error;
     ASSERT_TRUE(session.symbols().find(path, declared, error)) << error;
@@ -330,7 +341,29 @@ TEST_P(Engines, ANewInstanceIsThatOfADeclaration) {
         << path;
     ++checked;
   }
-  EXPECT_EQ(checked, 6u);
+  EXPECT_EQ(checked, 7u);
+}
+
+// 3 * 2, and 6 of cells[2]; a declaration gives arguments that a new instance does not have.
+TEST_P(Engines, ANewInstanceRunsFbInit) {
+  const Loaded loaded("tests/unit/tools/sessions/instances", GetParam());
+  ASSERT_NE(loaded.module, nullptr);
+  Session session(*loaded.module, {}, {});
+  ASSERT_TRUE(session.init().isComplete());
+  const auto made = [&](const std::string& path, const std::string& member) {
+    Variable whole, part;
+    std::string text;
+    EXPECT_TRUE(session.symbols().find(path, whole, text)) << text;
+    EXPECT_TRUE(session.symbols().find(path + member, part, text)) << text;
+    EXPECT_EQ(rung_init_instance(&session.context(), static_cast<uint32_t>(whole.type - rung_type_at(loaded.module, 0)),
+                                 whole.address()),
+              RUNG_FAULT_NONE);
+    host::formatValue(session.module(), part, text);
+    return text;
+  };
+  EXPECT_EQ(made("Main.prepared", ".n"), "12");
+  EXPECT_EQ(made("Main.prepared", ".order"), "'base own after'");
+  EXPECT_EQ(made("Main.sized", ".size"), "1");
 }
 
 INSTANTIATE_TEST_SUITE_P(, Engines, testing::Values(Engine::Interpreter, Engine::Native), [](const auto& test) {

@@ -32,6 +32,7 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> sets;  // --set PATH=VALUE
   std::string watch;                                      // --watch PATH,...
   std::string trace_path;                                 // --trace; "-": stdout
+  bool trace_forces = false;                              // --trace-forces: a column of the trace names what is forced
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
   int64_t retain_interval_ns = 1'000'000'000;             // --retain-interval: how often it is written

@@ -63,6 +63,25 @@ static inline const rung_extension* rung_find_extension(const rung_table* extens
   return NULL;
 }
 
+/* The extension `rung.names` of a module: a table of hashes that finds names in constant time. Modules with few names
+ * have none; theirs are compared one by one. */
+#define RUNG_NAMES "rung.names"
+typedef struct rung_names {
+  /* A row is a uint16_t or a uint32_t: 1 + the index of a symbol, or 1 + the number of symbols + the index of a field;
+   * 0: no name. The search for a name begins at rung_name_slot and ends at the first row with 0. Of symbols with the
+   * same name, and of equal hashes, the lower index comes first. */
+  rung_table slots;
+} rung_names;
+/* The hash of a name begins with the seed of its owner, and takes its characters one after the other. `owner`:
+ * rung_type::first of the record that has the field; of symbols RUNG_NONE. */
+static inline uint32_t rung_name_seed(uint32_t owner) { return 2166136261u ^ owner * 0x9e3779b1u; }
+static inline uint32_t rung_name_hash(uint32_t hash, char c) {
+  return (hash ^ (uint8_t)(c >= 'A' && c <= 'Z' ? c + 32 : c)) * 16777619u;
+}
+static inline uint32_t rung_name_slot(uint32_t hash, uint32_t slots) {
+  return (uint32_t)((uint64_t)(hash * 0x85ebca6bu) * slots >> 32);
+}
+
 /* ---- types, for monitoring, forcing and traces. Index 0 of every table is a valid entry. */
 typedef enum rung_type_kind {
   RUNG_BOOL,
@@ -626,8 +645,7 @@ typedef const rung_module* (*rung_module_function)(void);
 uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*));
 
 /* Sets an instance to the initial values of its type, a record: zeros, then what rung_initialiser says, guarded in the
- * same way. Of a block with FB_Init it does not call that of the instance itself, whose arguments its declaration has.
- */
+ * same way: FB_Init runs, of the instance itself only where it has no inputs but the two of the system. */
 uint8_t rung_init_instance(rung_context* ctx, uint32_t type, void* instance);
 
 /* Leaves generated code. Called by checks. */

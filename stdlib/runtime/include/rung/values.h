@@ -18,6 +18,9 @@ extern "C" {
  * ends with NUL (out has capacity + 1 bytes); returns the length written. */
 uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out, uint32_t capacity);
 
+/* The same of a string of at most `length` characters, whose NUL may be missing. */
+uint32_t rung_format_string(uint8_t kind, const void* value, uint32_t length, char* out, uint32_t capacity);
+
 /* Reads what rung_format writes and any literal of the language (INT#5, 16#FF, 1_000, T#1.5s, DT#...). All of `text`
  * must be the literal. Strings are cut to `length` characters. False: `text` is not a literal of this type, or its
  * value does not fit; then nothing is written. */

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forced variables: see forces.h.
+#include "forces.h"
+
+#include <algorithm>
+
+#include "value_format.h"
+
+namespace rung::host {
+namespace {
+
+constexpr uint32_t kMostForces = 10'000;  // each costs every activation some nanoseconds
+
+}  // namespace
+
+std::string Forces::check(const Variable& variable, std::string_view value) const {
+  if (!symbols_.isShared(variable))
+    return "`" + variable.path + "` is a terminal of a simulated module; `set` it, and it keeps its value";
+  return checkValue(symbols_.module(), variable, value);
+}
+
+bool Forces::hasRoom(size_t more) const { return more <= kMostForces - table_.count; }
+
+void Forces::force(const Variable& variable, std::string_view value) {
+  rows_.resize(table_.count + size_t{1});
+  values_.resize(table_.value_bytes + size_t{variable.type->size});
+  table_.rows = rows_.data();
+  table_.values = values_.data();
+  table_.capacity = static_cast<uint32_t>(rows_.size());
+  table_.value_capacity = static_cast<uint32_t>(values_.size());
+  unforce(variable);
+  names_.push_back(variable);
+  const std::string_view literal = trimmed(value);
+  rung_force_text(&table_, &symbols_.module().description, &variable, literal.data(), literal.size());
+}
+
+void Forces::unforce(const Variable& variable) {
+  rung_unforce(&table_, &variable);
+  names_.erase(std::remove_if(names_.begin(), names_.end(),
+                              [&](const Variable& named) { return rung_is_same_variable(&named, &variable); }),
+               names_.end());
+}
+
+void Forces::unforceAll() {
+  table_.count = table_.value_bytes = 0;
+  names_.clear();
+}
+
+std::string Forces::list() const {
+  // The table is memory like any other.
+  void* blocks[] = {table_.values};
+  rung_context context{};
+  context.blocks = blocks;
+  context.module = &symbols_.module().description;
+  std::string lines;
+  for (const Variable& name : names_) {
+    const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
+      return rung_is_same_variable(&forced.variable, &name);
+    });
+    Variable value = name;
+    value.context = &context;
+    value.storage = RUNG_IN_BLOCK;
+    value.index = value.pointers = 0;
+    value.offsets[0] = row->value;
+    value.bit = 255;
+    lines += name.path + " = ";
+    formatValue(symbols_.module(), value, lines);
+    lines += '\n';
+  }
+  return lines;
+}
+
+bool Forces::touches(const Variable& variable) const {
+  const uint8_t* const at = variable.address();
+  if (at == nullptr || !symbols_.isShared(variable)) return false;
+  return std::any_of(table_.rows, table_.rows + table_.count, [&](const rung_forced& row) {
+    const auto* const forced = static_cast<const uint8_t*>(rung_address(variable.context, &row.variable));
+    if (forced == nullptr || forced >= at + variable.type->size || at >= forced + row.variable.type->size) return false;
+    return variable.bit == 255 || row.variable.bit == 255 || variable.bit == row.variable.bit;
+  });
+}
+
+void Forces::transfer(StateArchive& archive) {
+  rows_.resize(table_.count);
+  values_.resize(table_.value_bytes);
+  archive.list(rows_);
+  archive.list(values_);
+  table_.rows = rows_.data();
+  table_.values = values_.data();
+  table_.count = table_.capacity = static_cast<uint32_t>(rows_.size());
+  table_.value_bytes = table_.value_capacity = static_cast<uint32_t>(values_.size());
+  archive.sequence(names_, Variable(), [&](Variable& name) {
+    archive.value(static_cast<rung_variable&>(name));
+    archive.value(name.context);
+    archive.text(name.path);
+  });
+}
+
+}  // namespace rung::host
