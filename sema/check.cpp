@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/check.h"
 
+#include <algorithm>
+
 #include "frontend/schedule/network_pins.h"
 #include "frontend/source/invariant.h"
 #include "sema/bodies/body.h"
 #include "sema/bodies/for_declarations.h"
 #include "sema/bodies/literal_storage.h"
+#include "sema/bodies/replacement.h"
 #include "sema/checks/rules.h"
 #include "sema/declarations/access_paths.h"
 #include "sema/declarations/call_graph.h"
@@ -25,9 +28,13 @@
 namespace rung::sema {
 namespace {
 
+// Reporters beside the bodies, each of which has the index of its POU.
+constexpr uint32_t kByDeclarations = ~0u, kByRules = ~0u - 1;
+
 void declare(Context& context) {
   setPhase("sema");
   context.symbols.diagnostics.closeLines();
+  context.symbols.diagnostics.reporter = kByDeclarations;
   internKnownNames(context);
   indexLibraries(context);
   collectFiles(context);
@@ -86,8 +93,14 @@ std::vector<ConstantCam> constantCams(Project& project) {
   return constantCams(context);
 }
 
-void check(Project& project) {
-  Scopes scopes;
+static void checkRules(Context& context) {
+  sortEffects(context.project);
+  context.symbols.diagnostics.reporter = kByRules;
+  context.rules->project(context);
+  context.symbols.diagnostics.reporter = 0;
+}
+
+static void check(Project& project, Scopes& scopes) {
   Context context = contextOf(project, scopes);
   declare(context);
   markOverloads(context);
@@ -105,8 +118,37 @@ void check(Project& project) {
   orderInitialValues(context);
   resolveInstancePaths(context);
   resolveAccessPaths(context);
-  sortCalls(project);
-  context.rules->project(context);
+  checkRules(context);
+}
+
+void check(Project& project) {
+  Scopes scopes;
+  check(project, scopes);
+}
+
+CheckedProject::CheckedProject(Project& project) : project_(project), scopes_(std::make_unique<Scopes>()) {
+  check(project_, *scopes_);
+}
+
+CheckedProject::~CheckedProject() = default;
+
+std::span<const FileId> CheckedProject::librarySources() const { return scopes_->libraries.sources; }
+
+bool CheckedProject::replaceBodies(std::span<const NewBody> bodies) {
+  Context context = contextOf(project_, *scopes_);
+  std::vector<PouId> pous;
+  for (const NewBody& body : bodies) pous.push_back(body.pou);
+  const auto may_be_replaced = [&](PouId pou) { return isReplaceable(context, pou); };
+  if (!std::all_of(pous.begin(), pous.end(), may_be_replaced)) return false;
+  Diagnostics& diagnostics = project_.diagnostics;
+  takeBackBodies(context, pous);
+  diagnostics.retract([](const Diagnostic& diagnostic) { return diagnostic.reporter == kByRules; });
+  diagnostics.closeLines();
+  for (const NewBody& body : bodies) project_.pou(body.pou).decl = body.decl;
+  checkBodies(context);
+  declareLiteralStorage(context);
+  checkRules(context);
+  return std::all_of(pous.begin(), pous.end(), may_be_replaced);
 }
 
 }  // namespace rung::sema

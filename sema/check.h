@@ -3,6 +3,8 @@
 // the tools once for each project.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "sema/bodies/constant_cams.h"
@@ -18,6 +20,31 @@ Context contextOf(Project& project, Scopes& scopes);
 // Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
+
+// A checked project, of which bodies may be replaced while declarations stay: what an editor does at each key.
+class CheckedProject {
+ public:
+  // As check() does.
+  explicit CheckedProject(Project& project);
+  ~CheckedProject();
+
+  // The sources of Options::libraries, so that the next project of the same Sources need not add them again.
+  std::span<const FileId> librarySources() const;
+
+  // The same POU with another body, in ST.
+  struct NewBody {
+    PouId pou;
+    DeclId decl;
+  };
+  // Checks these bodies in the place of those that the POUs have, and the rules of the project. What was said of them
+  // is taken back. False: declarations or other bodies depend on one of them, so that the project is to be checked
+  // again, and what is known of it now is of no use.
+  bool replaceBodies(std::span<const NewBody> bodies);
+
+ private:
+  Project& project_;
+  std::unique_ptr<Scopes> scopes_;
+};
 
 // For pictures: the pins of boxes that are in-outs of what they call, by their index in the tree. Collects and resolves
 // declarations as check() does; bodies stay as parsed.

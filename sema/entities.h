@@ -13,6 +13,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
+#include "sema/access.h"
 #include "sema/code.h"
 #include "sema/ids.h"
 #include "sema/types/areas.h"
@@ -90,9 +91,9 @@ struct Var {
     CallId constructor;                 // of a block whose FB_Init has parameters: the arguments in the declaration
     uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
   } start;
-  struct Use {  // by any body, for the warnings
-    bool read = false, written = false;
-  } use;
+  struct Used {  // how often, by declarations and bodies
+    uint32_t reads = 0, writes = 0;
+  } used;
   struct Bits {    // members of type BIT, when the type is laid out
     VarId holder;  // the hidden byte whose `bit` it is; `field` is that byte's
     uint8_t bit = 0;
@@ -102,6 +103,13 @@ struct Var {
     VarId bounds;               // the first of the hidden variables with its bounds, two a dimension
     bool hidden_input = false;  // of a function: such a bound, passed after the pins
   } open_array;
+};
+
+// A place where the source names an entity: Options::records_mentions.
+struct Mention {
+  Entity entity;
+  Loc loc;
+  Access access;
 };
 
 struct Property {
@@ -154,6 +162,8 @@ struct Pou {
     Slice<StmtId> statements;  // as written, or as a scheduler made them
     Slice<StmtId> code;        // that is made of them
     bool scheduled = false;
+    bool affects_others = false;  // what is said elsewhere depends on it: declarations/mentions.h
+    std::vector<Mention> mentions;
   } body;
   bool library = false;
   bool excluded = false;  // a test, or only for tests, and not part of this program: checked, not lowered

@@ -75,6 +75,7 @@ struct Options {
   std::string_view name = "plc";                              // of the module: instance paths begin with it
   std::span<const LibraryFile> libraries;  // sources that outlive the project; declarations are parsed on first use
   const std::atomic<bool>* cancelled = nullptr;  // asked before each body: when it is true the rest is not checked
+  bool records_mentions = false;                 // each place where the source names an entity
   std::vector<LibraryProject> library_projects;
   std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;

@@ -119,6 +119,7 @@ struct Project : Symbols {
     VarId var;
   };
   std::vector<GlobalWrite> global_writes;  // by bodies, of variables outside of the instance: for the rule on tasks
+  std::vector<Mention> mentions;  // by declarations: Options::records_mentions; those of bodies are in Pou::body
   std::vector<types::IoModule> io_modules;
   std::vector<uint32_t> area_bytes;  // by AreaId: the declared size, or the end of the last used byte
 };

@@ -179,7 +179,12 @@ struct Scopes {
   NodeMap<TypeExprId, WrittenType> written_types;
   NodeMap<DeclId, State> initial_values;      // of declarations
   std::unordered_map<uint32_t, ExprId> code;  // of expressions of declarations, by what is written
-  std::vector<uint64_t> reported;             // unknown names: the POU or type, and the name
+  struct Reported {                           // an unknown name
+    uint64_t key;                             // the POU or type, and the name
+    PouId body;                               // which has it; none: a declaration
+    friend bool operator==(const Reported&, const Reported&) = default;
+  };
+  std::vector<Reported> reported;
   NameMap pous_and_types;
   NameMap globals;
   NameMap items;             // enumeration items by their bare name: the first that was declared

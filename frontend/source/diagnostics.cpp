@@ -81,7 +81,7 @@ Report& Report::path(std::string path) {
 namespace {
 
 uint64_t lineKey(const Sources& sources, Loc loc) {
-  return uint64_t{sources.fileOf(loc).index} << 32 | sources.lineNumber(loc);
+  return uint64_t{sources.wholeOf(sources.fileOf(loc)).index} << 32 | sources.lineNumber(loc);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void Diagnostics::nameElements(FunctionRef<std::string(Loc)> at) {
 void Diagnostics::closeLines() {
   closed_lines_.clear();
   for (const Diagnostic& diagnostic : list_)
-    if (diagnostic.loc && diagInfo(diagnostic.diag).severity == Severity::Error)
+    if (diagnostic.reporter == 0 && diagnostic.loc && diagInfo(diagnostic.diag).severity == Severity::Error)
       closed_lines_.push_back(lineKey(sources_, diagnostic.loc));
   std::sort(closed_lines_.begin(), closed_lines_.end());
 }
@@ -119,8 +119,21 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
       return Report(nullptr);
     }
   }
-  list_.push_back({diag, severity, loc, {}, {}, 0, formatMessage(info.text, args), {}, {}});
+  list_.push_back({diag, severity, loc, {}, {}, 0, formatMessage(info.text, args), {}, {}, reporter});
   return Report(&list_.back());
+}
+
+void Diagnostics::retract(FunctionRef<bool(const Diagnostic&)> is_gone) {
+  std::erase_if(list_, [&](const Diagnostic& diagnostic) { return is_gone(diagnostic); });
+  error_count_ = warning_count_ = 0;
+  closed_lines_.clear();
+  seen_.clear();
+  seen_count_ = 0;
+  for (const Diagnostic& diagnostic : list_) {
+    if (diagnostic.severity == Severity::Error) ++error_count_;
+    if (diagnostic.severity == Severity::Warning) ++warning_count_;
+    firstAt(diagnostic.diag, sources_.originalLocation(diagnostic.loc));
+  }
 }
 
 // A location is reported once per code. Diagnostics without a location are told apart by path and message, so none of
@@ -148,10 +161,10 @@ bool Diagnostics::firstAt(Diag diag, Loc loc) {
 }
 
 void Diagnostics::sort() {
-  // Locations grow in the order in which files were added; paths order diagnostics without a location.
+  // Paths order diagnostics without a location.
   for (Diagnostic& diagnostic : list_) diagnostic.original_loc = sources_.originalLocation(diagnostic.loc);
-  std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return a.original_loc != b.original_loc ? a.original_loc < b.original_loc : a.path < b.path;
+  std::stable_sort(list_.begin(), list_.end(), [&](const Diagnostic& a, const Diagnostic& b) {
+    return a.original_loc != b.original_loc ? sources_.isBefore(a.original_loc, b.original_loc) : a.path < b.path;
   });
 }
 

@@ -79,6 +79,7 @@ struct Diagnostic {
   std::string message;
   std::string element;  // of a diagram: `POU main, network 3, contact "start", localId 12`
   std::vector<Attached> notes;
+  uint32_t reporter = 0;  // Diagnostics::reporter, when it was reported
 };
 
 // Chained after a report: diagnostics.error(...).note(...). Does nothing when the report was dropped.
@@ -105,7 +106,11 @@ class Diagnostics {
   // max_errors (they are counted). The reference is valid until the next report.
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {});
 
-  // Suppresses further diagnostics on the lines that have errors so far: later phases would report what follows from
+  // Who reports, so that it can be taken back: a number of the caller's. 0: who reads and parses.
+  uint32_t reporter = 0;
+  // Takes back what was reported, as if it had never been. No line is closed then.
+  void retract(FunctionRef<bool(const Diagnostic&)> is_gone);
+  // Suppresses further diagnostics on the lines with errors of reporter 0: later phases would report what follows from
   // them.
   void closeLines();
 
@@ -119,7 +124,8 @@ class Diagnostics {
   const std::vector<Diagnostic>& all() const { return list_; }
   // Adds to each diagnostic the diagram element that contains it; `at` names the element at a location.
   void nameElements(FunctionRef<std::string(Loc)> at);
-  // By file, then location; equal locations keep the order of reporting. Diagnostics for a whole file come first.
+  // In the order of files, then by location; equal locations keep the order of reporting. Diagnostics for a whole file
+  // come first.
   void sort();
 
   uint32_t max_errors = 100;

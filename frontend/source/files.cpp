@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "frontend/source/invariant.h"
 #include "frontend/source/text.h"
@@ -114,22 +115,70 @@ uint32_t countCharacters(std::string_view utf8) {
 
 Sources::Sources() { files_.emplace_back(); }
 
+// One past the NUL: the end of a file has its own location.
+bool Sources::takeRange(uint32_t file, size_t bytes) {
+  if (next_base_ + bytes + 1 > UINT32_MAX) return false;
+  files_[file].base = static_cast<uint32_t>(next_base_);
+  extents_.push_back({files_[file].base, file});
+  next_base_ += bytes + 1;
+  return true;
+}
+
 FileId Sources::add(std::string path, std::string source) {
   if (source.starts_with("\xef\xbb\xbf")) source.erase(0, 3);
   return addSourceMapped(std::move(path), std::move(source), {});
 }
 
 FileId Sources::addSourceMapped(std::string path, std::string source, std::vector<Segment> segments) {
-  const File& last = files_.back();
-  // One past the NUL: the end of a file has its own location.
-  const uint64_t base = uint64_t{last.base} + last.source.size() + 1;
-  if (base + source.size() + 1 > UINT32_MAX) return {};
+  const auto index = static_cast<uint32_t>(files_.size());
   File& file = files_.emplace_back();
+  if (!takeRange(index, source.size())) {
+    files_.pop_back();
+    return {};
+  }
   file.path = std::move(path);
   file.source = std::move(source);
-  file.base = static_cast<uint32_t>(base);
   file.segments = std::move(segments);
-  return {static_cast<uint32_t>(files_.size() - 1)};
+  return {index};
+}
+
+FileId Sources::edit(FileId file, std::string source) {
+  const auto index = static_cast<uint32_t>(files_.size());
+  File& before = files_.emplace_back();
+  File& of = files_[file.index];
+  before.part_of = file;
+  before.path = of.path;
+  before.display_path = of.display_path;
+  before.source = std::move(of.source);
+  before.active = std::move(of.active);
+  before.base = of.base;
+  before.segments = {{0, {static_cast<uint32_t>(next_base_)}, true}};
+  before.lines = std::exchange(of.lines, std::make_unique<File::Lines>());
+  const auto extent = std::lower_bound(extents_.begin(), extents_.end(), before.base,
+                                       [](const Extent& of_extent, uint32_t base) { return of_extent.base < base; });
+  extent->file = index;
+  is_edited_ = true;
+  last_location_ = {};
+  of.source = std::move(source);
+  return takeRange(file.index, of.source.size()) ? FileId{index} : FileId{};
+}
+
+FileId Sources::addPart(FileId file, std::string source) {
+  const FileId part = addSourceMapped(files_[file.index].path, std::move(source), {{0, begin(file), true}});
+  if (part) files_[part.index].part_of = file;
+  return part;
+}
+
+void Sources::forget(FileId file) {
+  File& of = files_[file.index];
+  of.source = of.active = {};
+  of.segments = {};
+}
+
+bool Sources::isBefore(Loc a, Loc b) const {
+  if (!is_edited_) return a < b;
+  const uint32_t file = fileOf(a).index, other = fileOf(b).index;
+  return file != other ? file < other : a < b;
 }
 
 void Sources::activate(FileId file, std::string source) {
@@ -144,10 +193,11 @@ FileId Sources::fileOf(Loc loc) const {
     return loc.offset >= files_[i].base && loc.offset - files_[i].base <= files_[i].source.size();
   };
   if (const uint32_t last = last_file_.load(std::memory_order_relaxed); last != 0 && holds(last)) return {last};
-  const auto after = std::upper_bound(files_.begin() + 1, files_.end(), loc.offset,
-                                      [](uint32_t offset, const File& file) { return offset < file.base; });
-  const auto index = static_cast<uint32_t>(after - files_.begin() - 1);
-  if (index == 0 || !holds(index)) return {};
+  const auto after = std::upper_bound(extents_.begin(), extents_.end(), loc.offset,
+                                      [](uint32_t offset, const Extent& extent) { return offset < extent.base; });
+  if (after == extents_.begin()) return {};
+  const uint32_t index = (after - 1)->file;
+  if (!holds(index)) return {};
   last_file_.store(index, std::memory_order_relaxed);
   return {index};
 }
@@ -165,11 +215,11 @@ Loc Sources::originalLocation(Loc loc) const {
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
-  std::call_once(file.lines_known, [&] {
-    file.line_starts = findLineStarts(file.source);
-    file.ascii = isAscii(file.source);
+  std::call_once(file.lines->known, [&] {
+    file.lines->starts = findLineStarts(file.source);
+    file.lines->ascii = isAscii(file.source);
   });
-  return file.line_starts;
+  return file.lines->starts;
 }
 
 uint32_t Sources::lineNumber(Loc loc) const {
@@ -196,9 +246,9 @@ SourceLocation Sources::location(Loc loc) const {
   if (line == 0) return {};
   const FileId id = fileOf(loc);
   const File& file = files_[id.index];
-  const uint32_t start = file.line_starts[line - 1];
+  const uint32_t start = file.lines->starts[line - 1];
   const uint32_t at = loc.offset - file.base;
-  if (file.ascii) return {id, line, at - start + 1};
+  if (file.lines->ascii) return {id, line, at - start + 1};
   // Counting resumes at the last location on the same line, so that one very long line does not cost quadratic time.
   const std::lock_guard guard(last_mutex_);
   const bool resume = last_location_.file == id && last_location_.line == line && last_location_at_ <= at;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sources: the source of every input file, and the 32-bit locations that point into it.
 // In: paths or sources. Out: Loc (an offset in one address space over all files), and the line and column of a Loc.
-// Files get consecutive ranges. Each source ends in a NUL that is not part of the file, so lexers need no end test.
-// Lookups of locations fill caches: one thread at a time.
+// Files get consecutive ranges; a file that is edited gets another one for its new text. Each source ends in a NUL that
+// is not part of the file, so lexers need no end test. Lookups of locations fill caches: one thread at a time.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -56,6 +57,20 @@ class Sources {
   // lookups below return locations in those files. Segments are sorted by `at`, the first has `at` 0.
   FileId addSourceMapped(std::string path, std::string source, std::vector<Segment> segments);
 
+  // The file has this text from now on. Returns the id of its text of before, in which locations stay valid: it is a
+  // source-mapped text, which remap() maps to the new one. No file when the 32-bit space is full.
+  FileId edit(FileId file, std::string source);
+  // A part of an edited file as a text of its own.
+  FileId addPart(FileId file, std::string source);
+  void remap(FileId file, std::vector<Segment> segments) { files_[file.index].segments = std::move(segments); }
+  // No location leads there any more.
+  void forget(FileId file);
+  // The file that this is a part of, or its text of before; else itself.
+  FileId wholeOf(FileId file) const {
+    const FileId whole = files_[file.index].part_of;
+    return whole ? whole : file;
+  }
+
   // The path that messages show for the file, where it differs from its own.
   void setDisplayPath(FileId file, std::string display_path) {
     files_[file.index].display_path = std::move(display_path);
@@ -64,6 +79,9 @@ class Sources {
   // Another language decides which names the file may have (the ladder of NCT): `a__b` and `a_` too.
   void allowAnyUnderscores(FileId file) { files_[file.index].any_underscores = true; }
   bool hasAnyUnderscores(FileId file) const { return files_[file.index].any_underscores; }
+
+  // In the order of the files, and in them by place.
+  bool isBefore(Loc a, Loc b) const;
 
   Loc begin(FileId file) const { return {files_[file.index].base}; }
   std::string_view path(FileId file) const { return files_[file.index].path; }
@@ -98,15 +116,26 @@ class Sources {
     uint32_t base = 0;
     std::vector<Segment> segments;  // of source-mapped text
     std::string display_path;
-    mutable std::once_flag lines_known;
-    mutable std::vector<uint32_t> line_starts;  // when `lines_known`, as `ascii`
-    mutable bool ascii = false;
+    struct Lines {
+      std::once_flag known;
+      std::vector<uint32_t> starts;
+      bool ascii = false;
+    };
+    std::unique_ptr<Lines> lines = std::make_unique<Lines>();  // found when they are first asked for
     std::string active = {};
     bool any_underscores = false;
+    FileId part_of = {};
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
+  bool takeRange(uint32_t file, size_t bytes);
 
   std::deque<File> files_;
+  struct Extent {
+    uint32_t base, file;
+  };
+  std::vector<Extent> extents_;  // sorted
+  uint64_t next_base_ = 1;
+  bool is_edited_ = false;
   // Results of the last look-up: the next one is likely near. Several threads may read the same sources.
   mutable std::atomic<uint32_t> last_file_ = 0, last_line_ = 0;
   mutable std::mutex last_mutex_;

@@ -96,10 +96,23 @@ void Tree::openChunks(uint32_t words) {
   next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
   if (next_word_ == 0) next_word_ = 2;  // 0 means no node
   const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
+  if (count == 1 && !free_.empty()) {
+    chunks_.push_back(free_.back());
+    free_.pop_back();
+    return;
+  }
   if (count > spare_) openBlock(count);
   for (uint32_t k = 0; k < count; ++k) chunks_.push_back(next_chunk_ + size_t{k} * kChunkWords);
   next_chunk_ += size_t{count} * kChunkWords;
   spare_ -= count;
+}
+
+void Tree::truncate(uint32_t size) {
+  const uint32_t kept = (size + kChunkWords - 1) / kChunkWords;
+  free_.insert(free_.end(), chunks_.begin() + kept, chunks_.end());
+  chunks_.resize(kept);
+  next_word_ = size;
+  while (!parens_.empty() && parens_.back().of.word >= size) parens_.pop_back();
 }
 
 StringId Tree::addString(std::string_view text) {

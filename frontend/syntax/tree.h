@@ -127,6 +127,10 @@ class Tree {
     return slice.empty() ? std::span<const T>() : std::span<const T>(&at<T>(slice.first), slice.count);
   }
 
+  // Everything added since the tree had this size is gone, and its memory is used again.
+  uint32_t size() const { return next_word_; }
+  void truncate(uint32_t size);
+
   StringId addString(std::string_view text);
   std::string_view string(StringId id) const {
     return id.length == 0 ? std::string_view()
@@ -178,6 +182,7 @@ class Tree {
 
   std::vector<uint32_t*> chunks_;   // some point into a larger block
   std::vector<uint32_t*> blocks_;   // owned
+  std::vector<uint32_t*> free_;     // chunks that were truncated
   uint32_t* next_chunk_ = nullptr;  // in the last block, with `spare_` chunks from it on
   uint32_t spare_ = 0;
   uint32_t next_word_ = 0;

@@ -23,7 +23,7 @@ void StatementLowering::lowerPou() {
     if (var.section == SectionKind::Input) {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = state_.local_of[var.field];
-      if (!var.use.written || !body_.locals[index - 1].by_reference) continue;
+      if (var.used.writes == 0 || !body_.locals[index - 1].by_reference) continue;
       const TypeId type = strip(var.type);
       const ExprId own = temp(type, var.loc);
       // The unit after the last character, as in ObjectLowering::storeInitial.

@@ -3,7 +3,7 @@
 // its variable (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds one.
 #include "sema/bodies/any_inputs.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/generic_calls.h"

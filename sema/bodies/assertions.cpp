@@ -2,7 +2,7 @@
 // ASSERT(cond [, 'text']), ASSERT_EQ(expected, actual [, 'text']), ASSERT_NEAR(expected, actual, tolerance [, 'text'])
 // of tests. In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
 // with the operands in order, both sides brought to one type.
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

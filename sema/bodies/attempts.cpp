@@ -4,7 +4,7 @@
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
 #include "sema/bodies/attempts.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

@@ -7,7 +7,7 @@
 // engines have the memory as it is laid out here.
 #include <optional>
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/names.h"

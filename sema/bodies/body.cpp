@@ -3,6 +3,8 @@
 // is IL, SFC or a diagram, and checked. Called for each POU of the project, and for each library POU in use.
 #include "sema/bodies/body.h"
 
+#include <utility>
+
 #include "frontend/schedule/il_schedule.h"
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/schedule/sfc_schedule.h"
@@ -91,11 +93,13 @@ bool ensureBody(Context& context, PouId id) {
   const std::string_view name = project.names.string(pou.name);
   setPhaseSubject(name.data(), name.size());
   const uint32_t errors = project.diagnostics.errorCount();
+  const uint32_t reporter = std::exchange(project.diagnostics.reporter, id.index);
   state = Body::Busy;
   resolvePou(context, id);
   Context there = atPou(context, id);
   checkBody(there, id);
   declareLiteralStorage(context, id);
+  project.diagnostics.reporter = reporter;
   const bool broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
   state = broken ? Body::Broken : Body::Correct;
   return !broken;

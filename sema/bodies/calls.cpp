@@ -9,7 +9,7 @@
 
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/any_inputs.h"
 #include "sema/bodies/conversion_calls.h"
 #include "sema/bodies/conversions.h"
@@ -29,6 +29,7 @@
 #include "sema/bodies/writable.h"
 #include "sema/declarations/call_graph.h"
 #include "sema/declarations/item_names.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
 #include "sema/declarations/variables.h"
@@ -370,6 +371,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       return refuse(context, node);
     case PouKind::Program:
       if (!context.profile().programs_call_programs) {
+        noteEffect(context);
         context.symbols.pou(pou).progress.used = true;  // after this error, the program is not reported as never called
         context.report(diag::CallOfProgram, node.h.loc, {string(context, callee.name)});
         return refuse(context, node);
@@ -765,7 +767,8 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       return callPou(context, expr, PouId{entity.index}, expected, as_statement);
     }
     if (!type) return refuse(context, node);
-    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
+    if (entity.entityKind() == EntityKind::Var)
+      markAccess(context, VarId{entity.index}, Access::ReadWrite, context.tree().loc(node.callee));
     return callValue(context, expr, type, as_statement);
   }
   const TypeId type = check(context, node.callee, {}, Access::Call);

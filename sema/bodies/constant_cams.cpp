@@ -10,6 +10,7 @@
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/names.h"
 #include "sema/declarations/constants.h"
+#include "sema/declarations/mentions.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 
@@ -59,14 +60,30 @@ VarId addressed(Context& context, ExprId value) {
   return declared(context, {entity.index});
 }
 
+// Cams, and what has its address taken: a body that mentions none of them changes no table.
+std::vector<bool> partsOfCams(const Context& context) {
+  const std::deque<Var>& vars = context.symbols.vars;
+  std::vector<bool> parts(vars.size());
+  for (uint32_t i = 1; i < vars.size(); ++i) parts[i] = isCam(context, vars[i].type);
+  const auto add = [&](const std::vector<Mention>& mentions) {
+    for (const Mention& mention : mentions)
+      if (takesAddress(mention.access) && mention.entity.entityKind() == EntityKind::Var)
+        parts[mention.entity.index] = true;
+  };
+  add(context.project.mentions);
+  for (const Pou& pou : context.symbols.pous) add(pou.body.mentions);
+  return parts;
+}
+
 // What the bodies of the project do with variables: which they may change, and which members of cams they set once.
 class Changes {
  public:
   explicit Changes(Context& context)
       : context_(context), tree_(context.tree()), changed_(context.symbols.vars.size(), false) {
+    const BodiesWith parts(context.project, partsOfCams(context));
     for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
       const Pou& pou = context.symbols.pous[i];
-      if (pou.library || !pou.decl || pou.generic || !pou.progress.checked()) continue;
+      if (pou.library || !pou.decl || pou.generic || !pou.progress.checked() || !parts.mayMention(pou)) continue;
       for (const StmtId id : tree_.list(pou.body.code)) statement(id);
       all_ = all_ || pou.cpp.is_body;
     }

@@ -9,7 +9,7 @@
 
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

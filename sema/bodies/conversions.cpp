@@ -4,7 +4,7 @@
 #include "sema/bodies/conversions.h"
 
 #include "frontend/source/dialect.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/implicit_checks.h"
@@ -523,7 +523,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   }
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
     if (const Entity object = entityOf(context, expr); object.entityKind() == EntityKind::Var)
-      markAccess(context, VarId{object.index}, Access::Address);
+      markAccess(context, VarId{object.index}, Access::Address, context.tree().loc(expr));
   callRangeCheck(context, expr, to);
   wrapConvert(context, expr, to);
   return true;

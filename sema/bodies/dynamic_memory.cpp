@@ -4,7 +4,7 @@
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
 #include "sema/bodies/dynamic_memory.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/dynamic_memory.h"

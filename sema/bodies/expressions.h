@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/context.h"
 
 namespace rung::sema {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/bodies/generic_calls.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

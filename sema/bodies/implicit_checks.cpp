@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

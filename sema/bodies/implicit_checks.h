@@ -4,7 +4,7 @@
 // implicit_checks.cpp.
 #pragma once
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/context.h"
 
 namespace rung::sema {

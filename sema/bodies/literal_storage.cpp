@@ -34,7 +34,8 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     var.type = wide ? context.types().wstring(length) : context.types().string(length);
     var.section = SectionKind::Global;
     var.storage = Storage::Global;
-    var.constant = var.use.read = var.use.written = true;
+    var.constant = true;
+    var.used = {1, 1};
     var.init = literal;
     symbols.vars.push_back(var);
     literal_storage.undeclared.push_back({context.pou, storage});

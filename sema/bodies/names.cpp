@@ -4,13 +4,14 @@
 #include "sema/bodies/names.h"
 
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/implicit_checks.h"
 #include "sema/bodies/objects.h"
 #include "sema/bodies/outside_access.h"
 #include "sema/bodies/temporaries.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/namespaces.h"
 #include "sema/declarations/objects.h"
@@ -77,7 +78,7 @@ TypeId useBit(Context& context, ExprId& expr, const Var& var) {
 }
 
 TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
-  markAccess(context, id, access);
+  markAccess(context, id, access, context.tree().loc(expr));
   const Var& var = context.symbols.var(id);
   ExprHeader& header = context.code().expr(expr);
   meaning(header).is_constant = var.constant && var.has_value;
@@ -89,6 +90,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
 
 TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   const EnumValue& item = context.symbols.enum_values[index];
+  noteMention(context, Entity::of(EntityKind::EnumValue, index), context.tree().loc(expr), Access::Read);
   ExprHeader& header = context.code().expr(expr);
   meaning(header).is_constant = 1;
   meaning(header).type = item.type;
@@ -174,7 +176,8 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
   bool is_part = true;  // of the variable that is used: not after an instance, whose own members are used
   for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
     const Entity entity = entityOf(context, at);
-    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (entity.entityKind() == EntityKind::Var)
+      markAccess(context, VarId{entity.index}, access, context.tree().loc(at));
     if (context.tree().kind(at) != ExprKind::Member) return type;
     is_part = is_part && !isInstance(context, context.type(at));
     if (is_part && entity.entityKind() == EntityKind::Var &&
@@ -273,13 +276,14 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
 
 }  // namespace
 
-void markAccess(Context& context, VarId id, Access access) {
+void markAccess(Context& context, VarId id, Access access, Loc loc) {
   if (access == Access::Qualifier) return;
+  noteMention(context, entity(id), loc, access);
   for (VarId at = id; at; at = context.symbols.var(at).external) {
     Var& var = context.symbols.var(at);
-    if (access != Access::Write && access != Access::Bind) var.use.read = true;
+    if (reads(access)) ++var.used.reads;
     if (access == Access::Read) continue;
-    var.use.written = true;
+    ++var.used.writes;
     if (takesAddress(access) || !context.body || !var.name || var.external) continue;
     const bool outside = var.storage == Storage::Global || var.storage == Storage::Image;
     auto& writes = context.project.global_writes;
@@ -461,7 +465,7 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
     return types::kError;
   }
   if (var.constant) ensureInitialValue(context, id);
-  markAccess(context, VarId{found.index}, Access::Read);
+  markAccess(context, VarId{found.index}, Access::Read, node.h.loc);
   if (!var.constant || !var.has_value) {
     context.report(diag::NamedBitNotConstant, node.h.loc, {string(context, node.member)}).declaredHere(var.loc);
     return types::kError;

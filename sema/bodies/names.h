@@ -3,7 +3,7 @@
 // see names.cpp.
 #pragma once
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/context.h"
 
 namespace rung::sema {
@@ -19,7 +19,8 @@ Entity resolveName(Context& context, const NameExpr& written, TypeId expected);
 Entity entityOf(const Context& context, ExprId expr);
 // The hidden variable with ENO of the last call of a named instance; none: nothing reads it.
 VarId enoMemoryOf(const Context& context, ExprId instance);
-void markAccess(Context& context, VarId var, Access access);
+// Notes the use of a variable at `loc`.
+void markAccess(Context& context, VarId var, Access access, Loc loc);
 
 inline NameId nameOf(const Context& context, ExprId expr) {
   if (context.tree().kind(expr) == ExprKind::Name) return context.tree().as<NameExpr>(expr).name;

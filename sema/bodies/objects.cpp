@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "frontend/syntax/inline_actions.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
@@ -18,6 +18,7 @@
 #include "sema/bodies/required_pins.h"
 #include "sema/bodies/statements.h"
 #include "sema/declarations/call_graph.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
 #include "sema/declarations/types.h"
@@ -52,7 +53,7 @@ void markObject(Context& context, ExprId at) {
   const Tree& tree = context.tree();
   while (at) {
     const Entity entity = entityOf(context, at);
-    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access, tree.loc(at));
     const ExprKind kind = tree.kind(at);
     if (kind == ExprKind::Deref) access = Access::Read;
     at = shape(kind) == ExprShape::Step && kind != ExprKind::BitAccess ? tree.base(at) : ExprId{};
@@ -184,6 +185,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
                                                                                  : "a method; call it with `(...)`"});
     return meaning(header).type = types::kError;
   }
+  noteMention(context, member, loc, access);
   const Property property = accessorsOf(context, member.index);
   const PouId accessor = property.get ? property.get : property.set;
   if (!accessor) {
@@ -230,6 +232,7 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   if (found.entityKind() != EntityKind::Property) return false;
   const Property property = accessorsOf(context, found.index);
   const Loc loc = context.tree().loc(node.target);
+  noteMention(context, found, loc, Access::Write);
   if (!property.set) {
     context.report(diag::PropertyWithoutSet, loc, {string(context, property.name)});
     checkExpr(context, node.value);

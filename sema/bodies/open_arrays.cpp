@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // LOWER_BOUND and UPPER_BOUND. IEC 61131-3 ed. 3 table 16, 1 and 2. In: calls. Out: a literal for an array with fixed
 // bounds, a BoundExpr for the ARRAY[*] of a VAR_IN_OUT, whose bounds are passed with the variable.
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/pseudo_functions.h"

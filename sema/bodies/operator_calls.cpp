@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversion_calls.h"
 #include "sema/bodies/conversions.h"

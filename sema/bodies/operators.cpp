@@ -5,7 +5,7 @@
 // the value may be wider until it is stored: sema/intermediate.h.
 #include "sema/bodies/operators.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/division_by_zero.h"

@@ -11,7 +11,7 @@
 // Called by names.cpp for each `instance.pin`, and for each name.
 #include "sema/bodies/outside_access.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"

@@ -2,7 +2,7 @@
 // Forbids uses of a block's variables from outside that its sections do not allow; see outside_access.cpp.
 #pragma once
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/context.h"
 
 namespace rung::sema {

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "frontend/syntax/standard_names.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

@@ -4,7 +4,7 @@
 // TM/TP manual 5.2, 5.3 (ADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
 #include "sema/bodies/pointers.h"
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/addressable.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"

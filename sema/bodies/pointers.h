@@ -3,7 +3,7 @@
 // checked or unchecked operands; see pointers.cpp.
 #pragma once
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/context.h"
 
 namespace rung::sema {

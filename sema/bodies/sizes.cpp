@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIZEOF and LEN_MAX: sizes that are known at compile time. Out: untyped literals.
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/expressions.h"
 #include "sema/bodies/literals.h"

@@ -4,7 +4,7 @@
 #include "sema/bodies/statements.h"
 
 #include "frontend/syntax/diagnostics.h"
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/attempts.h"
 #include "sema/bodies/body.h"
 #include "sema/bodies/calls.h"

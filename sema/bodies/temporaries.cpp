@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/body.h"
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
@@ -152,7 +152,7 @@ void declareTemporaries(Context& context, DeclId section) {
     var.loc = ident.loc;
     var.section = SectionKind::Temp;
     var.storage = Storage::Local;
-    var.use.read = var.use.written = true;
+    var.used = {1, 1};
     var.pou = context.pou;
     var.field = static_cast<uint32_t>(pou.vars.size());
     context.body->temporaries.push_back({.var = id});

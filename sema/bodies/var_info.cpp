@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
 // In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
-#include "sema/bodies/access.h"
+#include "sema/access.h"
 #include "sema/bodies/addressable.h"
 #include "sema/bodies/any_inputs.h"
 #include "sema/bodies/diagnostics.h"

@@ -30,7 +30,7 @@ void checkOverlappingAddresses(Context& context) {
   for (uint32_t i = 1; i < symbols.vars.size(); ++i) {
     const Var& var = symbols.vars[i];
     if (var.storage != Storage::Image || var.external || !var.type || var.type == types::kError) continue;
-    if (!var.use.written && !var.init) continue;
+    if (var.used.writes == 0 && !var.init) continue;
     const ImageView& view = var.image;
     if (context.project.options.areas[view.area.index].owner == types::AreaOwner::Shared) continue;
     const uint64_t begin = uint64_t{view.byte} * 8 + (view.is_bit ? view.bit : 0);

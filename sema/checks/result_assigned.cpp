@@ -12,7 +12,7 @@ namespace rung::sema {
 
 void checkResultAssigned(Context& context) {
   const Pou& pou = context.symbols.pou(context.pou);
-  if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).use.written) return;
+  if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).used.writes != 0) return;
   const Entity named = context.scopes.pous[context.pou.index].names.find(keyOf(context, pou.name));
   if (named.entityKind() != EntityKind::Var || VarId{named.index} != pou.result_var) return;  // hidden: reported
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // their results are not used

@@ -8,6 +8,7 @@
 
 #include "frontend/syntax/children.h"
 #include "sema/bodies/names.h"
+#include "sema/declarations/mentions.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -60,30 +61,44 @@ bool hasBody(const Context& context, PouId id) {
   return pou.pragmas.native || pou.cpp.is_body || decl.body_kind == BodyKind::Native || !pou.body.code.empty();
 }
 
-}  // namespace
-
-void checkUncalledInstances(Context& context) {
+// Locals that may be such instances: who calls one, or passes it on, may write it.
+std::vector<VarId> candidates(const Context& context) {
   const Symbols& symbols = context.symbols;
-  if (symbols.diagnostics.hasErrors()) return;
-  Uses uses(context);
-  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
-    const Pou& pou = symbols.pous[i];
-    if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp.is_body) continue;
-    for (const StmtId id : context.tree().list(pou.body.code)) uses.walk(id);
-  }
-  for (const BlockTask& task : context.project.block_tasks) uses.note(task.block);
+  std::vector<VarId> found;
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     const Pou& pou = symbols.pous[i];
     if (pou.library || pou.cpp.is_body || pou.object.extended || pou.base || !pou.decl || !pou.progress.checked())
       continue;
     for (const VarId id : pou.vars) {
       const Var& var = symbols.var(id);
-      if (var.section != SectionKind::Local || !var.name || !uses.onlyRead(id)) continue;
+      if (var.section != SectionKind::Local || !var.name || var.used.reads == 0 || var.used.writes != 0) continue;
       const NamedType* named = context.scopes.named(context.types().resolve(var.type));
-      if (named == nullptr || !named->pou || !hasBody(context, named->pou)) continue;
-      context.report(diag::NeverCalled, var.loc, {string(context, var.name)});
+      if (named != nullptr && named->pou && hasBody(context, named->pou)) found.push_back(id);
     }
   }
+  return found;
+}
+
+}  // namespace
+
+void checkUncalledInstances(Context& context) {
+  const Symbols& symbols = context.symbols;
+  if (symbols.diagnostics.hasErrors()) return;
+  const std::vector<VarId> instances = candidates(context);
+  if (instances.empty()) return;
+  Uses uses(context);
+  std::vector<bool> wanted(symbols.vars.size());
+  for (const VarId id : instances) wanted[id.index] = true;
+  const BodiesWith bodies(context.project, std::move(wanted));
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    const Pou& pou = symbols.pous[i];
+    if (!pou.decl || pou.generic || !pou.progress.checked() || pou.cpp.is_body || !bodies.mayMention(pou)) continue;
+    for (const StmtId id : context.tree().list(pou.body.code)) uses.walk(id);
+  }
+  for (const BlockTask& task : context.project.block_tasks) uses.note(task.block);
+  for (const VarId id : instances)
+    if (uses.onlyRead(id))
+      context.report(diag::NeverCalled, symbols.var(id).loc, {string(context, symbols.var(id).name)});
 }
 
 }  // namespace rung::sema

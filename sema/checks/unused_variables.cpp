@@ -38,13 +38,13 @@ void checkUnusedVariables(Context& context) {
         continue;
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
-      if (local && !var.use.read && !var.use.written) {
+      if (local && var.used.reads == 0 && var.used.writes == 0) {
         if (isCreatedByMethod(context, var.type)) continue;
         context.report(diag::UnusedVariable, var.loc, {string(context, var.name)});
-      } else if (local && !var.use.written && !var.init && var.start.constructor.index == 0 &&
+      } else if (local && var.used.writes == 0 && !var.init && var.start.constructor.index == 0 &&
                  pou.kind != PouKind::Program) {
         context.report(diag::NeverWritten, var.loc, {string(context, var.name)});
-      } else if (var.section == SectionKind::Output && !var.use.written && !var.init) {
+      } else if (var.section == SectionKind::Output && var.used.writes == 0 && !var.init) {
         context.report(diag::OutputNeverWritten, var.loc, {string(context, var.name), string(context, pou.name)});
       }
     }

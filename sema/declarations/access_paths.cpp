@@ -91,8 +91,8 @@ struct AccessPathResolver {
     }
     if (var.bits.is_bit) out.bit = var.bits.bit;
     if (var.constant) out.read_only = true;
-    project.var(id).use.read = true;
-    if (!out.read_only) project.var(id).use.written = true;
+    ++project.var(id).used.reads;
+    if (!out.read_only) ++project.var(id).used.writes;
     return !step.element || enterElement(out, step, type);
   }
 

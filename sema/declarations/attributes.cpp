@@ -144,7 +144,7 @@ void resolveConnection(Context& context, PouId block, VarId id, const Pragma& pr
                    {"is_connected", "in a block with {attribute 'reflection'}"});
   } else {
     var.tells_input = VarId{found.index};
-    var.use.written = true;
+    ++var.used.writes;
   }
 }
 

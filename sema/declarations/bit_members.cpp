@@ -58,7 +58,7 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   byte.keeping.persistent = var.keeping.persistent;
   byte.pou = var.pou;
   byte.record = var.record;
-  byte.use.read = byte.use.written = true;
+  byte.used = {1, 1};
   byte.bits.holds_bits = true;
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   symbols.vars.push_back(byte);

@@ -8,7 +8,7 @@
 namespace rung::sema {
 
 void noteCall(Context& context, PouId callee, Loc loc);
-// By their caller, each one's in the order of its body. When all bodies are checked.
-void sortCalls(Project& project);
+// Sorts calls and writes by the POU that has them, each one's in the order of its body. When all bodies are checked.
+void sortEffects(Project& project);
 
 }  // namespace rung::sema

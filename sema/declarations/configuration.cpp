@@ -277,7 +277,7 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
     const uint32_t number = findTask(context, part, task, tasks);
     if (number == 0) continue;
     project.pou(pou).progress.used = true;
-    project.var(found).use.read = true;
+    ++project.var(found).used.reads;
     project.block_tasks.push_back({instance, found, number, block.loc});
   }
 }

@@ -250,8 +250,10 @@ std::optional<Value> Fold::ofFunction(PouId function, std::vector<Value> values)
     if (i >= pou.pins.size()) return std::nullopt;
     value = types::convert(table_, value, symbols_.var(pou.pins[i]).type).value;
   }
-  return options.call_constant(context_->project, function, values,
-                               [&](PouId callee) { return context_->expressions->ensureBody(*context_, callee); });
+  return options.call_constant(context_->project, function, values, [&](PouId callee) {
+    context_->symbols.pou(callee).body.affects_others = true;
+    return context_->expressions->ensureBody(*context_, callee);
+  });
 }
 
 std::optional<Value> Fold::ofOperator(const CallExpr& node, const Call& call, const std::vector<Value>& operands) {

@@ -305,7 +305,7 @@ struct InstancePathResolver {
     checkInitializerAs(context, line.init, line.type,
                        "the initial value of `" + toString(context, line.name.name) + "`");
     for (const PathStep& step : line.target.path) {  // a configured variable has a value though no body writes it
-      if (step.var) context.symbols.var(step.var).use.written = true;
+      if (step.var) ++context.symbols.var(step.var).used.writes;
     }
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sema/declarations/libraries.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/namespaces.h"
 #include "sema/declarations/objects.h"
 #include "sema/declarations/types.h"
@@ -282,9 +283,10 @@ namespace {
 bool firstTime(Context& context, uint32_t where, NameId name) {
   if (context.symbols.diagnostics.full()) return true;  // only counted, and not worth the search
   const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
-  std::vector<uint64_t>& reported = context.scopes.reported;
-  if (std::find(reported.begin(), reported.end(), key) != reported.end()) return false;
-  reported.push_back(key);
+  std::vector<Scopes::Reported>& reported = context.scopes.reported;
+  const auto is_same = [&](const Scopes::Reported& known) { return known.key == key; };
+  if (std::any_of(reported.begin(), reported.end(), is_same)) return false;
+  reported.push_back({key, context.body != nullptr ? context.pou : PouId{}});
   return true;
 }
 
@@ -298,6 +300,7 @@ bool isFirstReport(Context& context, NameId name) {
 bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
   const NamedType* named = context.scopes.named(context.types().resolve(record));
   if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
+  noteEffect(context);  // another body may name it too
   return firstTime(context, 0x80000000u | record.index, name);
 }
 

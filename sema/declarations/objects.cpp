@@ -293,7 +293,7 @@ void addObjectFields(Context& context, PouId id) {
     var.type = type;
     var.storage = Storage::Field;
     var.pou = id;
-    var.use.read = var.use.written = true;
+    var.used = {1, 1};
     const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(var);
     pou.vars.insert(pou.vars.begin() + (pou.object.id_var ? 1 : 0), created);

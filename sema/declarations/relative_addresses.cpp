@@ -46,7 +46,7 @@ void addGap(Context& context, TypeId record, uint64_t bytes, Loc loc) {
   gap.type = context.types().array(types::kByte, {&all, 1});
   gap.storage = Storage::Field;
   gap.record = record;
-  gap.use.read = gap.use.written = true;
+  gap.used = {1, 1};
   const VarId created{static_cast<uint32_t>(context.symbols.vars.size())};
   context.symbols.vars.push_back(gap);
   addField(context, record, created);

@@ -79,7 +79,7 @@ VarId addHiddenField(Context& context, PouId pou, const std::string& name, TypeI
   hidden.pragmas.no_exit = true;
   hidden.sharing.holds = holds;
   hidden.pou = pou;
-  hidden.use.read = hidden.use.written = true;
+  hidden.used = {1, 1};
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   symbols.vars.push_back(hidden);
   symbols.pou(pou).vars.push_back(created);
@@ -124,9 +124,9 @@ VarId copyTemporary(Context& context, PouId id, VarId var) {
   copy.pou = id;
   copy.sharing.copy_of = declaredOf(symbols, var);
   copy.decl = {};
-  copy.use.read = copy.use.written = true;
+  copy.used = {1, 1};
   Var& original = symbols.var(copy.sharing.copy_of);
-  original.use.read = original.use.written = true;
+  original.used = {1, 1};
   const VarId own{static_cast<uint32_t>(symbols.vars.size())};
   symbols.vars.push_back(copy);
   symbols.pou(id).vars.push_back(own);

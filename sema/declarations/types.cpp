@@ -12,6 +12,7 @@
 #include "sema/declarations/generics.h"
 #include "sema/declarations/libraries.h"
 #include "sema/declarations/limits.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/namespaces.h"
 #include "sema/declarations/relative_addresses.h"
@@ -174,6 +175,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     refuseGenerics();
   }
   const TypeId type = typeNamed(context, found);
+  noteMention(context, found, last.loc, Access::Qualifier);
   if (const NamedType* named = type ? context.scopes.named(type) : nullptr) {
     const DeclId decl = named->pou ? context.symbols.pou(named->pou).decl : named->decl;
     if (decl) context.rules->use(context, {named->pou, context.tree().decl(decl), last.name, last.loc, false});

@@ -631,7 +631,7 @@ static Var hiddenBeside(Context& context, VarId of, const std::string& suffix, T
   hidden.loc = var.loc;
   hidden.type = type;
   hidden.storage = var.storage;
-  hidden.use.read = hidden.use.written = true;
+  hidden.used = {1, 1};
   return hidden;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 #include "frontend/parse/parse.h"
 #include "frontend/schedule/network_elements.h"
@@ -18,7 +19,6 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "native_table.h"
-#include "sema/check.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/diagnostics.h"
 #include "tools/driver/output_files.h"
@@ -30,6 +30,12 @@ uint64_t clockNs(clockid_t clock) {
   timespec t;
   clock_gettime(clock, &t);
   return static_cast<uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(t.tv_nsec);
+}
+
+void addTo(std::vector<bool>& sum, const std::vector<bool>& more) {
+  if (sum.size() < more.size()) sum.resize(more.size());
+  for (size_t i = 0; i < more.size(); ++i)
+    if (more[i]) sum[i] = true;
 }
 
 }  // namespace
@@ -177,6 +183,18 @@ void Compilation::hideOtherVendors(std::vector<sema::LibraryFile>& files) const 
   }
 }
 
+// Appends the file to the tree, and notes what its parser says of the whole tree.
+FileUnit Compilation::parseFile(FileId file) {
+  const bool lost_names = std::exchange(tree.lost_names, false);
+  std::vector<bool> eno_read_of = std::exchange(tree.eno_read_of, {});
+  const FileUnit unit = text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
+  parsed_.push_back({file, tree.lost_names, tree.eno_read_of});
+  tree.lost_names = tree.lost_names || lost_names;
+  addTo(eno_read_of, tree.eno_read_of);
+  tree.eno_read_of = std::move(eno_read_of);
+  return unit;
+}
+
 bool Compilation::parse() {
   if (!read()) return false;
   times_.begin("parse");
@@ -187,12 +205,12 @@ bool Compilation::parse() {
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());
-    text::parseFile(tree, names, sources, file.file, options.dialect, diagnostics);
+    parseFile(file.file);
   }
-  if (inputs.project.configuration)
-    text::parseFile(tree, names, sources, inputs.project.configuration, options.dialect, diagnostics);
+  if (inputs.project.configuration) parseFile(inputs.project.configuration);
   for (const FileId made : {inputs.project.safe_values, inputs.project.module_variables, inputs.project.axis_variables})
-    if (made) text::parseFile(tree, names, sources, made, options.dialect, diagnostics);
+    if (made) parseFile(made);
+  written_size_ = tree.size();
   setPhaseSubject("", 0);
   times_.end();
   if (options.code.dump_after == "parse")
@@ -210,6 +228,7 @@ sema::Options Compilation::semaOptions() {
     std::erase_if(library_files_,
                   [](const auto& file) { return std::string_view(file.path).ends_with("nct/symbols.st"); });
   hideOtherVendors(library_files_);
+  for (size_t i = 0; i < library_sources_.size(); ++i) library_files_[i].file = library_sources_[i];
   sema_options.libraries = library_files_;
   sema_options.library_aliases = libraries.aliases();
   sema_options.project_names = inputs.project_names;
@@ -231,6 +250,7 @@ sema::Options Compilation::semaOptions() {
   sema_options.edge_coils = options.code.edge_coils;
   sema_options.scheduled = scheduled;
   sema_options.cancelled = cancelled;
+  sema_options.records_mentions = is_edited;
   sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                   FunctionRef<bool(sema::PouId)> ready) {
     return ir::interpreter::callConstant(in, function, values, {rung::natives::table, rung::natives::count}, ready);
@@ -252,13 +272,52 @@ bool Compilation::check() {
   if (parsed && !diagnostics.hasErrors()) parsed();
   times_.begin("check");
   // Checking follows even after errors of the parser: one run reports as much as it can.
-  if (!diagnostics.full()) {
-    project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, semaOptions());
-    sema::check(*project);
-  }
+  if (!diagnostics.full()) checkParsed();
   setPhaseSubject("", 0);
   times_.end();
   return !diagnostics.hasErrors();
+}
+
+void Compilation::checkParsed() {
+  project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, semaOptions());
+  if (is_edited) {
+    checked = std::make_unique<sema::CheckedProject>(*project);
+    const std::span<const FileId> added = checked->librarySources();
+    library_sources_.assign(added.begin(), added.end());
+  } else {
+    sema::check(*project);
+  }
+  project->options.cancelled = nullptr;
+}
+
+bool Compilation::checkAgain(std::span<const FileId> changed) {
+  checked.reset();
+  project.reset();
+  const bool is_last = changed.size() == 1 && changed[0] == last_changed_;
+  size_before_last_ = is_last ? size_before_last_ : written_size_;
+  last_changed_ = changed.size() == 1 ? changed[0] : FileId{};
+  tree.truncate(size_before_last_);
+  const auto is_changed = [&](FileId file) { return std::find(changed.begin(), changed.end(), file) != changed.end(); };
+  diagnostics.retract([&](const Diagnostic& diagnostic) {
+    return diagnostic.reporter != 0 || is_changed(sources.wholeOf(sources.fileOf(diagnostic.loc)));
+  });
+  if (diagnostics.full()) return false;
+  tree.lost_names = inputs.unread;
+  tree.eno_read_of.clear();
+  std::erase_if(parsed_, [&](const ParsedFile& file) { return is_changed(file.file); });
+  for (const ParsedFile& file : parsed_) {
+    tree.lost_names = tree.lost_names || file.lost_names;
+    addTo(tree.eno_read_of, file.eno_read_of);
+  }
+  for (size_t i = 0; i < tree.files.size(); ++i) {
+    if (!is_changed(tree.files[i].file)) continue;
+    const FileUnit unit = parseFile(tree.files[i].file);
+    tree.files.pop_back();
+    tree.files[i] = unit;
+  }
+  written_size_ = tree.size();
+  checkParsed();
+  return true;
 }
 
 bool Compilation::lower() {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "frontend/syntax/tree.h"
 #include "ir/interpreter/program.h"
 #include "ir/ir.h"
+#include "sema/check.h"
 #include "sema/options.h"
 #include "tools/driver/inputs.h"
 #include "tools/driver/libraries.h"
@@ -55,6 +57,9 @@ class Compilation {
   bool parse();
   bool check();
   bool lower();  // and optimize
+  // After check(): the project in which these files in ST have another text (Sources::edit). The trees of the others
+  // are kept. False: another Compilation is needed, and this one is of no use.
+  bool checkAgain(std::span<const FileId> changed);
   // After parse(), for pictures: see sema/project.h. Mistakes in declarations are not reported.
   std::vector<bool> inOutsOfBoxes();
   bool emit(std::vector<codegen::OutputFile>& files);
@@ -77,6 +82,7 @@ class Compilation {
   int exitCode() const;
 
   bool for_pictures = false;                     // set before parse() by `rung graph`
+  bool is_edited = false;                        // set before check(): bodies may be replaced after it, by `checked`
   const std::atomic<bool>* cancelled = nullptr;  // set before check(): sema::Options::cancelled
   sema::Scheduled scheduled;                     // set before check() by `rung convert`
   std::function<void()> parsed;                  // likewise: called while the tree is as parsed, and has no errors
@@ -89,10 +95,18 @@ class Compilation {
   LibrarySet libraries;
   NativeSources natives;
   std::unique_ptr<sema::Project> project;
+  std::unique_ptr<sema::CheckedProject> checked;  // when `is_edited`
   std::unique_ptr<ir::Module> module;
 
  private:
+  struct ParsedFile {
+    FileId file;
+    bool lost_names;
+    std::vector<bool> eno_read_of;
+  };
+  FileUnit parseFile(FileId file);
   void noteLibraries();
+  void checkParsed();
   std::string whatIsRead() const;
   sema::Options semaOptions();
   void hideOtherVendors(std::vector<sema::LibraryFile>& files) const;
@@ -104,7 +118,12 @@ class Compilation {
   void dump(const std::string& text) const;
   bool verified(const char* after);
 
+  std::vector<ParsedFile> parsed_;  // what each adds to the tree as a whole
+  uint32_t written_size_ = 0;       // of the tree when all files are parsed
+  uint32_t size_before_last_ = 0;   // … before checkAgain() parsed `last_changed_` alone
+  FileId last_changed_;
   std::vector<sema::LibraryFile> library_files_;  // what sema refers to
+  std::vector<FileId> library_sources_;
   PhaseTimes& times_;
   Sink& sink_;
   std::string usage_error_, internal_error_;

@@ -3,7 +3,8 @@
 // disk. Out: a snapshot after each change: what the commands know of a project, immutable, so that other threads read
 // an old one while the next is made. Used by servers; one thread makes changes.
 //
-// Each snapshot is made from its texts alone: a change of a project of 100 000 lines costs a whole check of it.
+// A change of one body in ST costs a check of its POU (edited_file.h) when no reader holds a snapshot any more: the
+// next one then takes over what the last one knew. Any other change costs a whole check.
 #pragma once
 
 #include <atomic>
@@ -13,39 +14,36 @@
 #include <string>
 #include <vector>
 
-#include "tools/driver/compile.h"
+#include "tools/workspace/analysis.h"
 
 namespace rung::workspace {
 
 class Snapshot {
  public:
-  Snapshot(driver::ProjectOptions options, const std::atomic<bool>* cancelled);
+  explicit Snapshot(std::shared_ptr<const Analysis> analysis) : analysis_(std::move(analysis)) {
+    analysis_->readers.fetch_add(1, std::memory_order_relaxed);
+  }
+  ~Snapshot() { analysis_->readers.fetch_sub(1, std::memory_order_release); }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
 
-  const Sources& sources() const { return compilation_.sources; }
-  const Names& names() const { return compilation_.names; }
-  const Tree& tree() const { return compilation_.tree; }
-  const driver::Inputs& inputs() const { return compilation_.inputs; }
+  // Of what is declared: another one after any change that is not one of bodies alone.
+  uint64_t revision() const { return analysis_->revision; }
+  const Sources& sources() const { return analysis_->compilation().sources; }
+  const Names& names() const { return analysis_->compilation().names; }
+  const Tree& tree() const { return analysis_->compilation().tree; }
+  const driver::Inputs& inputs() const { return analysis_->compilation().inputs; }
   // None: the sources could not be read.
-  const sema::Project* project() const { return compilation_.project.get(); }
+  const sema::Project* project() const { return analysis_->compilation().project.get(); }
   // Sorted as commands print them.
-  const std::vector<Diagnostic>& diagnostics() const { return compilation_.diagnostics.all(); }
+  const std::vector<Diagnostic>& diagnostics() const { return analysis_->compilation().diagnostics.all(); }
   // That of `rung check`.
-  int exitCode() const { return compilation_.exitCode(); }
+  int exitCode() const { return analysis_->compilation().exitCode(); }
   // What is wrong with the options or the project as a whole, as a sentence; else empty.
-  const std::string& error() const { return sink_.error_text; }
+  const std::string& error() const { return analysis_->error(); }
 
  private:
-  struct Silent final : driver::Sink {
-    void message(std::string_view) override {}
-    std::string output(std::string_view) override { return {}; }
-    void diagnostics(const Diagnostics&, const Sources&, const RenderOptions&) override {}
-    void error(std::string_view what) override { error_text = what; }
-    std::string error_text;
-  };
-
-  Silent sink_;
-  driver::PhaseTimes times_;
-  driver::Compilation compilation_;
+  std::shared_ptr<const Analysis> analysis_;
 };
 
 // An open buffer has this text, whether or not its file exists; without a text it is closed, and the file counts again.
@@ -58,16 +56,20 @@ class Workspace {
  public:
   explicit Workspace(driver::ProjectOptions options) : options_(std::move(options)) {}
 
-  // The snapshot with these changes, or none when `cancelled` became true meanwhile: the changes are noted, and the
-  // next snapshot has them.
+  // The snapshot with these changes. A changed body alone is taken as it is; after any other change files that are not
+  // open are read from disk. None when `cancelled` became true
+  // meanwhile: the changes are noted, and the next snapshot has them.
   std::shared_ptr<const Snapshot> apply(std::vector<Change> changes, const std::atomic<bool>* cancelled = nullptr);
-  // The last one that was made; none before the first.
-  std::shared_ptr<const Snapshot> current() const { return current_; }
+  // The last one that was made; none before the first, and none when the one that was to take its place was cancelled.
+  std::shared_ptr<const Snapshot> current();
 
  private:
+  bool editInPlace(const std::vector<Change>& changes, const std::atomic<bool>* cancelled);
+
   driver::ProjectOptions options_;
   std::map<std::string, std::string> open_;  // by path
-  std::shared_ptr<const Snapshot> current_;
+  std::shared_ptr<Analysis> analysis_;
+  std::weak_ptr<const Snapshot> current_;  // of the analysis
 };
 
 }  // namespace rung::workspace

@@ -3,14 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <random>
+#include <initializer_list>
 #include <thread>
 
 #include "tests/unit/tools/temporary_folder.h"
+#include "tests/unit/workspace/typing.h"
 
 namespace rung::workspace {
 namespace {
@@ -26,17 +24,6 @@ driver::ProjectOptions optionsOf(const std::string& folder) {
   return options;
 }
 
-// `3:1 E0701 message`, one a line.
-std::string messagesOf(const Snapshot& snapshot) {
-  std::string out;
-  for (const Diagnostic& diagnostic : snapshot.diagnostics()) {
-    const SourceLocation at = snapshot.sources().location(diagnostic.loc);
-    out += std::to_string(at.line) + ":" + std::to_string(at.column) + " " + diagInfo(diagnostic.diag).code + " " +
-           diagnostic.message + "\n";
-  }
-  return out;
-}
-
 class WorkspaceTest : public testing::Test {
  protected:
   TemporaryFolder folder;
@@ -50,7 +37,7 @@ TEST_F(WorkspaceTest, BuffersLieOverTheDisk) {
   EXPECT_EQ(first->exitCode(), 0);
 
   const auto second = workspace.apply({{main, "PROGRAM Main\nVAR ramp : Rump; END_VAR\nramp();\nEND_PROGRAM\n"}});
-  EXPECT_EQ(messagesOf(*second).substr(0, 5), "2:12 ");
+  EXPECT_EQ(messagesOf(*second).substr(0, 13), "main.st 2:12 ");
   EXPECT_EQ(second->exitCode(), 1);
   EXPECT_EQ(messagesOf(*first), "") << "an old snapshot stays as it was";
   EXPECT_EQ(workspace.current(), second);
@@ -78,53 +65,101 @@ TEST_F(WorkspaceTest, ASnapshotTellsWhyItHasNothing) {
   EXPECT_EQ(snapshot->project(), nullptr);
 }
 
-std::string textOf(const std::string& path) { return readFile(path).content; }
+// A body alone is checked again, unless somebody reads what it replaces; all else stays, at its new place.
+TEST_F(WorkspaceTest, ABodyIsReplaced) {
+  const uint64_t revision = workspace.apply({})->revision();
+  const std::string longer =
+      "FUNCTION_BLOCK Ramp\nVAR_OUTPUT y : REAL; END_VAR\n\n\ny := y + z;\nEND_FUNCTION_BLOCK\n" +
+      std::string("FUNCTION Last : INT\nVAR unused : INT; END_VAR\nLast := 1;\nEND_FUNCTION\n");
+  const std::string shorter = "FUNCTION_BLOCK Ramp\nVAR_OUTPUT y : REAL; END_VAR\ny := 1.0;\nEND_FUNCTION_BLOCK\n" +
+                              std::string("FUNCTION Last : INT\nVAR unused : INT; END_VAR\nLast := 1;\nEND_FUNCTION\n");
+  workspace.apply({{block, longer}});
+  const uint64_t declared = workspace.current()->revision();
+  EXPECT_NE(declared, revision) << "a function was declared";
+  EXPECT_EQ(messagesOf(*workspace.current()), "ramp.st 5:10 E0401 `z` is not declared\n");
+  workspace.apply({{block, shorter}});
+  EXPECT_EQ(workspace.current()->revision(), declared);
+  EXPECT_EQ(messagesOf(*workspace.current()), "ramp.st 6:5 W0758 `unused` is never used; remove it\n");
+  const auto held = workspace.apply({{block, longer}});
+  EXPECT_EQ(held->revision(), declared);
+  const auto after = workspace.apply({{block, shorter}});
+  EXPECT_NE(after->revision(), declared);
+  EXPECT_EQ(messagesOf(*held), "ramp.st 5:10 E0401 `z` is not declared\n");
+}
 
-// One character that somebody types, deletes or replaces.
-void edit(std::string& text, std::mt19937& random) {
-  static constexpr std::string_view kTyped = "abx01 ;:=()\n.'";
-  const size_t at = random() % (text.size() + 1);
-  const char typed = kTyped[random() % kTyped.size()];
-  switch (random() % 3) {
-    case 0: text.insert(at, 1, typed); break;
-    case 1: text.erase(at, 1); break;
-    case 2:
-      if (at < text.size()) text[at] = typed;
-      break;
+// What bodies say in the place of each other: a name that is missing in several, a call that makes a program run, a
+// constant that a function computes.
+TEST_F(WorkspaceTest, WhatOtherBodiesSayIsSaidAgain) {
+  const auto function = [&](const char* name, const char* body) {
+    return std::string("FUNCTION ") + name + " : INT\nVAR r : Ramp; END_VAR\n" + body + "\nEND_FUNCTION\n";
+  };
+  const auto texts = [&](const char* first, const char* second) {
+    return function("First", first) + function("Second", second) +
+           "FUNCTION Third : INT\nVAR CONSTANT n : INT := First(); END_VAR\nVAR a : ARRAY[1..n] OF INT; END_VAR\nThird "
+           ":= "
+           "a[2];\nEND_FUNCTION\n";
+  };
+  const std::string file = folder.path() + "/functions.st";
+  for (const auto& [first, second] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"First := 2;", "Second := 1;"},
+                                                                  {"First := r.no;", "Second := r.no;"},
+                                                                  {"First := 2;", "Second := r.no;"},
+                                                                  {"First := 1;", "Second := r.no;"},
+                                                                  {"First := 1;", "Second := 2;"}}) {
+    const std::string text = texts(first, second);
+    workspace.apply({{file, text}});
+    Workspace cold(optionsOf(folder.path()));
+    EXPECT_EQ(messagesOf(*workspace.current()), messagesOf(*cold.apply({{file, text}}))) << first << second;
   }
 }
 
-// Copies of the samples, edited at random: a snapshot says what a check of the same files on disk says, and four other
-// threads read the snapshots before it meanwhile.
-TEST(Workspace, SnapshotsOfRandomEditsEqualACheck) {
-  TemporaryFolder folder;
-  for (const char* sample : {"conveyor", "traffic_light", "filling_station"})
-    fs::copy(std::string(RUNG_SOURCE) + "/samples/" + sample, folder.path() + "/" + sample,
-             fs::copy_options::recursive);
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
-    if (entry.path().extension() == ".st") files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  ASSERT_FALSE(files.empty());
+class TypingTest : public testing::Test {
+ protected:
+  TypingTest() {
+    for (const char* sample : {"conveyor", "traffic_light", "filling_station", "tank", "pick_and_place"})
+      fs::copy(std::string(RUNG_SOURCE) + "/samples/" + sample, folder.path() + "/" + sample,
+               fs::copy_options::recursive);
+  }
 
-  Workspace workspace(optionsOf(folder.path()));
+  std::string messagesOfCheck(const Typing& typing) {
+    Workspace cold(optionsOf(folder.path()));
+    std::vector<Change> changes;
+    for (const auto& [path, text] : typing.texts()) changes.push_back({path, text});
+    return messagesOf(*cold.apply(changes));
+  }
+
+  TemporaryFolder folder;
+  Workspace workspace{optionsOf(folder.path())};
+};
+
+// A snapshot says what a check of the same texts says.
+TEST_F(TypingTest, SnapshotsEqualACheck) {
+  Typing typing(folder.path(), 41);
+  uint64_t revision = workspace.apply({})->revision();
+  int bodies = 0;
+  for (int round = 0; round < 400; ++round) {
+    const Change change = typing.next();
+    const auto snapshot = workspace.apply({change});
+    bodies += snapshot->revision() == revision ? 1 : 0;
+    revision = snapshot->revision();
+    ASSERT_EQ(messagesOf(*snapshot), messagesOfCheck(typing)) << change.path << "\n" << *change.text;
+  }
+  EXPECT_GT(bodies, 40);
+}
+
+// … also while four other threads read the snapshots before it.
+TEST_F(TypingTest, OldSnapshotsStayReadable) {
+  Typing typing(folder.path(), 42);
   std::shared_ptr<const Snapshot> last = workspace.apply({});
-  std::map<std::string, std::string> texts;
-  for (const std::string& file : files) texts[file] = textOf(file);
-  std::mt19937 random(41);
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 50; ++round) {
     const std::string before = messagesOf(*last);
     std::vector<std::thread> readers;
     for (int reader = 0; reader < 4; ++reader)
-      readers.emplace_back([last, &before] { EXPECT_EQ(messagesOf(*last), before); });
-    const std::string& file = files[random() % files.size()];
-    edit(texts[file], random);
-    const auto snapshot = workspace.apply({{file, texts[file]}});
+      readers.emplace_back([snapshot = last, &before] { EXPECT_EQ(messagesOf(*snapshot), before); });
+    if (round % 3 == 0) last.reset();  // the readers alone hold it
+    last = workspace.apply({typing.next()});
     for (std::thread& reader : readers) reader.join();
-    std::ofstream(file, std::ios::binary) << texts[file];
-    Workspace cold(optionsOf(folder.path()));
-    ASSERT_EQ(messagesOf(*snapshot), messagesOf(*cold.apply({}))) << file << "\n" << texts[file];
-    last = snapshot;
+    ASSERT_EQ(messagesOf(*last), messagesOfCheck(typing));
   }
 }
 

@@ -2,7 +2,7 @@
 // The use of an lvalue that an expression names: read, written, bound, called.
 #pragma once
 
-#include "sema/context.h"
+#include <cstdint>
 
 namespace rung::sema {
 
@@ -23,6 +23,8 @@ enum class Access : uint8_t {
 constexpr bool writesValue(Access access) {
   return access == Access::Write || access == Access::ReadWrite || access == Access::InOut || access == Access::Call;
 }
+
+constexpr bool reads(Access access) { return access != Access::Write && access != Access::Bind; }
 
 constexpr bool takesAddress(Access access) { return access == Access::Address || access == Access::Refer; }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sema/declarations/mentions.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sema/project.h"
+
+namespace rung::sema {
+
+void noteMention(Context& context, Entity entity, Loc loc, Access access) {
+  Project& project = context.project;
+  if (!project.options.records_mentions || context.library) return;
+  std::vector<Mention>& mentions = context.body != nullptr ? project.pou(context.pou).body.mentions : project.mentions;
+  mentions.push_back({entity, loc, access});
+}
+
+void noteEffect(Context& context) {
+  if (context.body != nullptr) context.symbols.pou(context.pou).body.affects_others = true;
+}
+
+BodiesWith::BodiesWith(const Project& project, std::vector<bool> wanted)
+    : is_recorded_(project.options.records_mentions), wanted_(std::move(wanted)) {}
+
+bool BodiesWith::mayMention(const Pou& pou) const {
+  if (!is_recorded_ || pou.library || pou.cpp.is_body) return true;
+  return std::any_of(pou.body.mentions.begin(), pou.body.mentions.end(), [&](const Mention& mention) {
+    return mention.entity.entityKind() == EntityKind::Var && wanted_[mention.entity.index];
+  });
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known of a project with the texts of open buffers: read, parsed, checked. Snapshots lend it to readers; while
+// none does, the workspace may bring it up to date instead of making another.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <string>
+
+#include "tools/driver/compile.h"
+#include "tools/workspace/edited_file.h"
+
+namespace rung::workspace {
+
+class Analysis {
+ public:
+  Analysis(driver::ProjectOptions options, const std::atomic<bool>* cancelled);
+
+  // Gives a file another text. False: that takes a new analysis, and this one is of no use.
+  bool edit(const std::string& path, const std::string& text, const std::atomic<bool>* cancelled);
+
+  const driver::Compilation& compilation() const { return compilation_; }
+  const std::string& error() const { return sink_.error_text; }
+
+  uint64_t revision;  // of the declarations
+  mutable std::atomic<uint32_t> readers = 0;
+
+ private:
+  EditedFile* editedFile(const std::string& path);
+  bool checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled);
+  bool canKeepTrees() const;
+
+  struct Silent final : driver::Sink {
+    void message(std::string_view) override {}
+    std::string output(std::string_view) override { return {}; }
+    void diagnostics(const Diagnostics&, const Sources&, const RenderOptions&) override {}
+    void error(std::string_view what) override { error_text = what; }
+    std::string error_text;
+  };
+
+  Silent sink_;
+  driver::PhaseTimes times_;
+  driver::Compilation compilation_;
+  std::map<std::string, EditedFile> edited_;  // by absolute path
+  size_t replaced_bytes_ = 0;                 // by bodies, since the last check: what they replace is still in memory
+  size_t kept_bytes_ = 0;                     // … by files, since the first
+};
+
+}  // namespace rung::workspace
