@@ -71,7 +71,7 @@ void checkPackedObject(Context& context) {
 bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 
-bool noteMention(Context& context, PouId callee, Loc loc) {
+bool noteMentionInCpp(Context& context, PouId callee, Loc loc) {
   std::vector<PouId>& calls = context.symbols.pou(context.pou).cpp.calls;
   if (std::find(calls.begin(), calls.end(), callee) != calls.end()) return false;
   calls.push_back(callee);
@@ -89,7 +89,7 @@ bool noteMember(Context& context, std::string_view word, Loc loc) {
   if (found.entityKind() != EntityKind::Pou || found.index == context.pou.index) return false;
   const PouId member{found.index};
   if (string(context, context.symbols.pou(member).name) != word) return false;
-  if ((context.symbols.pou(member).object.modifiers & kAbstract) == 0) noteMention(context, member, loc);
+  if ((context.symbols.pou(member).object.modifiers & kAbstract) == 0) noteMentionInCpp(context, member, loc);
   return true;
 }
 
@@ -176,7 +176,7 @@ void noteNames(Context& context, std::string_view text, Loc loc) {
     const Pou& callee = context.symbols.pou(function);
     if (callee.kind != PouKind::Function || callee.generic || callee.pragmas.operator_kind != OperatorKind::None)
       continue;
-    noteMention(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
+    noteMentionInCpp(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
   }
 }
 

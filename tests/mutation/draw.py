@@ -103,3 +103,11 @@ def keptSites(found):
     rows = {tuple(line.split("\t")) for line in (HERE / "drawn.tsv").read_text().splitlines()[1:]}
     files = {row[0] for row in rows}
     return [site for site in found if site.file in files and rowOf(site) in rows]
+
+
+def writeDrawn(chosen, kept):
+    """drawn.tsv with these places: those that it has already keep their order, the others follow."""
+    rows = [rowOf(site) for site in chosen]
+    old = [tuple(line.split("\t")) for line in (HERE / "drawn.tsv").read_text().splitlines()[1:]] if kept else []
+    rows = [row for row in old if row in rows] + [row for row in rows if row not in old]
+    (HERE / "drawn.tsv").write_text("file\tkind\tline\tmutated\n" + "".join("\t".join(row) + "\n" for row in rows))

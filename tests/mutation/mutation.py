@@ -4,13 +4,14 @@
 are drawn by a seeded choice from all that sites.py finds (draw.py). A copy of the tree gets all of them in one build, where an
 environment variable chooses the active one (mutant.h). The tests that evaluate the place are run, quickest first, until
 one fails; one that needs 30 s of a processor has noticed it too.
-  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--fresh] [--survivors | --list | --sample] [NUMBER...]
+  tests/mutation/mutation.py [--seed N] [--count N] [--folder DIR] [-j N] [--fresh | --refill] [--survivors | --list | --sample] [NUMBER...]
 --folder     where the copy is built and kept for the next run (default: rung-mutation in the folder for temporary files)
 --units      unit tests that are built and run as well, separated by commas, or all
 --native     so many conformance programs are compiled as well (160), or these files, separated by commas
 --longest    only tests that take at most so many seconds, for a first look
 --survivors  only those that the last run in that folder did not notice, with the tests as they are now
---fresh      draws all anew instead of those of drawn.tsv, and writes them there
+--fresh      draws all instead of those of drawn.tsv, and writes them there
+--refill     draws only for rows of drawn.tsv whose lines are gone, writes them there, and tests only these mutants
 --list       only prints what would be drawn; NUMBER: only these mutants, with the tests that fail
 --sample     builds nothing: checks sites.py on a small source, and that a draw can be repeated
 Exits 0 when at least 95 % are noticed or in equivalent.tsv, whose columns are file, kind, line, mutated, reason. Run it from
@@ -32,7 +33,7 @@ import threading
 import time
 
 import sites
-from draw import ALL, EACH, HERE, PARTS, ROOT, Draw, allSites, keptSites, key, partOf, rowOf, rowsOf
+from draw import ALL, EACH, HERE, PARTS, ROOT, Draw, allSites, keptSites, key, partOf, rowOf, rowsOf, writeDrawn
 
 TARGETS = ["rung", "rung_test_runner", "ir_golden"]
 PROCESSOR_SECONDS = 30   # of one process
@@ -462,6 +463,7 @@ def main():
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--sample", action="store_true")
     parser.add_argument("--fresh", action="store_true")
+    parser.add_argument("--refill", action="store_true")
     parser.add_argument("numbers", nargs="*", type=int)
     options = parser.parse_args()
     if options.sample:
@@ -470,7 +472,8 @@ def main():
     names = files()
     found = allSites(names)
     is_usual = (options.seed, options.count) == ("1", 300)
-    draw = Draw(found, options.seed, options.count, keptSites(found) if is_usual and not options.fresh else ())
+    kept = keptSites(found) if is_usual and not options.fresh else []
+    draw = Draw(found, options.seed, options.count, kept)
     if options.list:
         for site in draw.take({}):
             print(site)
@@ -483,9 +486,8 @@ def main():
     mutants = prepare(tree, draw, names, options.j, [target for target in targets if target])
     print(f"{len(found)} places; {len(mutants)} drawn with seed {options.seed}; built in {time.monotonic() - begin:.0f} s",
           flush=True)
-    if options.fresh:
-        (HERE / "drawn.tsv").write_text("file\tkind\tline\tmutated\n" + "".join("\t".join(rowOf(site)) + "\n"
-                                                                             for _, site in sorted(mutants.items())))
+    if options.fresh or options.refill:
+        writeDrawn(mutants.values(), kept)
     suite = Suite(tree, files(), options.native, options.longest)
     suite.record(options.j)
 
@@ -495,8 +497,10 @@ def main():
     suite.words = {number: {word.lower() for word in re.findall(r'"(\w\w+)"', " ".join(rowOf(site)))}
                    for number, site in mutants.items()}
     is_equivalent = {number: rowOf(site) in known for number, site in mutants.items()}
+    drawn_before = {key(site) for site in kept} if options.refill else ()
     wanted = options.numbers or [number for number in sorted(mutants) if not is_equivalent[number] and
-                                 results.get(key(mutants[number])) != "noticed"]
+                                 results.get(key(mutants[number])) != "noticed" and
+                                 key(mutants[number]) not in drawn_before]
 
     def one(number):
         if number not in suite.reaching:
@@ -511,12 +515,14 @@ def main():
             results[key(site)] = result
             if result != "noticed":
                 print(f"{result}: {number} at line {site.line}\n  " + "\t".join(rowOf(site)), flush=True)
+            elif options.refill:
+                print(f"noticed: {number} {site}", flush=True)
             elif options.numbers:
                 print(f"noticed: {number} {site}\n" + text[:3000], flush=True)
             results_file.write_text(json.dumps(results, indent=0))
             with suite.lock:
                 suite.passed_file.write_text(json.dumps(suite.passed))
-    if options.numbers:
+    if options.numbers or options.refill:
         return None
     seconds = time.monotonic() - begin
     print("part         drawn  noticed  equivalent  survived  not reached")
