@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ide/meanings.h"
+
+#include <algorithm>
+
+#include "frontend/syntax/children.h"
+#include "frontend/syntax/node_at.h"
+
+namespace rung::ide {
+namespace {
+
+bool isIn(const Tree& tree, DeclId pou, Range range) {
+  const Loc loc = tree.loc(pou);
+  return range.begin <= loc && loc < range.end;
+}
+
+// Collects the names of one parsed text.
+class Collector {
+ public:
+  Collector(const View& view, const Scope& scope, const Meanings& meanings, const FileUnit& unit)
+      : view_(view), tree_(view.tree()), scope_(scope), project_(scope.project()), meanings_(meanings), unit_(unit) {}
+
+  // What was found first holds: what the check resolved, then what is written.
+  std::vector<NamePlace> collect() {
+    addCode();
+    for (const DeclId decl : tree_.list(unit_.decls)) declaration(decl, {});
+    std::stable_sort(places_.begin(), places_.end(),
+                     [](const NamePlace& a, const NamePlace& b) { return a.loc < b.loc; });
+    const auto is_same = [](const NamePlace& a, const NamePlace& b) { return a.loc == b.loc; };
+    places_.erase(std::unique(places_.begin(), places_.end(), is_same), places_.end());
+    return std::move(places_);
+  }
+
+ private:
+  void add(Loc loc, Entity entity, bool is_declaration = false) {
+    const EntityKind kind = entity.entityKind();
+    if (loc && kind != EntityKind::None && kind != EntityKind::Error) places_.push_back({loc, entity, is_declaration});
+  }
+  NameId keyOf(NameId name) const { return view_.names().key(name); }
+
+  // ---- code, with what the check knows
+
+  void addCode() {
+    const Loc begin = view_.sources().begin(unit_.file);
+    const Range file{begin, {begin.offset + static_cast<uint32_t>(view_.sources().sourceText(unit_.file).size()) + 1}};
+    for (uint32_t i = 1; i < project_.pous.size(); ++i) {
+      const sema::Pou& pou = project_.pous[i];
+      if (!pou.decl || pou.instance.of || !isIn(tree_, pou.decl, file)) continue;
+      for (const StmtId stmt : tree_.list(pou.body.code)) code(stmt);
+      for (const VarId var : pou.vars)
+        if (project_.var(var).init) code(project_.var(var).init);
+    }
+    for (const sema::GlobalList& list : project_.global_lists)
+      for (const VarId var : list.vars)
+        if (project_.var(var).init && file.begin <= project_.var(var).loc && project_.var(var).loc < file.end)
+          code(project_.var(var).init);
+  }
+
+  template <class Id>
+  void code(Id id) {
+    if constexpr (std::is_same_v<Id, ExprId>) codeName(id);
+    forEachChild(tree_, id, [&](const auto& child) { code(child); });
+  }
+
+  void codeName(ExprId id) {
+    const ExprHeader& header = tree_.expr(id);
+    if (!header.has_room) return;
+    const sema::Meaning& meaning = sema::meaning(header);
+    if (header.kind == ExprKind::Name || header.kind == ExprKind::Member) add(header.loc, meaning.entity);
+    if (header.kind == ExprKind::TypedName) add(tree_.as<TypedNameExpr>(id).item.loc, meaning.entity);
+    if (header.kind == ExprKind::Call && meaning.call) pins(tree_.as<CallExpr>(id), project_.call(meaning.call));
+  }
+
+  void pins(const CallExpr& node, const sema::Call& call) {
+    if (tree_.kind(node.callee) == ExprKind::Name || tree_.kind(node.callee) == ExprKind::Member)
+      if (call.pou && call.kind != sema::CallKind::Instance)
+        add(tree_.loc(node.callee), scope_.declaredEntity(originOf(call.pou)));
+    if (call.pou) pins(node.arguments, originOf(call.pou));
+  }
+
+  PouId originOf(PouId pou) const {
+    const PouId of = project_.pou(pou).instance.of;
+    return of ? of : pou;
+  }
+
+  void pins(Slice<Argument> arguments, PouId pou) {
+    const std::vector<VarId> pins = scope_.pinsOf(pou);
+    for (const Argument& argument : tree_.list(arguments)) {
+      if (!argument.pin.name) continue;
+      const auto is_named = [&](NameId name) { return keyOf(name) == keyOf(argument.pin.name); };
+      for (const VarId pin : pins) {
+        const sema::Var& var = project_.var(pin);
+        const std::vector<NameId>& aliases = var.pragmas.aliases;
+        if (is_named(var.name) || std::any_of(aliases.begin(), aliases.end(), is_named))
+          add(argument.pin.loc, Entity::of(EntityKind::Var, pin.index));
+      }
+    }
+  }
+
+  // ---- what is written
+
+  void declaration(DeclId id, PouId pou) {
+    const DeclHeader& header = tree_.decl(id);
+    if (header.kind == DeclKind::Pou)
+      if (const PouId own = scope_.pouOf(id)) {
+        pou = own;
+        if (project_.pou(own).object.accessor == sema::AccessorKind::None)
+          add(header.loc, Entity::of(EntityKind::Pou, own.index), true);
+      }
+    if (header.kind == DeclKind::Var)
+      for (const Ident& name : tree_.list(tree_.as<VarDecl>(id).names))
+        add(name.loc, scope_.declaredAt(name.loc), true);
+    if (header.kind == DeclKind::Type) add(header.loc, scope_.typeNamed(keyOf(tree_.as<TypeDecl>(id).name)), true);
+    if (header.kind == DeclKind::Property || header.kind == DeclKind::ProgramInstance)
+      add(header.loc, scope_.declaredAt(header.loc), true);
+    if (header.kind == DeclKind::ProgramInstance)
+      if (const auto type = tree_.list(tree_.as<ProgramInstanceDecl>(id).type); !type.empty())
+        add(type.back().loc, scope_.typeNamed(keyOf(type.back().name)));
+    forEachChild(tree_, id, [&](const auto& child) { written(child, pou); });
+  }
+
+  void written(DeclId id, PouId pou) { declaration(id, pou); }
+  void written(StmtId id, PouId pou) {
+    forEachChild(tree_, id, [&](const auto& child) { written(child, pou); });
+  }
+  void written(TypeExprId id, PouId pou) {
+    if (tree_.kind(id) == TypeExprKind::Named) {
+      const std::span<const Ident> path = tree_.list(tree_.as<NamedTypeExpr>(id).path);
+      if (!path.empty()) add(path.back().loc, scope_.typeNamed(keyOf(path.back().name)));
+    }
+    if (tree_.kind(id) == TypeExprKind::Enum)
+      for (const EnumItem& item : tree_.list(tree_.as<EnumTypeExpr>(id).items))
+        add(item.item.loc, scope_.declaredAt(item.item.loc), true);
+    forEachChild(tree_, id, [&](const auto& child) { written(child, pou); });
+  }
+  void written(ExprId id, PouId pou) {
+    writtenName(id, pou);
+    forEachChild(tree_, id, [&](const auto& child) { written(child, pou); });
+  }
+
+  void writtenName(ExprId id, PouId pou) {
+    const ExprKind kind = tree_.kind(id);
+    if (kind == ExprKind::Name || kind == ExprKind::Member) add(tree_.loc(id), meanings_.entityOf(pou, id));
+    if (kind == ExprKind::TypedName) {
+      const TypedNameExpr& node = tree_.as<TypedNameExpr>(id);
+      const Entity type = scope_.typeNamed(keyOf(node.type_name.name));
+      add(node.type_name.loc, type);
+      add(node.item.loc, scope_.memberOf(type, keyOf(node.item.name)));
+    }
+    if (kind == ExprKind::Call && tree_.as<CallExpr>(id).callee) {
+      const CallExpr& node = tree_.as<CallExpr>(id);
+      if (const PouId of = calledBy(meanings_.entityOf(pou, node.callee))) pins(node.arguments, of);
+    }
+  }
+
+  PouId calledBy(Entity callee) const {
+    if (callee.entityKind() == EntityKind::Pou) return {callee.index};
+    if (callee.entityKind() == EntityKind::Program) return project_.instances[callee.index].program;
+    return scope_.blockOf(scope_.recordOf(scope_.typeOf(callee)));
+  }
+
+  const View& view_;
+  const Tree& tree_;
+  const Scope& scope_;
+  const sema::Project& project_;
+  const Meanings& meanings_;
+  const FileUnit& unit_;
+  std::vector<NamePlace> places_;
+};
+
+}  // namespace
+
+Meanings::Meanings(const View& view) : view_(view), scope_(*view.snapshot().project()) {}
+
+const std::vector<NamePlace>& Meanings::of(const FileUnit& unit) const {
+  if (const auto known = places_.find(unit.file.index); known != places_.end()) return known->second;
+  return places_.emplace(unit.file.index, Collector(view_, scope_, *this, unit).collect()).first->second;
+}
+
+std::optional<NamePlace> Meanings::at(Loc parsed) const {
+  const FileUnit* unit = view_.unitWith(parsed);
+  if (unit == nullptr) return std::nullopt;
+  const std::vector<NamePlace>& places = of(*unit);
+  const auto next =
+      std::partition_point(places.begin(), places.end(), [&](const NamePlace& place) { return place.loc <= parsed; });
+  if (next == places.begin()) return std::nullopt;
+  const NamePlace& place = next[-1];
+  const auto length = static_cast<uint32_t>(view_.sources().tokenAt(place.loc).size());
+  if (parsed.offset > place.loc.offset + length) return std::nullopt;
+  return place;
+}
+
+PouId Meanings::pouAt(Loc parsed) const {
+  const FileUnit* unit = view_.unitWith(parsed);
+  if (unit == nullptr) return {};
+  PouId pou;
+  for (const NodeRef node : nodeAt(view_.tree(), *unit, parsed))
+    if (node.category == NodeRef::Category::Decl)
+      if (const PouId inner = scope_.pouOf(DeclId{node.word})) pou = inner;
+  return pou;
+}
+
+Entity Meanings::entityOf(PouId from, ExprId written) const {
+  const Tree& tree = view_.tree();
+  const auto keyOf = [&](NameId name) { return view_.names().key(name); };
+  if (tree.kind(written) == ExprKind::Name) return scope_.lookUp(from, keyOf(tree.as<NameExpr>(written).name));
+  if (tree.kind(written) != ExprKind::Member) return {};
+  const MemberExpr& node = tree.as<MemberExpr>(written);
+  const NameId member = keyOf(node.member);
+  if (const Entity base = entityOf(from, node.base)) return scope_.memberOf(base, member);
+  return scope_.memberOf(typeOf(from, node.base), member);
+}
+
+// THIS is a pointer to the object, and SUPER the object as its base.
+TypeId Meanings::typeOfObject(PouId from, bool is_base) const {
+  if (!from) return {};
+  const sema::Pou& pou = scope_.project().pou(from);
+  const PouId object = pou.owner ? pou.owner : from;
+  const PouId meant = is_base ? scope_.project().pou(object).base : object;
+  return meant ? scope_.project().pou(meant).record : TypeId{};
+}
+
+TypeId Meanings::typeOf(PouId from, ExprId written) const {
+  if (!written) return {};
+  const Tree& tree = view_.tree();
+  const types::TypeTable& types = scope_.project().types;
+  const auto target = [&](ExprId base) { return types.info(types.resolve(typeOf(from, base))).base; };
+  const ExprKind kind = tree.kind(written);
+  if (kind == ExprKind::Name || kind == ExprKind::Member) return scope_.typeOf(entityOf(from, written));
+  if (kind == ExprKind::Index) return target(tree.as<IndexExpr>(written).base);
+  if (kind == ExprKind::Deref) {
+    const ExprId base = tree.as<DerefExpr>(written).base;
+    return tree.kind(base) == ExprKind::This ? typeOfObject(from, false) : target(base);
+  }
+  if (kind == ExprKind::Call) {
+    const Entity callee = entityOf(from, tree.as<CallExpr>(written).callee);
+    return callee.entityKind() == EntityKind::Pou ? scope_.project().pous[callee.index].result : TypeId{};
+  }
+  return kind == ExprKind::Super ? typeOfObject(from, true) : TypeId{};
+}
+
+}  // namespace rung::ide
