@@ -185,7 +185,8 @@ std::optional<NamePlace> Meanings::at(Loc parsed) const {
       std::partition_point(places.begin(), places.end(), [&](const NamePlace& place) { return place.loc <= parsed; });
   if (next == places.begin()) return std::nullopt;
   const NamePlace& place = next[-1];
-  const auto length = static_cast<uint32_t>(view_.sources().tokenAt(place.loc).size());
+  const std::string_view token = view_.sources().tokenAt(place.loc);
+  const auto length = static_cast<uint32_t>(token.substr(0, token.find('#')).size());
   if (parsed.offset > place.loc.offset + length) return std::nullopt;
   return place;
 }

@@ -178,6 +178,11 @@ void Projects::changedOnDisk(const std::string& path) {
 
 // ---- views
 
+const LibraryIndex& Projects::libraries() {
+  if (libraries_ == nullptr) libraries_ = std::make_unique<LibraryIndex>(options_);
+  return *libraries_;
+}
+
 std::vector<std::string> Projects::inputsOf(const Project& project) const {
   if (!project.is_single_folder_) return {project.input()};
   std::vector<std::string> inputs;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/ide/library_index.h"
 #include "tools/ide/view.h"
 
 namespace rung::ide {
@@ -62,6 +63,7 @@ class Projects {
   std::vector<std::string> takeNotices();
 
   const EmbeddedFiles& embedded() const { return embedded_; }
+  const LibraryIndex& libraries();
 
  private:
   struct Home {
@@ -76,6 +78,7 @@ class Projects {
 
   driver::ProjectOptions options_;
   EmbeddedFiles embedded_;
+  std::unique_ptr<LibraryIndex> libraries_;  // none: not asked for yet
   std::set<std::string> folders_;
   std::map<std::string, std::string> buffers_;  // by path
   std::map<std::string, Home> homes_;           // of the files in buffers

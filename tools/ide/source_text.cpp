@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
 
 namespace rung::ide {
@@ -63,7 +64,8 @@ std::string blockComment(std::string_view comment) {
 
 std::string documentationAbove(std::string_view source, size_t declaration) {
   const size_t line = beginOfLine(source, declaration);
-  if (!trimmed(source.substr(line, declaration - line)).empty()) return {};  // something precedes it on its line
+  const std::string_view before_it = trimmed(source.substr(line, declaration - line));
+  if (!before_it.empty() && !sameIdentifier(before_it, "TYPE")) return {};  // something precedes it on its line
   if (std::string doc = lineComments(source, line, "///"); !doc.empty()) return doc;
   if (std::string doc = lineComments(source, line, "//"); !doc.empty()) return doc;
   const std::string_view before = source.substr(0, line);
@@ -76,24 +78,38 @@ std::string documentationAbove(std::string_view source, size_t declaration) {
   return begin == std::string_view::npos ? std::string() : blockComment(before.substr(begin, last + 1 - begin));
 }
 
-std::string documentationOf(const View& view, const DeclHeader& declaration) {
-  const FileId file = view.sources().fileOf(declaration.begin);
+// The `///` lines from one on.
+static std::string docLinesFrom(std::string_view source, size_t line) {
+  std::string out;
+  while (line < source.size()) {
+    const size_t end = std::min(source.find('\n', line), source.size());
+    const std::string_view text = trimmed(source.substr(line, end - line));
+    if (!text.starts_with("///")) break;
+    out += (out.empty() ? "" : "\n") + std::string(trimmed(text.substr(3)));
+    line = end + 1;
+  }
+  return out;
+}
+
+std::string documentationOf(const Sources& sources, const DeclHeader& declaration) {
+  const FileId file = sources.fileOf(declaration.begin);
   if (!file) return {};
-  const std::string_view source = view.sources().original(file);
-  const uint32_t base = view.sources().begin(file).offset;
+  const std::string_view source = sources.original(file);
+  const uint32_t base = sources.begin(file).offset;
   if (declaration.doc && declaration.doc > declaration.loc) {  // after it
     const size_t begin = declaration.doc.offset - base;
     const std::string_view line = source.substr(begin, source.find_first_of("\r\n", begin) - begin);
     return std::string(trimmed(line.substr(std::min<size_t>(3, line.size()))));
   }
+  if (declaration.doc) return docLinesFrom(source, declaration.doc.offset - base);
   return documentationAbove(source, declaration.begin.offset - base);
 }
 
-std::string sourceOnOneLine(const View& view, Range range) {
-  const FileId file = view.sources().fileOf(range.begin);
+std::string sourceOnOneLine(const Sources& sources, Range range) {
+  const FileId file = sources.fileOf(range.begin);
   if (!file || range.end <= range.begin) return {};
-  const std::string_view source = view.sources().sourceText(file).substr(
-      range.begin.offset - view.sources().begin(file).offset, range.end.offset - range.begin.offset);
+  const size_t begin = range.begin.offset - sources.begin(file).offset;
+  const std::string_view source = sources.sourceText(file).substr(begin, range.end.offset - range.begin.offset);
   std::string out;
   Scanner scanner(source);
   size_t last = 0;

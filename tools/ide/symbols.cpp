@@ -61,7 +61,9 @@ class Outline {
     symbols.push_back(std::move(symbol));
   }
   std::string text(NameId name) const { return std::string(view_.names().string(name)); }
-  std::string text(TypeExprId type) const { return type ? sourceOnOneLine(view_, tree_.range(type)) : std::string(); }
+  std::string text(TypeExprId type) const {
+    return type ? sourceOnOneLine(view_.sources(), tree_.range(type)) : std::string();
+  }
 
   void add(DeclId id, Symbols& symbols) {
     const Range range = extentOf(tree_, id);

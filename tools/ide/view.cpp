@@ -122,6 +122,11 @@ FileRange View::tokenInFile(Loc parsed) const {
   return bytesInFile(parsed, static_cast<uint32_t>(sources().tokenAt(parsed).size()));
 }
 
+FileRange View::nameInFile(Loc parsed) const {
+  const std::string_view token = sources().tokenAt(parsed);
+  return bytesInFile(parsed, static_cast<uint32_t>(token.substr(0, token.find('#')).size()));
+}
+
 FileRange View::inFile(Range parsed) const {
   if (!parsed.begin || parsed.end <= parsed.begin) return tokenInFile(parsed.begin);
   FileRange range = bytesInFile(parsed.begin, 1);

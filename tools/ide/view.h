@@ -53,6 +53,8 @@ class View {
   FileRange inFile(Range parsed) const;
   // The token at a location.
   FileRange tokenInFile(Loc parsed) const;
+  // The name at a location: of `Color#Green` the part before the sign.
+  FileRange nameInFile(Loc parsed) const;
   FileRange bytesInFile(Loc parsed, uint32_t length) const;
 
   // What the names in the program mean; made when it is first asked for.

@@ -14,6 +14,12 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/selectionRange", selectionRanges},
     {"textDocument/semanticTokens/full", semanticTokensFull},
     {"textDocument/semanticTokens/range", semanticTokensRange},
+    {"textDocument/hover", hover},
+    {"textDocument/declaration", declaration},
+    {"textDocument/definition", definition},
+    {"textDocument/typeDefinition", typeDefinition},
+    {"textDocument/implementation", implementation},
+    {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/formatting", formatDocument},
     {"textDocument/rangeFormatting", formatRange},
 };

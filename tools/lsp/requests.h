@@ -19,6 +19,13 @@ Answer semanticTokensRange(Session& session, const Json& params);
 // formatting.cpp
 Answer formatDocument(Session& session, const Json& params);
 Answer formatRange(Session& session, const Json& params);
+// navigation.cpp
+Answer declaration(Session& session, const Json& params);
+Answer definition(Session& session, const Json& params);
+Answer typeDefinition(Session& session, const Json& params);
+Answer implementation(Session& session, const Json& params);
+Answer hover(Session& session, const Json& params);
+Answer signatureHelp(Session& session, const Json& params);
 
 // The error for parameters without a document.
 inline Answer noDocument() { return {kInvalidParams, "`textDocument.uri` must be a string"}; }
