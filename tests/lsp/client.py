@@ -14,6 +14,7 @@
 #   uninitialized              as the first line: without `initialize`
 #   messages                   the other notifications and requests of the server so far
 #   hover FILE L:C [JSON]      a request textDocument/hover, and so all others; `L:C-L:C` is its `range`
+#   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
 #   bytes JSON                 the bytes of a string, without a header
@@ -317,6 +318,34 @@ class Script:
     def do_bytes(self, rest):
         self.client.send_bytes(json.loads(rest).encode("latin-1"))
         self.show_errors()
+
+    # The labels in the order in which an editor shows them, best rank first; those that are asked for with all they have.
+    def do_complete(self, rest):
+        file, at, *labels = rest.split(" ")
+        params = {"textDocument": {"uri": uri(file)}, "position": position_of(at)}
+        answer = self.client.request("textDocument/completion", params)
+        items = (answer.get("result") or {"items": []})["items"]
+        items.sort(key=lambda item: item["sortText"])
+        if not labels:
+            ranks = {}
+            for item in items:
+                ranks.setdefault(item["sortText"][0], []).append(item["label"].strip())
+            for rank, names in ranks.items():
+                print("%s  %s" % (rank, "  ".join(names)))
+            if not items:
+                print("nothing")
+        for label in labels:
+            item = next((item for item in items if item["label"].split(" ")[0] == label), None)
+            if item is None:
+                print(label + ": not offered")
+                continue
+            edit = item["textEdit"]
+            print("%s  %s  %s %s" % (item["label"].strip(), item.get("detail", ""), shown_range(edit["range"]),
+                                     json.dumps(edit["newText"], ensure_ascii=False)))
+            resolved = self.client.request("completionItem/resolve", item)["result"]
+            for line in resolved.get("documentation", {}).get("value", "").split("\n"):
+                if line:
+                    print("    " + line)
 
     # Answers that have no id of ours, until that of a request which the server does not know.
     def show_errors(self):

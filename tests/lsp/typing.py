@@ -135,7 +135,7 @@ class Session:
             if path in self.texts:
                 rows = self.texts[path].replace("\r\n", "\n").replace("\r", "\n").split("\n")
                 column = len(rows[line][:column].encode("utf-16-le")) // 2
-            if path != ".":  # an opened folder without sources is no mistake
+            if path != ".":  # an opened folder without sources is not a mistake
                 found.append((path, line, column, one["code"], one["message"]))
         return sorted(set(found))
 

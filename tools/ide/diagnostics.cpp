@@ -45,7 +45,7 @@ std::vector<FileDiagnostic> diagnosticsOf(const View& view) {
   std::vector<FileDiagnostic> all;
   for (const Diagnostic& diagnostic : view.snapshot().diagnostics()) {
     FileDiagnostic one = fileDiagnostic(view, diagnostic);
-    std::error_code error;  // an opened folder without sources is no mistake
+    std::error_code error;  // an opened folder without sources is not a mistake
     if (!one.path.empty() && (one.at || !std::filesystem::is_directory(one.path, error))) all.push_back(std::move(one));
   }
   return all;

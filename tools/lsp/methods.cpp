@@ -20,6 +20,8 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/typeDefinition", typeDefinition},
     {"textDocument/implementation", implementation},
     {"textDocument/signatureHelp", signatureHelp},
+    {"textDocument/completion", completion},
+    {"completionItem/resolve", resolveCompletion},
     {"textDocument/formatting", formatDocument},
     {"textDocument/rangeFormatting", formatRange},
 };
