@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # A session of random edits with `rung lsp`: after each pause its diagnostics are those of `rung check` on files with the
 # same texts. Text is typed character by character, also from other places of the project, cut, undone; files are closed,
-# opened, and changed on disk.
+# opened, and changed on disk. After each pause every request is asked at random places: none is answered by an error, and
+# the ranges in the answers exist.
 #
 #   typing.py FOLDER [--seed N] [--pauses N]      a folder with a project, of which it works on a copy
 #
@@ -139,16 +140,59 @@ class Session:
                 found.append((path, line, column, one["code"], one["message"]))
         return sorted(set(found))
 
+    # ---- asking
+
+    POSITIONED = ["hover", "definition", "declaration", "typeDefinition", "implementation", "signatureHelp", "completion"]
+    WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "formatting"]
+
+    def ask(self):
+        for file in sorted(self.client.versions):
+            document = {"uri": uri(file)}
+            at = position_of(self.texts[file], self.place(self.texts[file]))
+            for method in self.POSITIONED:
+                self.request(method, {"textDocument": document, "position": at})
+            for method in self.WHOLE:
+                self.request(method, {"textDocument": document, "options": {}})
+            self.request("selectionRange", {"textDocument": document, "positions": [at]})
+
+    def request(self, method, params):
+        answer = self.client.request("textDocument/" + method, params)
+        if "error" in answer:
+            self.stop("%s %s: %s" % (method, params, answer["error"]))
+        self.check_ranges(method, params["textDocument"]["uri"], answer["result"])
+
+    # Each range of the file of the request, or of the one that the object names, is within its text.
+    def check_ranges(self, method, name, value):
+        if isinstance(value, list):
+            for item in value:
+                self.check_ranges(method, name, item)
+        elif isinstance(value, dict) and value.keys() == {"start", "end"}:
+            lines = self.lines_of(name)
+            for end in (value["start"], value["end"]):
+                inside = end["line"] < len(lines) and end["character"] <= len(lines[end["line"]].encode("utf-16-le")) // 2
+                if lines and not inside:
+                    self.stop("%s of %s gives %s" % (method, name, value))
+        elif isinstance(value, dict):
+            for item in value.values():
+                self.check_ranges(method, value.get("uri", name), item)
+
+    def lines_of(self, name):
+        text = self.texts.get(os.path.relpath(name[len("file://"):], os.getcwd()))
+        return text.replace("\r\n", "\n").replace("\r", "\n").split("\n") if text is not None else []
+
+    def stop(self, why):
+        print("\n".join(self.log[-10:]))
+        sys.exit(why)
+
     def run(self, pauses, copy):
         for pause in range(pauses):
             for _ in range(self.random.randint(1, 3)):
                 self.edit()
             server, check = self.of_server(), self.of_check(copy)
             if server != check:
-                print("\n".join(self.log[-10:]))
-                print("only the server says", sorted(set(server) - set(check)))
-                print("only the check says", sorted(set(check) - set(server)))
-                sys.exit("different after pause %d" % pause)
+                self.stop("after pause %d only the server says %s, only the check says %s"
+                          % (pause, sorted(set(server) - set(check)), sorted(set(check) - set(server))))
+            self.ask()
         if self.client.finish() != 0:
             sys.exit("the server ends with an error")
         print("%d pauses, no difference" % pauses)

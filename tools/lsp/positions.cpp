@@ -58,7 +58,7 @@ Position Positions::positionOf(uint32_t byte) const {
   byte = std::min(byte, static_cast<uint32_t>(text_.size()));
   const auto after = std::upper_bound(starts_.begin(), starts_.end(), byte);
   const auto line = static_cast<uint32_t>(after - starts_.begin() - 1);
-  const std::string_view before = text_.substr(starts_[line], byte - starts_[line]);
+  const std::string_view before = lineAt(line).substr(0, byte - starts_[line]);  // never between CR and LF
   return {line, unitsOf(before, encoding_)};
 }
 

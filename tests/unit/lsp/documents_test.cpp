@@ -34,6 +34,7 @@ TEST(Positions, LinesEndWithEveryLineEnd) {
   EXPECT_EQ(positions.byteOf({4, 0}), kText.size());
   EXPECT_EQ(positions.byteOf({7, 3}), kText.size());
   EXPECT_EQ(positions.positionOf(9999), (Position{4, 0}));
+  EXPECT_EQ(positions.positionOf(9), (Position{0, 5})) << "between CR and LF";
 }
 
 // Each character has a position, and the position leads back to it.
