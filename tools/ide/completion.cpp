@@ -79,6 +79,18 @@ std::string callSnippet(const PouSignature& signature) {
   return out + ")";
 }
 
+// After the name of an instance: a call with its pins.
+constexpr std::string_view kCall = "(…)";
+
+// The places to fill in of a function, a method or the call of an instance.
+void addCallSnippet(const View& view, CompletionItem& item) {
+  if (!item.is_snippet || !item.insert.empty() || item.entity.entityKind() != EntityKind::Pou) return;
+  PouSignature signature = signatureOf(view, {item.entity.index});
+  const bool is_instance = item.label.ends_with(kCall);
+  if (is_instance) signature.name = item.label.substr(0, item.label.size() - kCall.size());
+  item.insert = callSnippet(signature) + (is_instance ? ";" : "");
+}
+
 class Completer {
  public:
   Completer(const View& view, const LibraryIndex& libraries, const Cursor& cursor)
@@ -184,9 +196,7 @@ class Completer {
     if (const TypeId type = scope_.typeOf(entity); type && entity.entityKind() != EntityKind::Type)
       item.detail = project_.types.toString(type);
     const bool is_called = item.kind == CompletionKind::Function || item.kind == CompletionKind::Method;
-    if (!is_called || followsParenthesis()) return;
-    item.insert = callSnippet(signatureOf(view_, {entity.index}));
-    item.is_snippet = true;
+    item.is_snippet = is_called && !followsParenthesis();
   }
 
   bool followsParenthesis() const {
@@ -345,10 +355,7 @@ class Completer {
   void call(NameId name, Entity entity) {
     const PouId block = scope_.blockOf(scope_.recordOf(scope_.typeOf(entity)));
     if (!block || project_.pou(block).kind != PouKind::FunctionBlock || followsParenthesis()) return;
-    PouSignature signature = signatureOf(view_, block);
-    signature.name = text(name);
-    CompletionItem& item = add(signature.name + "(…)", CompletionKind::Snippet, kLocal);
-    item.insert = callSnippet(signature) + ";";
+    CompletionItem& item = add(text(name) + std::string(kCall), CompletionKind::Snippet, kLocal);
     item.is_snippet = true;
     item.detail = project_.types.toString(scope_.typeOf(entity));
     item.entity = Entity::of(EntityKind::Pou, block.index);
@@ -547,8 +554,15 @@ Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId
   if (cursor.place != CursorPlace::Code) return result;
   Completion found = Completer(view, libraries, cursor).complete();
   found.replaced = result.replaced;
+  // The best; more letters find the others.
+  constexpr size_t kMost = 300;
   std::stable_sort(found.items.begin(), found.items.end(),
                    [](const CompletionItem& a, const CompletionItem& b) { return a.rank < b.rank; });
+  if (found.items.size() > kMost) {
+    found.items.resize(kMost);
+    found.is_incomplete = true;
+  }
+  for (CompletionItem& item : found.items) addCallSnippet(view, item);
   return found;
 }
 

@@ -7,7 +7,7 @@ namespace rung::ide {
 namespace {
 
 // S and R of `S=` are names wherever they could be completed or coloured.
-constexpr Word kWords[] = {
+constexpr Word kLanguage[] = {
 #define RUNG_WORD(name, spelling) {spelling, WordKind::Keyword},
 #define RUNG_TYPE_WORD(name, spelling) {spelling, WordKind::Type},
 #define RUNG_SOFT_WORD(name, spelling) {spelling, WordKind::Soft},
@@ -16,10 +16,10 @@ constexpr Word kWords[] = {
 
 }  // namespace
 
-std::span<const Word> words() { return kWords; }
+std::span<const Word> words() { return kLanguage; }
 
 WordKind kindOfWord(std::string_view word) {
-  for (const Word& candidate : kWords)
+  for (const Word& candidate : kLanguage)
     if (candidate.spelling.size() == word.size() && candidate.spelling.size() > 1 &&
         sameIdentifier(candidate.spelling, word))
       return candidate.kind;

@@ -2,6 +2,7 @@
 #include "tools/ide/meanings.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/node_at.h"
@@ -23,6 +24,7 @@ class Collector {
   // What was found first holds: what the check resolved, then what is written.
   std::vector<NamePlace> collect() {
     addCode();
+    for (const NamePlace& place : places_) resolved_.insert(place.loc.offset);
     for (const DeclId decl : tree_.list(unit_.decls)) declaration(decl, {});
     std::stable_sort(places_.begin(), places_.end(),
                      [](const NamePlace& a, const NamePlace& b) { return a.loc < b.loc; });
@@ -84,8 +86,11 @@ class Collector {
   }
 
   void pins(Slice<Argument> arguments, PouId pou) {
+    const std::span<const Argument> list = tree_.list(arguments);
+    const auto hasName = [](const Argument& argument) { return static_cast<bool>(argument.pin.name); };
+    if (std::none_of(list.begin(), list.end(), hasName)) return;
     const std::vector<VarId> pins = scope_.pinsOf(pou);
-    for (const Argument& argument : tree_.list(arguments)) {
+    for (const Argument& argument : list) {
       if (!argument.pin.name) continue;
       const auto is_named = [&](NameId name) { return keyOf(name) == keyOf(argument.pin.name); };
       for (const VarId pin : pins) {
@@ -140,7 +145,8 @@ class Collector {
 
   void writtenName(ExprId id, PouId pou) {
     const ExprKind kind = tree_.kind(id);
-    if (kind == ExprKind::Name || kind == ExprKind::Member) add(tree_.loc(id), meanings_.entityOf(pou, id));
+    if ((kind == ExprKind::Name || kind == ExprKind::Member) && resolved_.count(tree_.loc(id).offset) == 0)
+      add(tree_.loc(id), meanings_.entityOf(pou, id));
     if (kind == ExprKind::TypedName) {
       const TypedNameExpr& node = tree_.as<TypedNameExpr>(id);
       const Entity type = scope_.typeNamed(keyOf(node.type_name.name));
@@ -149,6 +155,11 @@ class Collector {
     }
     if (kind == ExprKind::Call && tree_.as<CallExpr>(id).callee) {
       const CallExpr& node = tree_.as<CallExpr>(id);
+      const auto isOpen = [&](const Argument& argument) {
+        return argument.pin.name && resolved_.count(argument.pin.loc.offset) == 0;
+      };
+      const std::span<const Argument> arguments = tree_.list(node.arguments);
+      if (std::none_of(arguments.begin(), arguments.end(), isOpen)) return;
       if (const PouId of = calledBy(meanings_.entityOf(pou, node.callee))) pins(node.arguments, of);
     }
   }
@@ -166,6 +177,7 @@ class Collector {
   const Meanings& meanings_;
   const FileUnit& unit_;
   std::vector<NamePlace> places_;
+  std::unordered_set<uint32_t> resolved_;  // the locations of the names that the check knows
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 namespace rung::ide {
 namespace {
 
-constexpr PragmaWord kWords[] = {
+constexpr PragmaWord kPragmas[] = {
     {"attribute ''", false, "An attribute of the declaration that follows."},
     {"test", false, "The POU that follows is a test."},
     {"test_only", false, "Only tests use the POU that follows."},
@@ -54,6 +54,6 @@ constexpr PragmaWord kWords[] = {
 
 }  // namespace
 
-std::span<const PragmaWord> pragmaWords() { return kWords; }
+std::span<const PragmaWord> pragmaWords() { return kPragmas; }
 
 }  // namespace rung::ide

@@ -96,7 +96,7 @@ void Projects::addProject(const Home& home) {
     if (project->input() == home.input) return;
   auto project = std::make_unique<Project>(home.input, options_);
   project->is_single_folder_ = home.is_single_folder;
-  for (const auto& [path, text] : buffers_) project->changes_.push_back({path, text});
+  for (const auto& [path, text] : buffers_) project->changes_[path] = text;
   projects_.push_back(std::move(project));
 }
 
@@ -147,7 +147,7 @@ void Projects::edit(const std::string& path, std::string text) {
   if (is_new && namesProject(path)) findProjects();
   addProject(home);
   for (const auto& project : projects_) {
-    project->changes_.push_back({path, text});
+    project->changes_[path] = text;
     if (project->input() == home.input || (project->view() != nullptr && project->view()->fileAt(path)))
       project->is_changed_ = true;
   }
@@ -158,7 +158,7 @@ void Projects::close(const std::string& path) {
   const Home home = homes_[path];
   homes_.erase(path);
   for (const auto& project : projects_) {
-    project->changes_.push_back({path, std::nullopt});
+    project->changes_[path] = std::nullopt;
     if (project->input() == home.input || (project->view() != nullptr && project->view()->fileAt(path)))
       project->is_changed_ = true;
   }
@@ -172,7 +172,7 @@ void Projects::changedOnDisk(const std::string& path) {
     const bool reads = project->view() != nullptr && project->view()->fileAt(path);
     if (!reads && !isBelow(path, folder) && !isBelow(folder, path)) continue;
     project->is_changed_ = true;
-    if (buffers_.count(path) == 0) project->changes_.push_back({path, std::nullopt});
+    if (buffers_.count(path) == 0) project->changes_[path] = std::nullopt;
   }
 }
 
@@ -202,9 +202,12 @@ const View* Projects::update(Project& project, const std::atomic<bool>* cancelle
     project.options_.inputs = std::move(inputs);
     project.workspace_ = std::make_unique<workspace::Workspace>(project.options_);
     project.changes_.clear();
-    for (const auto& [path, text] : buffers_) project.changes_.push_back({path, text});
+    for (const auto& [path, text] : buffers_) project.changes_[path] = text;
   }
-  auto snapshot = project.workspace_->apply(std::exchange(project.changes_, {}), cancelled);
+  std::vector<workspace::Change> changes;
+  for (auto& [path, text] : project.changes_) changes.push_back({path, std::move(text)});
+  project.changes_.clear();
+  auto snapshot = project.workspace_->apply(std::move(changes), cancelled);
   if (snapshot == nullptr) return nullptr;
   if (!snapshot->error().empty()) notice(project.input() + ": " + snapshot->error());
   project.view_ = std::make_shared<const View>(std::move(snapshot), embedded_);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,7 +37,7 @@ class Project {
   bool is_single_folder_ = false;   // the sources that lie directly in the folder
   driver::ProjectOptions options_;  // of `workspace_`
   std::unique_ptr<workspace::Workspace> workspace_;
-  std::vector<workspace::Change> changes_;  // since the last view
+  std::map<std::string, std::optional<std::string>> changes_;  // since the last view: the texts of buffers
   std::shared_ptr<const View> view_;
   uint64_t version_ = 0;
   bool is_changed_ = true;

@@ -164,22 +164,87 @@ bool beginsWord(std::string_view name, size_t at) {
   return !isLetterBefore(name, at) || (isUpperCase(name[at]) && !isUpperCase(name[at - 1]));
 }
 
-bool isLocal(SymbolKind parent, SymbolKind kind) {
-  const bool is_variable = kind == SymbolKind::Variable || kind == SymbolKind::Constant || kind == SymbolKind::Step ||
-                           kind == SymbolKind::Transition;
-  const bool is_pou = parent <= SymbolKind::Action;
-  return is_variable && is_pou;
-}
+// Finds what matches in all files, and makes symbols of these names only.
+class Finder {
+ public:
+  Finder(const View& view, std::string_view query) : view_(view), tree_(view.tree()), query_(query) {}
 
-void collect(Symbol& symbol, const std::string& container, std::string_view query, std::vector<FoundSymbol>& found) {
-  const std::string path = container.empty() ? symbol.name : container + "." + symbol.name;
-  for (Symbol& child : symbol.children)
-    if (!isLocal(symbol.kind, child.kind)) collect(child, path, query, found);
-  if (const int score = matchScore(symbol.name, query); score > 0) {
-    symbol.children.clear();
-    found.push_back({std::move(symbol), container, score});
+  std::vector<FoundSymbol> find() {
+    for (const FileUnit& unit : tree_.files)
+      for (const DeclId decl : tree_.list(unit.decls)) visit(decl, {});
+    return std::move(found_);
   }
-}
+
+ private:
+  std::string_view text(NameId name) const { return view_.names().string(name); }
+
+  void consider(NameId name, Loc loc, SymbolKind kind, const std::string& container) {
+    const int score = name ? matchScore(text(name), query_) : 0;
+    if (score <= 0) return;
+    const FileRange at = view_.tokenInFile(loc);
+    if (at && !view_.pathOf(at.file).empty())
+      found_.push_back({{std::string(text(name)), {}, kind, at, at, {}}, container, score});
+  }
+
+  void all(Slice<DeclId> decls, const std::string& container) {
+    for (const DeclId decl : tree_.list(decls)) visit(decl, container);
+  }
+
+  void visit(DeclId id, const std::string& container) {
+    const Loc loc = tree_.loc(id);
+    switch (tree_.kind(id)) {
+      case DeclKind::Pou: {
+        const PouDecl& pou = tree_.as<PouDecl>(id);
+        consider(pou.name, loc, kindOf(pou.pou_kind), container);
+        return all(pou.members, std::string(text(pou.name)));
+      }
+      case DeclKind::Type: return type(tree_.as<TypeDecl>(id), container);
+      case DeclKind::Section: return section(tree_.as<SectionDecl>(id), container);
+      case DeclKind::Property: return consider(tree_.as<PropertyDecl>(id).name, loc, SymbolKind::Property, container);
+      case DeclKind::Namespace: return all(tree_.as<NamespaceDecl>(id).decls, container);
+      case DeclKind::Configuration: {
+        const ConfigurationDecl& configuration = tree_.as<ConfigurationDecl>(id);
+        consider(configuration.name, loc, SymbolKind::Configuration, container);
+        return all(configuration.members, std::string(text(configuration.name)));
+      }
+      case DeclKind::Resource: {
+        const ResourceDecl& resource = tree_.as<ResourceDecl>(id);
+        consider(resource.name, loc, SymbolKind::Resource, container);
+        return all(resource.members, std::string(text(resource.name)));
+      }
+      case DeclKind::Task: return consider(tree_.as<TaskDecl>(id).name, loc, SymbolKind::Task, container);
+      case DeclKind::ProgramInstance:
+        return consider(tree_.as<ProgramInstanceDecl>(id).name, loc, SymbolKind::Variable, container);
+      case DeclKind::Var:
+      case DeclKind::Using: return;
+    }
+  }
+
+  void type(const TypeDecl& type, const std::string& container) {
+    const TypeExprKind kind = tree_.kind(type.type);
+    consider(type.name, type.h.loc, kindOf(kind), container);
+    const std::string name(text(type.name));
+    if (kind == TypeExprKind::Struct)
+      for (const DeclId field : tree_.list(tree_.as<StructTypeExpr>(type.type).fields))
+        variables(tree_.as<VarDecl>(field), SymbolKind::Field, name);
+    if (kind == TypeExprKind::Enum)
+      for (const EnumItem& item : tree_.list(tree_.as<EnumTypeExpr>(type.type).items))
+        consider(item.item.name, item.item.loc, SymbolKind::Item, name);
+  }
+
+  void section(const SectionDecl& section, const std::string& container) {
+    const SymbolKind kind = section.h.bits & kConstant ? SymbolKind::Constant : SymbolKind::Variable;
+    for (const DeclId var : tree_.list(section.vars)) variables(tree_.as<VarDecl>(var), kind, container);
+  }
+  void variables(const VarDecl& var, SymbolKind kind, const std::string& container) {
+    for (const Ident& name : tree_.list(var.names)) consider(name.name, name.loc, kind, container);
+  }
+
+  const View& view_;
+  const Tree& tree_;
+  std::string_view query_;
+  std::vector<FoundSymbol> found_;
+};
 
 }  // namespace
 
@@ -219,12 +284,7 @@ std::vector<Symbol> symbolsOf(const View& view, FileId file) {
 }
 
 std::vector<FoundSymbol> symbolsMatching(const View& view, std::string_view query, size_t most) {
-  std::vector<FoundSymbol> found;
-  for (const FileUnit& unit : view.tree().files) {
-    const FileId file = view.sources().fileOf(view.sources().originalLocation(view.sources().begin(unit.file)));
-    if (view.pathOf(file).empty()) continue;
-    for (Symbol& symbol : Outline(view, file).of(unit)) collect(symbol, {}, query, found);
-  }
+  std::vector<FoundSymbol> found = Finder(view, query).find();
   std::stable_sort(found.begin(), found.end(), [](const FoundSymbol& a, const FoundSymbol& b) {
     return a.score != b.score ? a.score > b.score : a.symbol.name < b.symbol.name;
   });

@@ -48,7 +48,7 @@ struct Symbol {
 std::vector<Symbol> symbolsOf(const View& view, FileId file);
 
 struct FoundSymbol {
-  Symbol symbol;          // without children
+  Symbol symbol;          // its name; without detail and children
   std::string container;  // the POU or type around it
   int score = 0;          // the larger the better
 };

@@ -22,9 +22,13 @@ uint32_t unitsOf(std::string_view text, Encoding encoding) {
 }
 
 Positions::Positions(std::string_view text, Encoding encoding) : text_(text), encoding_(encoding), starts_{0} {
-  for (size_t at = text.find_first_of("\r\n"); at != std::string_view::npos; at = text.find_first_of("\r\n", at)) {
-    at += text[at] == '\r' && at + 1 < text.size() && text[at + 1] == '\n' ? 2 : 1;
-    starts_.push_back(static_cast<uint32_t>(at));
+  size_t carriage = text.find('\r'), feed = text.find('\n');
+  while (carriage != std::string_view::npos || feed != std::string_view::npos) {
+    size_t end = std::min(carriage, feed) + 1;
+    if (end == feed) ++end;  // CR LF
+    starts_.push_back(static_cast<uint32_t>(end));
+    if (carriage < end) carriage = text.find('\r', end);
+    if (feed < end) feed = text.find('\n', end);
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ide/structure.h"
 
-#include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "tools/lsp/requests.h"
 
@@ -13,15 +14,16 @@ Answer foldingRanges(Session& session, const Json& params) {
   if (place->view == nullptr) return Json();
   const Positions positions(place->view->textOf(place->file), session.encoding);
   Json::Array list;
+  std::set<std::tuple<uint32_t, uint32_t, ide::FoldKind>> known;  // statements on one line fold as one
   for (const ide::Fold& fold : ide::foldsOf(*place->view, place->file)) {
     const uint32_t first = positions.positionOf(fold.range.begin).line;
     uint32_t last = positions.positionOf(fold.range.end).line;
     if (fold.keeps_last_line && last > first + 1) --last;
-    if (last <= first) continue;
+    if (last <= first || !known.insert({first, last, fold.kind}).second) continue;
     Json json{{"startLine", first}, {"endLine", last}};
     if (fold.kind == ide::FoldKind::Comment) json.set("kind", "comment");
     if (fold.kind == ide::FoldKind::Region) json.set("kind", "region");
-    if (std::find(list.begin(), list.end(), json) == list.end()) list.push_back(std::move(json));
+    list.push_back(std::move(json));
   }
   return Json(std::move(list));
 }

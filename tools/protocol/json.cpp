@@ -202,7 +202,12 @@ Json::Json(std::string_view value) : value_(std::string(value)) {}
 Json::Json(std::string value) : value_(std::move(value)) {}
 Json::Json(Array values) : value_(std::move(values)) {}
 Json::Json(Numbers values) : value_(std::move(values)) {}
-Json::Json(std::initializer_list<JsonMember> members) : value_(Object(members)) {}
+Json::Json(std::initializer_list<JsonMember> members) {
+  Object object;
+  object.reserve(members.size());
+  for (const JsonMember& member : members) object.push_back({std::move(member.name), std::move(member.value)});
+  value_ = std::move(object);
+}
 Json::Json(const Json&) = default;
 Json::Json(Json&&) noexcept = default;
 Json& Json::operator=(const Json&) = default;

@@ -70,9 +70,10 @@ class Json {
   std::variant<std::monostate, bool, int64_t, double, std::string, Array, Object, Numbers> value_;
 };
 
+// The object that is made of a list of members takes them over, so they may change although the list is constant.
 struct JsonMember {
-  std::string name;
-  Json value;
+  mutable std::string name;
+  mutable Json value;
   friend bool operator==(const JsonMember&, const JsonMember&) = default;
 };
 
