@@ -37,6 +37,7 @@ class Describer {
   std::string written(Range range) const { return sourceOnOneLine(view_.sources(), range); }
 
   Description var(const sema::Var& var) const {
+    if (var.of_chart) return {"STEP " + text(var.name), {}, ownerOf(var)};
     Description result;
     result.declaration = std::string(keywordOf(var.section)) + modifiersOf(var) + " " + text(var.name);
     std::string type = project_.types.toString(var.type), initial;

@@ -48,6 +48,7 @@ class Collector {
     for (uint32_t i = 1; i < project_.pous.size(); ++i) {
       const sema::Pou& pou = project_.pous[i];
       if (!pou.decl || pou.instance.of || !isIn(tree_, pou.decl, file)) continue;
+      if (tree_.kind(pou.decl) == DeclKind::Pou) chart(tree_.as<PouDecl>(pou.decl), {i});
       for (const StmtId stmt : tree_.list(pou.body.code)) code(stmt);
       for (const VarId var : pou.vars)
         if (project_.var(var).init) code(project_.var(var).init);
@@ -70,6 +71,9 @@ class Collector {
     const sema::Meaning& meaning = sema::meaning(header);
     if (header.kind == ExprKind::Name || header.kind == ExprKind::Member) add(header.loc, meaning.entity);
     if (header.kind == ExprKind::TypedName) add(tree_.as<TypedNameExpr>(id).item.loc, meaning.entity);
+    if (header.kind == ExprKind::StructInit)
+      for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields))
+        add(field.field.loc, scope_.memberOf(meaning.type, keyOf(field.field.name)));
     if (header.kind == ExprKind::Call && meaning.call) pins(tree_.as<CallExpr>(id), project_.call(meaning.call));
   }
 
@@ -122,6 +126,28 @@ class Collector {
       if (const auto type = tree_.list(tree_.as<ProgramInstanceDecl>(id).type); !type.empty())
         add(type.back().loc, scope_.typeNamed(keyOf(type.back().name)));
     forEachChild(tree_, id, [&](const auto& child) { written(child, pou); });
+  }
+
+  // Steps, and the actions and steps that a chart names.
+  void chart(const PouDecl& decl, PouId pou) {
+    const auto named = [&](const Ident& ident) { add(ident.loc, scope_.lookUp(pou, keyOf(ident.name))); };
+    for (const SfcStep& step : tree_.list(decl.steps)) {
+      add(step.name.loc, scope_.lookUp(pou, keyOf(step.name.name)), true);
+      for (const SfcAssociation& association : tree_.list(step.actions)) {
+        add(association.action.loc, action(pou, keyOf(association.action.name)));
+        for (const Ident& indicator : tree_.list(association.indicators)) named(indicator);
+      }
+    }
+    for (const SfcTransition& transition : tree_.list(decl.transitions))
+      for (const Slice<Ident> steps : {transition.from, transition.to})
+        for (const Ident& step : tree_.list(steps)) named(step);
+  }
+
+  // A chart has a hidden variable of the same name for each of its actions.
+  Entity action(PouId pou, NameId key) const {
+    for (const PouId member : project_.pou(pou).members)
+      if (keyOf(project_.pou(member).name) == key) return Entity::of(EntityKind::Pou, member.index);
+    return scope_.lookUp(pou, key);
   }
 
   void written(DeclId id, PouId pou) { declaration(id, pou); }
