@@ -56,8 +56,6 @@ constexpr WordSnippet kTypes[] = {
     {"POINTER TO", "POINTER TO ${1:INT}"},
     {"REFERENCE TO", "REFERENCE TO ${1:INT}"},
 };
-constexpr const char* kOperators[] = {"AND", "OR", "XOR", "MOD", "AND_THEN", "OR_ELSE"};
-constexpr const char* kConstants[] = {"TRUE", "FALSE", "NOT"};
 
 std::string closingOf(std::string_view word) { return "END_" + upper(word); }
 
@@ -108,6 +106,11 @@ class Completer {
       case Writes::Item: items(context_.base.type, false); break;
       case Writes::Address: addresses(); break;
       case Writes::Declaration: snippets(kDeclarations, CompletionKind::Snippet); break;
+      case Writes::Configuration:
+        words({"RESOURCE", "TASK", "PROGRAM", "VAR_GLOBAL", "END_RESOURCE", "END_CONFIGURATION"});
+        break;
+      case Writes::Program: programs(); break;
+      case Writes::Location: words({"AT"}); break;
       case Writes::Section: words({"CONSTANT", "RETAIN", "PERSISTENT", "NON_RETAIN", "END_VAR"}); break;
       case Writes::Variable: words({"END_VAR"}); break;
       case Writes::Type: types(); break;
@@ -332,6 +335,13 @@ class Completer {
     });
   }
 
+  void programs() {
+    const auto isProgram = [&](Entity entity) {
+      return entity.entityKind() == EntityKind::Pou && project_.pous[entity.index].kind == PouKind::Program;
+    };
+    visible(isProgram, [&](NameId name, Entity entity) { addEntity(name, entity, kGlobal); });
+  }
+
   void header() {
     words({"EXTENDS", "IMPLEMENTS"});
     keywords(kSections);
@@ -398,7 +408,9 @@ class Completer {
   // ---- expressions
 
   void expression() {
-    if (context_.call && context_.call->is_at_beginning) pins(*context_.call);
+    const bool is_argument = context_.call && context_.call->is_at_beginning;
+    if (is_argument) pins(*context_.call);
+    if (is_argument && isPinFollowing()) return;
     items(context_.expected, true);
     const auto isListed = [&](Entity entity) {  // by items()
       return entity.entityKind() == EntityKind::EnumValue && context_.expected &&
@@ -406,18 +418,33 @@ class Completer {
     };
     visible([&](Entity entity) { return !isListed(entity) && isInExpression(entity) && mayFit(entity); },
             [&](NameId name, Entity entity) { addEntity(name, entity, rankOf(entity)); });
-    keywords(kConstants);
+    if (context_.needs != Needs::Any) return;
+    const types::TypeKind wanted = project_.types.plainKind(context_.expected);
+    if (!context_.expected || wanted == types::TypeKind::Bool) words({"TRUE", "FALSE"});
+    if (!context_.expected || wanted == types::TypeKind::Bool || types::TypeTable::isBits(wanted)) words({"NOT"});
     libraryNames([](std::string_view word) { return word == "FUNCTION"; });
   }
 
   // What has members may lead to a value that fits.
   bool mayFit(Entity entity) const {
-    if (!context_.expected || entity.entityKind() != EntityKind::Var) return true;
     const types::TypeKind kind = project_.types.plainKind(scope_.typeOf(entity));
+    const bool is_plain = types::TypeTable::isElementary(kind);
+    const bool is_var = entity.entityKind() == EntityKind::Var;
+    const bool is_item = entity.entityKind() == EntityKind::EnumValue;
+    if (context_.needs == Needs::Lvalue && (!is_var || project_.vars[entity.index].constant)) return false;
+    if (context_.needs == Needs::Selector) return !is_item && (!is_plain || types::TypeTable::isInteger(kind));
     const types::TypeKind wanted = project_.types.plainKind(context_.expected);
-    if (!types::TypeTable::isElementary(kind) || !types::TypeTable::isElementary(wanted)) return true;
+    const bool is_value = is_var || is_item || entity.entityKind() == EntityKind::Property;
+    if (!context_.expected || !is_value || !is_plain || !types::TypeTable::isElementary(wanted)) return true;
     return kind == wanted || (types::TypeTable::isNumber(kind) && types::TypeTable::isNumber(wanted)) ||
            types::categoryOf(kind) == types::categoryOf(wanted);
+  }
+
+  // `:=` or `=>` after the cursor.
+  bool isPinFollowing() const {
+    const size_t at = cursor_.source.find_first_not_of(" \t", cursor_.offset);
+    const std::string_view rest = at == std::string_view::npos ? std::string_view() : cursor_.source.substr(at, 2);
+    return rest == ":=" || rest == "=>";
   }
 
   void pins(const OpenCall& call) {
@@ -429,7 +456,7 @@ class Completer {
       const bool is_given = std::any_of(call.given.begin(), call.given.end(),
                                         [&](std::string_view given) { return sameIdentifier(given, name); });
       if (is_given || !matches(name)) continue;
-      const char* const sign = var.section == SectionKind::Output ? " => " : " := ";
+      const char* const sign = isPinFollowing() ? "" : var.section == SectionKind::Output ? " => " : " := ";
       CompletionItem& item = add(name + sign, CompletionKind::Pin, kPin);
       item.entity = Entity::of(EntityKind::Var, pin.index);
       item.detail = project_.types.toString(var.type);
@@ -437,7 +464,11 @@ class Completer {
   }
 
   void operators() {
-    keywords(kOperators);
+    const types::TypeKind left = project_.types.plainKind(context_.expected);
+    const bool is_known = context_.expected && types::TypeTable::isElementary(left);
+    if (!is_known || left == types::TypeKind::Bool) words({"AND", "OR", "XOR", "AND_THEN", "OR_ELSE"});
+    if (types::TypeTable::isBits(left)) words({"AND", "OR", "XOR"});
+    if (!is_known || types::TypeTable::isInteger(left)) words({"MOD"});
     const std::string_view block = innermostBlock();
     if (sameIdentifier(block, "IF")) words({"THEN"});
     if (sameIdentifier(block, "WHILE") || sameIdentifier(block, "FOR")) words({"DO"});

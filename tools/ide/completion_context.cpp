@@ -21,6 +21,10 @@ bool beginsPou(std::string_view word) {
   return isOneOf(word, {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "CLASS", "INTERFACE", "METHOD", "ACTION", "PROPERTY",
                         "GET", "SET"});
 }
+bool endsPou(std::string_view word) {
+  return isOneOf(word, {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_INTERFACE", "END_METHOD",
+                        "END_ACTION", "END_PROPERTY", "END_GET", "END_SET", "END_NAMESPACE"});
+}
 bool opensBlock(std::string_view word) { return isOneOf(word, {"IF", "CASE", "FOR", "WHILE", "REPEAT"}); }
 bool closesBlock(std::string_view word) {
   return isOneOf(word, {"END_IF", "END_CASE", "END_FOR", "END_WHILE", "END_REPEAT"});
@@ -41,6 +45,8 @@ class Reader {
       context_.writes = Writes::Address;
     else if (section_ != kNone)
       inSection();
+    else if (is_configuration_)
+      inConfiguration();
     else if (context_.is_in_body)
       inBody();
     else
@@ -71,6 +77,14 @@ class Reader {
   }
 
   void scanOutsideOfSections(size_t at, std::string_view word) {
+    if (endsPou(word) || isOneOf(word, {"CONFIGURATION", "END_CONFIGURATION"})) {
+      is_configuration_ = isOneOf(word, {"CONFIGURATION"});
+      pou_ = kNone;
+      context_.is_in_body = context_.has_body = false;
+      context_.blocks.clear();
+      return;
+    }
+    if (is_configuration_) return;
     const bool follows_statement = at == 0 || cursor_.text(at - 1) == ";" || context_.is_in_body;
     if (beginsPou(word) && !(context_.is_in_body && context_.has_body && !follows_statement)) {
       pou_ = at;
@@ -124,6 +138,23 @@ class Reader {
     }
   }
 
+  void inConfiguration() {
+    const std::string_view last = cursor_.before();
+    if (last == ":") context_.writes = Writes::Program;
+    if (last == ";" || upper(last).starts_with("END_") || isOneOf(cursor_.before(1), {"CONFIGURATION", "ON"}))
+      context_.writes = Writes::Configuration;
+  }
+
+  // The current declaration has a `:=` or a bound, so that values may follow.
+  bool hasValue() const {
+    for (size_t at = cursor_.units.size(); at-- > section_;) {
+      const std::string_view text = cursor_.text(at);
+      if (text == ";") return false;
+      if (text == "[" || (text == "=" && at > 0 && cursor_.text(at - 1) == ":")) return true;
+    }
+    return false;
+  }
+
   void inSection() {
     const std::string_view last = cursor_.before(), before = cursor_.before(1);
     if (cursor_.units.size() == section_ + 1 && beginsSection(last)) {
@@ -136,8 +167,11 @@ class Reader {
       context_.expected = writtenType(cursor_.units.size() - 2);
     } else if (last == ":" || isOneOf(last, {"OF", "TO", "REF_TO"})) {
       context_.writes = Writes::Type;
-    } else if (isOneOf(last, {"("}) || last == "[" || last == ",") {
+    } else if ((last == "(" || last == "[" || last == ",") && hasValue()) {
       context_.writes = Writes::Expression;
+    } else if (cursor_.units.back().kind == UnitKind::Name && (before == ";" || beginsSection(before)) &&
+               !isOneOf(cursor_.text(section_), {"TYPE", "STRUCT", "UNION"})) {
+      context_.writes = Writes::Location;
     }
   }
 
@@ -164,6 +198,7 @@ class Reader {
                             last == "^" || (cursor_.units.back().kind == UnitKind::Name && !isKeyword(last));
     if (is_operand) {
       context_.writes = Writes::Operator;
+      context_.expected = typeBefore(cursor_.units.size());
       return;
     }
     context_.writes = Writes::Expression;
@@ -172,6 +207,8 @@ class Reader {
       if (context_.call && context_.call->is_at_beginning) context_.expected = typeOfArgument(*context_.call);
     } else {
       context_.expected = expectedAfter(last, before);
+      if (isOneOf(last, {"CASE"})) context_.needs = Needs::Selector;
+      if (last == ">" && before == "=") context_.needs = Needs::Lvalue;
     }
   }
 
@@ -193,7 +230,11 @@ class Reader {
       const std::optional<OpenCall> call = before == ":" ? openCallAt(view_, cursor_) : std::nullopt;
       return call && !call->pin.empty() ? typeOfPin(*call) : typeBefore(count - 2);
     }
-    if (last == ">" && (before == "<" || before == "=")) return typeBefore(count - 2);
+    if (last == ">" && before == "=") {
+      const std::optional<OpenCall> call = openCallAt(view_, cursor_);
+      return call && !call->pin.empty() ? typeOfPin(*call) : TypeId{};
+    }
+    if (last == ">" && before == "<") return typeBefore(count - 2);
     if (last == "=" || last == "<" || last == ">") return typeBefore(count - 1);
     const bool is_condition = isOneOf(last, {"IF", "ELSIF", "WHILE", "UNTIL", "NOT", "AND_THEN", "OR_ELSE"});
     return is_condition ? types::kBool : TypeId{};
@@ -219,6 +260,7 @@ class Reader {
   const Cursor& cursor_;
   CompletionContext context_;
   size_t section_ = kNone, pou_ = kNone;  // units that begin the innermost ones
+  bool is_configuration_ = false;
 };
 
 }  // namespace
