@@ -88,7 +88,7 @@ class Server {
   void takeNotification(std::string_view method, const Json& params) {
     if (method == "exit") is_done_ = true;
     if (state_ != State::Running) return;
-    is_checking_ = true;
+    is_stale_ = true;
     if (method == "initialized") return initialized(session_);
     if (const NotificationMethod* const notification = findNotification(method)) notification->take(session_, params);
   }
@@ -99,7 +99,7 @@ class Server {
   static constexpr std::chrono::milliseconds kLongestWait{1500};
 
   void checkProjects() {
-    if (state_ != State::Running || !is_checking_) return;
+    if (state_ != State::Running || !is_stale_) return;
     for (const auto& project : session_.projects.all()) {
       if (!project->isChanged()) continue;
       if (!waiting_) waiting_ = Clock::now();
@@ -111,6 +111,7 @@ class Server {
       if (view == nullptr) return;
     }
     waiting_.reset();
+    is_stale_ = false;
     endProgress();
     for (const auto& project : session_.projects.all()) publisher_.update(*project);
     publisher_.publish();
@@ -138,7 +139,7 @@ class Server {
   Publisher publisher_;
   Inbox inbox_;
   State state_ = State::New;
-  bool is_checking_ = false;  // the client has read the answer to `initialize`
+  bool is_stale_ = false;  // a notification has come since the last diagnostics; before the first the client reads none
   bool is_done_ = false;
   std::optional<Clock::time_point> waiting_;  // since when changes have no diagnostics
   std::string progress_;                      // its token
