@@ -122,11 +122,7 @@ class PathReader {
     const bool is_this = sameIdentifier(name, "THIS"), is_super = sameIdentifier(name, "SUPER");
     if (!is_this && !is_super) return valueOf(scope_.lookUp(cursor_.pou, keyOf(name)));
     is_this_ = true;
-    if (!cursor_.pou) return {};
-    const sema::Pou& pou = scope_.project().pou(cursor_.pou);
-    const PouId object = pou.owner ? pou.owner : cursor_.pou;
-    const PouId meant = is_this ? object : scope_.project().pou(object).base;
-    return {{}, meant ? scope_.project().pou(meant).record : TypeId{}};
+    return {{}, view_.meanings().typeOfObject(cursor_.pou, is_super)};
   }
 
   Value member(const Value& value, std::string_view name) const {

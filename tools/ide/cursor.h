@@ -41,11 +41,6 @@ struct Cursor {
 };
 Cursor cursorAt(const View& view, FileId file, uint32_t byte);
 
-// What a path denotes.
-struct Value {
-  Entity entity;  // none: an element of an array, a result
-  TypeId type;
-};
 // Of the path that ends before a unit: `a.b[i]^`.
 Value valueBefore(const View& view, const Cursor& cursor, size_t unit);
 

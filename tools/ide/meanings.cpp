@@ -172,7 +172,7 @@ class Collector {
   void writtenName(ExprId id, PouId pou) {
     const ExprKind kind = tree_.kind(id);
     if ((kind == ExprKind::Name || kind == ExprKind::Member) && resolved_.count(tree_.loc(id).offset) == 0)
-      add(tree_.loc(id), meanings_.entityOf(pou, id));
+      add(tree_.loc(id), meanings_.valueOf(pou, id).entity);
     if (kind == ExprKind::TypedName) {
       const TypedNameExpr& node = tree_.as<TypedNameExpr>(id);
       const Entity type = scope_.typeNamed(keyOf(node.type_name.name));
@@ -186,7 +186,7 @@ class Collector {
       };
       const std::span<const Argument> arguments = tree_.list(node.arguments);
       if (std::none_of(arguments.begin(), arguments.end(), isOpen)) return;
-      if (const PouId of = calledBy(meanings_.entityOf(pou, node.callee))) pins(node.arguments, of);
+      if (const PouId of = calledBy(meanings_.valueOf(pou, node.callee).entity)) pins(node.arguments, of);
     }
   }
 
@@ -239,17 +239,6 @@ PouId Meanings::pouAt(Loc parsed) const {
   return pou;
 }
 
-Entity Meanings::entityOf(PouId from, ExprId written) const {
-  const Tree& tree = view_.tree();
-  const auto keyOf = [&](NameId name) { return view_.names().key(name); };
-  if (tree.kind(written) == ExprKind::Name) return scope_.lookUp(from, keyOf(tree.as<NameExpr>(written).name));
-  if (tree.kind(written) != ExprKind::Member) return {};
-  const MemberExpr& node = tree.as<MemberExpr>(written);
-  const NameId member = keyOf(node.member);
-  if (const Entity base = entityOf(from, node.base)) return scope_.memberOf(base, member);
-  return scope_.memberOf(typeOf(from, node.base), member);
-}
-
 // THIS is a pointer to the object, and SUPER the object as its base.
 TypeId Meanings::typeOfObject(PouId from, bool is_base) const {
   if (!from) return {};
@@ -259,23 +248,53 @@ TypeId Meanings::typeOfObject(PouId from, bool is_base) const {
   return meant ? scope_.project().pou(meant).record : TypeId{};
 }
 
-TypeId Meanings::typeOf(PouId from, ExprId written) const {
-  if (!written) return {};
+// From the value of what precedes it; of a leaf there is none.
+Value Meanings::stepFrom(PouId from, const Value& base, ExprId step) const {
   const Tree& tree = view_.tree();
   const types::TypeTable& types = scope_.project().types;
-  const auto target = [&](ExprId base) { return types.info(types.resolve(typeOf(from, base))).base; };
-  const ExprKind kind = tree.kind(written);
-  if (kind == ExprKind::Name || kind == ExprKind::Member) return scope_.typeOf(entityOf(from, written));
-  if (kind == ExprKind::Index) return target(tree.as<IndexExpr>(written).base);
+  const ExprKind kind = tree.kind(step);
+  const auto keyOf = [&](NameId name) { return view_.names().key(name); };
+  const auto valueOf = [&](Entity entity) { return Value{entity, scope_.typeOf(entity)}; };
+  if (kind == ExprKind::Name) return valueOf(scope_.lookUp(from, keyOf(tree.as<NameExpr>(step).name)));
+  if (kind == ExprKind::This || kind == ExprKind::Super) return {{}, typeOfObject(from, kind == ExprKind::Super)};
+  if (kind == ExprKind::Member) {
+    const NameId member = keyOf(tree.as<MemberExpr>(step).member);
+    return valueOf(base.entity ? scope_.memberOf(base.entity, member) : scope_.memberOf(base.type, member));
+  }
+  if (kind == ExprKind::Index) return {{}, types.info(types.resolve(base.type)).base};
   if (kind == ExprKind::Deref) {
-    const ExprId base = tree.as<DerefExpr>(written).base;
-    return tree.kind(base) == ExprKind::This ? typeOfObject(from, false) : target(base);
+    const bool is_object = tree.kind(tree.as<DerefExpr>(step).base) == ExprKind::This;
+    return {{}, is_object ? base.type : types.info(types.resolve(base.type)).base};
   }
-  if (kind == ExprKind::Call) {
-    const Entity callee = entityOf(from, tree.as<CallExpr>(written).callee);
-    return callee.entityKind() == EntityKind::Pou ? scope_.project().pous[callee.index].result : TypeId{};
+  const bool is_call = kind == ExprKind::Call && base.entity.entityKind() == EntityKind::Pou;
+  return {{}, is_call ? scope_.project().pous[base.entity.index].result : TypeId{}};
+}
+
+// Each step is resolved once, from the leaf on.
+Value Meanings::valueOf(PouId from, ExprId written) const {
+  const Tree& tree = view_.tree();
+  std::vector<ExprId> steps;
+  Value value;
+  for (ExprId at = written; at;) {
+    if (const auto known = values_.find(at.word); known != values_.end()) {
+      value = known->second;
+      break;
+    }
+    steps.push_back(at);
+    const ExprKind kind = tree.kind(at);
+    if (kind == ExprKind::Call) {
+      at = tree.as<CallExpr>(at).callee;
+    } else if (kind == ExprKind::Member || kind == ExprKind::Index || kind == ExprKind::Deref) {
+      at = tree.base(at);
+    } else {
+      break;
+    }
   }
-  return kind == ExprKind::Super ? typeOfObject(from, true) : TypeId{};
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    value = stepFrom(from, value, *step);
+    values_.emplace(step->word, value);
+  }
+  return value;
 }
 
 }  // namespace rung::ide

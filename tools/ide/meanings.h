@@ -13,6 +13,12 @@
 
 namespace rung::ide {
 
+// What a path denotes.
+struct Value {
+  Entity entity;  // none: an element of an array, a result
+  TypeId type;
+};
+
 // A name in a parsed text.
 struct NamePlace {
   Loc loc;
@@ -34,16 +40,18 @@ class Meanings {
 
   // The POU whose declaration or body has this byte; none: file level.
   PouId pouAt(Loc parsed) const;
-  // Of an expression as written, also one that is not finished; none: unknown.
-  TypeId typeOf(PouId from, ExprId written) const;
-  Entity entityOf(PouId from, ExprId written) const;
+  // A path as written, also one that is not finished.
+  Value valueOf(PouId from, ExprId written) const;
+  // THIS; SUPER with `is_base`. None: not in an object.
+  TypeId typeOfObject(PouId from, bool is_base) const;
 
  private:
-  TypeId typeOfObject(PouId from, bool is_base) const;
+  Value stepFrom(PouId from, const Value& base, ExprId step) const;
 
   const View& view_;
   Scope scope_;
   mutable std::unordered_map<uint32_t, std::vector<NamePlace>> places_;  // by file
+  mutable std::unordered_map<uint32_t, Value> values_;                   // of paths, by expression
 };
 
 }  // namespace rung::ide

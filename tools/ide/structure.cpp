@@ -127,6 +127,8 @@ std::vector<FileRange> selectionAt(const View& view, FileId file, uint32_t byte)
     if (nodes.empty() && offset > 0) nodes = nodeAt(view.tree(), *unit, {parsed.offset - 1});
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) add(view.inFile(extentOf(view.tree(), *node)));
   }
+  constexpr size_t kMost = 100;  // clients read them by recursion
+  if (ranges.size() > kMost) ranges.resize(kMost);
   add({file, 0, static_cast<uint32_t>(view.textOf(file).size())});
   return ranges;
 }

@@ -62,8 +62,12 @@ Position Positions::positionOf(uint32_t byte) const {
   byte = std::min(byte, static_cast<uint32_t>(text_.size()));
   const auto after = std::upper_bound(starts_.begin(), starts_.end(), byte);
   const auto line = static_cast<uint32_t>(after - starts_.begin() - 1);
-  const std::string_view before = lineAt(line).substr(0, byte - starts_[line]);  // never between CR and LF
-  return {line, unitsOf(before, encoding_)};
+  const uint32_t end = starts_[line] + static_cast<uint32_t>(lineAt(line).size());  // never between CR and LF
+  byte = std::min(byte, end);
+  if (last_.line != line || last_.byte > byte) last_ = {line, starts_[line], 0};
+  last_.units += unitsOf(text_.substr(last_.byte, byte - last_.byte), encoding_);
+  last_.byte = byte;
+  return {line, last_.units};
 }
 
 }  // namespace rung::lsp

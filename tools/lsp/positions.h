@@ -30,6 +30,11 @@ class Positions {
   std::string_view text_;
   Encoding encoding_;
   std::vector<uint32_t> starts_;
+  // The last answer, from which the next one on its line goes on: a line may be a whole file.
+  struct Counted {
+    uint32_t line = 0, byte = 0, units = 0;
+  };
+  mutable Counted last_;
 };
 
 // The length of a text in units of the encoding.

@@ -5,7 +5,7 @@
 # opened, and changed on disk. After each pause every request is asked at random places: none is answered by an error, and
 # the ranges in the answers exist.
 #
-#   typing.py FOLDER [--seed N] [--pauses N]      a folder with a project, of which it works on a copy
+#   edits.py FOLDER [--seed N] [--pauses N]      a folder with a project, of which it works on a copy
 #
 # Prints the first difference with the edits that led to it, or one line.
 import argparse
@@ -22,6 +22,10 @@ from client import CAPABILITIES, Client, read_text, uri  # noqa: E402
 
 SOURCES = (".st", ".il", ".tcpou", ".tcdut", ".tcgvl", ".xml", ".exp", ".nct")
 TYPED = ["x", ";", " ", "\n", "(", ")", "'", "IF ", "END_IF", ":=", "n.", "VAR", "END_VAR", "<", "]]>", "//", "(*", "{", "ü"]
+
+# Requests at a position, and of a document.
+POSITIONED = ["hover", "definition", "declaration", "typeDefinition", "implementation", "signatureHelp", "completion"]
+WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "formatting"]
 
 
 def sources_in(folder):
@@ -142,16 +146,13 @@ class Session:
 
     # ---- asking
 
-    POSITIONED = ["hover", "definition", "declaration", "typeDefinition", "implementation", "signatureHelp", "completion"]
-    WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "formatting"]
-
     def ask(self):
         for file in sorted(self.client.versions):
             document = {"uri": uri(file)}
             at = position_of(self.texts[file], self.place(self.texts[file]))
-            for method in self.POSITIONED:
+            for method in POSITIONED:
                 self.request(method, {"textDocument": document, "position": at})
-            for method in self.WHOLE:
+            for method in WHOLE:
                 self.request(method, {"textDocument": document, "options": {}})
             self.request("selectionRange", {"textDocument": document, "positions": [at]})
 
