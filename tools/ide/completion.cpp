@@ -519,22 +519,40 @@ class Completer {
 
 // ---- pragmas and rung.project
 
+void addPragma(const PragmaWord& word, Completion& result) {
+  CompletionItem& item = result.items.emplace_back();
+  item.label = word.name;
+  item.kind = CompletionKind::Pragma;
+  item.documentation = word.meaning;
+  if (!item.label.ends_with("''")) return;
+  item.insert = item.label.substr(0, item.label.size() - 1) + "$1'";
+  item.is_snippet = true;
+}
+
+// The values in `{attribute 'symbol' := '`.
+void addAttributeValues(std::string_view attribute, Completion& result) {
+  for (const PragmaWord& word : pragmaWords()) {
+    if (!word.is_attribute || word.values == nullptr || !sameIdentifier(word.name, attribute)) continue;
+    for (std::string_view values = word.values; !values.empty();) {
+      const std::string_view value = values.substr(0, values.find(' '));
+      CompletionItem& item = result.items.emplace_back();
+      item.label = value;
+      item.kind = CompletionKind::Item;
+      values.remove_prefix(std::min(value.size() + 1, values.size()));
+    }
+  }
+}
+
+// A pragma after its brace, the name of an attribute in quotes, or the value of one.
 void addPragmas(const Cursor& cursor, Completion& result) {
   const std::string_view text = cursor.prefix;  // from the brace on
-  const size_t quote = text.find('\'');
+  const auto quotes = std::count(text.begin(), text.end(), '\'');
+  const size_t open = text.find('\''), close = text.find('\'', open + 1);
   const bool is_attribute = sameIdentifier(text.substr(0, 10), "{attribute");
-  if (quote != std::string_view::npos && !is_attribute) return;
-  if (quote != std::string_view::npos && text.find('\'', quote + 1) != std::string_view::npos) return;
-  for (const PragmaWord& word : pragmaWords()) {
-    if (word.is_attribute != (quote != std::string_view::npos)) continue;
-    CompletionItem& item = result.items.emplace_back();
-    item.label = word.name;
-    item.kind = CompletionKind::Pragma;
-    item.documentation = word.meaning;
-    if (!item.label.ends_with("''")) continue;
-    item.insert = item.label.substr(0, item.label.size() - 1) + "$1'";
-    item.is_snippet = true;
-  }
+  if (quotes == 3 && is_attribute) addAttributeValues(text.substr(open + 1, close - open - 1), result);
+  if (quotes > 1 || (quotes == 1 && !is_attribute)) return;
+  for (const PragmaWord& word : pragmaWords())
+    if (word.is_attribute == (quotes == 1)) addPragma(word, result);
 }
 
 // The sections after `[`, and the keys of the section around the cursor.

@@ -10,6 +10,7 @@ struct PragmaWord {
   const char* name;
   bool is_attribute;
   const char* meaning;
+  const char* values = nullptr;  // of an attribute, separated by blanks; null: any, or none
 };
 std::span<const PragmaWord> pragmaWords();
 

@@ -77,7 +77,8 @@ void initialized(Session& session) {
   Json watchers;
   watchers.add(
       {{"globPattern",
-        "**/*.{st,ST,St,il,IL,xml,XML,exp,EXP,nct,NCT,cam,TcPOU,TcDUT,TcGVL,TcIO,TcTTO,plcproj,project,iecst}"}});
+        "**/*.{st,ST,St,il,IL,iecst,pou,decl,impl,xml,XML,exp,EXP,nct,NCT,mes,cam,TcPOU,TcDUT,TcGVL,TcIO,TcTTO,"
+        "plcproj,project}"}});
   session.request("client/registerCapability",
                   {{"registrations", Json::Array{Json{{"id", "rung-files"},
                                                       {"method", "workspace/didChangeWatchedFiles"},
