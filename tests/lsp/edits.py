@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from client import CAPABILITIES, Client, read_text, uri  # noqa: E402
@@ -43,6 +44,10 @@ def position_of(text, offset):
     before = text[:offset].replace("\r\n", "\n").replace("\r", "\n")
     line = before.rsplit("\n", 1)[-1]
     return {"line": before.count("\n"), "character": len(line.encode("utf-16-le")) // 2}
+
+
+def path_of(name):
+    return os.path.relpath(urllib.parse.unquote(name[len("file://"):]), os.getcwd())
 
 
 class Session:
@@ -121,7 +126,7 @@ class Session:
         self.client.settle()
         found = []
         for name, (_, diagnostics) in self.client.published.items():
-            path = os.path.relpath(name[len("file://"):], os.getcwd())
+            path = path_of(name)
             for one in diagnostics:
                 start = one["range"]["start"]
                 message = one["message"].split("\n")[0].replace(os.getcwd() + "/", "")
@@ -178,7 +183,7 @@ class Session:
                 self.check_ranges(method, value.get("uri", name), item)
 
     def lines_of(self, name):
-        text = self.texts.get(os.path.relpath(name[len("file://"):], os.getcwd()))
+        text = self.texts.get(path_of(name))
         return text.replace("\r\n", "\n").replace("\r", "\n").split("\n") if text is not None else []
 
     def stop(self, why):
