@@ -65,7 +65,10 @@ void Projects::notice(const std::string& text) {
 std::vector<std::string> Projects::takeNotices() { return std::exchange(notices_, {}); }
 
 void Projects::addFolder(const std::string& path) {
-  if (folders_.insert(driver::absolutePath(path)).second) findProjects();
+  const std::string folder = driver::absolutePath(path);
+  if (folders_.count(folder) != 0) return;
+  folders_[folder] = search(folder);
+  findProjects();
 }
 
 void Projects::removeFolder(const std::string& path) {
@@ -81,7 +84,7 @@ Projects::Home Projects::homeOf(const std::string& path) {
   const workspace::FoundProject found = workspace::projectAround(parentOf(path));
   if (!found.error.empty()) notice(parentOf(path) + ": " + found.error);
   if (!found.input.empty()) return {driver::absolutePath(found.input)};
-  for (const std::string& folder : folders_) {
+  for (const auto& [folder, inputs] : folders_) {
     const bool is_project = std::any_of(projects_.begin(), projects_.end(), [&](const auto& project) {
       return project->input() == folder && !project->is_single_folder_;
     });
@@ -100,19 +103,23 @@ void Projects::addProject(const Home& home) {
   projects_.push_back(std::move(project));
 }
 
+// The inputs of the projects in an opened folder; the folder itself where there is none.
+std::vector<std::string> Projects::search(const std::string& folder) {
+  std::vector<std::string> inputs;
+  for (const std::string& inner : projectFoldersBelow(folder)) {
+    const workspace::FoundProject found = workspace::projectAround(inner);
+    if (!found.error.empty()) notice(inner + ": " + found.error);
+    if (!found.input.empty()) inputs.push_back(driver::absolutePath(found.input));
+  }
+  if (inputs.empty()) inputs.push_back(folder);
+  return inputs;
+}
+
 // Those of the opened folders and of the buffers; a project that is still among them keeps its view.
 void Projects::findProjects() {
   std::vector<std::unique_ptr<Project>> before = std::exchange(projects_, {});
-  for (const std::string& folder : folders_) {
-    std::vector<std::string> inputs;
-    for (const std::string& inner : projectFoldersBelow(folder)) {
-      const workspace::FoundProject found = workspace::projectAround(inner);
-      if (!found.error.empty()) notice(inner + ": " + found.error);
-      if (!found.input.empty()) inputs.push_back(driver::absolutePath(found.input));
-    }
-    if (inputs.empty()) inputs.push_back(folder);
+  for (const auto& [folder, inputs] : folders_)
     for (const std::string& input : inputs) addProject({input});
-  }
   homes_.clear();
   for (const auto& [path, text] : buffers_) addProject(homes_[path] = homeOf(path));
   for (std::unique_ptr<Project>& project : projects_)
@@ -166,7 +173,10 @@ void Projects::close(const std::string& path) {
 }
 
 void Projects::changedOnDisk(const std::string& path) {
-  if (namesProject(path)) findProjects();
+  if (namesProject(path)) {
+    for (auto& [folder, inputs] : folders_) inputs = search(folder);
+    findProjects();
+  }
   for (const auto& project : projects_) {
     const std::string folder = namesProject(project->input()) ? parentOf(project->input()) : project->input();
     const bool reads = project->view() != nullptr && project->view()->fileAt(path);

@@ -72,6 +72,7 @@ class Projects {
     bool is_single_folder = false;
   };
   Home homeOf(const std::string& path);
+  std::vector<std::string> search(const std::string& folder);
   void findProjects();
   void addProject(const Home& home);
   std::vector<std::string> inputsOf(const Project& project) const;
@@ -79,10 +80,10 @@ class Projects {
 
   driver::ProjectOptions options_;
   EmbeddedFiles embedded_;
-  std::unique_ptr<LibraryIndex> libraries_;  // none: not asked for yet
-  std::set<std::string> folders_;
-  std::map<std::string, std::string> buffers_;  // by path
-  std::map<std::string, Home> homes_;           // of the files in buffers
+  std::unique_ptr<LibraryIndex> libraries_;                  // none: not asked for yet
+  std::map<std::string, std::vector<std::string>> folders_;  // those that are opened, with the inputs of their projects
+  std::map<std::string, std::string> buffers_;               // by path
+  std::map<std::string, Home> homes_;                        // of the files in buffers
   std::vector<std::unique_ptr<Project>> projects_;
   std::set<std::string> noticed_;
   std::vector<std::string> notices_;
