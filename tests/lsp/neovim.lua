@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- A session of Neovim with `rung lsp`: an error appears and goes, hover, definition, completion, formatting. Run in a
 -- folder with main.st:
---   nvim --headless -u NONE -i NONE -n -c 'luafile neovim.lua'
+--   nvim --headless -u NONE -i NONE -n -c 'luafile neovim.lua' -c cquit
 -- Prints what the editor shows; lines and columns from 1.
 local milliseconds = 60000
 local out = {}

@@ -84,7 +84,8 @@ Projects::Home Projects::homeOf(const std::string& path) {
   const workspace::FoundProject found = workspace::projectAround(parentOf(path));
   if (!found.error.empty()) notice(parentOf(path) + ": " + found.error);
   if (!found.input.empty()) return {driver::absolutePath(found.input)};
-  for (const auto& [folder, inputs] : folders_) {
+  for (const auto& entry : folders_) {
+    const std::string& folder = entry.first;
     const bool is_project = std::any_of(projects_.begin(), projects_.end(), [&](const auto& project) {
       return project->input() == folder && !project->is_single_folder_;
     });
