@@ -10,10 +10,7 @@
 namespace rung::ide {
 namespace {
 
-bool isIn(const Tree& tree, DeclId pou, Range range) {
-  const Loc loc = tree.loc(pou);
-  return range.begin <= loc && loc < range.end;
-}
+bool holds(Range range, Loc at) { return range.begin <= at && at < range.end; }
 
 // Collects the names of one parsed text.
 class Collector {
@@ -47,7 +44,7 @@ class Collector {
     const Range file{begin, {begin.offset + static_cast<uint32_t>(view_.sources().sourceText(unit_.file).size()) + 1}};
     for (uint32_t i = 1; i < project_.pous.size(); ++i) {
       const sema::Pou& pou = project_.pous[i];
-      if (!pou.decl || pou.instance.of || !isIn(tree_, pou.decl, file)) continue;
+      if (!pou.decl || pou.instance.of || !holds(file, tree_.loc(pou.decl))) continue;
       if (tree_.kind(pou.decl) == DeclKind::Pou) chart(tree_.as<PouDecl>(pou.decl), {i});
       for (const StmtId stmt : tree_.list(pou.body.code)) code(stmt);
       for (const VarId var : pou.vars)
@@ -229,14 +226,26 @@ std::optional<NamePlace> Meanings::at(Loc parsed) const {
   return place;
 }
 
+// By declarations alone: bodies may be deep.
+PouId Meanings::pouIn(Slice<DeclId> decls, Loc at) const {
+  const Tree& tree = view_.tree();
+  for (const DeclId id : tree.list(decls)) {
+    const DeclKind kind = tree.kind(id);
+    if (kind == DeclKind::Property)  // whose second half may be outside of it
+      for (const DeclId accessor : {tree.as<PropertyDecl>(id).get, tree.as<PropertyDecl>(id).set})
+        if (accessor && holds(tree.range(accessor), at)) return scope_.pouOf(accessor);
+    if (!holds(extentOf(tree, id), at)) continue;
+    if (kind == DeclKind::Namespace) return pouIn(tree.as<NamespaceDecl>(id).decls, at);
+    if (kind != DeclKind::Pou) return {};
+    const PouId inner = pouIn(tree.as<PouDecl>(id).members, at);
+    return inner ? inner : scope_.pouOf(id);
+  }
+  return {};
+}
+
 PouId Meanings::pouAt(Loc parsed) const {
   const FileUnit* unit = view_.unitWith(parsed);
-  if (unit == nullptr) return {};
-  PouId pou;
-  for (const NodeRef node : nodeAt(view_.tree(), *unit, parsed))
-    if (node.category == NodeRef::Category::Decl)
-      if (const PouId inner = scope_.pouOf(DeclId{node.word})) pou = inner;
-  return pou;
+  return unit == nullptr ? PouId{} : pouIn(unit->decls, parsed);
 }
 
 // THIS is a pointer to the object, and SUPER the object as its base.

@@ -46,6 +46,7 @@ class Meanings {
   TypeId typeOfObject(PouId from, bool is_base) const;
 
  private:
+  PouId pouIn(Slice<DeclId> decls, Loc at) const;
   Value stepFrom(PouId from, const Value& base, ExprId step) const;
 
   const View& view_;
