@@ -25,7 +25,7 @@ class Sink {
   }
   Sink& operator+=(std::string_view text) {
     if (text.size() > sizeof buffer_ - used_) return appendLarge(text);
-    std::memcpy(buffer_ + used_, text.data(), text.size());
+    if (!text.empty()) std::memcpy(buffer_ + used_, text.data(), text.size());
     used_ += text.size();
     return *this;
   }

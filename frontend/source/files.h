@@ -95,6 +95,8 @@ class Sources {
     return of.active.empty() ? of.source : of.active;
   }
   std::string_view original(FileId file) const { return files_[file.index].source; }
+  // Of source-mapped text; none: the file is as it was read.
+  const std::vector<Segment>& segments(FileId file) const { return files_[file.index].segments; }
   // A source of the same length to parse instead, with the parts blanked that conditional pragmas exclude. Messages
   // show the original.
   void activate(FileId file, std::string source);

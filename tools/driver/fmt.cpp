@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rung fmt`: files in one style, in place. Every file is parsed first, because bodies in IL are known by their POU
-// only, and a file with syntax errors stays as it is. Files are written whole, and only when they change.
+// `rung fmt`: files in one style, in place; and the text of an editor in this style. Every file is parsed first,
+// because bodies in IL are known by their POU only, and a file with syntax errors stays as it is. Files are written
+// whole, and only when they change.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "tools/driver/changes.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/formatted_text.h"
 #include "tools/driver/output_files.h"
 
 namespace rung::driver {
@@ -233,16 +235,46 @@ int formatStandardInput(ProjectOptions project, const FormatOptions& options, Si
   return exit != kSuccess ? exit : printed;
 }
 
-}  // namespace
-
-int runFormat(const ProjectOptions& given, const FormatOptions& options, Sink& sink) {
-  ProjectOptions project = given;
+// Nothing that is only wrong in what the program means matters, and no limit may hide a mistake.
+ProjectOptions forFormatting(ProjectOptions project) {
   project.report.warnings.push_back({"all", false});
   project.report.max_errors = ~0u;  // beyond a limit a file would seem to have none
+  return project;
+}
+
+// For a file of which only the text is wanted.
+class NoSink final : public Sink {
+ public:
+  void message(std::string_view) override {}
+  std::string output(std::string_view) override { return {}; }
+};
+
+}  // namespace
+
+std::optional<std::string> formattedText(const ProjectOptions& given, const UnsavedFile& file,
+                                         const format::Style& style, format::LineRange lines) {
+  ProjectOptions project = forFormatting(given);
+  project.inputs = {file.path};
+  project.unsaved = {file};
+  PhaseTimes times;
+  NoSink sink;
+  Compilation compilation(project, times, sink);
+  if (!compilation.parse() || compilation.inputs.files.size() != 1) return std::nullopt;
+  compilation.inputs.project.style = style;
+  FormatOptions options;
+  options.lines = lines;
+  FileFormatter formatter(compilation, options, sink);
+  const InputFile& input = compilation.inputs.files.front();
+  if (!formatter.canFormat(input)) return std::nullopt;
+  return formatter.text(input, file.text);
+}
+
+int runFormat(const ProjectOptions& given, const FormatOptions& options, Sink& sink) {
+  const ProjectOptions project = forFormatting(given);
   const bool reads_input = std::find(project.inputs.begin(), project.inputs.end(), "-") != project.inputs.end();
   if (reads_input && project.inputs.size() > 1)
     return usageError(sink, "`-` is standard input; name no file beside it");
-  if (reads_input) return formatStandardInput(std::move(project), options, sink);
+  if (reads_input) return formatStandardInput(project, options, sink);
   PhaseTimes times;
   Compilation compilation(project, times, sink);
   compilation.parse();

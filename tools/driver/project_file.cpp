@@ -16,13 +16,7 @@
 namespace rung::driver {
 namespace {
 
-// The sections, whether they have a name, and their keys; null: any key (paths, parameters).
-struct Schema {
-  const char* kind;
-  bool named;
-  const char* keys;  // separated by blanks
-};
-constexpr Schema kSchemas[] = {
+constexpr ProjectSchema kSchemas[] = {
     {"project", false, "name sources std native-width edge-coils libraries checks optimize warnings defines globals"},
     {"task", true, "kind interval priority trigger watchdog sensitivity duration programs"},
     {"module", true, "type station task inputs outputs"},
@@ -35,8 +29,8 @@ constexpr Schema kSchemas[] = {
     {"pool", true, nullptr},  // `new`: bytes
 };
 
-const Schema* findSchema(std::string_view kind) {
-  for (const Schema& schema : kSchemas)
+const ProjectSchema* findSchema(std::string_view kind) {
+  for (const ProjectSchema& schema : kSchemas)
     if (kind == schema.kind) return &schema;
   return nullptr;
 }
@@ -120,7 +114,7 @@ class Reader {
       diagnostics_.report(diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
     } else if (schema_ == nullptr) {
       std::vector<std::string_view> kinds;
-      for (const Schema& schema : kSchemas) kinds.push_back(schema.kind);
+      for (const ProjectSchema& schema : kSchemas) kinds.push_back(schema.kind);
       diagnostics_.report(diag::ProjectUnknownSection, loc(kind), {kind})
           .length(static_cast<uint32_t>(kind.size()))
           .didYouMean(nearest(kind, kinds));
@@ -145,7 +139,7 @@ class Reader {
   Loc base_;
   Diagnostics& diagnostics_;
   ProjectFile& project_;
-  const Schema* schema_ = nullptr;
+  const ProjectSchema* schema_ = nullptr;
 };
 
 void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
@@ -467,5 +461,7 @@ std::vector<std::string> libraryPaths(const ProjectFile& project) {
   }
   return paths;
 }
+
+std::span<const ProjectSchema> projectSchemas() { return kSchemas; }
 
 }  // namespace rung::driver

@@ -4,6 +4,7 @@
 // sections and keys are errors at their location. Called by inputs.cpp.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,6 +63,14 @@ void parseProjectFile(Sources& sources, FileId file, Diagnostics& diagnostics, P
 
 // The libraries of the file, as -I takes them.
 std::vector<std::string> libraryPaths(const ProjectFile& project);
+
+// The sections that the file may have.
+struct ProjectSchema {
+  const char* kind;
+  bool named;        // `[axis conveyor]`
+  const char* keys;  // separated by blanks; null: any (paths, parameters)
+};
+std::span<const ProjectSchema> projectSchemas();
 
 // Applies the settings of the file that the command line does not have.
 void applyProjectFile(const ProjectFile& project, ProjectOptions& options);

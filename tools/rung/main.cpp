@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // rung: parses the command line and runs the command. All exit codes are those of tools/driver/options.h.
 #include <malloc.h>
+#include <unistd.h>
 
 #include <climits>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/overwritten.h"
+#include "tools/lsp/server.h"
 #include "tools/rung/console.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
@@ -37,6 +39,7 @@ int runCommand(const CommandLine& line, Console& console) {
     case Command::New: return rung::driver::runNew(words[0], line.project_template, console);
     case Command::Init: return rung::driver::runInit(project, console);
     case Command::Cam: return rung::driver::runCam(words, line.cam, line.cam_output, console);
+    case Command::Lsp: return rung::lsp::runServer(project, line.lsp_log, STDIN_FILENO, STDOUT_FILENO, console);
     case Command::Explain: return rung::driver::runExplain(words[0], project.report.color, console);
     case Command::Version: return rung::driver::runVersion(console);
     case Command::None:

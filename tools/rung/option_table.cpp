@@ -12,6 +12,7 @@ constexpr uint32_t kCompile =
     bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
 constexpr uint32_t kReads =
     kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Fmt);
+constexpr uint32_t kReadsOrServes = kReads | bit(Command::Lsp);
 constexpr uint32_t kAll = ~0u;
 
 constexpr CommandRow kCommands[] = {
@@ -29,6 +30,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Init, "init", "[DIR]", "write a rung.project for the sources of a folder"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
+    {Command::Lsp, "lsp", "", "serve an editor (language server protocol)"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -312,6 +314,7 @@ constexpr OptionRow kOptions[] = {
      "show the declaration of a function, block or type"},
     {"--template", "NAME", bit(Command::New), setText<&CommandLine::project_template>,
      "what kind of project (default: st)"},
+    {"--log", "FILE", bit(Command::Lsp), setText<&CommandLine::lsp_log>, "write every message to FILE"},
     {"--stroke", "S", bit(Command::Cam), setCam, "way of the slave (default: 1)"},
     {"--length", "X", bit(Command::Cam), setCam, "way of the master (default: 1)"},
     {"--v0", "V", bit(Command::Cam), setCam, "velocity at the begin, per unit of the master"},
@@ -338,7 +341,7 @@ constexpr OptionRow kOptions[] = {
     {"--loss-scale", "E", bit(Command::Cam), setCam, "error from which they count less"},
     {"--master-unit", "U", bit(Command::Cam), setCam, "unit in the file, such as deg"},
     {"--slave-unit", "U", bit(Command::Cam), setCam, "the same"},
-    {"--std", "codesys|iec3|iec2", kReads | bit(Command::Init), setDialect, "dialect (default: codesys)"},
+    {"--std", "codesys|iec3|iec2", kReadsOrServes | bit(Command::Init), setDialect, "dialect (default: codesys)"},
     {"--native-width", "32|64", kCompile, setNativeWidth, "codesys: bits of intermediate results (default: 32)"},
     {"--edge-coils", "pulse|latch", kCompile | bit(Command::Convert), setEdgeCoils,
      "edge coils without an edge: FALSE (default), kept"},
@@ -348,10 +351,10 @@ constexpr OptionRow kOptions[] = {
      "period of Int0 of an NCT program (default: T#2ms)"},
     {"--checks", "LIST", kCompile, setChecks, "div,index,null,cast (default), more, all or none"},
     {"-O", "0|1|2", kCompile, setLevel, "optimization level (default: 1)"},
-    {"-W", "NAME", kReads, addWarning, "enable a warning by name or code; -Wno-NAME disables"},
+    {"-W", "NAME", kReadsOrServes, addWarning, "enable a warning by name or code; -Wno-NAME disables"},
     {"--werror", nullptr, kReads, setFlag<&CommandLine::project, &ProjectOptions::report, &ReportOptions::werror>,
      "treat warnings as errors"},
-    {"--max-errors", "N", kReads, setMaxErrors, "list at most N errors; 0: all (default: 100)"},
+    {"--max-errors", "N", kReadsOrServes, setMaxErrors, "list at most N errors; 0: all (default: 100)"},
     {"--max-warnings", "N", kReads,
      setNumber<0, 1'000'000'000, &CommandLine::project, &ProjectOptions::report, &ReportOptions::max_warnings>,
      "list at most N of one warning; 0: all (default: 20)"},
@@ -362,8 +365,8 @@ constexpr OptionRow kOptions[] = {
      "write diagnostics to FILE in that format, too"},
     {"--color", "auto|always|never", kReads | bit(Command::Explain), setChoice<Color::Auto, &CommandLine::color>,
      "use colours (auto: on a terminal; default: auto)"},
-    {"-D", "NAME[=VALUE]", kReads, addDefine, "define NAME for {IF defined (NAME)}; may be repeated"},
-    {"-I", "PATH", kReads, addText<&CommandLine::project, &ProjectOptions::library_paths>,
+    {"-D", "NAME[=VALUE]", kReadsOrServes, addDefine, "define NAME for {IF defined (NAME)}; may be repeated"},
+    {"-I", "PATH", kReadsOrServes, addText<&CommandLine::project, &ProjectOptions::library_paths>,
      "folder or file with libraries; may be repeated"},
     {"--root", "DIR", kReads, setText<&CommandLine::project, &ProjectOptions::root>,
      "make paths in the output relative to DIR"},

@@ -13,7 +13,7 @@ namespace rung::tool {
 namespace {
 
 // Commands announced in the project's documentation.
-constexpr std::string_view kLaterCommands[] = {"lint", "lsp", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"lint", "monitor"};
 
 // `-O2`, `-Wno-x`, `-Idir`, `-j4`, `-oout`: the value follows a one-letter option without a blank.
 const OptionRow* findGlued(std::string_view word) {
@@ -117,6 +117,7 @@ std::string checkCombination(const CommandLine& line) {
     case Command::New: return words.size() != 1 ? "`rung new` takes one name, that of the folder to make" : "";
     case Command::Init: return words.size() > 1 ? "`rung init` takes one folder" : "";
     case Command::Cam: return words.empty() ? "`rung cam` needs a subcommand: law, check, show, convert or fit" : "";
+    case Command::Lsp: return words.empty() ? "" : "`rung lsp` takes no inputs: the editor names its folders and files";
     case Command::Explain: return words.size() != 1 ? "`rung explain` takes one code, such as E0401" : "";
     case Command::Check:
     case Command::Version:
@@ -255,6 +256,8 @@ std::string parseCommandLine(const std::vector<std::string>& arguments, CommandL
     if (line.command == Command::Help) line.command = Command::None;
     return {};
   }
+  // Beyond the limit the rest of a project is unknown, and an editor asks about it while a quote is missing.
+  if (line.command == Command::Lsp) line.project.report.max_errors = 1000;
   std::string error = parseWords(arguments, line);
   if (!error.empty() || line.help) return error;
   std::vector<std::string>& words = line.project.inputs;

@@ -30,6 +30,7 @@ enum class Command : uint8_t {
   New,
   Init,
   Cam,
+  Lsp,
   Explain,
   Version,
   Help
@@ -55,6 +56,7 @@ struct CommandLine {
   std::string project_template = "st";  // --template
   CamOptions cam;
   std::string cam_output;
+  std::string lsp_log;  // --log of `rung lsp`
 };
 
 // Parses the arguments after the program's name. Returns an error message for the user, or an empty string.

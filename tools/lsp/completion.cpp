@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ide/completion.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "frontend/source/names.h"
+#include "tools/lsp/requests.h"
+#include "tools/lsp/uri.h"
+
+namespace rung::lsp {
+namespace {
+
+// CompletionItemKind of the protocol.
+int numberOf(ide::CompletionKind kind) {
+  using Kind = ide::CompletionKind;
+  switch (kind) {
+    case Kind::Method: return 2;
+    case Kind::Function: return 3;
+    case Kind::Field:
+    case Kind::Pin: return 5;
+    case Kind::Variable: return 6;
+    case Kind::Block: return 7;
+    case Kind::Interface: return 8;
+    case Kind::List: return 9;
+    case Kind::Property:
+    case Kind::Key: return 10;
+    case Kind::Enumeration: return 13;
+    case Kind::Keyword:
+    case Kind::Pragma: return 14;
+    case Kind::Snippet: return 15;
+    case Kind::Item: return 20;
+    case Kind::Constant: return 21;
+    case Kind::Structure: return 22;
+    case Kind::Type: return 25;
+  }
+  return 1;
+}
+
+// For clients without snippets: the text up to the first place.
+std::string withoutPlaces(const ide::CompletionItem& item) {
+  const size_t place = item.insert.find('$');
+  return place == std::string::npos ? item.insert : item.label;
+}
+
+// Clients sort by this text: by rank, and within it by name.
+std::string sortText(const ide::CompletionItem& item) {
+  return std::to_string(item.rank) + foldedIdentifier(item.label);
+}
+
+Json itemJson(const ide::CompletionItem& item, const Json& replaced, const Json& data, bool snippets) {
+  Json json{{"label", item.label}, {"kind", numberOf(item.kind)}, {"sortText", sortText(item)}, {"data", data}};
+  if (!item.detail.empty()) json.set("detail", item.detail);
+  std::string text = item.insert.empty() ? item.label : item.insert;
+  if (item.is_snippet && !snippets) text = withoutPlaces(item);
+  if (item.is_snippet && snippets) json.set("insertTextFormat", 2);
+  json.set("textEdit", {{"range", replaced}, {"newText", std::move(text)}});
+  return json;
+}
+
+// The completions at a place, for a request and for the item that a client asks more about.
+struct Found {
+  Place place;
+  ide::Completion completion;
+};
+std::optional<Found> completionsOf(Session& session, const Json& params) {
+  std::optional<Place> place = placeOf(session, params);
+  if (!place || place->view == nullptr) return std::nullopt;
+  ide::Completion completion = ide::completionsAt(*place->view, session.projects.libraries(), place->file, place->byte);
+  return Found{std::move(*place), std::move(completion)};
+}
+
+}  // namespace
+
+Answer completion(Session& session, const Json& params) {
+  if (!params["textDocument"]["uri"].isText()) return noDocument();
+  const std::optional<Found> found = completionsOf(session, params);
+  if (!found) return Json();
+  Translator translator(*found->place.view, session.encoding);
+  const Json replaced = translator.range(found->completion.replaced);
+  const Json data{{"textDocument", Json{{"uri", params["textDocument"]["uri"]}}}, {"position", params["position"]}};
+  Json::Array items;
+  for (const ide::CompletionItem& item : found->completion.items) {
+    // A snippet that a client cannot fill in is left out where it only repeats a name.
+    const bool repeats = item.is_snippet && !session.client.snippets && item.label.ends_with("(…)");
+    if (!repeats) items.push_back(itemJson(item, replaced, data, session.client.snippets));
+  }
+  return Json{{"isIncomplete", found->completion.is_incomplete}, {"items", std::move(items)}};
+}
+
+// The documentation, which is read only for the item that is shown.
+Answer resolveCompletion(Session& session, const Json& params) {
+  Json item = params;
+  const std::optional<Found> found = completionsOf(session, params["data"]);
+  if (!found) return item;
+  for (const ide::CompletionItem& candidate : found->completion.items) {
+    if (candidate.label != params["label"].text() || numberOf(candidate.kind) != params["kind"].integer()) continue;
+    const std::string text = ide::documentationOf(*found->place.view, candidate);
+    if (!text.empty()) item.set("documentation", {{"kind", "markdown"}, {"value", text}});
+    break;
+  }
+  return item;
+}
+
+}  // namespace rung::lsp

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/lsp/methods.h"
+
+#include "tools/lsp/lifecycle.h"
+#include "tools/lsp/requests.h"
+
+namespace rung::lsp {
+namespace {
+
+constexpr RequestMethod kRequests[] = {
+    {"textDocument/documentSymbol", documentSymbols},
+    {"workspace/symbol", workspaceSymbols},
+    {"textDocument/foldingRange", foldingRanges},
+    {"textDocument/selectionRange", selectionRanges},
+    {"textDocument/semanticTokens/full", semanticTokensFull},
+    {"textDocument/semanticTokens/range", semanticTokensRange},
+    {"textDocument/hover", hover},
+    {"textDocument/declaration", declaration},
+    {"textDocument/definition", definition},
+    {"textDocument/typeDefinition", typeDefinition},
+    {"textDocument/implementation", implementation},
+    {"textDocument/signatureHelp", signatureHelp},
+    {"textDocument/completion", completion},
+    {"completionItem/resolve", resolveCompletion},
+    {"textDocument/formatting", formatDocument},
+    {"textDocument/rangeFormatting", formatRange},
+};
+
+constexpr NotificationMethod kNotifications[] = {
+    {"textDocument/didOpen", didOpen},
+    {"textDocument/didChange", didChange},
+    {"textDocument/didClose", didClose},
+    {"textDocument/didSave", didSave},
+    {"workspace/didChangeWorkspaceFolders", didChangeFolders},
+    {"workspace/didChangeWatchedFiles", didChangeFiles},
+};
+
+}  // namespace
+
+const RequestMethod* findRequest(std::string_view method) {
+  for (const RequestMethod& row : kRequests)
+    if (method == row.name) return &row;
+  return nullptr;
+}
+
+const NotificationMethod* findNotification(std::string_view method) {
+  for (const NotificationMethod& row : kNotifications)
+    if (method == row.name) return &row;
+  return nullptr;
+}
+
+}  // namespace rung::lsp

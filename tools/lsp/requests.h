@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The answers to the requests about documents. In: parameters as the protocol defines them. Out: the answer of the IDE
+// (tools/ide) as JSON; null where there is nothing to say. Listed in methods.cpp.
+#pragma once
+
+#include "tools/lsp/session.h"
+
+namespace rung::lsp {
+
+// symbols.cpp
+Answer documentSymbols(Session& session, const Json& params);
+Answer workspaceSymbols(Session& session, const Json& params);
+// structure.cpp
+Answer foldingRanges(Session& session, const Json& params);
+Answer selectionRanges(Session& session, const Json& params);
+// semantic_tokens.cpp
+Answer semanticTokensFull(Session& session, const Json& params);
+Answer semanticTokensRange(Session& session, const Json& params);
+// formatting.cpp
+Answer formatDocument(Session& session, const Json& params);
+Answer formatRange(Session& session, const Json& params);
+// navigation.cpp
+Answer declaration(Session& session, const Json& params);
+Answer definition(Session& session, const Json& params);
+Answer typeDefinition(Session& session, const Json& params);
+Answer implementation(Session& session, const Json& params);
+Answer hover(Session& session, const Json& params);
+Answer signatureHelp(Session& session, const Json& params);
+// completion.cpp
+Answer completion(Session& session, const Json& params);
+Answer resolveCompletion(Session& session, const Json& params);
+
+// The error for parameters without a document.
+inline Answer noDocument() { return {kInvalidParams, "`textDocument.uri` must be a string"}; }
+
+}  // namespace rung::lsp
