@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sema/bodies/generic_calls.h"
 
+#include <algorithm>
+
 #include "sema/access.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/conversions.h"
