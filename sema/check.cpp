@@ -134,6 +134,11 @@ CheckedProject::~CheckedProject() = default;
 
 std::span<const FileId> CheckedProject::librarySources() const { return scopes_->libraries.sources; }
 
+size_t CheckedProject::knownBesideBodies() const {
+  return project_.vars.size() + project_.pous.size() + project_.global_lists.size() + scopes_->code.size() +
+         scopes_->written_types.size() + scopes_->initial_values.size();
+}
+
 bool CheckedProject::replaceBodies(std::span<const NewBody> bodies) {
   Context context = contextOf(project_, *scopes_);
   std::vector<PouId> pous;

@@ -40,6 +40,8 @@ class CheckedProject {
   // is taken back. False: declarations or other bodies depend on one of them, so that the project is to be checked
   // again, and what is known of it now is of no use.
   bool replaceBodies(std::span<const NewBody> bodies);
+  // Grows with what outlives bodies, such as a library block that one used first.
+  size_t knownBesideBodies() const;
 
  private:
   Project& project_;

@@ -57,6 +57,7 @@ class NodeMap {
     }
     return slot.value;
   }
+  size_t size() const { return count_; }
   // As it is when nothing is known.
   T find(Id id) const { return slots_.empty() ? T{} : const_cast<NodeMap*>(this)->slotOf(id).value; }
 

@@ -7,6 +7,8 @@
 # networks      2 000 random networks and charts and 2 000 blocks in IL, against what they must compute (COUNT, FIRST)
 # mutants       40 000 corrupted programs, drawings and ladders: one error at the right place, and no crash (COUNT, FIRST)
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
+# snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
+#               they cost (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
@@ -60,6 +62,20 @@ frames() {
   needs runtime_test
   RUNG_MUTATION_SEED=$first RUNG_MUTATION_COUNT=${COUNT:-1000000} "$bin/runtime_test" --gtest_filter='Modbus.*' --gtest_brief=1
   tests/fuzz/frames/frames.sh "${SECONDS_EACH:-300}" "$first"
+}
+
+snapshots() {
+  needs snapshot_edits
+  local folder
+  folder=$(mktemp -d)
+  tests/bench/project.py "$folder"
+  "$bin/snapshot_edits" "$folder" "${COUNT:-10000}" "$first" 100
+  local sources
+  for sources in samples/*/ tests/conformance/*/*/; do
+    ls "$sources"*.st >/dev/null 2>&1 || continue
+    "$bin/snapshot_edits" "$sources" 200 "$first" 1 >"$folder/log" || { cat "$folder/log"; exit 1; }
+  done
+  rm -r "$folder"
 }
 
 forces() {
@@ -164,7 +180,7 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do
   case $part in
     differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;

@@ -437,12 +437,12 @@ std::string blanked(std::string_view text, const std::vector<Blank>& blanks) {
 
 }  // namespace
 
-void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
+bool applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
                      Diagnostics& diagnostics) {
   std::vector<FileId> with;
   for (const FileId file : files)
     if (mayHaveConditions(sources.sourceText(file))) with.push_back(file);
-  if (with.empty()) return;
+  if (with.empty()) return false;
 
   const auto evaluate = [&](FileId file, const Declared* declared, Diagnostics& to) {
     FileConditions conditions(sources.sourceText(file), sources.begin(file), {defines.begin(), defines.end()}, dialect,
@@ -475,6 +475,7 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
     const FileConditions conditions = evaluate(file, &declared, diagnostics);
     sources.activate(file, blanked(sources.sourceText(file), conditions.blanks));
   }
+  return asked;
 }
 
 }  // namespace rung::text

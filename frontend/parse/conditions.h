@@ -22,8 +22,8 @@ struct Define {
 // {define} holds from its location to the end of its file. `defined (variable: x)`, `type:`, `pou:`, `task:`,
 // `resource:`, `hasattribute` and `hastype` ask about declarations of the project, which are known only when everything
 // outside of such conditions has been parsed. Only where such a condition occurs are the files parsed here, an extra
-// time.
-void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
+// time. Returns whether there is one: what a file contains may then depend on what others declare.
+bool applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
                      Diagnostics& diagnostics);
 
 }  // namespace rung::text

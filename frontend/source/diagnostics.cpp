@@ -81,7 +81,7 @@ Report& Report::path(std::string path) {
 namespace {
 
 uint64_t lineKey(const Sources& sources, Loc loc) {
-  return uint64_t{sources.wholeOf(sources.fileOf(loc)).index} << 32 | sources.lineNumber(loc);
+  return uint64_t{sources.editedFile(sources.fileOf(loc)).index} << 32 | sources.lineNumber(loc);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ FileId Sources::edit(FileId file, std::string source) {
   const auto index = static_cast<uint32_t>(files_.size());
   File& before = files_.emplace_back();
   File& of = files_[file.index];
-  before.part_of = file;
+  before.before_of = file;
   before.path = of.path;
   before.display_path = of.display_path;
   before.source = std::move(of.source);
@@ -161,12 +161,6 @@ FileId Sources::edit(FileId file, std::string source) {
   last_location_ = {};
   of.source = std::move(source);
   return takeRange(file.index, of.source.size()) ? FileId{index} : FileId{};
-}
-
-FileId Sources::addPart(FileId file, std::string source) {
-  const FileId part = addSourceMapped(files_[file.index].path, std::move(source), {{0, begin(file), true}});
-  if (part) files_[part.index].part_of = file;
-  return part;
 }
 
 void Sources::forget(FileId file) {
@@ -202,16 +196,25 @@ FileId Sources::fileOf(Loc loc) const {
   return {index};
 }
 
-Loc Sources::originalLocation(Loc loc) const {
-  const FileId id = fileOf(loc);
-  if (!id || files_[id.index].segments.empty()) return loc;
-  const std::vector<Segment>& segments = files_[id.index].segments;
-  const uint32_t at = loc.offset - files_[id.index].base;
+// The location that a location in source-mapped text was made of.
+Loc Sources::mapped(const File& file, Loc loc) {
+  const std::vector<Segment>& segments = file.segments;
+  const uint32_t at = loc.offset - file.base;
   const auto after = std::upper_bound(segments.begin() + 1, segments.end(), at,
                                       [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
   const Segment& segment = *(after - 1);
-  return originalLocation(
-      {segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be source-mapped as well
+  return {segment.from.offset + (segment.verbatim ? at - segment.at : 0)};
+}
+
+Loc Sources::originalLocation(Loc loc) const {
+  const FileId id = fileOf(loc);
+  if (!id || files_[id.index].segments.empty()) return loc;
+  return originalLocation(mapped(files_[id.index], loc));  // which may be source-mapped as well
+}
+
+Loc Sources::current(Loc loc) const {
+  const FileId id = fileOf(loc);
+  return id && files_[id.index].before_of ? mapped(files_[id.index], loc) : loc;
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {

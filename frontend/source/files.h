@@ -60,16 +60,16 @@ class Sources {
   // The file has this text from now on. Returns the id of its text of before, in which locations stay valid: it is a
   // source-mapped text, which remap() maps to the new one. No file when the 32-bit space is full.
   FileId edit(FileId file, std::string source);
-  // A part of an edited file as a text of its own.
-  FileId addPart(FileId file, std::string source);
   void remap(FileId file, std::vector<Segment> segments) { files_[file.index].segments = std::move(segments); }
   // No location leads there any more.
   void forget(FileId file);
-  // The file that this is a part of, or its text of before; else itself.
-  FileId wholeOf(FileId file) const {
-    const FileId whole = files_[file.index].part_of;
-    return whole ? whole : file;
+  // The file whose text of before this is; else itself.
+  FileId editedFile(FileId text) const {
+    const FileId file = files_[text.index].before_of;
+    return file ? file : text;
   }
+  // The location in the text that the file has now.
+  Loc current(Loc loc) const;
 
   // The path that messages show for the file, where it differs from its own.
   void setDisplayPath(FileId file, std::string display_path) {
@@ -126,10 +126,11 @@ class Sources {
     std::unique_ptr<Lines> lines = std::make_unique<Lines>();  // found when they are first asked for
     std::string active = {};
     bool any_underscores = false;
-    FileId part_of = {};
+    FileId before_of = {};
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
   bool takeRange(uint32_t file, size_t bytes);
+  static Loc mapped(const File& file, Loc loc);
 
   std::deque<File> files_;
   struct Extent {

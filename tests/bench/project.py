@@ -22,9 +22,9 @@ LEFT_OUT = ["samples/boiler/tests", "samples/milling_machine", "tests/conformanc
             "tests/conformance/manuals/tm_tp_7_drives", "tests/conformance/manuals/tm_tp_9_hsio"]
 
 # A file with one of these depends on more than the standard dialect and the libraries: on options, on files beside it,
-# on the tasks or the process image of its own project, or on C++.
+# on the tasks or the process image of its own project, on C++, or on what all files declare.
 BOUND = re.compile(r"//\s*(args|with|expect|restart|exit)\b|\bCONFIGURATION\b|\bAT\s*%|%[IQM]|\{external|\{native|\{init"
-                   r"|\bVAR_CONFIG\b|\bVAR_ACCESS\b|\bNAMESPACE\b|\bUSING\b|\bEXTENDS\b|\bIMPLEMENTS\b|#if", re.I)
+                   r"|\bVAR_CONFIG\b|\bVAR_ACCESS\b|\bNAMESPACE\b|\bUSING\b|\bEXTENDS\b|\bIMPLEMENTS\b|#if|\{\s*IF\b", re.I)
 
 POU = re.compile(r"^[ \t]*(?:\{[^}\n]*\}[ \t]*)*(?:FUNCTION_BLOCK|FUNCTION|PROGRAM|CLASS|INTERFACE)[ \t]+"
                  r"(?:(?:FINAL|ABSTRACT|PUBLIC|INTERNAL)[ \t]+)*(\w+)", re.I | re.M)

@@ -184,15 +184,34 @@ void Compilation::hideOtherVendors(std::vector<sema::LibraryFile>& files) const 
 }
 
 // Appends the file to the tree, and notes what its parser says of the whole tree.
-FileUnit Compilation::parseFile(FileId file) {
+void Compilation::parseFile(FileId file) {
   const bool lost_names = std::exchange(tree.lost_names, false);
   std::vector<bool> eno_read_of = std::exchange(tree.eno_read_of, {});
-  const FileUnit unit = text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
+  text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   parsed_.push_back({file, tree.lost_names, tree.eno_read_of});
   tree.lost_names = tree.lost_names || lost_names;
   addTo(eno_read_of, tree.eno_read_of);
   tree.eno_read_of = std::move(eno_read_of);
-  return unit;
+}
+
+// Puts the file into its place in the tree, and its parser's messages into that of the old ones.
+void Compilation::parseFileAgain(FileId file) {
+  diagnostics.retract([&](const Diagnostic& diagnostic) {
+    return diagnostic.reporter == 0 && sources.editedFile(sources.fileOf(diagnostic.loc)) == file;
+  });
+  const auto is_it = [&](const auto& parsed) { return parsed.file == file; };
+  const auto place = std::find_if(tree.files.begin(), tree.files.end(), is_it) - tree.files.begin();
+  parsed_.erase(std::find_if(parsed_.begin(), parsed_.end(), is_it));
+  parseFile(file);
+  tree.files[static_cast<size_t>(place)] = tree.files.back();
+  tree.files.pop_back();
+}
+
+bool Compilation::parseAgain(FileId file) {
+  const ParsedFile before =
+      *std::find_if(parsed_.begin(), parsed_.end(), [&](const ParsedFile& parsed) { return parsed.file == file; });
+  parseFileAgain(file);
+  return before.lost_names == parsed_.back().lost_names && before.eno_read_of == parsed_.back().eno_read_of;
 }
 
 bool Compilation::parse() {
@@ -201,7 +220,7 @@ bool Compilation::parse() {
   tree.lost_names = inputs.unread;
   std::vector<FileId> files;
   for (const InputFile& file : inputs.files) files.push_back(file.file);
-  text::applyConditions(sources, files, options.defines, options.dialect, diagnostics);
+  asks_for_names_ = text::applyConditions(sources, files, options.defines, options.dialect, diagnostics);
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());
@@ -297,23 +316,14 @@ bool Compilation::checkAgain(std::span<const FileId> changed) {
   size_before_last_ = is_last ? size_before_last_ : written_size_;
   last_changed_ = changed.size() == 1 ? changed[0] : FileId{};
   tree.truncate(size_before_last_);
-  const auto is_changed = [&](FileId file) { return std::find(changed.begin(), changed.end(), file) != changed.end(); };
-  diagnostics.retract([&](const Diagnostic& diagnostic) {
-    return diagnostic.reporter != 0 || is_changed(sources.wholeOf(sources.fileOf(diagnostic.loc)));
-  });
+  diagnostics.retract([](const Diagnostic& diagnostic) { return diagnostic.reporter != 0; });
+  for (const FileId file : changed) parseFileAgain(file);
   if (diagnostics.full()) return false;
   tree.lost_names = inputs.unread;
   tree.eno_read_of.clear();
-  std::erase_if(parsed_, [&](const ParsedFile& file) { return is_changed(file.file); });
   for (const ParsedFile& file : parsed_) {
     tree.lost_names = tree.lost_names || file.lost_names;
     addTo(tree.eno_read_of, file.eno_read_of);
-  }
-  for (size_t i = 0; i < tree.files.size(); ++i) {
-    if (!is_changed(tree.files[i].file)) continue;
-    const FileUnit unit = parseFile(tree.files[i].file);
-    tree.files.pop_back();
-    tree.files[i] = unit;
   }
   written_size_ = tree.size();
   checkParsed();

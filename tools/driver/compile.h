@@ -56,10 +56,16 @@ class Compilation {
   bool read();
   bool parse();
   bool check();
-  bool lower();  // and optimize
+  bool lower();                                           // and optimize
+  uint32_t writtenSize() const { return written_size_; }  // of the tree, without code
+  // After check(): parses a file in ST again that has another text: Sources::edit. False: names of the whole project
+  // may have come or gone.
+  bool parseAgain(FileId file);
   // After check(): the project in which these files in ST have another text (Sources::edit). The trees of the others
   // are kept. False: another Compilation is needed, and this one is of no use.
   bool checkAgain(std::span<const FileId> changed);
+  // A condition of a pragma asks what the project declares.
+  bool asksForNames() const { return asks_for_names_; }
   // After parse(), for pictures: see sema/project.h. Mistakes in declarations are not reported.
   std::vector<bool> inOutsOfBoxes();
   bool emit(std::vector<codegen::OutputFile>& files);
@@ -104,7 +110,8 @@ class Compilation {
     bool lost_names;
     std::vector<bool> eno_read_of;
   };
-  FileUnit parseFile(FileId file);
+  void parseFile(FileId file);
+  void parseFileAgain(FileId file);
   void noteLibraries();
   void checkParsed();
   std::string whatIsRead() const;
@@ -118,6 +125,7 @@ class Compilation {
   void dump(const std::string& text) const;
   bool verified(const char* after);
 
+  bool asks_for_names_ = false;
   std::vector<ParsedFile> parsed_;  // what each adds to the tree as a whole
   uint32_t written_size_ = 0;       // of the tree when all files are parsed
   uint32_t size_before_last_ = 0;   // … before checkAgain() parsed `last_changed_` alone

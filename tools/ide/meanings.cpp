@@ -33,7 +33,8 @@ class Collector {
  private:
   void add(Loc loc, Entity entity, bool is_declaration = false) {
     const EntityKind kind = entity.entityKind();
-    if (loc && kind != EntityKind::None && kind != EntityKind::Error) places_.push_back({loc, entity, is_declaration});
+    if (loc && kind != EntityKind::None && kind != EntityKind::Error)
+      places_.push_back({view_.sources().current(loc), entity, is_declaration});
   }
   NameId keyOf(NameId name) const { return view_.names().key(name); }
 
@@ -44,7 +45,7 @@ class Collector {
     const Range file{begin, {begin.offset + static_cast<uint32_t>(view_.sources().sourceText(unit_.file).size()) + 1}};
     for (uint32_t i = 1; i < project_.pous.size(); ++i) {
       const sema::Pou& pou = project_.pous[i];
-      if (!pou.decl || pou.instance.of || !holds(file, tree_.loc(pou.decl))) continue;
+      if (!pou.decl || pou.instance.of || !holds(file, view_.sources().current(tree_.loc(pou.decl)))) continue;
       if (tree_.kind(pou.decl) == DeclKind::Pou) chart(tree_.as<PouDecl>(pou.decl), {i});
       for (const StmtId stmt : tree_.list(pou.body.code)) code(stmt);
       for (const VarId var : pou.vars)
@@ -52,7 +53,7 @@ class Collector {
     }
     for (const sema::GlobalList& list : project_.global_lists)
       for (const VarId var : list.vars)
-        if (project_.var(var).init && file.begin <= project_.var(var).loc && project_.var(var).loc < file.end)
+        if (project_.var(var).init && holds(file, view_.sources().current(project_.var(var).loc)))
           code(project_.var(var).init);
   }
 

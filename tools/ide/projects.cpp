@@ -218,6 +218,7 @@ const View* Projects::update(Project& project, const std::atomic<bool>* cancelle
   std::vector<workspace::Change> changes;
   for (auto& [path, text] : project.changes_) changes.push_back({path, std::move(text)});
   project.changes_.clear();
+  project.view_.reset();  // what it shows may be brought up to date in its place
   auto snapshot = project.workspace_->apply(std::move(changes), cancelled);
   if (snapshot == nullptr) return nullptr;
   if (!snapshot->error().empty()) notice(project.input() + ": " + snapshot->error());

@@ -36,14 +36,14 @@ void Scope::addPous() {
   for (uint32_t i = 1; i < project_.pous.size(); ++i) {
     const sema::Pou& pou = project_.pous[i];
     if (pou.instance.of) continue;
-    if (pou.decl) pous_.emplace(pou.decl.word, PouId{i});
+    if (pou.decl) pous_.emplace(placeOf(project_.tree.decl(pou.decl).begin), PouId{i});
     if (pou.loc && pou.object.accessor == sema::AccessorKind::None)
-      places_.emplace(pou.loc.offset, Entity::of(EntityKind::Pou, i));
+      places_.emplace(placeOf(pou.loc), Entity::of(EntityKind::Pou, i));
     if (pou.record) blocks_.emplace(pou.record.index, PouId{i});
   }
   for (uint32_t i = 1; i < project_.properties.size(); ++i) {
     const sema::Property& property = project_.properties[i];
-    places_.emplace(property.loc.offset, Entity::of(EntityKind::Property, i));
+    places_.emplace(placeOf(property.loc), Entity::of(EntityKind::Property, i));
     for (const PouId accessor : {property.get, property.set})
       if (accessor) properties_.emplace(accessor.index, i);
   }
@@ -53,12 +53,12 @@ void Scope::addVars() {
   for (uint32_t i = 1; i < project_.vars.size(); ++i) {
     const sema::Var& var = project_.vars[i];
     if (!isWritten(var)) continue;
-    places_.emplace(var.loc.offset, Entity::of(EntityKind::Var, i));
+    places_.emplace(placeOf(var.loc), Entity::of(EntityKind::Var, i));
     if (var.record && !var.pou) fields_[var.record.index].push_back(VarId{i});
   }
   for (uint32_t i = 1; i < project_.enum_values.size(); ++i) {
     const sema::EnumValue& value = project_.enum_values[i];
-    places_.emplace(value.loc.offset, Entity::of(EntityKind::EnumValue, i));
+    places_.emplace(placeOf(value.loc), Entity::of(EntityKind::EnumValue, i));
     items_[value.type.index].push_back(i);
   }
 }
@@ -105,9 +105,12 @@ void Scope::addGlobals() {
 
 // ---- by place
 
-PouId Scope::pouOf(DeclId declaration) const { return found(pous_, declaration.word); }
+// What is declared may have been checked in a text of before: sources map it to the one that is edited.
+uint32_t Scope::placeOf(Loc loc) const { return project_.sources.current(loc).offset; }
 
-Entity Scope::declaredAt(Loc name) const { return found(places_, name.offset); }
+PouId Scope::pouOf(DeclId declaration) const { return found(pous_, placeOf(project_.tree.decl(declaration).begin)); }
+
+Entity Scope::declaredAt(Loc name) const { return found(places_, placeOf(name)); }
 
 Loc Scope::locOf(Entity entity) const {
   switch (entity.entityKind()) {

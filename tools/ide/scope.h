@@ -64,10 +64,11 @@ class Scope {
   void addGlobals();
   void addTypes();
   NameId keyOf(NameId name) const { return project_.names.key(name); }
+  uint32_t placeOf(Loc loc) const;
   void membersOfPou(PouId pou, bool with_locals, Visit visit) const;
 
   const sema::Project& project_;
-  std::unordered_map<uint32_t, PouId> pous_;                   // by declaration
+  std::unordered_map<uint32_t, PouId> pous_;                   // by where the declaration begins
   std::unordered_map<uint32_t, Entity> places_;                // by the offset of the declared name
   ByKey<Entity> globals_;                                      // visible in the whole project
   ByKey<Entity> types_;                                        // types and blocks

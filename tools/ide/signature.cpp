@@ -24,7 +24,7 @@ void addPins(const Parsed& in, const PouDecl& pou, PouSignature& signature) {
     const SectionDecl& section = in.tree.as<SectionDecl>(id);
     const bool has_pins = section.section == SectionKind::Input || section.section == SectionKind::Output ||
                           section.section == SectionKind::InOut;
-    if (!has_pins || (section.h.bits & kHidden)) continue;
+    if (!has_pins || section.maker == SectionMaker::Networks) continue;
     for (const DeclId var_id : in.tree.list(section.vars)) {
       const VarDecl& var = in.tree.as<VarDecl>(var_id);
       for (const Ident& name : in.tree.list(var.names))

@@ -132,8 +132,8 @@ class Outline {
 
   Symbols section(const SectionDecl& section) {
     Symbols symbols;
-    const SymbolKind kind = section.h.bits & kConstant ? SymbolKind::Constant : SymbolKind::Variable;
-    if (!(section.h.bits & (kHidden | kOfChart)))
+    const SymbolKind kind = section.qualifiers.constant ? SymbolKind::Constant : SymbolKind::Variable;
+    if (section.maker == SectionMaker::None)
       for (const DeclId var : tree_.list(section.vars)) addVar(tree_.as<VarDecl>(var), kind, symbols);
     return symbols;
   }
@@ -233,7 +233,7 @@ class Finder {
   }
 
   void section(const SectionDecl& section, const std::string& container) {
-    const SymbolKind kind = section.h.bits & kConstant ? SymbolKind::Constant : SymbolKind::Variable;
+    const SymbolKind kind = section.qualifiers.constant ? SymbolKind::Constant : SymbolKind::Variable;
     for (const DeclId var : tree_.list(section.vars)) variables(tree_.as<VarDecl>(var), kind, container);
   }
   void variables(const VarDecl& var, SymbolKind kind, const std::string& container) {

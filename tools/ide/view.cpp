@@ -101,7 +101,7 @@ Loc View::parsedAt(FileId file, uint32_t byte) const {
 }
 
 const FileUnit* View::unitWith(Loc parsed) const {
-  const FileId file = sources().fileOf(parsed);
+  const FileId file = sources().fileOf(sources().current(parsed));
   for (const FileUnit& unit : tree().files)
     if (unit.file == file) return &unit;
   return nullptr;

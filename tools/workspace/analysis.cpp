@@ -10,8 +10,8 @@
 namespace rung::workspace {
 namespace {
 
-// Of source that was parsed again: each byte takes about twenty bytes of memory, until a new analysis frees them.
-constexpr size_t kMostReplaced = 1 << 20, kMostKept = 2 << 20;
+// Words by which the tree may grow with what is replaced, before it is made again: 32 MB.
+constexpr uint32_t kMostGarbage = 8 << 20;
 
 uint64_t nextRevision() {
   static std::atomic<uint64_t> last = 0;
@@ -27,15 +27,16 @@ Analysis::Analysis(driver::ProjectOptions options, const std::atomic<bool>* canc
   compilation_.check();
   compilation_.cancelled = nullptr;
   compilation_.finish();
+  first_size_ = compilation_.writtenSize();
+  checked_size_ = compilation_.tree.size();
 }
 
 bool Analysis::edit(const std::string& path, const std::string& text, const std::atomic<bool>* cancelled) {
   if (!compilation_.checked || !sink_.error_text.empty()) return false;
   EditedFile* const edited = editedFile(path);
   if (edited == nullptr) return false;
-  replaced_bytes_ += edited->bytesAround(text);
-  const bool is_done =
-      (replaced_bytes_ < kMostReplaced && edited->replace(text)) || checkAgain(*edited, text, cancelled);
+  const bool has_room = compilation_.tree.size() < checked_size_ + kMostGarbage;
+  const bool is_done = (has_room && edited->replace(text)) || checkAgain(*edited, text, cancelled);
   if (is_done) compilation_.finish();
   return is_done;
 }
@@ -53,8 +54,8 @@ EditedFile* Analysis::editedFile(const std::string& path) {
 
 // Parses the edited files alone.
 bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled) {
-  kept_bytes_ += text.size();
-  if (kept_bytes_ > kMostKept || !canKeepTrees() || !edited.take(text)) return false;
+  if (compilation_.writtenSize() > first_size_ + kMostGarbage || compilation_.asksForNames() || !edited.take(text))
+    return false;
   std::vector<FileId> changed;
   for (const auto& [path, file] : edited_) changed.push_back(file.file());
   compilation_.cancelled = cancelled;
@@ -62,18 +63,9 @@ bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std
   compilation_.cancelled = nullptr;
   for (auto& [path, file] : edited_) file.release();
   edited_.clear();
-  replaced_bytes_ = 0;
+  checked_size_ = compilation_.tree.size();
   revision = nextRevision();
   return is_done;
-}
-
-// Not where a condition of a pragma may ask what other files declare.
-bool Analysis::canKeepTrees() const {
-  const Sources& sources = compilation_.sources;
-  const std::vector<driver::InputFile>& files = compilation_.inputs.files;
-  return std::none_of(files.begin(), files.end(), [&](const driver::InputFile& file) {
-    return sources.sourceText(file.file).data() != sources.original(file.file).data();
-  });
 }
 
 }  // namespace rung::workspace

@@ -28,7 +28,6 @@ class Analysis {
  private:
   EditedFile* editedFile(const std::string& path);
   bool checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled);
-  bool canKeepTrees() const;
 
   struct Silent final : driver::Sink {
     void message(std::string_view) override {}
@@ -41,9 +40,8 @@ class Analysis {
   Silent sink_;
   driver::PhaseTimes times_;
   driver::Compilation compilation_;
-  std::map<std::string, EditedFile> edited_;  // by absolute path
-  size_t replaced_bytes_ = 0;                 // by bodies, since the last check: what they replace is still in memory
-  size_t kept_bytes_ = 0;                     // … by files, since the first
+  std::map<std::string, EditedFile> edited_;    // by absolute path
+  uint32_t first_size_ = 0, checked_size_ = 0;  // of the written tree at first, of all when it was last checked
 };
 
 }  // namespace rung::workspace

@@ -31,13 +31,6 @@ bool isOfUnderscores(const Diagnostic& said) {
   return said.diag == diag::UnderscoresInName || said.diag == diag::UnderscoresInNameWarning;
 }
 
-// What is wrong in how the text is divided into words may reach beyond a declaration.
-bool isOfWords(const Diagnostic& said) {
-  static constexpr Diag kOfWords[] = {diag::UnterminatedComment, diag::UnterminatedString, diag::NestedComment,
-                                      diag::UnterminatedPragma, diag::StrayBrace};
-  return isOfUnderscores(said) || std::find(std::begin(kOfWords), std::end(kOfWords), said.diag) != std::end(kOfWords);
-}
-
 bool isWordCharacter(char c) {
   return (c >= '0' && c <= '9') || (foldedCharacter(c) >= 'a' && foldedCharacter(c) <= 'z') || c == '_';
 }
@@ -52,8 +45,6 @@ bool hasOddUnderscores(std::string_view text, uint32_t begin, uint32_t end) {
   return false;
 }
 
-bool namesLine(const Diagnostic& diagnostic) { return diagnostic.message.find(" line ") != std::string::npos; }
-
 }  // namespace
 
 EditedFile::EditedFile(driver::Compilation& of, FileId file) : of_(of), file_(file) {
@@ -65,26 +56,27 @@ EditedFile::EditedFile(driver::Compilation& of, FileId file) : of_(of), file_(fi
   has_regions_ = is_plain_ && findRegions();
 }
 
-FileUnit& EditedFile::unit() {
-  return *std::find_if(of_.tree.files.begin(), of_.tree.files.end(),
-                       [&](const FileUnit& unit) { return unit.file == file_; });
+// In the tree; none: it does not have the file.
+std::span<const DeclId> EditedFile::decls() const {
+  const Tree& tree = of_.tree;
+  const auto unit =
+      std::find_if(tree.files.begin(), tree.files.end(), [&](const FileUnit& of) { return of.file == file_; });
+  return unit == tree.files.end() ? std::span<const DeclId>() : tree.list(unit->decls);
 }
 
-// False: the file is not in the tree, or has declarations inside of each other in a way that is not expected.
+// False: the file has declarations inside of each other in a way that is not expected.
 bool EditedFile::findRegions() {
-  const std::vector<FileUnit>& files = of_.tree.files;
-  if (std::none_of(files.begin(), files.end(), [&](const FileUnit& unit) { return unit.file == file_; })) return false;
   const std::string_view text = of_.sources.sourceText(file_);
   const Loc base = of_.sources.begin(file_);
-  const std::span<const DeclId> decls = std::as_const(of_.tree).list(unit().decls);
+  decls_.assign(decls().begin(), decls().end());
   uint32_t at = 0;
-  for (size_t i = 0; i < decls.size(); ++i) {
-    const Range extent = extentOf(of_.tree, decls[i]);
+  for (size_t i = 0; i < decls_.size(); ++i) {
+    const Range extent = extentOf(of_.tree, decls_[i]);
     const Span span{extent.begin.offset - base.offset, extent.end.offset - base.offset};
     std::vector<Span> spans;
     if (span.begin < at || span.end < span.begin || span.end > text.size()) return false;
-    if (of_.tree.kind(decls[i]) == DeclKind::Pou && findBodies(decls[i], base, text, spans)) {
-      regions_.push_back({i, span, span, bodies_.size(), spans.size(), {}});
+    if (of_.tree.kind(decls_[i]) == DeclKind::Pou && findBodies(decls_[i], base, text, spans)) {
+      regions_.push_back({i, span, bodies_.size(), spans.size(), {}, {}});
       for (const Span& body : spans) bodies_.push_back({body, body.end});
     }
     at = span.end;
@@ -98,8 +90,7 @@ bool EditedFile::findBodies(DeclId id, Loc base, std::string_view text, std::vec
   const Tree& tree = of_.tree;
   if (tree.kind(id) == DeclKind::Property) {
     const PropertyDecl& property = tree.as<PropertyDecl>(id);
-    if (property.in_halves) return false;
-    return (!property.get || findBodies(property.get, base, text, out)) &&
+    return !property.in_halves && (!property.get || findBodies(property.get, base, text, out)) &&
            (!property.set || findBodies(property.set, base, text, out));
   }
   if (tree.kind(id) != DeclKind::Pou) return false;
@@ -117,84 +108,53 @@ bool EditedFile::findBodies(DeclId id, Loc base, std::string_view text, std::vec
 }
 
 bool EditedFile::replace(const std::string& text) {
-  const Diagnostics& diagnostics = of_.diagnostics;
-  if (!has_regions_ || diagnostics.droppedCount() + diagnostics.droppedWarningCount() > 0) return false;
+  if (!has_regions_ || of_.diagnostics.droppedCount() + of_.diagnostics.droppedWarningCount() > 0) return false;
   if (text == of_.sources.sourceText(file_)) return true;
   const Change change = changeTo(text);
   size_t body = 0;
   Region* const region = regionOf(change, body);
-  if (region == nullptr || !isUtf8(text) || !keepsWords(bodies_[body], change, text) ||
-      !keepsMessages(*region, change, text))
-    return false;
-  std::vector<DeclId> decls;
-  for (const DeclId decl : of_.tree.list(unit().decls)) decls.push_back(decl);
-  std::vector<NewBody> bodies = bodiesOf(decls[region->decl]);
-  if (bodies.size() != region->bodies || !speaksOfItself(*region, bodies)) return false;
+  if (region == nullptr || !mayStay(change, text) || !isApart(bodies_[body], change, text)) return false;
+  if (region->pous.empty()) region->pous = pousOf(decls_[region->decl]);
+  if (region->pous.size() != region->bodies || !speaksOfItself(*region)) return false;
 
-  if (retractSyntaxErrors(*region) && of_.tree.lost_names) return false;  // perhaps those that this region had
+  freeLastEdit(*region);
+  if (!edit(text)) return false;
+  const FileId gone = std::exchange(region->text, {});
+  last_ = region;
   shift(change, *region, body);
-  FileUnit parsed;
-  if (!mapSources(*region, text) || !parse(*region, parsed)) return false;
-  DeclId& decl = decls[region->decl];
-  decl = splice(decl, of_.tree.list(parsed.decls)[0], bodies);
-  if (!decl) return false;
-  unit().decls = of_.tree.addList<DeclId>(decls);
-  return of_.checked->replaceBodies(bodies) && speaksOfItself(*region, bodies);
+  region->begin = region->span.begin;
+  mapTexts();
+  const bool is_parsed = of_.parseAgain(file_) && hasSameBodies();
+  if (gone) of_.sources.forget(gone);
+  std::vector<NewBody> bodies = region->pous;
+  if (!is_parsed || !splice(decls_[region->decl], decls()[region->decl], bodies)) return false;
+  if (!of_.checked->replaceBodies(bodies) || !speaksOfItself(*region)) return false;
+  size_after_ = of_.tree.size();
+  return true;
+}
+
+// Uses the memory of the bodies that are to be replaced again, when it is the last and nothing else refers to it.
+void EditedFile::freeLastEdit(const Region& region) {
+  const size_t known = of_.checked->knownBesideBodies();
+  if (&region == last_ && of_.tree.size() == size_after_ && known == known_) {
+    for (const NewBody& first : region.pous) of_.project->pou(first.pou).decl = first.decl;
+    of_.tree.truncate(size_before_);
+  } else {
+    size_before_ = of_.tree.size();
+  }
+  known_ = known;
 }
 
 bool EditedFile::take(const std::string& text) {
-  const std::string_view old = of_.sources.sourceText(file_);
-  const Change change = changeTo(text);
-  if (!is_plain_ || !isUtf8(text) || hasDirectives(text) || hasOddUnderscores(old, change.begin, change.old_end) ||
-      hasOddUnderscores(text, change.begin, change.new_end))
-    return false;
-  const std::vector<Diagnostic>& all = of_.diagnostics.all();
-  if (std::any_of(all.begin(), all.end(), [&](const Diagnostic& said) {
-        return isOfUnderscores(said) && of_.sources.wholeOf(of_.sources.fileOf(said.loc)) == file_;
-      }))
-    return false;
+  if (!is_plain_ || !mayStay(changeTo(text), text)) return false;
   has_regions_ = false;
-  if (text == old) return true;
-  before_ = of_.sources.edit(file_, text);
-  return static_cast<bool>(before_);
-}
-
-size_t EditedFile::bytesAround(std::string_view text) const {
-  const uint32_t at = changeTo(text).begin;
-  const auto region =
-      std::find_if(regions_.begin(), regions_.end(), [&](const Region& of) { return of.span.contains(at, at); });
-  return region == regions_.end() ? 0 : region->span.end - region->span.begin;
+  return text == of_.sources.sourceText(file_) || edit(text);
 }
 
 void EditedFile::release() {
-  for (const FileId text : {was_, before_})
-    if (text) of_.sources.forget(text);
+  if (declarations_) of_.sources.forget(declarations_);
   for (const Region& region : regions_)
-    if (region.copy) of_.sources.forget(region.copy);
-}
-
-// Whether the words around the body stay words of their own, and no message about a declaration is on a line of the
-// body. Pragmas in a body may count outside of it.
-bool EditedFile::keepsWords(const Body& body, const Change& change, std::string_view text) {
-  const std::string_view now = text.substr(body.span.begin, body.span.end - body.span.begin + change.delta());
-  const std::string_view blanks = now.substr(0, std::min(now.find_first_not_of(" \t\r\n"), now.size()));
-  return blanks.find('\n') != std::string_view::npos && isBlank(now.back()) && now.find('{') == std::string_view::npos;
-}
-
-// Whether what is said outside of the region stays true.
-bool EditedFile::keepsMessages(const Region& region, const Change& change, std::string_view text) const {
-  const std::string_view old = of_.sources.sourceText(file_);
-  if (hasOddUnderscores(old, change.begin, change.old_end) || hasOddUnderscores(text, change.begin, change.new_end))
-    return false;
-  const bool moves_lines = std::count(old.begin(), old.end(), '\n') != std::count(text.begin(), text.end(), '\n');
-  const uint32_t base = of_.sources.begin(file_).offset;
-  const std::vector<Diagnostic>& all = of_.diagnostics.all();
-  return std::none_of(all.begin(), all.end(), [&](const Diagnostic& diagnostic) {
-    const uint32_t at = diagnostic.original_loc.offset - base;
-    const bool is_here = at <= old.size();
-    return is_here &&
-           (isOfWords(diagnostic) || (moves_lines && namesLine(diagnostic) && !region.span.contains(at, at)));
-  });
+    if (region.text) of_.sources.forget(region.text);
 }
 
 EditedFile::Change EditedFile::changeTo(std::string_view text) const {
@@ -207,6 +167,18 @@ EditedFile::Change EditedFile::changeTo(std::string_view text) const {
   return {begin, static_cast<uint32_t>(old.size()) - tail, static_cast<uint32_t>(text.size()) - tail};
 }
 
+// Whether other files say the same with this text. What is wrong with the underscores of a name is said where it comes
+// first in the project.
+bool EditedFile::mayStay(const Change& change, std::string_view text) const {
+  const auto is_said = [&](const Diagnostic& said) {
+    return isOfUnderscores(said) && of_.sources.editedFile(of_.sources.fileOf(said.loc)) == file_;
+  };
+  const std::vector<Diagnostic>& all = of_.diagnostics.all();
+  return isUtf8(text) && !hasDirectives(text) && std::none_of(all.begin(), all.end(), is_said) &&
+         !hasOddUnderscores(of_.sources.sourceText(file_), change.begin, change.old_end) &&
+         !hasOddUnderscores(text, change.begin, change.new_end);
+}
+
 // The region with the body that the change lies in; null: there is none.
 EditedFile::Region* EditedFile::regionOf(const Change& change, size_t& body) {
   const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& candidate) {
@@ -216,6 +188,14 @@ EditedFile::Region* EditedFile::regionOf(const Change& change, size_t& body) {
   body = static_cast<size_t>(found - bodies_.begin());
   return &*std::find_if(regions_.begin(), regions_.end(),
                         [&](const Region& region) { return body < region.first_body + region.bodies; });
+}
+
+// Whether no message about a declaration is on a line of the body: an error there may hide it. Pragmas in a body may
+// count outside of it.
+bool EditedFile::isApart(const Body& body, const Change& change, std::string_view text) {
+  const std::string_view now = text.substr(body.span.begin, body.span.end - body.span.begin + change.delta());
+  const std::string_view blanks = now.substr(0, std::min(now.find_first_not_of(" \t\r\n"), now.size()));
+  return blanks.find('\n') != std::string_view::npos && isBlank(now.back()) && now.find('{') == std::string_view::npos;
 }
 
 // The offsets of the new text.
@@ -231,69 +211,42 @@ void EditedFile::shift(const Change& change, const Region& region, size_t body) 
   }
 }
 
+// Gives the sources the new text. The one before is that of the declarations, or of the bodies that were parsed last.
+bool EditedFile::edit(const std::string& text) {
+  const FileId before = of_.sources.edit(file_, text);
+  (last_ != nullptr ? last_->text : declarations_) = before;
+  return static_cast<bool>(before);
+}
+
 // Lets the locations of what stays lead into the new text.
-bool EditedFile::mapSources(Region& region, const std::string& text) {
-  Sources& sources = of_.sources;
-  const FileId before = sources.edit(file_, text);
-  if (!before) return false;
-  if (was_)
-    sources.forget(before);
-  else
-    was_ = before;
-  const Loc base = sources.begin(file_);
+void EditedFile::mapTexts() {
+  const Loc base = of_.sources.begin(file_);
   std::vector<Segment> segments = {{0, base, true}};
-  for (const Body& body : bodies_)
-    if (const Loc from{base.offset + body.span.end};
-        from.offset - body.was_end != segments.back().from.offset - segments.back().at)
+  for (const Body& body : bodies_) {
+    const Loc from{base.offset + body.span.end};
+    if (from.offset - body.was_end != segments.back().from.offset - segments.back().at)
       segments.push_back({body.was_end, from, true});
-  sources.remap(was_, std::move(segments));
-  if (region.copy) sources.forget(region.copy);
-  region.copy = sources.addPart(file_, text.substr(region.span.begin, region.span.end - region.span.begin));
-  if (!region.copy) return false;
-  for (const Region& at : regions_)
-    if (at.copy) sources.remap(at.copy, {{0, {base.offset + at.span.begin}, true}});
-  return true;
-}
-
-// Whether there were any.
-bool EditedFile::retractSyntaxErrors(const Region& region) {
-  const Sources& sources = of_.sources;
-  const uint32_t errors = of_.diagnostics.errorCount();
-  const FileId whole = was_ ? was_ : file_;
-  of_.diagnostics.retract([&](const Diagnostic& diagnostic) {
-    if (diagnostic.reporter != 0 || !diagnostic.loc) return false;
-    const FileId file = sources.fileOf(diagnostic.loc);
-    if (region.copy && file == region.copy) return true;
-    const uint32_t at = diagnostic.loc.offset - sources.begin(whole).offset;
-    return file == whole && region.was.contains(at, at);
-  });
-  return of_.diagnostics.errorCount() != errors;
-}
-
-// The declaration of the region. False: it declares something else than it did.
-bool EditedFile::parse(Region& region, FileUnit& unit) {
-  Tree& tree = of_.tree;
-  const std::vector<bool> eno_read_of = tree.eno_read_of;
-  const bool lost_names = std::exchange(tree.lost_names, false);
-  unit = text::parseFile(tree, of_.names, of_.sources, region.copy, of_.options.dialect, of_.diagnostics);
-  tree.files.pop_back();
-  const std::vector<Diagnostic>& all = of_.diagnostics.all();
-  if (std::any_of(all.begin(), all.end(), [&](const Diagnostic& said) {
-        return isOfWords(said) && of_.sources.fileOf(said.loc) == region.copy;
-      }))
-    return false;
-  if (tree.lost_names || tree.eno_read_of != eno_read_of || unit.decls.count != 1) return false;
-  tree.lost_names = lost_names;
-  std::vector<Span> expected, found;
-  for (size_t i = 0; i < region.bodies; ++i) {
-    const Span span = bodies_[region.first_body + i].span;
-    expected.push_back({span.begin - region.span.begin, span.end - region.span.begin});
   }
-  const std::string_view text = of_.sources.sourceText(region.copy);
-  const Loc base = of_.sources.begin(region.copy);
-  const DeclId decl = std::as_const(tree).list(unit.decls)[0];
-  return extentOf(tree, decl).end.offset - base.offset == text.size() && findBodies(decl, base, text, found) &&
-         found == expected;
+  of_.sources.remap(declarations_, std::move(segments));
+  for (const Region& region : regions_)
+    if (region.text) of_.sources.remap(region.text, {{0, {base.offset + region.span.begin - region.begin}, true}});
+}
+
+// Whether the file that was just parsed has its bodies where they are expected, and thus the same declarations.
+bool EditedFile::hasSameBodies() const {
+  const std::string_view text = of_.sources.sourceText(file_);
+  const Loc base = of_.sources.begin(file_);
+  const std::span<const DeclId> parsed = decls();
+  if (parsed.size() != decls_.size()) return false;
+  return std::all_of(regions_.begin(), regions_.end(), [&](const Region& region) {
+    std::vector<Span> found;
+    const DeclId decl = parsed[region.decl];
+    const Range extent = extentOf(of_.tree, decl);
+    const Span span{extent.begin.offset - base.offset, extent.end.offset - base.offset};
+    if (span != region.span || !findBodies(decl, base, text, found) || found.size() != region.bodies) return false;
+    return std::equal(found.begin(), found.end(), bodies_.begin() + static_cast<std::ptrdiff_t>(region.first_body),
+                      [](const Span& a, const Body& b) { return a == b.span; });
+  });
 }
 
 // The old declaration with the bodies of the new one; none: they differ in more. Tells `bodies` their declarations.
@@ -333,8 +286,8 @@ DeclId EditedFile::splice(DeclId old, DeclId parsed, std::vector<NewBody>& bodie
   return spliced;
 }
 
-// The POUs of a declaration and its members, as they are declared now.
-std::vector<EditedFile::NewBody> EditedFile::bodiesOf(DeclId decl) const {
+// The POUs of a declaration and its members, and how they are declared.
+std::vector<EditedFile::NewBody> EditedFile::pousOf(DeclId decl) const {
   std::vector<DeclId> inside = {decl};
   const auto add = [&](DeclId id) {
     if (id) inside.push_back(id);
@@ -348,18 +301,19 @@ std::vector<EditedFile::NewBody> EditedFile::bodiesOf(DeclId decl) const {
       for (const DeclId member : of_.tree.list(of_.tree.as<PouDecl>(inside[i]).members)) add(member);
     }
   }
-  std::vector<NewBody> bodies;
+  std::vector<NewBody> found;
   const std::deque<sema::Pou>& pous = of_.project->pous;
   for (uint32_t i = 1; i < pous.size(); ++i)
-    if (std::find(inside.begin(), inside.end(), pous[i].decl) != inside.end()) bodies.push_back({{i}, pous[i].decl});
-  return bodies;
+    if (std::find(inside.begin(), inside.end(), pous[i].decl) != inside.end()) found.push_back({{i}, pous[i].decl});
+  return found;
 }
 
-// Whether all that these bodies say is said in the region: else another body may say it, too.
-bool EditedFile::speaksOfItself(const Region& region, const std::vector<NewBody>& bodies) const {
+// Whether all that its bodies say is said in the region: else another body may say it, too.
+bool EditedFile::speaksOfItself(const Region& region) const {
   const uint32_t base = of_.sources.begin(file_).offset;
   const auto is_one = [&](uint32_t reporter) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](const NewBody& body) { return body.pou.index == reporter; });
+    return std::any_of(region.pous.begin(), region.pous.end(),
+                       [&](const NewBody& body) { return body.pou.index == reporter; });
   };
   const std::vector<Diagnostic>& all = of_.diagnostics.all();
   return std::all_of(all.begin(), all.end(), [&](const Diagnostic& diagnostic) {

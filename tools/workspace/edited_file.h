@@ -7,8 +7,9 @@
 //     y := y + 1.0;                                      <- a change from here …
 //   END_FUNCTION_BLOCK                                   <- … to here
 //
-// The declaration around the change, a POU with all its methods and actions, is parsed again as a text of its own and
-// its bodies are checked again; the sources map it, and what lies after it, to the new text.
+// The file is parsed again. The bodies of the declaration around the change, a POU with all its methods and actions,
+// take the place of the old ones and are checked. What else is known of the file has its locations in texts of before,
+// which the sources map to the new one.
 #pragma once
 
 #include <string>
@@ -29,11 +30,10 @@ class EditedFile {
   // Takes the text as that of the file, which is then to be parsed. False: other files may depend on how it is read, or
   // it on them.
   bool take(const std::string& text);
-  FileId file() const { return file_; }
-  // Of the declaration that the change to this text is in; 0: in none.
-  size_t bytesAround(std::string_view text) const;
   // Frees the texts of before. No location leads there any more.
   void release();
+
+  FileId file() const { return file_; }
 
  private:
   using NewBody = sema::CheckedProject::NewBody;
@@ -45,13 +45,15 @@ class EditedFile {
   };
   struct Body {
     Span span;         // with the blanks around it
-    uint32_t was_end;  // of the span, in the text that was parsed as a whole
+    uint32_t was_end;  // of the span, in the text of the declarations
   };
-  struct Region {  // of a POU and its members, with the pragmas before it
+  struct Region {  // a POU with its members
     size_t decl;   // index in the declarations of the file
-    Span span, was;
+    Span span;
     size_t first_body, bodies;
-    FileId copy;  // that was parsed last; none: the whole text
+    std::vector<NewBody> pous;  // with their declarations as they were parsed first; none: not edited yet
+    FileId text;                // that the bodies were parsed in, when it is not that of the declarations
+    uint32_t begin = 0;         // of the region, in that text
   };
   struct Change {
     uint32_t begin, old_end, new_end;
@@ -61,24 +63,28 @@ class EditedFile {
   bool findRegions();
   bool findBodies(DeclId decl, Loc base, std::string_view text, std::vector<Span>& out) const;
   Change changeTo(std::string_view text) const;
+  bool mayStay(const Change& change, std::string_view text) const;
   Region* regionOf(const Change& change, size_t& body);
-  static bool keepsWords(const Body& body, const Change& change, std::string_view text);
-  bool keepsMessages(const Region& region, const Change& change, std::string_view text) const;
+  static bool isApart(const Body& body, const Change& change, std::string_view text);
   void shift(const Change& change, const Region& region, size_t body);
-  bool mapSources(Region& region, const std::string& text);
-  bool retractSyntaxErrors(const Region& region);
-  bool parse(Region& region, FileUnit& unit);
+  bool edit(const std::string& text);
+  void mapTexts();
+  bool hasSameBodies() const;
   DeclId splice(DeclId old, DeclId parsed, std::vector<NewBody>& bodies) const;
-  bool speaksOfItself(const Region& region, const std::vector<NewBody>& bodies) const;
-  std::vector<NewBody> bodiesOf(DeclId decl) const;
-  FileUnit& unit();
+  bool speaksOfItself(const Region& region) const;
+  std::vector<NewBody> pousOf(DeclId decl) const;
+  void freeLastEdit(const Region& region);
+  std::span<const DeclId> decls() const;
 
   driver::Compilation& of_;
   FileId file_;
-  FileId before_;     // the text before take()
-  FileId was_;        // the text that was parsed as a whole; none: the current one
-  bool is_plain_;     // ST as it is on disk, without directives
-  bool has_regions_;  // and bodies can be told from declarations
+  bool is_plain_;                              // ST as it is on disk, without directives
+  bool has_regions_ = false;                   // and bodies can be told from declarations
+  FileId declarations_;                        // the text that they were parsed in; none: the current one
+  Region* last_ = nullptr;                     // whose bodies were parsed in the current text; none: not edited yet
+  uint32_t size_before_ = 0, size_after_ = 0;  // of the tree, at the last edit
+  size_t known_ = 0;                           // beside bodies, before it
+  std::vector<DeclId> decls_;                  // of the file, as they were parsed first
   std::vector<Region> regions_;
   std::vector<Body> bodies_;  // sorted
 };
