@@ -69,6 +69,7 @@ class Workspace {
   driver::ProjectOptions options_;
   std::map<std::string, std::string> open_;  // by path
   std::shared_ptr<Analysis> analysis_;
+  bool lacks_changes_ = false;             // … of an apply() that was cancelled
   std::weak_ptr<const Snapshot> current_;  // of the analysis
 };
 

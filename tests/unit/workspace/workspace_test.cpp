@@ -58,6 +58,14 @@ TEST_F(WorkspaceTest, ACancelledChangeIsInTheNextSnapshot) {
   EXPECT_NE(messagesOf(*workspace.apply({})), "");
 }
 
+TEST_F(WorkspaceTest, ABodyAfterACancelledChangeIsNotTheOnlyOneThatChanges) {
+  workspace.apply({});
+  const std::atomic<bool> cancelled = true;
+  EXPECT_EQ(workspace.apply({{main, "PROGRAM Main\nEND_PROGRAM\nx"}, {block, kBlock}}, &cancelled), nullptr);
+  const std::string other = "FUNCTION_BLOCK Ramp\nVAR_OUTPUT y : REAL; END_VAR\ny := 2.0;\nEND_FUNCTION_BLOCK\n";
+  EXPECT_NE(messagesOf(*workspace.apply({{block, other}})), "");
+}
+
 TEST_F(WorkspaceTest, ASnapshotTellsWhyItHasNothing) {
   Workspace missing(optionsOf(folder.path() + "/no_such_folder"));
   const auto snapshot = missing.apply({});
