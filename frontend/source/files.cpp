@@ -171,6 +171,8 @@ void Sources::forget(FileId file) {
 
 bool Sources::isBefore(Loc a, Loc b) const {
   if (!is_edited_) return a < b;
+  a = current(a);
+  b = current(b);
   const uint32_t file = fileOf(a).index, other = fileOf(b).index;
   return file != other ? file < other : a < b;
 }

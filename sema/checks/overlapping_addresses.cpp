@@ -52,7 +52,7 @@ void checkOverlappingAddresses(Context& context) {
     const SourceLocation a = symbols.sources.location(first.loc), b = symbols.sources.location(second.loc);
     const bool is_module = a.file == b.file && a.line == b.line && a.column == b.column;
     if (overlaps && !same && !is_module) {
-      const bool in_order = first.loc.offset < second.loc.offset;
+      const bool in_order = symbols.sources.isBefore(first.loc, second.loc);
       const Var& later = in_order ? second : first;
       const Var& earlier = in_order ? first : second;
       context.report(diag::AddressOverlap, later.loc, {name(later), name(earlier)}).declaredHere(earlier.loc);
