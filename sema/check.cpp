@@ -100,7 +100,7 @@ static void checkRules(Context& context) {
   context.symbols.diagnostics.reporter = 0;
 }
 
-static void check(Project& project, Scopes& scopes) {
+static void checkAll(Project& project, Scopes& scopes) {
   Context context = contextOf(project, scopes);
   declare(context);
   markOverloads(context);
@@ -123,11 +123,11 @@ static void check(Project& project, Scopes& scopes) {
 
 void check(Project& project) {
   Scopes scopes;
-  check(project, scopes);
+  checkAll(project, scopes);
 }
 
 CheckedProject::CheckedProject(Project& project) : project_(project), scopes_(std::make_unique<Scopes>()) {
-  check(project_, *scopes_);
+  checkAll(project_, *scopes_);
 }
 
 CheckedProject::~CheckedProject() = default;

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Looks for names in unnamed namespaces that a unity build, which tools/quickstart.sh makes, would confuse, as it compiles
-the files of one CMake target together: two files of a target declare the same name, functions with the same parameters; or
-one declares a name that a header in an enclosing namespace has, and hides it from the unnamed namespaces of all files.
+"""Looks for names in unnamed namespaces, and of static functions, that a unity build confuses: tools/quickstart.sh
+compiles the files of one CMake target together. Two files of a target declare the same name, functions with parameters
+for which the same numbers fit; or one declares a name that a header in an enclosing namespace has, and hides it from the
+unnamed namespaces of all files.
 Called by checks/private_names.sh."""
 import collections
 import functools
@@ -18,6 +19,7 @@ VARIABLE = re.compile(r"(?:(?:constexpr|const|static|inline|thread_local|[\w:<>,
 NAMESPACE = re.compile(r"(?:inline )?namespace ?([\w:]*)")
 LINKAGE = re.compile(r"extern")
 DEFAULT = re.compile(r" = [^,]*")
+NUMBER = re.compile(r"\b(?:const )?(?:bool|u?int\d*(?:_t)?|size_t|unsigned|double|float)\b")  # a literal fits all of them
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 HOST = ("stdlib/runtime/host/", "stdlib/nct/control/")  # one target
@@ -60,6 +62,8 @@ def declarations(path):
                 scope.append(opened.group(1).split("::") if opened else [])
                 continue
             around = tuple(name for names in scope for name in names)
+            if re.match(r"(?:template <.*> ?)?static ", head) and "" not in around:
+                around += ("",)  # private, too
             found += [Declaration(around, name, parameters) for name, parameters in declared(head, mark.group())]
         depth += mark.group() == "{"
     return found
@@ -114,7 +118,8 @@ def repeated(files):
     for path in files:
         for declaration in declarations(path):
             if "" in declaration.scope:
-                places[declaration.scope, declaration.name].add((path, declaration.parameters))
+                parameters = declaration.parameters and NUMBER.sub("number", declaration.parameters)
+                places[declaration.scope, declaration.name].add((path, parameters))
     for (_, name), found in sorted(places.items()):
         kinds = {parameters for _, parameters in found}
         clash = None in kinds and len({path for path, _ in found}) > 1

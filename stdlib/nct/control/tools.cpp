@@ -308,7 +308,7 @@ Code Tools::deleteTool(const Block& block) {
 }
 
 // MW106, MR107 and MR108: 4 words with a word, 5 with a double.
-static Code checkItemAmount(const Block& block, uint32_t first) {
+static Code checkToolAmount(const Block& block, uint32_t first) {
   if (block.amount() != 4 && block.amount() != 5) return kWrongAmount;
   const uint32_t item = block.word(4);
   if (item < first || item > static_cast<uint32_t>(ToolItem::LastUser)) return kNoItem;
@@ -316,7 +316,7 @@ static Code checkItemAmount(const Block& block, uint32_t first) {
 }
 
 Code Tools::writeItem(const Block& block) {
-  const Code amount = checkItemAmount(block, 1);
+  const Code amount = checkToolAmount(block, 1);
   if (amount == kWrongAmount) return amount;
   uint32_t row = 0;
   if (const Code code = findRow(block, Access::Write, row); code != kDone) return code;
@@ -330,7 +330,7 @@ Code Tools::writeItem(const Block& block) {
 }
 
 Code Tools::readItem(Block& block) const {
-  const Code amount = checkItemAmount(block, 1);
+  const Code amount = checkToolAmount(block, 1);
   if (amount == kWrongAmount) return amount;
   if (mustWait()) return kBusy;
   uint32_t row = 0;
@@ -342,7 +342,7 @@ Code Tools::readItem(Block& block) const {
 
 // Doubles are equal that differ by less than an increment.
 Code Tools::findByUserData(Block& block) const {
-  if (const Code code = checkItemAmount(block, static_cast<uint32_t>(ToolItem::UserBits)); code != kDone) return code;
+  if (const Code code = checkToolAmount(block, static_cast<uint32_t>(ToolItem::UserBits)); code != kDone) return code;
   const uint32_t item = block.word(4);
   const double wanted = block.item(5, isRealToolItem(item)), increment = parameters_.bit(104, 0) ? kInch : kMillimetre;
   for (uint32_t row = 0; row < kRows; ++row) {
