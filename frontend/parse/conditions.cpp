@@ -416,15 +416,7 @@ Truth FileConditions::ask(std::string_view kind, std::string_view name, std::str
 
 // Most sources have no condition: they are scanned once, for a brace followed by one of the keywords.
 bool mayHaveConditions(std::string_view text) {
-  for (size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
-    size_t p = at + 1;
-    while (p < text.size() && static_cast<unsigned char>(text[p]) <= ' ') ++p;
-    size_t end = p;
-    while (end < text.size() && isNameCharacter(text[end])) ++end;
-    for (const char* word : {"IF", "ELSIF", "ELSE", "END_IF", "define", "undefine"})
-      if (sameIdentifier(text.substr(p, end - p), word)) return true;
-  }
-  return false;
+  return hasPragma(text, {"IF", "ELSIF", "ELSE", "END_IF", "define", "undefine"});
 }
 
 std::string blanked(std::string_view text, const std::vector<Blank>& blanks) {

@@ -108,6 +108,18 @@ std::string_view endWordOf(std::string_view word) {
   return {};
 }
 
+bool hasPragma(std::string_view text, std::initializer_list<std::string_view> words) {
+  for (size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
+    size_t begin = at + 1;
+    while (begin < text.size() && isBlankCharacter(text[begin])) ++begin;
+    size_t end = begin;
+    while (end < text.size() && isNameCharacter(text[end])) ++end;
+    for (const std::string_view word : words)
+      if (sameIdentifier(text.substr(begin, end - begin), word)) return true;
+  }
+  return false;
+}
+
 bool isBlankCharacter(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 bool isNameCharacter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isDecimal(c) || c == '_'; }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -52,6 +53,8 @@ bool startsDeclaration(std::string_view source);
 std::string_view endWordOf(std::string_view word);
 
 bool isBlankCharacter(char c);
+// Whether one of these words begins a pragma: {word …}.
+bool hasPragma(std::string_view text, std::initializer_list<std::string_view> words);
 bool isNameCharacter(char c);           // ASCII only
 bool isIdentifier(std::string_view s);  // in ASCII
 bool isPath(std::string_view s);        // identifiers, separated by dots

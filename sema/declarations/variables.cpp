@@ -6,6 +6,7 @@
 
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/children.h"
+#include "frontend/syntax/keywords.h"
 #include "frontend/syntax/standard_names.h"
 #include "sema/declarations/addresses.h"
 #include "sema/declarations/attributes.h"
@@ -38,36 +39,6 @@ using types::FieldRole;
 using types::TypeKind;
 
 namespace {
-
-const char* sectionWord(SectionKind kind) {
-  switch (kind) {
-    case SectionKind::Local: return "VAR";
-    case SectionKind::Input: return "VAR_INPUT";
-    case SectionKind::Output: return "VAR_OUTPUT";
-    case SectionKind::InOut: return "VAR_IN_OUT";
-    case SectionKind::Temp: return "VAR_TEMP";
-    case SectionKind::External: return "VAR_EXTERNAL";
-    case SectionKind::Global: return "VAR_GLOBAL";
-    case SectionKind::Stat: return "VAR_STAT";
-    case SectionKind::Inst: return "VAR_INST";
-    case SectionKind::Access: return "VAR_ACCESS";
-    case SectionKind::Config: return "VAR_CONFIG";
-  }
-  return "VAR";
-}
-
-const char* kindWord(PouKind kind) {
-  switch (kind) {
-    case PouKind::Function: return "FUNCTION";
-    case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
-    case PouKind::Program: return "PROGRAM";
-    case PouKind::Class: return "CLASS";
-    case PouKind::Interface: return "INTERFACE";
-    case PouKind::Method: return "METHOD";
-    case PouKind::Action: return "ACTION";
-  }
-  return "POU";
-}
 
 // Whether a variable AT %I* has a separate address in each instance: in a block, or a program with several instances.
 bool addressesPerInstance(const Context& context, PouId pou) {
@@ -301,7 +272,7 @@ bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
     return false;
   }
   if (var.section != SectionKind::External && var.section != SectionKind::InOut) return true;
-  context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {sectionWord(var.section)});
+  context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {keywordOf(var.section)});
   return false;
 }
 
@@ -335,7 +306,7 @@ void checkPlacement(Context& there, const Var& var, const VarDecl& decl) {
   if (!there.profile().located_externals && decl.located && var.section == SectionKind::External)
     there.report(diag::ExternalAddress, decl.address_loc, {name});
   else if (!there.profile().addresses_in_blocks && decl.located && !decl.address.incomplete && kind != PouKind::Program)
-    there.report(diag::AddressInBlock, decl.address_loc, {kindWord(kind)});
+    there.report(diag::AddressInBlock, decl.address_loc, {keywordOf(kind)});
   const bool has_memory = var.section == SectionKind::Local || var.section == SectionKind::Temp || !var.pou;
   if (var.type == types::kError || !has_memory || !isBlock(there, var.type)) return;
   const std::string block = there.types().toString(var.type);
@@ -666,7 +637,7 @@ void checkModifiers(Context& context, const SectionDecl& section) {
     if (!context.profile().retain_in_functions)
       context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
     else
-      context.report(diag::RetainOfCall, section.h.loc, {word, kindWord(context.symbols.pou(context.pou).kind)});
+      context.report(diag::RetainOfCall, section.h.loc, {word, keywordOf(context.symbols.pou(context.pou).kind)});
     return;
   }
   const LanguageProfile& profile = context.profile();
@@ -676,10 +647,10 @@ void checkModifiers(Context& context, const SectionDecl& section) {
   if (retain && constant)
     context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
   else if (retain && is_pin_or_temp)
-    context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "RETAIN"});
+    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "RETAIN"});
   else if (constant && !profile.constant_outputs &&
            (section.section == SectionKind::Output || section.section == SectionKind::InOut))
-    context.report(diag::SectionModifier, section.h.loc, {sectionWord(section.section), "CONSTANT"});
+    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "CONSTANT"});
 }
 
 // The variables of one section of a POU.
@@ -696,7 +667,7 @@ static void declareSection(Context& there, PouId id, const PouDecl& decl, const 
                          (section.section == SectionKind::Stat && !there.profile().static_variables) ||
                          (section.section == SectionKind::Inst && !is_member);
   if (misplaced) {
-    there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
+    there.report(diag::SectionNotAllowed, section.h.loc, {keywordOf(section.section), keywordOf(kind)});
     if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
   }
   checkModifiers(there, section);

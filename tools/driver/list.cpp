@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "frontend/syntax/keywords.h"
 #include "sema/declarations/libraries.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
@@ -11,19 +12,6 @@
 
 namespace rung::driver {
 namespace {
-
-const char* word(PouKind kind) {
-  switch (kind) {
-    case PouKind::Function: return "FUNCTION";
-    case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
-    case PouKind::Program: return "PROGRAM";
-    case PouKind::Class: return "CLASS";
-    case PouKind::Interface: return "INTERFACE";
-    case PouKind::Method: return "METHOD";
-    case PouKind::Action: return "ACTION";
-  }
-  return "";
-}
 
 int listPous(const ProjectOptions& project, Sink& sink) {
   if (project.inputs.empty()) return usageError(sink, "`rung list pous` needs files or folders to read");
@@ -38,8 +26,9 @@ int listPous(const ProjectOptions& project, Sink& sink) {
       const PouDecl& pou = tree.as<PouDecl>(id);
       std::string name(compilation.names.string(pou.name)), shown(compilation.sources.displayPath(unit.file));
       const uint32_t line = compilation.sources.location(pou.h.loc).line;
-      list.add(std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" + std::to_string(line) + "\n",
-               JsonRow().text("kind", word(pou.pou_kind)).text("name", name).text("file", shown).number("line", line));
+      list.add(
+          std::string(keywordOf(pou.pou_kind)) + " " + name + "  " + shown + ":" + std::to_string(line) + "\n",
+          JsonRow().text("kind", keywordOf(pou.pou_kind)).text("name", name).text("file", shown).number("line", line));
     }
   }
   int exit = compilation.finish();

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/keywords.h"
 #include "sema/declarations/libraries.h"
 #include "tools/driver/project_file.h"
 #include "tools/ide/completion_context.h"

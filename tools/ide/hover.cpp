@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/source/scanner.h"
+#include "frontend/syntax/keywords.h"
 #include "tools/ide/navigation.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/source_text.h"

@@ -32,7 +32,4 @@ PouSignature signatureOf(const View& view, PouId pou);
 // None: the name is not that of a POU.
 std::optional<PouSignature> signatureOf(const LibraryName& name);
 
-const char* keywordOf(PouKind kind);
-const char* keywordOf(SectionKind section);
-
 }  // namespace rung::ide

@@ -6,24 +6,16 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/parse.h"
-#include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/node_at.h"
 #include "sema/project.h"
 
 namespace rung::workspace {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 // Pragmas that count from their place on, or change what is parsed.
 bool hasDirectives(std::string_view text) {
-  for (size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
-    const size_t begin = std::min(text.find_first_not_of(" \t\r\n", at + 1), text.size());
-    const std::string_view rest = text.substr(begin);
-    for (const std::string_view word : {"warning", "IF", "ELSIF", "ELSE", "END_IF", "define", "undefine"})
-      if (sameIdentifier(rest.substr(0, word.size()), word)) return true;
-  }
-  return false;
+  return hasPragma(text, {"warning", "IF", "ELSIF", "ELSE", "END_IF", "define", "undefine"});
 }
 
 // What is said of a name where it comes first in the project.
@@ -31,17 +23,13 @@ bool isOfUnderscores(const Diagnostic& said) {
   return said.diag == diag::UnderscoresInName || said.diag == diag::UnderscoresInNameWarning;
 }
 
-bool isWordCharacter(char c) {
-  return (c >= '0' && c <= '9') || (foldedCharacter(c) >= 'a' && foldedCharacter(c) <= 'z') || c == '_';
-}
-
 // Whether a word that has a character in [begin, end) may be a name that the standard forbids for its underscores.
 bool hasOddUnderscores(std::string_view text, uint32_t begin, uint32_t end) {
-  while (begin > 0 && isWordCharacter(text[begin - 1])) --begin;
-  while (end < text.size() && isWordCharacter(text[end])) ++end;
+  while (begin > 0 && isNameCharacter(text[begin - 1])) --begin;
+  while (end < text.size() && isNameCharacter(text[end])) ++end;
   const std::string_view words = text.substr(begin, end - begin);
   for (size_t at = words.find('_'); at != std::string_view::npos; at = words.find('_', at + 1))
-    if (at + 1 == words.size() || words[at + 1] == '_' || !isWordCharacter(words[at + 1])) return true;
+    if (at + 1 == words.size() || words[at + 1] == '_' || !isNameCharacter(words[at + 1])) return true;
   return false;
 }
 
@@ -98,8 +86,8 @@ bool EditedFile::findBodies(DeclId id, Loc base, std::string_view text, std::vec
   if (pou.body_kind != BodyKind::St || !pou.closed || !pou.transitions.empty()) return false;
   Span span{pou.body_begin.offset - base.offset, pou.body_end.offset - base.offset};
   if (span.begin > span.end || span.end > text.size()) return false;
-  while (span.begin > 0 && isBlank(text[span.begin - 1])) --span.begin;
-  while (span.end < text.size() && isBlank(text[span.end])) ++span.end;
+  while (span.begin > 0 && isBlankCharacter(text[span.begin - 1])) --span.begin;
+  while (span.end < text.size() && isBlankCharacter(text[span.end])) ++span.end;
   out.push_back(span);
   for (const DeclId member : tree.list(pou.members))
     if (!findBodies(member, base, text, out)) return false;
@@ -195,7 +183,8 @@ EditedFile::Region* EditedFile::regionOf(const Change& change, size_t& body) {
 bool EditedFile::isApart(const Body& body, const Change& change, std::string_view text) {
   const std::string_view now = text.substr(body.span.begin, body.span.end - body.span.begin + change.delta());
   const std::string_view blanks = now.substr(0, std::min(now.find_first_not_of(" \t\r\n"), now.size()));
-  return blanks.find('\n') != std::string_view::npos && isBlank(now.back()) && now.find('{') == std::string_view::npos;
+  return blanks.find('\n') != std::string_view::npos && isBlankCharacter(now.back()) &&
+         now.find('{') == std::string_view::npos;
 }
 
 // The offsets of the new text.
