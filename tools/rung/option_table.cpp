@@ -354,7 +354,7 @@ constexpr OptionRow kOptions[] = {
     {"-W", "NAME", kReadsOrServes, addWarning, "enable a warning by name or code; -Wno-NAME disables"},
     {"--werror", nullptr, kReads, setFlag<&CommandLine::project, &ProjectOptions::report, &ReportOptions::werror>,
      "treat warnings as errors"},
-    {"--max-errors", "N", kReadsOrServes, setMaxErrors, "list at most N errors; 0: all (default: 100)"},
+    {"--max-errors", "N", kReadsOrServes, setMaxErrors, "list N errors at most; 0: all (100; of lsp: 1000)"},
     {"--max-warnings", "N", kReads,
      setNumber<0, 1'000'000'000, &CommandLine::project, &ProjectOptions::report, &ReportOptions::max_warnings>,
      "list at most N of one warning; 0: all (default: 20)"},

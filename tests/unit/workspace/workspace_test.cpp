@@ -121,6 +121,20 @@ TEST_F(WorkspaceTest, WhatOtherBodiesSayIsSaidAgain) {
   }
 }
 
+// A rule that looks at two files names the later one, whichever was edited last.
+TEST_F(WorkspaceTest, FilesKeepTheirOrder) {
+  const auto program = [](const char* name, const char* type, const char* value) {
+    return std::string("PROGRAM ") + name + "\nVAR v AT %MW0 : " + type + "; END_VAR\nv := " + value +
+           ";\nEND_PROGRAM\n";
+  };
+  const std::string first = folder.write("a.st", program("A", "WORD", "1")),
+                    last = folder.write("z.st", program("Z", "DWORD", "2"));
+  const std::string messages = messagesOf(*workspace.apply({}));
+  EXPECT_NE(messages.find("z.st 2:5 W0369"), std::string::npos) << messages;
+  EXPECT_EQ(messagesOf(*workspace.apply({{first, program("A", "WORD", "3")}})), messages);
+  EXPECT_EQ(messagesOf(*workspace.apply({{last, program("Z", "DWORD", "4")}})), messages);
+}
+
 class TypingTest : public testing::Test {
  protected:
   TypingTest() {
