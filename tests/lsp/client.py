@@ -291,7 +291,7 @@ class Script:
 
     def do_diagnostics(self, _):
         self.client.settle()
-        for name in sorted(self.client.published):
+        for name in sorted(self.client.published, key=shown_uri):
             diagnostics = self.client.published[name][1]
             if self.shown.get(name, []) != diagnostics:
                 self.shown[name] = diagnostics
