@@ -179,13 +179,12 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
+all=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service
+     lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")
 for part in "${parts[@]}"; do
-  case $part in
-    differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,27s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
-  esac
+  [[ " ${all[*]} " == *" $part "* ]] || { sed -n '3,/^set -eu/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 done
 for part in "${parts[@]}"; do
   echo "== $part"
