@@ -9,6 +9,7 @@
 #include "frontend/parse/diagnostics.h"
 
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/objects.h"
 #include "sema/declarations/resolve.h"
 #include "sema/declarations/variables.h"
@@ -152,6 +153,7 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   if (!ensureLayout(context, type)) return {};
   const std::optional<types::AreaId> area = areaOf(context, address, loc);
   if (!area) return {};
+  noteEffect(context);  // on the places of all others
   const NameId name = context.names().intern(text);
   Entity known = scopes.addresses.names.find(keyOf(context, name));
   if (!known) {

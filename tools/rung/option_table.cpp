@@ -378,7 +378,7 @@ constexpr OptionRow kOptions[] = {
      "size of a pointer on the target (default: 8 bytes)"},
     {"--online-change", nullptr, bit(Command::Emit) | bit(Command::Build),
      setFlag<&CommandLine::project, &ProjectOptions::code, &CodeOptions::online_change>,
-     "with tables for another version that takes over while the program runs"},
+     "make it ready for changes while it runs"},
     {"-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), setJobs,
      "number of C++ compilers to run in parallel"},
     {"--dump-after", "NAME", kCompile, setText<&CommandLine::project, &ProjectOptions::code, &CodeOptions::dump_after>,
