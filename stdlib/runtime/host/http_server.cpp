@@ -6,7 +6,6 @@
 #include <pthread.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <algorithm>
@@ -30,7 +29,7 @@ constexpr size_t kMostUnsent = size_t{64} << 20;          // of all connections 
 constexpr size_t kMostUnsentOfStream = size_t{64} << 10;  // before it misses events
 constexpr size_t kMostDropped = size_t{4} << 20;          // of what a client sends in vain
 constexpr size_t kBytesPerTurn = size_t{16} << 10;
-constexpr int kAcceptsPerTurn = 16, kMostEvents = 32, kNiceness = 5;
+constexpr int kAcceptsPerTurn = 16, kMostEvents = 32;
 constexpr uint64_t kListener = ~uint64_t{0}, kWake = kListener - 1;
 
 void addToEpoll(int epoll, int fd, uint64_t what) {
@@ -84,7 +83,7 @@ void HttpServer::wake() {
 }
 
 void HttpServer::run() {
-  setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread
+  handler_.onStart();
   while (!ends_.load()) turn();
   const int64_t end = monotonicNs() + kFarewellNs;
   do turn();  // what has been answered meanwhile

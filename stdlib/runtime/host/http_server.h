@@ -22,6 +22,7 @@ class HttpServer {
   class Handler {
    public:
     virtual ~Handler() = default;
+    virtual void onStart() = 0;
     // To be answered by reply() or beginStream(), now or later. The next request of the client waits until then.
     virtual void onRequest(Client client, const HttpRequest& request) = 0;
     virtual void onClosed(Client client) = 0;

@@ -59,6 +59,8 @@ void Monitor::attendUntil(int64_t monotonic_ns) {
 
 // ---- the thread of the server
 
+void Monitor::onStart() { yieldToTasks(std::max(session_.module().resources.size(), 1u)); }
+
 void Monitor::onClosed(HttpServer::Client client) {
   streams_.erase(client);
   readers_.erase(client);

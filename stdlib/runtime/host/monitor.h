@@ -66,6 +66,7 @@ class Monitor : private HttpServer::Handler {
   static const Route kRoutes[];
   static constexpr size_t kMostLists = 64, kMostStreams = 16;
 
+  void onStart() override;
   void onRequest(HttpServer::Client client, const HttpRequest& request) override;
   void onClosed(HttpServer::Client client) override;
   int64_t onTurn(int64_t now_ns) override;
