@@ -58,6 +58,7 @@ class Monitor : private HttpServer::Handler {
   struct Reader {  // waits for values
     SharedList list;
     int64_t asked_ns;
+    bool is_command = false;  // `get`, which is answered by lines
   };
   struct Route {
     const char *method, *path;
@@ -100,6 +101,7 @@ class Monitor : private HttpServer::Handler {
   const char* stateName() const;
   void wantSample(int64_t now_ns);
   void sendSample(int64_t now_ns);
+  std::string sampleText(size_t number, const WatchList& list, bool as_lines);
 
   Session& session_;
   const MonitorOptions& options_;
