@@ -11,6 +11,7 @@
 #               they cost (COUNT, FIRST)
 # changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
+# monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
 # mutation      300 mistakes in the compiler and the runtime, drawn at random: 95 % of them are noticed (COUNT, SEED)
@@ -87,6 +88,18 @@ changes() {
 forces() {
   needs session_test
   RUNG_FORCES_SEED=$first RUNG_FORCES_COUNT=${COUNT:-10000} "$bin/session_test" --gtest_filter='Forces.*' --gtest_brief=1
+}
+
+monitor() {
+  needs rung
+  local folder way
+  folder=$(mktemp -d)
+  cp tests/monitor/fuzzed.st "$folder"
+  for way in "" --realtime; do
+    # shellcheck disable=SC2086
+    PATH=$bin:$PATH tests/monitor/fuzz.py "$first" "${COUNT:-20000}" rung run "$folder/fuzzed.st" -Wno-all $way
+  done
+  rm -r "$folder"
 }
 
 modifiers() {
@@ -185,7 +198,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots changes forces modifiers bodies mutation profiles cams kills tsan service
+all=(differential networks mutants frames snapshots changes forces monitor modifiers bodies mutation profiles cams kills tsan service
      lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -123,6 +123,7 @@ struct RunOptions {
   NativeOptions native;
   bool watch_files = false;                 // --watch-files: an online change where the project's files change
   std::vector<std::string> host_arguments;  // for rung::host::parseRunOptions, one `--name=value` each
+  bool opens_monitor = false;               // and its page in a browser
 
   bool mayInterpret() const { return engine == Engine::Interpreter || (engine == Engine::Auto && !native.keep); }
 };

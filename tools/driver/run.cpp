@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host,
 // which asks for other versions of it while it runs.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 
 #include "ir/ir.h"
 #include "rung/host.h"
 #include "tools/driver/commands.h"
+#include "tools/driver/installation.h"
 #include "tools/driver/program_version.h"
 #include "tools/driver/source_watch.h"
 
@@ -44,6 +49,24 @@ host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& op
   return version;
 }
 
+// Where there is a desktop; else the URL has been printed.
+void openInBrowser(const std::string& url) {
+  if (getenv("DISPLAY") == nullptr && getenv("WAYLAND_DISPLAY") == nullptr) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    if (fork() == 0) execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+    _exit(0);
+  }
+  if (child > 0) waitpid(child, nullptr, 0);  // of the browser's process init is the parent
+}
+
+void prepareMonitor(host::MonitorOptions& monitor, bool opens) {
+  monitor.version = std::string("rung ") + version();
+  if (!opens) return;
+  if (monitor.address.empty()) monitor.address = "0";
+  monitor.on_start = openInBrowser;
+}
+
 }  // namespace
 
 int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink) {
@@ -52,6 +75,7 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   std::string error = host::parseRunOptions(options.host_arguments, run_options, rest);
   if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "` of `rung run`";
   if (!error.empty()) return usageError(sink, error);
+  prepareMonitor(run_options.monitor, options.opens_monitor);
   run_options.color = project.report.color;
   run_options.out = sink.programOutput();
   run_options.err = sink.programErrors();
@@ -61,7 +85,8 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   compiling.code.default_interval_ns = run_options.interval_ns;
   compiling.code.counts_steps = true;
   compiling.code.trace_calls = run_options.trace_calls;
-  compiling.code.online_change = options.watch_files || !run_options.control_path.empty();
+  compiling.code.online_change =
+      options.watch_files || !run_options.control_path.empty() || !run_options.monitor.address.empty();
   ProgramVersion made;
   const bool must_interpret = options.engine == Engine::Interpreter || run_options.trace_calls;
   SourceWatch watch(project);
@@ -70,9 +95,10 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
     if (made.program && options.engine == Engine::Auto)
       run_options.hint_when_long = "rung: a long run is faster with --engine=native";
     run_options.paths = pathsOf(made);
+    run_options.monitor.engine = made.program ? "interp" : "native";
     if (compiling.code.online_change)
-      run_options.compile = [&](const std::string& input) { return makeVersion(compiling, options, input); };
-    if (options.watch_files) run_options.has_changed = [&] { return watch.hasChanged(); };
+      run_options.change.compile = [&](const std::string& input) { return makeVersion(compiling, options, input); };
+    if (options.watch_files) run_options.change.has_changed = [&] { return watch.hasChanged(); };
     times.begin("run");
     constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
     sink.programRuns(true, (made.checks & kMemoryChecks) == kMemoryChecks);

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "symbols.h"
@@ -29,8 +30,10 @@ class Forces {
   // Forces what the version before of the program has forced. Returns the paths of variables that this one does not
   // have, or that do not take the value.
   std::vector<std::string> takeFrom(const Forces& before);
-  // `path = value` lines, in the order in which the variables were forced.
+  // Paths and values, in the order in which the variables were forced; the same as `path = value` lines.
+  std::vector<std::pair<std::string, std::string>> values() const;
   std::string list() const;
+  const std::vector<Variable>& names() const { return names_; }
   // Tells whether a forced variable has a bit in common with this one.
   bool touches(const Variable& variable) const;
 
@@ -47,8 +50,6 @@ class Forces {
   void transfer(StateArchive& archive);
 
  private:
-  std::string valueOf(const Variable& name) const;
-
   const Symbols& symbols_;
   std::vector<rung_forced> rows_;
   std::vector<uint8_t> values_;

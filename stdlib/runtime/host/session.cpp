@@ -226,6 +226,7 @@ void Session::stopAfterSingleCycle() {
 
 RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks) {
   threads_ = std::make_unique<Realtime>(program_->tasks, program_->memory.context(), options, hooks);
+  if (is_stopped_) threads_->pause();  // by a reset after a fault
   channels_->start();
   files_->work().start();  // not in the first cycle that needs it
   RealtimeResult result = threads_->run();
@@ -238,7 +239,7 @@ RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const Real
   }
   for (const std::unique_ptr<Realtime>& left : left_threads_) left->join();
   channels_->stop();
-  rows_done_ = result.rows;
+  rows_done_ += result.rows;
   return result;
 }
 
@@ -397,27 +398,21 @@ std::string Session::unforce(const Command& command) {
 Answer Session::obeyForValues(const Command& command) {
   Answer answer;
   const auto act = [&] {
-    switch (command.kind) {
-      case Command::Get: answer.error = get(command, answer.values); break;
-      case Command::Set: answer.error = set(command); break;
-      case Command::Force: answer.error = force(command); break;
-      case Command::Unforce: answer.error = unforce(command); break;
-      case Command::Forces: answer.values = program_->forces.list(); break;
-      case Command::Stop:
-      case Command::Start:
-      case Command::Cycle:
-      case Command::Reset:
-      case Command::Event:
-      case Command::Status:
-      case Command::Change:
-      case Command::Quit: break;  // obeyAtRest
-    }
+    if (command.kind == Command::Get) answer.error = get(command, answer.values);
+    if (command.kind == Command::Set) answer.error = set(command);
+    if (command.kind == Command::Force) answer.error = force(command);
+    if (command.kind == Command::Unforce) answer.error = unforce(command);
+    if (command.kind == Command::Forces) answer.values = program_->forces.list();
   };
-  if (!threads_)
-    act();
-  else if (!threads_->between(act))
-    answer.error = "no moment between two activations was found within a second";
+  answer.is_busy = !between(act);
+  if (answer.is_busy) answer.error = "no moment between two activations was found within a second";
   return answer;
+}
+
+bool Session::between(const std::function<void()>& act) {
+  if (threads_) return threads_->between(act);
+  act();
+  return true;
 }
 
 // In real time other tasks rest meanwhile.

@@ -18,7 +18,7 @@ bool Session::prepare(Program& next, ChangeReport& report) {
 
 // Time and forces go on; the one that leaves is kept for a while, for its threads or for goBack().
 void Session::takeOver(std::unique_ptr<Program> next) {
-  const int64_t rows = threads_ ? threads_->rowsDone() : rows_done_;
+  const int64_t rows = rows_done_ + (threads_ ? threads_->rowsDone() : 0);
   const int64_t next_row_ns = base_ns_ + rows * program_->tasks.rowNs();
   next->schedule.goOnFrom(program_->schedule, next_row_ns);
   next->forces.takeFrom(program_->forces);

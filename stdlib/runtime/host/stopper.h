@@ -23,6 +23,8 @@ class Stopper {
   Stopper(const Stopper&) = delete;
   Stopper& operator=(const Stopper&) = delete;
 
+  // SIGTERM does the same as SIGINT.
+  void alsoOnTermination();
   // Another version of the program takes over: its context is the one to stop.
   static void moveTo(rung_context& context);
   // From now on; 0: none.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What becomes of each variable when another version of the program takes the place of the running one: see
-// rung/change.h. A block whose layout is the same stays where it is. All others are made anew, and get the values of
+// rung/change.h. A block whose layout is the same stays where it is. All others get new memory, and the values of
 // variables with the same path and type: whole runs of bytes where a structure is the same, else member by member.
 #include "places.h"
 #include "rung/monitor.h"

@@ -33,6 +33,35 @@ struct NewVersion {
   std::string error;  // why there is no module: a line, and what the compiler says about the project
 };
 
+// The pictures of the program's own POUs, for the monitor, which asks in a thread of its own. Empty: there are none.
+struct Pictures {
+  struct Pou {
+    std::string name, language;
+  };
+  std::function<std::vector<Pou>()> list;
+  // SVG; empty: there is none of this POU.
+  std::function<std::string(const std::string& pou)> draw;
+};
+
+// How the run is seen and changed by browsers and tools (docs/monitor.md).
+struct MonitorOptions {
+  std::string address;            // --monitor [ADDRESS:]PORT; empty: not at all
+  bool is_insecure = false;       // --monitor-insecure: other machines may reach the address
+  std::string engine = "native";  // that runs the program: `native` or `interp`
+  std::string version;            // of rung; empty: of the one that compiled the module
+  Pictures pictures;
+  std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
+};
+
+struct ChangeOptions {
+  int64_t rollback_cycles = 0;  // --rollback: how long a fault of a new version brings back the one before it
+  // Compiles a project, '' for the one that runs, for an online change; called in a thread of its own. Empty: a library
+  // of `rung build --shared` is loaded instead.
+  std::function<NewVersion(const std::string& project)> compile;
+  // --watch-files: tells whether the files of the project differ from those when it was asked last. Empty: they do not.
+  std::function<bool()> has_changed;
+};
+
 struct RunOptions {
   int64_t cycles = -1;                                    // --cycles; -1: not given
   int64_t for_ns = -1;                                    // --for
@@ -49,20 +78,16 @@ struct RunOptions {
   std::map<uint32_t, std::string> serial;                 // --serial N=DEVICE
   std::vector<std::string> drivers;                       // --driver PATH[=ARGUMENT]
   std::string control_path;                               // --control: commands to the running program
-  bool others_go_on = false;                              // --on-fault=task: a fault stops its task alone
-  int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
-  std::string stop_on;       // --stop-on CONDITION
-  bool trace_calls = false;  // --trace-calls, for interpreted modules that report their calls
+  MonitorOptions monitor;
+  bool others_go_on = false;  // --on-fault=task: a fault stops its task alone
+  int start = -1;             // --start: rung_start, -1: warm when the retain file exists, else cold
+  std::string stop_on;        // --stop-on CONDITION
+  bool trace_calls = false;   // --trace-calls, for interpreted modules that report their calls
   bool realtime = false;
   int64_t max_steps = kDefaultMaxSteps;  // --max-steps, of an activation; 0: none
   int64_t timeout_ns = 0;                // --timeout; 0: none
   bool color = false;
-  int64_t rollback_cycles = 0;  // --rollback: how long a fault of a new version brings back the one before it
-  // Compiles a project, '' for the one that runs, for an online change; called in a thread of its own. Empty: a library
-  // of `rung build --kind=shared` is loaded instead.
-  std::function<NewVersion(const std::string& project)> compile;
-  // --watch-files: tells whether the files of the project differ from those when it was asked last. Empty: they do not.
-  std::function<bool()> has_changed;
+  ChangeOptions change;
   ShownPaths paths;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
   std::FILE* out = stdout;     // for results, traces to `-` and traced calls
