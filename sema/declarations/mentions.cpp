@@ -8,11 +8,26 @@
 
 namespace rung::sema {
 
-void noteMention(Context& context, Entity entity, Loc loc, Access access) {
+namespace {
+
+// None: they are not recorded.
+std::vector<Mention>* mentionsOf(Context& context) {
   Project& project = context.project;
-  if (!project.options.records_mentions || context.library) return;
-  std::vector<Mention>& mentions = context.body != nullptr ? project.pou(context.pou).body.mentions : project.mentions;
-  mentions.push_back({entity, loc, access});
+  if (!project.options.records_mentions || context.library) return nullptr;
+  return context.body != nullptr ? &project.pou(context.pou).body.mentions : &project.mentions;
+}
+
+}  // namespace
+
+void noteMention(Context& context, Entity entity, Loc loc, Access access) {
+  if (std::vector<Mention>* const mentions = mentionsOf(context)) mentions->push_back({entity, loc, access});
+}
+
+void noteNameInstead(Context& context, Entity entity, Loc loc) {
+  std::vector<Mention>* const mentions = mentionsOf(context);
+  if (mentions == nullptr) return;
+  for (auto at = mentions->rbegin(); at != mentions->rend() && at->loc == loc; ++at) at->loc = {};
+  noteName(context, entity, loc);
 }
 
 void noteEffect(Context& context) {

@@ -110,7 +110,7 @@ class Describer {
     if (const PouId block = scope_.blockOf(id)) return pou(block);
     constexpr int kMostLines = 20;
     Description result{"TYPE " + project_.types.toString(id), {}, sizeOf(id)};
-    const Loc loc = locOfType(view_, id);
+    const Loc loc = scope_.locOf(Entity::of(EntityKind::Type, id.index));
     const FileId file = view_.sources().fileOf(loc);
     if (!file) return result;
     const std::string_view source = view_.sources().original(file);

@@ -25,6 +25,7 @@ bool isWritten(const sema::Var& var) { return var.name && var.loc && var.tempora
 
 Scope::Scope(const sema::Project& project) : project_(project) {
   addPous();
+  addInstances();
   addVars();
   addTypes();
   addGlobals();
@@ -47,6 +48,12 @@ void Scope::addPous() {
     for (const PouId accessor : {property.get, property.set})
       if (accessor) properties_.emplace(accessor.index, i);
   }
+}
+
+void Scope::addInstances() {
+  for (uint32_t i = 0; i < project_.instances.size(); ++i)
+    if (project_.instances[i].loc)
+      places_.emplace(placeOf(project_.instances[i].loc), Entity::of(EntityKind::Program, i));
 }
 
 void Scope::addVars() {
@@ -122,10 +129,7 @@ Loc Scope::locOf(Entity entity) const {
     case EntityKind::Property: return project_.properties[entity.index].loc;
     case EntityKind::Type: {
       if (const PouId block = blockOf({entity.index})) return project_.pou(block).loc;
-      if (const auto items = items_.find(entity.index); items != items_.end())
-        return project_.enum_values[items->second.front()].loc;
-      const auto fields = fields_.find(entity.index);
-      return fields == fields_.end() ? Loc{} : project_.var(fields->second.front()).loc;
+      return entity.index < project_.type_locs.size() ? project_.type_locs[entity.index] : Loc{};
     }
     case EntityKind::Namespace:
     case EntityKind::None:

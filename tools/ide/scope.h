@@ -30,7 +30,7 @@ class Scope {
   Entity declaredAt(Loc name) const;
   // The POU; of an accessor its property.
   Entity declaredEntity(PouId pou) const;
-  // Where an entity is declared, its name or its first member; none: nowhere in the sources.
+  // The name in the declaration of an entity; none: nowhere in the sources.
   Loc locOf(Entity entity) const;
   NameId nameOf(Entity entity) const;
 
@@ -60,6 +60,7 @@ class Scope {
   using ByKey = std::unordered_map<uint32_t, Id>;
 
   void addPous();
+  void addInstances();
   void addVars();
   void addGlobals();
   void addTypes();

@@ -51,6 +51,8 @@ Json serverCapabilities(const Session& session) {
       {"definitionProvider", true},
       {"typeDefinitionProvider", true},
       {"implementationProvider", true},
+      {"referencesProvider", true},
+      {"documentHighlightProvider", true},
       {"completionProvider",
        Json{{"triggerCharacters", Json::Array{".", "#", "%", "{", "'"}}, {"resolveProvider", true}}},
       {"signatureHelpProvider", Json{{"triggerCharacters", Json::Array{"(", ","}}}},

@@ -19,6 +19,8 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/definition", definition},
     {"textDocument/typeDefinition", typeDefinition},
     {"textDocument/implementation", implementation},
+    {"textDocument/references", references},
+    {"textDocument/documentHighlight", documentHighlights},
     {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/completion", completion},
     {"completionItem/resolve", resolveCompletion},

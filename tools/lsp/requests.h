@@ -26,6 +26,9 @@ Answer typeDefinition(Session& session, const Json& params);
 Answer implementation(Session& session, const Json& params);
 Answer hover(Session& session, const Json& params);
 Answer signatureHelp(Session& session, const Json& params);
+// references.cpp
+Answer references(Session& session, const Json& params);
+Answer documentHighlights(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);
