@@ -22,8 +22,13 @@ class Family {
   NameId name() const { return name_; }
 
  private:
+  Entity namesake(Entity member) const;
   void add(Entity entity);
+  void addValues(const sema::Property& property);
   void addVar(VarId var);
+  void addGlobal(VarId var);
+  void addPins(VarId var);
+  void addPinsOfMocks(VarId var);
   void addRelatives(PouId owner);
   Entity memberNamed(PouId object) const;
   void collectAncestors(PouId object, std::vector<PouId>& out) const;

@@ -25,12 +25,12 @@ enum Construct : uint16_t {
   kLoop = kFor | kWhile | kRepeat,
 };
 enum class Role : uint8_t { Opens, Continues, Closes };
-struct Word {
+struct BlockWord {
   std::string_view text;
   uint16_t of;  // Construct
   Role role;
 };
-constexpr Word kWords[] = {
+constexpr BlockWord kWords[] = {
     {"IF", kIf, Role::Opens},
     {"THEN", kIf, Role::Continues},
     {"ELSIF", kIf, Role::Continues},
@@ -83,15 +83,15 @@ constexpr Word kWords[] = {
 };
 
 // What the word continues from further out than the innermost construct: EXIT in an IF of a loop.
-bool reachesOut(const Word& word) { return (word.of & (kLoop | kPou | kMember)) != 0; }
+bool reachesOut(const BlockWord& word) { return (word.of & (kLoop | kPou | kMember)) != 0; }
 
-const Word* findWord(std::string_view text) {
+const BlockWord* findWord(std::string_view text) {
   constexpr size_t kLongest = 18;
   if (text.size() > kLongest) return nullptr;
   std::string word = upper(text);
   if (word.starts_with("VAR_")) word = "VAR";
   const auto found =
-      std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& of) { return of.text == word; });
+      std::find_if(std::begin(kWords), std::end(kWords), [&](const BlockWord& of) { return of.text == word; });
   return found == std::end(kWords) ? nullptr : found;
 }
 
@@ -105,7 +105,7 @@ class Matcher {
     bool after_dot = false;  // `a.of` is a member
     for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
       const std::string_view text = scanner.textOf(unit);
-      const Word* const word = unit.kind == UnitKind::Name && !after_dot ? findWord(text) : nullptr;
+      const BlockWord* const word = unit.kind == UnitKind::Name && !after_dot ? findWord(text) : nullptr;
       after_dot = text == ".";
       if (word != nullptr && take(*word, unit)) return std::move(open_.back().units);
       if (open_.empty() && unit.begin > offset_) return {};
@@ -127,7 +127,7 @@ class Matcher {
   }
 
   // True: the innermost construct ends, and has the offset.
-  bool take(const Word& word, const Unit& unit) {
+  bool take(const BlockWord& word, const Unit& unit) {
     if (word.role == Role::Opens) {
       open_.push_back({word.of, {unit}});
       return false;

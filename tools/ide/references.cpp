@@ -30,9 +30,9 @@ void sortByPlace(std::vector<Reference>& references) {
   references.resize(count);
 }
 
-class Finder {
+class ReferenceFinder {
  public:
-  Finder(const View& view, const Family& family, std::string_view written)
+  ReferenceFinder(const View& view, const Family& family, std::string_view written)
       : view_(view), scope_(view.meanings().scope()), project_(scope_.project()), family_(family), written_(written) {
     name_ = view.names().string(family.name());
     name_ = name_.substr(name_.rfind('.') + 1);
@@ -47,6 +47,8 @@ class Finder {
     return std::move(references_);
   }
 
+  bool isComplete() const { return is_complete_; }
+
  private:
   void add(const std::vector<sema::Mention>& mentions) {
     for (const sema::Mention& mention : mentions)
@@ -58,7 +60,10 @@ class Finder {
     const FileRange at = view_.nameInFile(loc);
     if (!at) return;
     const std::string_view text = view_.textOf(at.file).substr(at.begin, at.end - at.begin);
-    if (!sameIdentifier(text, name_) && !sameIdentifier(text, written_)) return;
+    if (!sameIdentifier(text, name_) && !sameIdentifier(text, written_)) {
+      is_complete_ = false;
+      return;
+    }
     if (!view_.pathOf(at.file).empty()) references_.push_back({at, kind, is_declaration});
   }
 
@@ -107,6 +112,7 @@ class Finder {
   const sema::Project& project_;
   const Family& family_;
   std::string_view name_, written_;
+  bool is_complete_ = true;
   std::vector<Reference> references_;
 };
 
@@ -153,8 +159,13 @@ class Labels {
 
 }  // namespace
 
-std::vector<Reference> referencesTo(const View& view, const Family& family, std::string_view written) {
-  return family.members().empty() ? std::vector<Reference>() : Finder(view, family, written).find();
+std::vector<Reference> referencesTo(const View& view, const Family& family, std::string_view written,
+                                    bool* is_complete) {
+  if (family.members().empty()) return {};
+  ReferenceFinder finder(view, family, written);
+  std::vector<Reference> references = finder.find();
+  if (is_complete != nullptr) *is_complete = finder.isComplete();
+  return references;
 }
 
 std::vector<Reference> labelsAt(const View& view, Loc at) {

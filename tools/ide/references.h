@@ -20,7 +20,9 @@ struct Reference {
 };
 
 // All places with the name of the family, or with its other name `written`: INT_TO_STRING is a name of TO_STRING.
-std::vector<Reference> referencesTo(const View& view, const Family& family, std::string_view written);
+// `is_complete` becomes false where the check knows another place of the name, in code that is made from the file.
+std::vector<Reference> referencesTo(const View& view, const Family& family, std::string_view written,
+                                    bool* is_complete = nullptr);
 // The label in the body around a location, and the jumps to it. Empty: no label is there.
 std::vector<Reference> labelsAt(const View& view, Loc at);
 // Of the name or label at a byte. Empty: there is none.

@@ -45,7 +45,9 @@ class Scope {
   void visible(PouId from, Visit visit) const;
   void membersOf(Entity of, Visit visit) const;
   void membersOf(TypeId type, Visit visit) const;
-  // Its inputs, in-outs and outputs, those of its bases first.
+  // Input, in-out or output.
+  bool isPin(VarId var) const;
+  // Those of a POU, those of its bases first.
   std::vector<VarId> pinsOf(PouId pou) const;
 
   // ---- types

@@ -23,6 +23,9 @@ void readCapabilities(Session& session, const Json& client) {
   session.client.snippets = text["completion"]["completionItem"]["snippetSupport"].isTrue();
   session.client.hierarchical_symbols = text["documentSymbol"]["hierarchicalDocumentSymbolSupport"].isTrue();
   session.client.location_links = text["definition"]["linkSupport"].isTrue();
+  const Json& edit = client["workspace"]["workspaceEdit"];
+  session.client.document_changes = edit["documentChanges"].isTrue();
+  session.client.renames_files = session.client.document_changes && has(edit["resourceOperations"], "rename");
   session.client.only_line_folding = text["foldingRange"]["lineFoldingOnly"].isTrue();
 }
 
@@ -53,6 +56,7 @@ Json serverCapabilities(const Session& session) {
       {"implementationProvider", true},
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
+      {"renameProvider", Json{{"prepareProvider", true}}},
       {"completionProvider",
        Json{{"triggerCharacters", Json::Array{".", "#", "%", "{", "'"}}, {"resolveProvider", true}}},
       {"signatureHelpProvider", Json{{"triggerCharacters", Json::Array{"(", ","}}}},

@@ -21,6 +21,8 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/implementation", implementation},
     {"textDocument/references", references},
     {"textDocument/documentHighlight", documentHighlights},
+    {"textDocument/prepareRename", prepareRename},
+    {"textDocument/rename", rename},
     {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/completion", completion},
     {"completionItem/resolve", resolveCompletion},

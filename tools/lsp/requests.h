@@ -29,6 +29,9 @@ Answer signatureHelp(Session& session, const Json& params);
 // references.cpp
 Answer references(Session& session, const Json& params);
 Answer documentHighlights(Session& session, const Json& params);
+// rename.cpp
+Answer prepareRename(Session& session, const Json& params);
+Answer rename(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);

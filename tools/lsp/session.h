@@ -46,6 +46,8 @@ struct ClientCapabilities {
   bool hierarchical_symbols = false;
   bool location_links = false;  // of definitions
   bool only_line_folding = false;
+  bool document_changes = false;  // of workspace edits
+  bool renames_files = false;     // in workspace edits
 };
 
 class Session {
