@@ -15,6 +15,7 @@
 #   messages                   the other notifications and requests of the server so far
 #   hover FILE L:C [JSON]      a request textDocument/hover, and so all others; `L:C-L:C` is its `range`
 #   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
+#   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
 #   bytes JSON                 the bytes of a string, without a header
@@ -346,6 +347,26 @@ class Script:
             for line in resolved.get("documentation", {}).get("value", "").split("\n"):
                 if line:
                     print("    " + line)
+
+    def do_calls(self, rest):
+        self.show_hierarchy(rest, "Call", {"incomingCalls": "from", "outgoingCalls": "to"})
+
+    def do_types(self, rest):
+        self.show_hierarchy(rest, "Type", {"supertypes": None, "subtypes": None})
+
+    def show_hierarchy(self, rest, kind, directions):
+        file, at = rest.split(" ")
+        params = {"textDocument": {"uri": uri(file)}, "position": position_of(at)}
+        items = self.client.request("textDocument/prepare%sHierarchy" % kind, params)["result"]
+        if not items:
+            return print("nothing")
+        for direction, side in directions.items():
+            answer = self.client.request("%sHierarchy/%s" % (kind.lower(), direction), {"item": items[0]})["result"]
+            for found in answer:
+                item = found[side] if side else found
+                places = " ".join(shown_range(at) for at in found.get("fromRanges", []))
+                name = ".".join([item["detail"], item["name"]] if "detail" in item else [item["name"]])
+                print(direction, name, shortened({"uri": item["uri"], "range": item["selectionRange"]}), places)
 
     # Answers that have no id of ours, until that of a request which the server does not know.
     def show_errors(self):

@@ -56,6 +56,8 @@ Json serverCapabilities(const Session& session) {
       {"implementationProvider", true},
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
+      {"callHierarchyProvider", true},
+      {"typeHierarchyProvider", true},
       {"renameProvider", Json{{"prepareProvider", true}}},
       {"completionProvider",
        Json{{"triggerCharacters", Json::Array{".", "#", "%", "{", "'"}}, {"resolveProvider", true}}},

@@ -32,6 +32,13 @@ Answer documentHighlights(Session& session, const Json& params);
 // rename.cpp
 Answer prepareRename(Session& session, const Json& params);
 Answer rename(Session& session, const Json& params);
+// hierarchy.cpp
+Answer prepareCallHierarchy(Session& session, const Json& params);
+Answer incomingCalls(Session& session, const Json& params);
+Answer outgoingCalls(Session& session, const Json& params);
+Answer prepareTypeHierarchy(Session& session, const Json& params);
+Answer supertypes(Session& session, const Json& params);
+Answer subtypes(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);
