@@ -56,6 +56,7 @@ Json serverCapabilities(const Session& session) {
       {"implementationProvider", true},
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
+      {"inlayHintProvider", true},
       {"callHierarchyProvider", true},
       {"typeHierarchyProvider", true},
       {"renameProvider", Json{{"prepareProvider", true}}},

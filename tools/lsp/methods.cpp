@@ -29,6 +29,7 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/prepareTypeHierarchy", prepareTypeHierarchy},
     {"typeHierarchy/supertypes", supertypes},
     {"typeHierarchy/subtypes", subtypes},
+    {"textDocument/inlayHint", inlayHints},
     {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/completion", completion},
     {"completionItem/resolve", resolveCompletion},

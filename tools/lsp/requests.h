@@ -39,6 +39,8 @@ Answer outgoingCalls(Session& session, const Json& params);
 Answer prepareTypeHierarchy(Session& session, const Json& params);
 Answer supertypes(Session& session, const Json& params);
 Answer subtypes(Session& session, const Json& params);
+// inlay_hints.cpp
+Answer inlayHints(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);
