@@ -15,6 +15,7 @@
 #   messages                   the other notifications and requests of the server so far
 #   hover FILE L:C [JSON]      a request textDocument/hover, and so all others; `L:C-L:C` is its `range`
 #   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
+#   tokens FILE                the numbers of its semantic tokens: all, then the edits of those of before
 #   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
@@ -244,6 +245,7 @@ class Script:
         self.lines = [line.rstrip("\n") for line in lines if line.strip()]
         self.client = Client(arguments)
         self.shown = {}
+        self.tokens = {}  # by file: the id of the last answer, and all numbers
 
     def run(self):
         folders, capabilities = ["."], CAPABILITIES
@@ -347,6 +349,22 @@ class Script:
             for line in resolved.get("documentation", {}).get("value", "").split("\n"):
                 if line:
                     print("    " + line)
+
+    def do_tokens(self, rest):
+        params = {"textDocument": {"uri": uri(rest)}, "previousResultId": self.tokens.get(rest, ("0", []))[0]}
+        answer = self.client.request("textDocument/semanticTokens/full/delta", params)["result"]
+        if "data" in answer:
+            print("all %d tokens" % (len(answer["data"]) // 5))
+            self.tokens[rest] = (answer["resultId"], answer["data"])
+            return
+        data = list(self.tokens[rest][1])
+        for edit in answer["edits"]:
+            data[edit["start"]:edit["start"] + edit["deleteCount"]] = edit.get("data", [])
+            print("at %(start)d: %(deleteCount)d numbers become" % edit, edit["data"])
+        self.tokens[rest] = (answer["resultId"], data)
+        whole = self.client.request("textDocument/semanticTokens/full", {"textDocument": {"uri": uri(rest)}})["result"]
+        self.tokens[rest] = (whole["resultId"], data)
+        print("as all of them" if whole["data"] == data else "not those that there are")
 
     def do_calls(self, rest):
         self.show_hierarchy(rest, "Call", {"incomingCalls": "from", "outgoingCalls": "to"})

@@ -67,7 +67,10 @@ Json serverCapabilities(const Session& session) {
       {"selectionRangeProvider", true},
       {"documentFormattingProvider", true},
       {"documentRangeFormattingProvider", true},
-      {"semanticTokensProvider", Json{{"legend", semanticTokensLegend()}, {"full", true}, {"range", true}}},
+      {"documentOnTypeFormattingProvider",
+       Json{{"firstTriggerCharacter", ";"}, {"moreTriggerCharacter", Json::Array{"\n"}}}},
+      {"semanticTokensProvider",
+       Json{{"legend", semanticTokensLegend()}, {"full", Json{{"delta", true}}}, {"range", true}}},
       {"workspace", Json{{"workspaceFolders", Json{{"supported", true}, {"changeNotifications", true}}}}},
   };
 }
@@ -117,6 +120,7 @@ void didClose(Session& session, const Json& params) {
   const std::string path = pathOfUri(params["textDocument"]["uri"].text());
   if (session.documents.find(path) == nullptr) return;
   session.documents.close(path);
+  session.sent_tokens.erase(path);
   session.projects.close(path);
 }
 

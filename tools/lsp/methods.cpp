@@ -13,6 +13,7 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/foldingRange", foldingRanges},
     {"textDocument/selectionRange", selectionRanges},
     {"textDocument/semanticTokens/full", semanticTokensFull},
+    {"textDocument/semanticTokens/full/delta", semanticTokensDelta},
     {"textDocument/semanticTokens/range", semanticTokensRange},
     {"textDocument/hover", hover},
     {"textDocument/declaration", declaration},
@@ -35,6 +36,7 @@ constexpr RequestMethod kRequests[] = {
     {"completionItem/resolve", resolveCompletion},
     {"textDocument/formatting", formatDocument},
     {"textDocument/rangeFormatting", formatRange},
+    {"textDocument/onTypeFormatting", formatOnType},
 };
 
 constexpr NotificationMethod kNotifications[] = {

@@ -15,10 +15,12 @@ Answer foldingRanges(Session& session, const Json& params);
 Answer selectionRanges(Session& session, const Json& params);
 // semantic_tokens.cpp
 Answer semanticTokensFull(Session& session, const Json& params);
+Answer semanticTokensDelta(Session& session, const Json& params);
 Answer semanticTokensRange(Session& session, const Json& params);
 // formatting.cpp
 Answer formatDocument(Session& session, const Json& params);
 Answer formatRange(Session& session, const Json& params);
+Answer formatOnType(Session& session, const Json& params);
 // navigation.cpp
 Answer declaration(Session& session, const Json& params);
 Answer definition(Session& session, const Json& params);

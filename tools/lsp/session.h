@@ -50,6 +50,12 @@ struct ClientCapabilities {
   bool renames_files = false;     // in workspace edits
 };
 
+// The semantic tokens that the client has of an open buffer.
+struct SentTokens {
+  uint64_t id = 0;
+  Json::Numbers data;
+};
+
 class Session {
  public:
   Session(driver::ProjectOptions options, int output, Log& log)
@@ -59,7 +65,8 @@ class Session {
   ide::Projects projects;
   Encoding encoding = Encoding::Utf16;
   ClientCapabilities client;
-  const std::atomic<bool>* cancelled = nullptr;  // of the request that is being answered
+  std::map<std::string, SentTokens> sent_tokens;  // by path
+  const std::atomic<bool>* cancelled = nullptr;   // of the request that is being answered
 
   // The current view of the project of a file; null: there is none, or the request was cancelled.
   const ide::View* viewOf(const std::string& path);
