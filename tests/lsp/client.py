@@ -15,6 +15,7 @@
 #   messages                   the other notifications and requests of the server so far
 #   hover FILE L:C [JSON]      a request textDocument/hover, and so all others; `L:C-L:C` is its `range`
 #   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
+#   lenses FILE                its code lenses, resolved: a line for each
 #   tokens FILE                the numbers of its semantic tokens: all, then the edits of those of before
 #   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
 #   request METHOD [JSON], notify METHOD [JSON]
@@ -349,6 +350,14 @@ class Script:
             for line in resolved.get("documentation", {}).get("value", "").split("\n"):
                 if line:
                     print("    " + line)
+
+    def do_lenses(self, rest):
+        for lens in self.client.request("textDocument/codeLens", {"textDocument": {"uri": uri(rest)}})["result"]:
+            if "command" not in lens:
+                lens = self.client.request("codeLens/resolve", lens)["result"]
+            command = lens["command"]
+            arguments = shortened(command.get("arguments", []))
+            print(shown_range(lens["range"]), command["title"], command["command"], *arguments)
 
     def do_tokens(self, rest):
         params = {"textDocument": {"uri": uri(rest)}, "previousResultId": self.tokens.get(rest, ("0", []))[0]}

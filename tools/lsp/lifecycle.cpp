@@ -26,6 +26,8 @@ void readCapabilities(Session& session, const Json& client) {
   const Json& edit = client["workspace"]["workspaceEdit"];
   session.client.document_changes = edit["documentChanges"].isTrue();
   session.client.renames_files = session.client.document_changes && has(edit["resourceOperations"], "rename");
+  for (const Json& command : client["experimental"]["commands"]["commands"].items())
+    session.client.commands.insert(std::string(command.text()));
   session.client.only_line_folding = text["foldingRange"]["lineFoldingOnly"].isTrue();
 }
 
@@ -57,6 +59,7 @@ Json serverCapabilities(const Session& session) {
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
       {"inlayHintProvider", true},
+      {"codeLensProvider", Json{{"resolveProvider", true}}},
       {"callHierarchyProvider", true},
       {"typeHierarchyProvider", true},
       {"renameProvider", Json{{"prepareProvider", true}}},

@@ -31,6 +31,8 @@ constexpr RequestMethod kRequests[] = {
     {"typeHierarchy/supertypes", supertypes},
     {"typeHierarchy/subtypes", subtypes},
     {"textDocument/inlayHint", inlayHints},
+    {"textDocument/codeLens", codeLenses},
+    {"codeLens/resolve", resolveCodeLens},
     {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/completion", completion},
     {"completionItem/resolve", resolveCompletion},

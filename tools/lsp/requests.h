@@ -43,6 +43,9 @@ Answer supertypes(Session& session, const Json& params);
 Answer subtypes(Session& session, const Json& params);
 // inlay_hints.cpp
 Answer inlayHints(Session& session, const Json& params);
+// code_lens.cpp
+Answer codeLenses(Session& session, const Json& params);
+Answer resolveCodeLens(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tools/ide/projects.h"
@@ -46,8 +47,9 @@ struct ClientCapabilities {
   bool hierarchical_symbols = false;
   bool location_links = false;  // of definitions
   bool only_line_folding = false;
-  bool document_changes = false;  // of workspace edits
-  bool renames_files = false;     // in workspace edits
+  bool document_changes = false;   // of workspace edits
+  bool renames_files = false;      // in workspace edits
+  std::set<std::string> commands;  // of its own, that a lens may name
 };
 
 // The semantic tokens that the client has of an open buffer.
