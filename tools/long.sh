@@ -188,6 +188,8 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
+all=(differential networks mutants frames snapshots changes forces modifiers bodies mutation profiles cams kills tsan service
+     lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots rename forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do

@@ -46,28 +46,44 @@ void Forces::unforceAll() {
   names_.clear();
 }
 
-std::string Forces::list() const {
-  // The table is memory like any other.
-  void* blocks[] = {table_.values};
+// The value to which a variable is forced.
+std::string Forces::valueOf(const Variable& name) const {
+  const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
+    return rung_is_same_variable(&forced.variable, &name);
+  });
+  void* blocks[] = {table_.values};  // the table is memory like any other
   rung_context context{};
   context.blocks = blocks;
   context.module = &symbols_.module().description;
+  Variable value = name;
+  value.context = &context;
+  value.storage = RUNG_IN_BLOCK;
+  value.index = value.pointers = 0;
+  value.offsets[0] = row->value;
+  value.bit = 255;
+  std::string text;
+  formatValue(symbols_.module(), value, text);
+  return text;
+}
+
+std::string Forces::list() const {
   std::string lines;
-  for (const Variable& name : names_) {
-    const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
-      return rung_is_same_variable(&forced.variable, &name);
-    });
-    Variable value = name;
-    value.context = &context;
-    value.storage = RUNG_IN_BLOCK;
-    value.index = value.pointers = 0;
-    value.offsets[0] = row->value;
-    value.bit = 255;
-    lines += name.path + " = ";
-    formatValue(symbols_.module(), value, lines);
-    lines += '\n';
-  }
+  for (const Variable& name : names_) lines += name.path + " = " + valueOf(name) + '\n';
   return lines;
+}
+
+std::vector<std::string> Forces::takeFrom(const Forces& before) {
+  std::vector<std::string> lost;
+  for (const Variable& name : before.names_) {
+    Variable variable;
+    std::string error;
+    const std::string value = before.valueOf(name);
+    if (symbols_.find(name.path, variable, error) && check(variable, value).empty())
+      force(variable, value);
+    else
+      lost.push_back(name.path);
+  }
+  return lost;
 }
 
 bool Forces::touches(const Variable& variable) const {

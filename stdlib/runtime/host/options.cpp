@@ -49,6 +49,7 @@ const char kHelp[] =
     "  --control FILE        commands, each after the number of its cycle: stop, start, cycle, reset, get, set, force "
     "and\n"
     "                        others; in real time also a pipe\n"
+    "  --rollback N          go back when a new version of the program faults within N cycles\n"
     "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
@@ -72,6 +73,10 @@ namespace {
 std::string readTime(const char* option, const char* example, const std::string& value, int64_t& ns) {
   if (readDuration(value, ns)) return "";
   return std::string(option) + " needs a time such as " + example + ", not `" + value + "`";
+}
+
+std::string setRollback(const std::string& value, RunOptions& options) {
+  return readCount(value, options.rollback_cycles) ? "" : "--rollback needs a number of cycles, not `" + value + "`";
 }
 
 template <std::string RunOptions::*option>
@@ -167,6 +172,7 @@ const ValueOption kValueOptions[] = {
     {"--plot", setString<&RunOptions::plot_path>},
     {"--retain", setString<&RunOptions::retain_path>},
     {"--control", setString<&RunOptions::control_path>},
+    {"--rollback", setRollback},
     {"--driver", addDriver},
     {"--watch", addWatched},
     {"--set", addPreset},

@@ -70,6 +70,11 @@ Stopper::~Stopper() {
   context_to_stop = nullptr;
 }
 
+void Stopper::moveTo(rung_context& context) {
+  context.stop = context_to_stop->stop;
+  context_to_stop = &context;
+}
+
 void Stopper::limitTime(int64_t ns) {
   if (stop_reason == RUNG_STOP_INTERRUPT) return;
   setTimer(0, 0);

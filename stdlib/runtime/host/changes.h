@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The online changes of a run: the new version is compiled, in real time by a thread while the program goes on, and
+// takes over. In: commands, and files that change. Out: sentences for the user. Used by run.cpp.
+#pragma once
+
+#include <future>
+#include <optional>
+#include <string>
+
+#include "rung/host.h"
+#include "session.h"
+
+namespace rung::host {
+
+class Changes {
+ public:
+  struct Outcome {
+    std::string text, error;
+  };
+
+  Changes(Session& session, const RunOptions& options) : session_(session), options_(options) {}
+
+  // Of Command::Change. In virtual time it is made at once. Empty: it is made when it is ready.
+  std::optional<Outcome> begin(const Command& command);
+  // Makes the change that is ready, or begins one because files have changed. Called now and then; quick where there is
+  // nothing to do.
+  std::optional<Outcome> attend();
+  // The paths of the version that runs, as messages show them; empty: those of the options.
+  const ShownPaths& paths() const { return paths_; }
+
+ private:
+  Outcome make(const NewVersion& version);
+
+  Session& session_;
+  const RunOptions& options_;
+  Command command_;  // that has begun
+  std::future<NewVersion> compiling_;
+  int64_t next_look_ns_ = 0;  // at the files
+  ShownPaths paths_;
+};
+
+}  // namespace rung::host
