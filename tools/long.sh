@@ -10,6 +10,7 @@
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
 # rename        1 500 random renames in projects and files of all formats: equal C++ but for the name (COUNT, FIRST)
+# changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
@@ -85,6 +86,11 @@ rename() {
   mapfile -t files < <(find tests/conformance/language tests/conformance/standard -name '*.st' -o -name '*.xml' | sort)
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count "$((${COUNT:-1500} / 500))" --verbose "${files[@]}"
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count 20 --verbose samples/*/ tests/programs/vendor/*/
+}
+
+changes() {
+  needs rung
+  PATH=$bin:$PATH tests/online_change/edits.py "${COUNT:-1000}" "$first"
 }
 
 forces() {
@@ -188,15 +194,12 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots changes forces modifiers bodies mutation profiles cams kills tsan service
+all=(differential networks mutants frames snapshots rename changes forces modifiers bodies mutation profiles cams kills tsan service
      lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots rename forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")
 for part in "${parts[@]}"; do
-  case $part in
-    differential|networks|mutants|frames|snapshots|rename|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,28s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
-  esac
+  [[ " ${all[*]} " == *" $part "* ]] || { sed -n '3,/^set -eu/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 done
 for part in "${parts[@]}"; do
   echo "== $part"
