@@ -77,13 +77,15 @@ void Projects::removeFolder(const std::string& path) {
 
 // A buffer without a file may name a project too: `rung.project` that is not saved yet.
 Projects::Home Projects::homeOf(const std::string& path) {
-  for (std::string folder = parentOf(path);; folder = parentOf(folder)) {
+  const workspace::FoundProject found = workspace::projectAround(parentOf(path));
+  const std::string input = found.input.empty() ? std::string() : driver::absolutePath(found.input);
+  const std::string nearest = namesProject(input) ? parentOf(input) : input;
+  for (std::string folder = parentOf(path); folder.size() >= nearest.size(); folder = parentOf(folder)) {
     if (buffers_.count(folder + "/rung.project") != 0) return {folder};
     if (folder == "/" || folder.empty()) break;
   }
-  const workspace::FoundProject found = workspace::projectAround(parentOf(path));
   if (!found.error.empty()) notice(parentOf(path) + ": " + found.error);
-  if (!found.input.empty()) return {driver::absolutePath(found.input)};
+  if (!input.empty()) return {input};
   for (const auto& entry : folders_) {
     const std::string& folder = entry.first;
     const bool is_project = std::any_of(projects_.begin(), projects_.end(), [&](const auto& project) {
