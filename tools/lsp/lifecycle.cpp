@@ -59,6 +59,7 @@ Json serverCapabilities(const Session& session) {
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
       {"inlayHintProvider", true},
+      {"documentLinkProvider", Json::emptyObject()},
       {"codeLensProvider", Json{{"resolveProvider", true}}},
       {"callHierarchyProvider", true},
       {"typeHierarchyProvider", true},

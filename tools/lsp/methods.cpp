@@ -33,6 +33,7 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/inlayHint", inlayHints},
     {"textDocument/codeLens", codeLenses},
     {"codeLens/resolve", resolveCodeLens},
+    {"textDocument/documentLink", documentLinks},
     {"textDocument/signatureHelp", signatureHelp},
     {"textDocument/completion", completion},
     {"completionItem/resolve", resolveCompletion},

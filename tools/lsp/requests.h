@@ -46,6 +46,8 @@ Answer inlayHints(Session& session, const Json& params);
 // code_lens.cpp
 Answer codeLenses(Session& session, const Json& params);
 Answer resolveCodeLens(Session& session, const Json& params);
+// document_links.cpp
+Answer documentLinks(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);
