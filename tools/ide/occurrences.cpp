@@ -41,11 +41,12 @@ class Occurrences {
   bool areKnownIn(const FileUnit& unit) {
     const std::string_view source = view_.sources().sourceText(unit.file);
     if (!mayHaveName(source)) return true;
+    if (hasConditions(unit)) return false;
     const uint32_t base = view_.sources().begin(unit.file).offset;
     Scanner scanner(source);
     for (Unit piece = scanner.next(); piece.kind != UnitKind::End; piece = scanner.next()) {
       const std::string_view text = scanner.textOf(piece);
-      if (piece.kind == UnitKind::Comment || text.size() < name_.size()) continue;
+      if (piece.kind == UnitKind::Comment || piece.kind == UnitKind::String || text.size() < name_.size()) continue;
       if (piece.kind == UnitKind::Name && text.size() == name_.size()) {
         const Loc loc{base + static_cast<uint32_t>(piece.begin)};
         if (sameIdentifier(text, name_) && known_.count(keyOf(view_.nameInFile(loc))) == 0 && !isDeclared(loc))
@@ -55,6 +56,13 @@ class Occurrences {
       }
     }
     return true;
+  }
+
+  // {IF defined (type: Color)}, which the parsed text has not any more.
+  bool hasConditions(const FileUnit& unit) const {
+    const std::vector<Segment>& segments = view_.sources().segments(unit.file);
+    const FileId from = segments.empty() ? unit.file : view_.sources().fileOf(segments.front().from);
+    return from && view_.sources().original(from).find("defined") != std::string_view::npos;
   }
 
   // Color_TO_INT, TO_Color.

@@ -7,7 +7,7 @@
 
 namespace rung::ide {
 
-// Comments do not count; a pragma or string with the name does, and what it means is not known.
+// Comments and strings do not count; a pragma with the name does, and what it means is not known.
 bool knowsAllOccurrences(const View& view, std::string_view name, const Edits& known);
 
 }  // namespace rung::ide
