@@ -110,7 +110,8 @@ class Collector {
       if (const PouId own = scope_.pouOf(id)) {
         pou = own;
         // A condition of a chart is an action without a name.
-        const bool has_name = kindOfWord(view_.sources().tokenAt(header.loc)) == WordKind::None;
+        const std::string_view name = view_.names().string(tree_.as<PouDecl>(id).name);
+        const bool has_name = sameIdentifier(view_.sources().tokenAt(header.loc), name);
         if (has_name && project_.pou(own).object.accessor == sema::AccessorKind::None)
           add(header.loc, Entity::of(EntityKind::Pou, own.index), true);
       }
