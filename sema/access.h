@@ -17,6 +17,7 @@ enum class Access : uint8_t {
   Address,    // ADR, SIZEOF: neither read nor written here
   Refer,      // bound to a REFERENCE, through which it may be written; otherwise like Address
   Call,       // an instance that is called; otherwise like ReadWrite
+  Pin,        // the pin of an argument, the member of an initial value: named there, and no use of the variable
 };
 
 // Whether the value of the variable may be written.

@@ -106,6 +106,7 @@ struct Project : Symbols {
   std::unordered_map<const PouDecl*, std::vector<DeclId>> made_sections;
   std::span<const DeclId> madeSections(const PouDecl& pou) const;
   diagram::NetworkVariables network_variables;   // that these sections declare
+  std::vector<Loc> type_locs;                    // by TypeId: of the name of a declared type, or none
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the location of the call: for the recursion rule.

@@ -9,6 +9,7 @@
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
+# rename        1 500 random renames in projects and files of all formats: equal C++ but for the name (COUNT, FIRST)
 # changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
@@ -78,6 +79,14 @@ snapshots() {
     "$bin/snapshot_edits" "$sources" 200 "$first" 1 >"$folder/log" || { cat "$folder/log"; exit 1; }
   done
   rm -r "$folder"
+}
+
+rename() {
+  needs rung
+  local files
+  mapfile -t files < <(find tests/conformance/language tests/conformance/standard -name '*.st' -o -name '*.xml' | sort)
+  PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count "$((${COUNT:-1500} / 500))" --verbose "${files[@]}"
+  PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count 20 --verbose samples/*/ tests/programs/vendor/*/
 }
 
 changes() {
@@ -198,7 +207,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots changes forces monitor modifiers bodies mutation profiles cams kills tsan service
+all=(differential networks mutants frames snapshots rename changes forces monitor modifiers bodies mutation profiles cams kills tsan service
      lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -588,6 +588,7 @@ class ArgumentMatcher {
     const Argument& argument = this->argument(index);
     const size_t slot = slotNamed(argument.pin.name);
     if (slot == pins_.size()) return matchOtherName(index);
+    noteMention(context_, entity(pins_[slot]), argument.pin.loc, Access::Pin);
     next_ = slot + 1;
     if (argument.is_output == isOutput(slot)) return putOrCheck(slot, index);
     context_.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,

@@ -12,6 +12,7 @@
 #include "sema/bodies/conversions.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/declarations/constants.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/types.h"
 #include "sema/diagnostics.h"
@@ -288,11 +289,14 @@ void makeUnicode(Context& context, ExprId& expr) {
 
 TypeId prefixType(Context& context, LiteralExpr& node) {
   if (const TypeId elementary = context.types().elementary(node.prefix)) {
-    const TypeId own = ownTypeOfLateName(context, node.prefix, context.types().info(elementary).kind);
+    const TypeId own = ownTypeOfLateName(context, node.prefix, node.h.loc, context.types().info(elementary).kind);
     return own ? own : elementary;
   }
   const Entity entity = lookUp(context, node.prefix);
-  if (entity.entityKind() == EntityKind::Type) return TypeId{entity.index};
+  if (entity.entityKind() == EntityKind::Type) {
+    noteName(context, entity, node.h.loc);
+    return TypeId{entity.index};
+  }
   if (!entity) {
     if (isFirstReport(context, node.prefix))
       context.report(diag::UnknownName, node.h.loc, {string(context, node.prefix)})

@@ -107,9 +107,16 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   return item.type;
 }
 
+bool isQualifier(Entity entity) {
+  const EntityKind kind = entity.entityKind();
+  return kind == EntityKind::Pou || kind == EntityKind::Type || kind == EntityKind::GlobalList ||
+         kind == EntityKind::Namespace || kind == EntityKind::Program;
+}
+
 // An entity as an operand; a qualifier has no type and is not a value.
 TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
   ExprHeader& header = context.code().expr(expr);
+  if (isQualifier(entity)) noteName(context, entity, loc);
   switch (entity.entityKind()) {
     case EntityKind::Var: {
       const Var& var = context.symbols.vars[entity.index];
@@ -277,8 +284,8 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
 }  // namespace
 
 void markAccess(Context& context, VarId id, Access access, Loc loc) {
-  if (access == Access::Qualifier) return;
   noteMention(context, entity(id), loc, access);
+  if (access == Access::Qualifier) return;
   for (VarId at = id; at; at = context.symbols.var(at).external) {
     Var& var = context.symbols.var(at);
     if (reads(access)) ++var.used.reads;
@@ -426,6 +433,8 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
           .didYouMean(nearestField(context, enumeration, node.item.name));
     return unknown(known);
   }
+  noteName(context, type, node.type_name.loc);
+  noteMention(context, known.entity, node.item.loc, Access::Read);
   known.is_constant = 1;
   return known.type = context.symbols.enum_values[known.entity.index].type;
 }
@@ -509,6 +518,7 @@ static TypeId checkHiddenItem(Context& context, ExprId& expr, TypeId base, Entit
     Meaning& qualifier = context.meaning(node.base);
     qualifier.entity = hidden;
     qualifier.type = {};
+    noteNameInstead(context, hidden, context.tree().loc(node.base));
     return checkWhole(context, expr, hidden, access);
   }
   const std::string typed = toString(context, nameOf(context, node.base)) + "#" + toString(context, node.member);

@@ -29,6 +29,7 @@ bool sharesTemporaries(const Symbols& symbols, PouId id) {
 
 void takeBackMentions(Symbols& symbols, const std::vector<Mention>& mentions) {
   for (const Mention& mention : mentions) {
+    if (mention.access == Access::Qualifier || mention.access == Access::Pin) continue;  // not counted
     VarId var = mention.entity.entityKind() == EntityKind::Var ? VarId{mention.entity.index} : VarId{};
     for (; var; var = symbols.var(var).external) {
       Var::Used& used = symbols.var(var).used;

@@ -16,6 +16,7 @@
 
 #include "sema/bodies/calls.h"
 #include "sema/bodies/names.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/variables.h"
 #include "sema/project.h"
@@ -100,6 +101,7 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
         .didYouMean(nearestName(context, mock.pragmas.replaces));
     return;
   }
+  noteNameInPragma(context, found, pragma);
   const PouId original{found.index};
   if (!canBeReplaced(context.symbols.pou(original), mock)) {
     reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().string(mock.name), wanted})
@@ -143,6 +145,7 @@ void checkMocks(Context& context) {
             .didYouMean(nearest(written, mocks));
         continue;
       }
+      noteNameInPragma(there, found, pragma);
       taken[found.index] = true;
       const Pou& mock = symbols.pous[found.index];
       Context at_mock = atPou(context, PouId{found.index});

@@ -12,6 +12,7 @@
 #include "sema/declarations/collect.h"
 #include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/types.h"
 #include "sema/project.h"
@@ -91,6 +92,7 @@ struct AccessPathResolver {
     }
     if (var.bits.is_bit) out.bit = var.bits.bit;
     if (var.constant) out.read_only = true;
+    noteName(context, entity(id), step.name.loc);
     ++project.var(id).used.reads;
     if (!out.read_only) ++project.var(id).used.writes;
     return !step.element || enterElement(out, step, type);
@@ -118,7 +120,7 @@ struct AccessPathResolver {
   }
 
   // [configuration .] [resource .] instance at the front of a path; 0: the path names no instance.
-  size_t followInstance(std::span<const Step> steps, AccessPath& out) const {
+  size_t followInstance(std::span<const Step> steps, AccessPath& out) {
     for (uint32_t i = 0; i < project.instances.size(); ++i) {
       const ProgramInstance& instance = project.instances[i];
       size_t next = 0;
@@ -130,7 +132,9 @@ struct AccessPathResolver {
       if (!matches(instance.name) || steps[next].element) continue;
       out.root = AccessPath::Root::Instance;
       out.index = i;
-      if (project.pou(instance.program).record) return next + 1;
+      if (!project.pou(instance.program).record) continue;
+      noteName(context, Entity::of(EntityKind::Program, i), steps[next].name.loc);
+      return next + 1;
     }
     return 0;
   }
@@ -165,7 +169,10 @@ struct AccessPathResolver {
     Entity found;
     if (at > 0) {
       const Entity list = context.scopes.qualifiers.find(keyOf(context, steps[at - 1].name.name));
-      if (list.entityKind() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
+      if (list.entityKind() == EntityKind::GlobalList) {
+        found = context.scopes.lists[list.index].names.find(key);
+        noteName(context, list, steps[at - 1].name.loc);
+      }
     }
     if (!found) found = context.scopes.globals.find(key);
     if (found.entityKind() != EntityKind::Var) {

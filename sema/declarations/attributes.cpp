@@ -6,6 +6,7 @@
 
 #include "sema/declarations/collect.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/objects.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
@@ -138,6 +139,7 @@ void resolveConnection(Context& context, PouId block, VarId id, const Pragma& pr
     context.report(diag::AttributeValue, pragma.loc, {name, "is_connected", "the name of an input of this block"});
     return;
   }
+  noteNameInPragma(context, found, pragma);
   if (var.type == types::kError) return;
   if (context.types().kind(var.type) != types::TypeKind::Bool) {
     context.report(diag::AttributeWithoutEffect, pragma.loc, {"is_connected", "before a BOOL variable"});

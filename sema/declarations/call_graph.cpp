@@ -13,7 +13,8 @@ namespace rung::sema {
 void noteCall(Context& context, PouId callee, Loc loc) {
   Pou& pou = context.symbols.pou(callee);
   pou.progress.used = true;
-  noteMention(context, entity(callee), loc, Access::Call);
+  const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
+  if (!is_block) noteMention(context, entity(callee), loc, Access::Call);  // the name of a block is not written there
   if (pou.kind == PouKind::Program) noteEffect(context);
   if (pou.decl) context.rules->use(context, {callee, context.tree().decl(pou.decl), pou.name, loc, true});
   // Of library blocks only those that may ask for a task (checks/task_needs.cpp).

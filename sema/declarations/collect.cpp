@@ -281,6 +281,13 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   if (!of_library) collectGlobals(context, pou, decl);
 }
 
+static void noteTypeLoc(Context& context, TypeId type, Loc loc) {
+  if (type == types::kError) return;
+  std::vector<Loc>& locs = context.project.type_locs;
+  if (locs.size() <= type.index) locs.resize(type.index + 1);
+  locs[type.index] = loc;
+}
+
 void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   Scopes& scopes = context.scopes;
   const Tree& tree = context.tree();
@@ -308,6 +315,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   if (library != kNoLibrary && name != decl.name && tree.kind(decl.type) != TypeExprKind::Error)
     table.edit(type).shown_name = nameWithLibrary(context, library, decl.name);
   checkAttributes(context, decl.h, is_structure ? Attributed::Structure : Attributed::OtherType);
+  noteTypeLoc(context, type, decl.h.loc);
   NamedType& named = addNamed(context, type);
   named.decl = id;
   named.type = decl.type;

@@ -12,6 +12,7 @@
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
 #include "sema/declarations/libraries.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/namespaces.h"
 #include "sema/declarations/task_triggers.h"
@@ -277,6 +278,7 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
     const uint32_t number = findTask(context, part, task, tasks);
     if (number == 0) continue;
     project.pou(pou).progress.used = true;
+    noteName(context, entity(found), block.loc);
     ++project.var(found).used.reads;
     project.block_tasks.push_back({instance, found, number, block.loc});
   }
@@ -328,6 +330,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   if (!found) found = lookUpLibrary(context, type_key);
   if (found.entityKind() == EntityKind::Pou && project.pous[found.index].kind == PouKind::Program) {
     instance.program = PouId{found.index};
+    noteName(context, found, type.loc);
   } else {
     std::vector<std::string_view> programs;
     for (const Pou& pou : project.pous) {

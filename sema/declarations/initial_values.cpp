@@ -12,6 +12,7 @@
 #include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
 #include "sema/declarations/variables.h"
@@ -335,6 +336,7 @@ struct Initializer {
             .didYouMean(nearestMember(type, given.field.name));
       return false;
     }
+    noteMention(context, entity(member), given.field.loc, Access::Pin);
     const Var& var = context.symbols.var(member);
     if (!seen.insert(keyOf(context, var.name), entity(member))) {
       context.report(diag::DuplicateMember, given.field.loc, {name});
@@ -400,6 +402,7 @@ struct Initializer {
       given.value = {};
       return true;
     }
+    noteMention(context, found, given.field.loc, Access::Pin);
     PouId setter = context.symbols.properties[found.index].set;
     for (PouId at = context.symbols.pou(context.symbols.properties[found.index].owner).base; at && !setter;
          at = context.symbols.pou(at).base) {

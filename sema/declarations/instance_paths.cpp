@@ -9,6 +9,7 @@
 #include "sema/declarations/addresses.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/initial_values.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/types.h"
 #include "sema/project.h"
@@ -174,7 +175,7 @@ struct InstancePathResolver {
   // ---- VAR_CONFIG
 
   // [configuration .] [resource .] instance at the front of a path; 0: the path names no instance.
-  size_t followInstance(std::span<const Ident> names, InstancePath& out) const {
+  size_t followInstance(std::span<const Ident> names, InstancePath& out) {
     for (uint32_t i = 0; i < project.instances.size(); ++i) {
       const ProgramInstance& instance = project.instances[i];
       size_t next = 0;
@@ -186,7 +187,9 @@ struct InstancePathResolver {
       if (!matches(instance.name)) continue;
       out.instance = i;
       out.program = instance.program;
-      if (out.program) return next + 1;
+      if (!out.program) continue;
+      noteName(context, Entity::of(EntityKind::Program, i), names[next].loc);
+      return next + 1;
     }
     return 0;
   }
@@ -197,6 +200,7 @@ struct InstancePathResolver {
     const Entity named = context.scopes.pous_and_types.find(key);
     if (named.entityKind() == EntityKind::Pou && project.pous[named.index].kind == PouKind::Program) {
       out.program = PouId{named.index};
+      noteName(context, named, names[0].loc);
       return 1;
     }
     const Entity list = context.scopes.qualifiers.find(key);
@@ -210,6 +214,8 @@ struct InstancePathResolver {
     }
     out.var = VarId{found.index};
     out.path.push_back({out.var, -1});
+    if (has_list) noteName(context, list, names[0].loc);
+    noteName(context, found, name.loc);
     return has_list ? 2 : 1;
   }
 
@@ -229,6 +235,7 @@ struct InstancePathResolver {
     for (; next < names.size(); ++next) {
       const VarId member = findMember(context, type, names[next].name);
       if (!member) return type != types::kError && reportPath(names[next]);
+      noteName(context, entity(member), names[next].loc);
       out.var = member;
       out.path.push_back({member, -1});
       type = project.var(member).type;

@@ -10,6 +10,12 @@
 namespace rung::sema {
 
 void noteMention(Context& context, Entity entity, Loc loc, Access access);
+// A name that is neither read nor written there: a type, a qualifier, a part of a path.
+inline void noteName(Context& context, Entity entity, Loc loc) { noteMention(context, entity, loc, Access::Qualifier); }
+// The value of a pragma is the name: {replaces 'Pump'}, {replaces 'Plant.Pump'}.
+void noteNameInPragma(Context& context, Entity entity, const Pragma& pragma);
+// The name means this entity, and not what was noted there last, which counts as used all the same.
+void noteNameInstead(Context& context, Entity entity, Loc loc);
 // What the check says elsewhere depends on the body that is being checked, so that another body in its place means a
 // new check of the project.
 void noteEffect(Context& context);

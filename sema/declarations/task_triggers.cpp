@@ -8,6 +8,7 @@
 #include "sema/declarations/constants.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/expressions.h"
+#include "sema/declarations/mentions.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -29,6 +30,7 @@ class TriggerPath {
     if (kind == ExprKind::Address) return appendAddress(expr);
     if (kind != ExprKind::Name) return false;
     const Entity entity = meaning(tree, expr).entity;
+    noteName(context_, entity, tree.loc(expr));
     if (entity.entityKind() == EntityKind::Program) return appendInstance(entity.index);
     if (entity.entityKind() == EntityKind::Pou) return appendProgram(PouId{entity.index});
     return entity.entityKind() == EntityKind::Var && appendGlobal(VarId{entity.index});
@@ -77,6 +79,7 @@ class TriggerPath {
 
   bool appendMember(const MemberExpr& node) {
     if (meaning(node.h).entity.entityKind() != EntityKind::Var) return false;
+    noteName(context_, meaning(node.h).entity, node.h.loc);
     const Var& var = project_.var(VarId{meaning(node.h).entity.index});
     if (var.list || var.storage == Storage::Image) return appendGlobal(VarId{meaning(node.h).entity.index});
     if (var.storage != Storage::Field || !append(node.base)) return false;

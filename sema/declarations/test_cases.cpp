@@ -14,6 +14,7 @@
 #include "frontend/parse/parse.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/initial_values.h"
+#include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/variables.h"
 #include "sema/project.h"
@@ -87,6 +88,7 @@ struct CaseResolver {
       context.report(diag::CaseInputTwice, written.field.loc, {string(written.field.name)});
       return;
     }
+    noteMention(context, entity(id), written.field.loc, Access::Pin);
     const Var& var = context.symbols.var(id);
     ExprId value = context.code().copy(written.value);
     checkInitializerAs(context, value, var.type, "the value of `" + toString(context, var.name) + "`");

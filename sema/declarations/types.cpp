@@ -123,9 +123,10 @@ TypeId typeNamed(Context& context, Entity found) {
 
 }  // namespace
 
-TypeId ownTypeOfLateName(Context& context, NameId name, TypeKind kind) {
+TypeId ownTypeOfLateName(Context& context, NameId name, Loc loc, TypeKind kind) {
   if (kind != TypeKind::UString && kind != TypeKind::UChar) return {};
   const Entity found = lookUp(context, name);
+  noteName(context, found, loc);
   return found.entityKind() == EntityKind::Type || found.entityKind() == EntityKind::Pou ? typeNamed(context, found)
                                                                                          : TypeId{};
 }
@@ -147,7 +148,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     if (const TypeId elementary = context.types().elementary(first.name)) {
       refuseGenerics();
       const TypeKind kind = context.types().info(elementary).kind;
-      if (const TypeId own = ownTypeOfLateName(context, first.name, kind)) return own;
+      if (const TypeId own = ownTypeOfLateName(context, first.name, first.loc, kind)) return own;
       if (!TypeTable::isGeneric(kind) || !context.pou) return elementary;
       for (const Substitution& put : context.scopes.pous[context.pou.index].substitutions) {
         if (put.generic == kind) return put.type;

@@ -15,6 +15,9 @@
 #   messages                   the other notifications and requests of the server so far
 #   hover FILE L:C [JSON]      a request textDocument/hover, and so all others; `L:C-L:C` is its `range`
 #   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
+#   lenses FILE                its code lenses, resolved: a line for each
+#   tokens FILE                the numbers of its semantic tokens: all, then the edits of those of before
+#   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
 #   bytes JSON                 the bytes of a string, without a header
@@ -243,6 +246,7 @@ class Script:
         self.lines = [line.rstrip("\n") for line in lines if line.strip()]
         self.client = Client(arguments)
         self.shown = {}
+        self.tokens = {}  # by file: the id of the last answer, and all numbers
 
     def run(self):
         folders, capabilities = ["."], CAPABILITIES
@@ -346,6 +350,50 @@ class Script:
             for line in resolved.get("documentation", {}).get("value", "").split("\n"):
                 if line:
                     print("    " + line)
+
+    def do_lenses(self, rest):
+        for lens in self.client.request("textDocument/codeLens", {"textDocument": {"uri": uri(rest)}})["result"]:
+            if "command" not in lens:
+                lens = self.client.request("codeLens/resolve", lens)["result"]
+            command = lens["command"]
+            arguments = shortened(command.get("arguments", []))
+            print(shown_range(lens["range"]), command["title"], command["command"], *arguments)
+
+    def do_tokens(self, rest):
+        params = {"textDocument": {"uri": uri(rest)}, "previousResultId": self.tokens.get(rest, ("0", []))[0]}
+        answer = self.client.request("textDocument/semanticTokens/full/delta", params)["result"]
+        if "data" in answer:
+            print("all %d tokens" % (len(answer["data"]) // 5))
+            self.tokens[rest] = (answer["resultId"], answer["data"])
+            return
+        data = list(self.tokens[rest][1])
+        for edit in answer["edits"]:
+            data[edit["start"]:edit["start"] + edit["deleteCount"]] = edit.get("data", [])
+            print("at %(start)d: %(deleteCount)d numbers become" % edit, edit["data"])
+        self.tokens[rest] = (answer["resultId"], data)
+        whole = self.client.request("textDocument/semanticTokens/full", {"textDocument": {"uri": uri(rest)}})["result"]
+        self.tokens[rest] = (whole["resultId"], data)
+        print("as all of them" if whole["data"] == data else "not those that there are")
+
+    def do_calls(self, rest):
+        self.show_hierarchy(rest, "Call", {"incomingCalls": "from", "outgoingCalls": "to"})
+
+    def do_types(self, rest):
+        self.show_hierarchy(rest, "Type", {"supertypes": None, "subtypes": None})
+
+    def show_hierarchy(self, rest, kind, directions):
+        file, at = rest.split(" ")
+        params = {"textDocument": {"uri": uri(file)}, "position": position_of(at)}
+        items = self.client.request("textDocument/prepare%sHierarchy" % kind, params)["result"]
+        if not items:
+            return print("nothing")
+        for direction, side in directions.items():
+            answer = self.client.request("%sHierarchy/%s" % (kind.lower(), direction), {"item": items[0]})["result"]
+            for found in answer:
+                item = found[side] if side else found
+                places = " ".join(shown_range(at) for at in found.get("fromRanges", []))
+                name = ".".join([item["detail"], item["name"]] if "detail" in item else [item["name"]])
+                print(direction, name, shortened({"uri": item["uri"], "range": item["selectionRange"]}), places)
 
     # Answers that have no id of ours, until that of a request which the server does not know.
     def show_errors(self):

@@ -25,7 +25,8 @@ SOURCES = (".st", ".il", ".tcpou", ".tcdut", ".tcgvl", ".xml", ".exp", ".nct")
 TYPED = ["x", ";", " ", "\n", "(", ")", "'", "IF ", "END_IF", ":=", "n.", "VAR", "END_VAR", "<", "]]>", "//", "(*", "{", "ü"]
 
 # Requests at a position, and of a document.
-POSITIONED = ["hover", "definition", "declaration", "typeDefinition", "implementation", "signatureHelp", "completion"]
+POSITIONED = ["hover", "definition", "declaration", "typeDefinition", "implementation", "signatureHelp", "completion",
+              "references", "documentHighlight"]
 WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "formatting"]
 
 

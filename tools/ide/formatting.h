@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "frontend/format/format.h"
-#include "tools/ide/view.h"
+#include "tools/ide/text_edits.h"
 
 namespace rung::ide {
 
-struct TextEdit {
-  FileRange range;
-  std::string text;
-};
 // None: the file has syntax errors, or nothing formats it.
 std::optional<std::vector<TextEdit>> formattingOf(const View& view, FileId file, format::LineRange lines = {});
 

@@ -5,6 +5,7 @@
 
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/keywords.h"
+#include "tools/ide/code_lens.h"
 #include "tools/ide/navigation.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/source_text.h"
@@ -98,11 +99,8 @@ class Describer {
   }
 
   std::string taskOf(const sema::ProgramInstance& instance) const {
-    if (instance.task == 0 || instance.task > project_.tasks.size()) return {};
-    const sema::Task& task = project_.tasks[instance.task - 1];
-    std::string out = task.name ? "runs in the task `" + text(task.name) + "`" : "runs in a task";
-    if (task.kind == sema::TaskKind::Cyclic) out += ", every " + types::durationText(task.interval_ns);
-    return paragraph(out);
+    const std::string task = taskText(view_, instance);
+    return task.empty() ? std::string() : paragraph("runs in " + task);
   }
 
   // As it is written, at most twenty lines of it.
@@ -110,7 +108,7 @@ class Describer {
     if (const PouId block = scope_.blockOf(id)) return pou(block);
     constexpr int kMostLines = 20;
     Description result{"TYPE " + project_.types.toString(id), {}, sizeOf(id)};
-    const Loc loc = locOfType(view_, id);
+    const Loc loc = scope_.locOf(Entity::of(EntityKind::Type, id.index));
     const FileId file = view_.sources().fileOf(loc);
     if (!file) return result;
     const std::string_view source = view_.sources().original(file);

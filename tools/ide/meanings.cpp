@@ -6,6 +6,7 @@
 
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/node_at.h"
+#include "tools/ide/keywords.h"
 
 namespace rung::ide {
 namespace {
@@ -20,9 +21,10 @@ class Collector {
 
   // What was found first holds: what the check resolved, then what is written.
   std::vector<NamePlace> collect() {
-    addCode();
+    addMentions();
     for (const NamePlace& place : places_) resolved_.insert(place.loc.offset);
     for (const DeclId decl : tree_.list(unit_.decls)) declaration(decl, {});
+    places_.insert(places_.end(), aliases_.begin(), aliases_.end());
     std::stable_sort(places_.begin(), places_.end(),
                      [](const NamePlace& a, const NamePlace& b) { return a.loc < b.loc; });
     const auto is_same = [](const NamePlace& a, const NamePlace& b) { return a.loc == b.loc; };
@@ -38,48 +40,44 @@ class Collector {
   }
   NameId keyOf(NameId name) const { return view_.names().key(name); }
 
-  // ---- code, with what the check knows
+  // ---- what the check knows
 
-  void addCode() {
+  void addMentions() {
     const Loc begin = view_.sources().begin(unit_.file);
     const Range file{begin, {begin.offset + static_cast<uint32_t>(view_.sources().sourceText(unit_.file).size()) + 1}};
     for (uint32_t i = 1; i < project_.pous.size(); ++i) {
       const sema::Pou& pou = project_.pous[i];
       if (!pou.decl || pou.instance.of || !holds(file, view_.sources().current(tree_.loc(pou.decl)))) continue;
-      if (tree_.kind(pou.decl) == DeclKind::Pou) chart(tree_.as<PouDecl>(pou.decl), {i});
-      for (const StmtId stmt : tree_.list(pou.body.code)) code(stmt);
-      for (const VarId var : pou.vars)
-        if (project_.var(var).init) code(project_.var(var).init);
+      if (tree_.kind(pou.decl) == DeclKind::Pou) {
+        chart(tree_.as<PouDecl>(pou.decl), {i});
+        networks(tree_.as<PouDecl>(pou.decl), {i});
+      }
+      for (const sema::Mention& mention : pou.body.mentions) addMention(mention);
     }
-    for (const sema::GlobalList& list : project_.global_lists)
-      for (const VarId var : list.vars)
-        if (project_.var(var).init && holds(file, view_.sources().current(project_.var(var).loc)))
-          code(project_.var(var).init);
+    for (const sema::Mention& mention : project_.mentions)
+      if (holds(file, view_.sources().current(mention.loc))) addMention(mention);
   }
 
-  template <class Id>
-  void code(Id id) {
-    if constexpr (std::is_same_v<Id, ExprId>) codeName(id);
-    forEachChild(tree_, id, [&](const auto& child) { code(child); });
+  // Code that was made from a name has its location too, but names something else. A block or function of a library may
+  // have several names.
+  void addMention(const sema::Mention& mention) {
+    Entity entity = mention.entity;
+    if (entity.entityKind() == EntityKind::Pou) entity = scope_.declaredEntity(originOf({entity.index}));
+    std::string_view written = view_.sources().tokenAt(mention.loc);
+    written = written.substr(0, written.find('#'));
+    std::string_view name = view_.names().string(scope_.nameOf(entity));
+    name = name.substr(name.rfind('.') + 1);
+    if (sameIdentifier(written, name))
+      add(mention.loc, entity);
+    else if (isOfLibrary(entity) && kindOfWord(written) == WordKind::None)
+      aliases_.push_back({view_.sources().current(mention.loc), entity});
   }
 
-  void codeName(ExprId id) {
-    const ExprHeader& header = tree_.expr(id);
-    if (!header.has_room) return;
-    const sema::Meaning& meaning = sema::meaning(header);
-    if (header.kind == ExprKind::Name || header.kind == ExprKind::Member) add(header.loc, meaning.entity);
-    if (header.kind == ExprKind::TypedName) add(tree_.as<TypedNameExpr>(id).item.loc, meaning.entity);
-    if (header.kind == ExprKind::StructInit)
-      for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields))
-        add(field.field.loc, scope_.memberOf(meaning.type, keyOf(field.field.name)));
-    if (header.kind == ExprKind::Call && meaning.call) pins(tree_.as<CallExpr>(id), project_.call(meaning.call));
-  }
-
-  void pins(const CallExpr& node, const sema::Call& call) {
-    if (tree_.kind(node.callee) == ExprKind::Name || tree_.kind(node.callee) == ExprKind::Member)
-      if (call.pou && call.kind != sema::CallKind::Instance)
-        add(tree_.loc(node.callee), scope_.declaredEntity(originOf(call.pou)));
-    if (call.pou) pins(node.arguments, originOf(call.pou));
+  bool isOfLibrary(Entity entity) const {
+    if (entity.entityKind() == EntityKind::Pou) return project_.pous[entity.index].library;
+    if (entity.entityKind() != EntityKind::Var) return false;
+    const PouId pou = project_.vars[entity.index].pou;
+    return pou && project_.pou(pou).library;
   }
 
   PouId originOf(PouId pou) const {
@@ -111,7 +109,10 @@ class Collector {
     if (header.kind == DeclKind::Pou)
       if (const PouId own = scope_.pouOf(id)) {
         pou = own;
-        if (project_.pou(own).object.accessor == sema::AccessorKind::None)
+        // A condition of a chart is an action without a name.
+        const std::string_view name = view_.names().string(tree_.as<PouDecl>(id).name);
+        const bool has_name = sameIdentifier(view_.sources().tokenAt(header.loc), name);
+        if (has_name && project_.pou(own).object.accessor == sema::AccessorKind::None)
           add(header.loc, Entity::of(EntityKind::Pou, own.index), true);
       }
     if (header.kind == DeclKind::Var)
@@ -139,6 +140,29 @@ class Collector {
     for (const SfcTransition& transition : tree_.list(decl.transitions))
       for (const Slice<Ident> steps : {transition.from, transition.to})
         for (const Ident& step : tree_.list(steps)) named(step);
+  }
+
+  // Boxes, their pins, and the pins that wires name. A function gives its result at a pin of its name.
+  void networks(const PouDecl& decl, PouId pou) {
+    const std::span<const DiagramElement> elements = tree_.list(decl.diagram.elements);
+    for (const DiagramElement& element : elements) {
+      if (element.path) add(tree_.loc(element.path), meanings_.valueOf(pou, element.path).entity);
+      for (const DiagramPin& pin : tree_.list(element.pins)) {
+        boxPin(pou, element, pin.name);
+        for (const DiagramWire& wire : tree_.list(pin.wires))
+          if (wire.from < elements.size()) boxPin(pou, elements[wire.from], wire.pin);
+      }
+    }
+  }
+
+  void boxPin(PouId pou, const DiagramElement& element, const Ident& pin) {
+    if (!pin.name || !element.path) return;
+    const PouId callee = calledBy(meanings_.valueOf(pou, element.operand ? element.operand : element.path).entity);
+    if (!callee) return;
+    if (project_.pou(callee).result && keyOf(pin.name) == keyOf(project_.pou(callee).name))
+      add(pin.loc, Entity::of(EntityKind::Pou, callee.index));
+    for (const VarId var : scope_.pinsOf(callee))
+      if (keyOf(project_.var(var).name) == keyOf(pin.name)) add(pin.loc, Entity::of(EntityKind::Var, var.index));
   }
 
   // A chart has a hidden variable of the same name for each of its actions.
@@ -201,6 +225,7 @@ class Collector {
   const Meanings& meanings_;
   const FileUnit& unit_;
   std::vector<NamePlace> places_;
+  std::vector<NamePlace> aliases_;         // counted where nothing else is known
   std::unordered_set<uint32_t> resolved_;  // the locations of the names that the check knows
 };
 

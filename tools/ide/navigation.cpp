@@ -3,37 +3,11 @@
 
 #include <algorithm>
 
-#include "frontend/source/scanner.h"
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/node_at.h"
 
 namespace rung::ide {
 namespace {
-
-// The entry of a TYPE block with this name.
-Loc findType(const Tree& tree, const Names& names, Slice<DeclId> decls, NameId key) {
-  for (const DeclId id : tree.list(decls)) {
-    if (tree.kind(id) == DeclKind::Type && names.key(tree.as<TypeDecl>(id).name) == key) return tree.loc(id);
-    if (tree.kind(id) != DeclKind::Namespace) continue;
-    if (const Loc inner = findType(tree, names, tree.as<NamespaceDecl>(id).decls, key)) return inner;
-  }
-  return {};
-}
-
-// A library's declaration is not in the tree of a file: its name precedes its first member in the text.
-Loc nameBefore(const Sources& sources, Loc member, std::string_view name) {
-  const FileId file = sources.fileOf(member);
-  if (!file) return {};
-  const std::string_view source = sources.original(file);
-  Scanner scanner(source);
-  Loc found;
-  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
-    const Loc at{sources.begin(file).offset + static_cast<uint32_t>(unit.begin)};
-    if (member < at) break;
-    if (unit.kind == UnitKind::Name && sameIdentifier(scanner.textOf(unit), name)) found = at;
-  }
-  return found;
-}
 
 class Navigator {
  public:
@@ -143,24 +117,9 @@ std::optional<NamePlace> nameAt(const View& view, FileId file, uint32_t byte) {
   return at && view.snapshot().project() != nullptr ? view.meanings().at(at) : std::nullopt;
 }
 
-Loc locOfType(const View& view, TypeId type) {
-  const Scope& scope = view.meanings().scope();
-  const Loc member = scope.locOf(Entity::of(EntityKind::Type, type.index));
-  const types::TypeInfo& info = scope.project().types.info(type);
-  if (scope.blockOf(type) || !info.name) return member;
-  const NameId key = view.names().key(info.name);
-  for (const FileUnit& unit : view.tree().files)
-    if (const Loc loc = findType(view.tree(), view.names(), unit.decls, key)) return loc;
-  const NameId shown = info.shown_name ? info.shown_name : info.name;
-  std::string_view name = view.names().string(shown);
-  name = name.substr(name.rfind('.') + 1);
-  const Loc before = nameBefore(view.sources(), member, name);
-  return before ? before : member;
-}
-
 std::optional<Destination> destinationOf(const View& view, Entity entity) {
   const Scope& scope = view.meanings().scope();
-  const Loc loc = entity.entityKind() == EntityKind::Type ? locOfType(view, {entity.index}) : scope.locOf(entity);
+  const Loc loc = scope.locOf(entity);
   Destination destination{view.nameInFile(loc), {}};
   if (!destination.name || view.pathOf(destination.name.file).empty()) return std::nullopt;
   destination.range = destination.name;

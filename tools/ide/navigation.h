@@ -30,7 +30,5 @@ std::optional<Navigation> navigate(const View& view, FileId file, uint32_t byte,
 
 // Where an entity is declared; none: nowhere.
 std::optional<Destination> destinationOf(const View& view, Entity entity);
-// Of a type, also of a library.
-Loc locOfType(const View& view, TypeId type);
 
 }  // namespace rung::ide

@@ -77,13 +77,15 @@ void Projects::removeFolder(const std::string& path) {
 
 // A buffer without a file may name a project too: `rung.project` that is not saved yet.
 Projects::Home Projects::homeOf(const std::string& path) {
-  for (std::string folder = parentOf(path);; folder = parentOf(folder)) {
+  const workspace::FoundProject found = workspace::projectAround(parentOf(path));
+  const std::string input = found.input.empty() ? std::string() : driver::absolutePath(found.input);
+  const std::string nearest = namesProject(input) ? parentOf(input) : input;
+  for (std::string folder = parentOf(path); folder.size() >= nearest.size(); folder = parentOf(folder)) {
     if (buffers_.count(folder + "/rung.project") != 0) return {folder};
     if (folder == "/" || folder.empty()) break;
   }
-  const workspace::FoundProject found = workspace::projectAround(parentOf(path));
   if (!found.error.empty()) notice(parentOf(path) + ": " + found.error);
-  if (!found.input.empty()) return {driver::absolutePath(found.input)};
+  if (!input.empty()) return {input};
   for (const auto& entry : folders_) {
     const std::string& folder = entry.first;
     const bool is_project = std::any_of(projects_.begin(), projects_.end(), [&](const auto& project) {
@@ -226,6 +228,18 @@ const View* Projects::update(Project& project, const std::atomic<bool>* cancelle
   project.is_changed_ = false;
   ++project.version_;
   return project.view();
+}
+
+std::unique_ptr<const View> Projects::trial(const Project& project, const std::map<std::string, std::string>& texts,
+                                            const std::atomic<bool>* cancelled) const {
+  driver::ProjectOptions options = options_;
+  options.inputs = inputsOf(project);
+  std::vector<workspace::Change> changes;
+  for (const auto& [path, text] : buffers_)
+    if (texts.count(path) == 0) changes.push_back({path, text});
+  for (const auto& [path, text] : texts) changes.push_back({path, text});
+  auto snapshot = workspace::Workspace(std::move(options)).apply(std::move(changes), cancelled);
+  return snapshot == nullptr ? nullptr : std::make_unique<const View>(std::move(snapshot), embedded_);
 }
 
 }  // namespace rung::ide

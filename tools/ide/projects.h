@@ -60,6 +60,9 @@ class Projects {
   Project* projectOf(const std::string& path);
   // The view with all changes; null: `cancelled` became true.
   const View* update(Project& project, const std::atomic<bool>* cancelled);
+  // The project as it would be with other texts, by path. Null: `cancelled` became true.
+  std::unique_ptr<const View> trial(const Project& project, const std::map<std::string, std::string>& texts,
+                                    const std::atomic<bool>* cancelled) const;
   // What the user should know about the folders, once each.
   std::vector<std::string> takeNotices();
 

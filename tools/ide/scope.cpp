@@ -14,10 +14,6 @@ auto found(const Table& table, Key key) -> typename Table::mapped_type {
   return entry == table.end() ? typename Table::mapped_type{} : entry->second;
 }
 
-bool isPin(const sema::Var& var) {
-  return var.section == SectionKind::Input || var.section == SectionKind::Output || var.section == SectionKind::InOut;
-}
-
 // Declared in the source, not made by the compiler.
 bool isWritten(const sema::Var& var) { return var.name && var.loc && var.temporary == 0 && !var.sharing.copy_of; }
 
@@ -25,6 +21,7 @@ bool isWritten(const sema::Var& var) { return var.name && var.loc && var.tempora
 
 Scope::Scope(const sema::Project& project) : project_(project) {
   addPous();
+  addInstances();
   addVars();
   addTypes();
   addGlobals();
@@ -47,6 +44,12 @@ void Scope::addPous() {
     for (const PouId accessor : {property.get, property.set})
       if (accessor) properties_.emplace(accessor.index, i);
   }
+}
+
+void Scope::addInstances() {
+  for (uint32_t i = 0; i < project_.instances.size(); ++i)
+    if (project_.instances[i].loc)
+      places_.emplace(placeOf(project_.instances[i].loc), Entity::of(EntityKind::Program, i));
 }
 
 void Scope::addVars() {
@@ -122,10 +125,7 @@ Loc Scope::locOf(Entity entity) const {
     case EntityKind::Property: return project_.properties[entity.index].loc;
     case EntityKind::Type: {
       if (const PouId block = blockOf({entity.index})) return project_.pou(block).loc;
-      if (const auto items = items_.find(entity.index); items != items_.end())
-        return project_.enum_values[items->second.front()].loc;
-      const auto fields = fields_.find(entity.index);
-      return fields == fields_.end() ? Loc{} : project_.var(fields->second.front()).loc;
+      return entity.index < project_.type_locs.size() ? project_.type_locs[entity.index] : Loc{};
     }
     case EntityKind::Namespace:
     case EntityKind::None:
@@ -165,7 +165,7 @@ void Scope::membersOfPou(PouId pou, bool with_locals, Visit visit) const {
     for (const VarId id : of.vars) {
       const sema::Var& var = project_.var(id);
       const bool is_visible =
-          with_locals || isPin(var) || of.kind == PouKind::Program || var.access == AccessLevel::Public;
+          with_locals || isPin(id) || of.kind == PouKind::Program || var.access == AccessLevel::Public;
       if (isWritten(var) && is_visible) visit(var.name, Entity::of(EntityKind::Var, id.index));
     }
     for (const uint32_t property : of.object.properties)
@@ -220,13 +220,18 @@ void Scope::visible(PouId from, Visit visit) const {
   for (const auto& [name, entity] : listed_) visit(name, entity);
 }
 
+bool Scope::isPin(VarId var) const {
+  const SectionKind section = project_.var(var).section;
+  return section == SectionKind::Input || section == SectionKind::Output || section == SectionKind::InOut;
+}
+
 std::vector<VarId> Scope::pinsOf(PouId pou) const {
   std::vector<PouId> line;
   for (PouId at = pou; at && line.size() < kMostBases; at = project_.pou(at).base) line.push_back(at);
   std::vector<VarId> pins;
   for (auto at = line.rbegin(); at != line.rend(); ++at)
     for (const VarId var : project_.pou(*at).vars)
-      if (isPin(project_.var(var)) && isWritten(project_.var(var))) pins.push_back(var);
+      if (isPin(var) && isWritten(project_.var(var))) pins.push_back(var);
   return pins;
 }
 

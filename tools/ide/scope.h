@@ -30,7 +30,7 @@ class Scope {
   Entity declaredAt(Loc name) const;
   // The POU; of an accessor its property.
   Entity declaredEntity(PouId pou) const;
-  // Where an entity is declared, its name or its first member; none: nowhere in the sources.
+  // The name in the declaration of an entity; none: nowhere in the sources.
   Loc locOf(Entity entity) const;
   NameId nameOf(Entity entity) const;
 
@@ -45,7 +45,9 @@ class Scope {
   void visible(PouId from, Visit visit) const;
   void membersOf(Entity of, Visit visit) const;
   void membersOf(TypeId type, Visit visit) const;
-  // Its inputs, in-outs and outputs, those of its bases first.
+  // Input, in-out or output.
+  bool isPin(VarId var) const;
+  // Those of a POU, those of its bases first.
   std::vector<VarId> pinsOf(PouId pou) const;
 
   // ---- types
@@ -60,6 +62,7 @@ class Scope {
   using ByKey = std::unordered_map<uint32_t, Id>;
 
   void addPous();
+  void addInstances();
   void addVars();
   void addGlobals();
   void addTypes();

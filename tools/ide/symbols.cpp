@@ -9,9 +9,8 @@
 #include "tools/ide/source_text.h"
 
 namespace rung::ide {
-namespace {
 
-SymbolKind kindOf(PouKind kind) {
+SymbolKind symbolKindOf(PouKind kind) {
   switch (kind) {
     case PouKind::Function: return SymbolKind::Function;
     case PouKind::FunctionBlock: return SymbolKind::FunctionBlock;
@@ -23,6 +22,8 @@ SymbolKind kindOf(PouKind kind) {
   }
   return SymbolKind::Program;
 }
+
+namespace {
 
 SymbolKind kindOf(TypeExprKind kind) {
   if (kind == TypeExprKind::Enum) return SymbolKind::Enumeration;
@@ -110,7 +111,7 @@ class Outline {
     for (const SfcTransition& transition : tree_.list(pou.transitions))
       add(children, text(transition.name.name), {}, SymbolKind::Transition, {transition.begin, transition.end},
           transition.name.loc);
-    add(symbols, text(pou.name), text(pou.result), kindOf(pou.pou_kind), range, pou.h.loc, std::move(children));
+    add(symbols, text(pou.name), text(pou.result), symbolKindOf(pou.pou_kind), range, pou.h.loc, std::move(children));
   }
 
   void addType(const TypeDecl& type, Range range, Symbols& symbols) {
@@ -195,7 +196,7 @@ class Finder {
     switch (tree_.kind(id)) {
       case DeclKind::Pou: {
         const PouDecl& pou = tree_.as<PouDecl>(id);
-        consider(pou.name, loc, kindOf(pou.pou_kind), container);
+        consider(pou.name, loc, symbolKindOf(pou.pou_kind), container);
         return all(pou.members, std::string(text(pou.name)));
       }
       case DeclKind::Type: return type(tree_.as<TypeDecl>(id), container);

@@ -35,6 +35,8 @@ enum class SymbolKind : uint8_t {
   Transition
 };
 
+SymbolKind symbolKindOf(PouKind kind);
+
 struct Symbol {
   std::string name;
   std::string detail;  // the type as written, or the keyword of a section

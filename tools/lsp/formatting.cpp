@@ -6,17 +6,10 @@
 namespace rung::lsp {
 namespace {
 
-Answer format(Session& session, const Json& params, bool is_range) {
+Answer format(Session& session, const Json& params, format::LineRange lines) {
   const std::optional<Place> place = placeOf(session, params);
   if (!place) return noDocument();
   if (place->view == nullptr) return Json();
-  format::LineRange lines;
-  if (is_range) {
-    const Position begin = positionOf(params["range"]["start"]), end = positionOf(params["range"]["end"]);
-    lines.first = begin.line + 1;
-    // A selection of whole lines ends at the beginning of the next one.
-    lines.last = end.character == 0 && end.line > begin.line ? end.line : end.line + 1;
-  }
   const auto edits = ide::formattingOf(*place->view, place->file, lines);
   if (!edits) return Json();
   Translator translator(*place->view, session.encoding);
@@ -28,7 +21,22 @@ Answer format(Session& session, const Json& params, bool is_range) {
 
 }  // namespace
 
-Answer formatDocument(Session& session, const Json& params) { return format(session, params, false); }
-Answer formatRange(Session& session, const Json& params) { return format(session, params, true); }
+Answer formatDocument(Session& session, const Json& params) { return format(session, params, {}); }
+
+Answer formatRange(Session& session, const Json& params) {
+  const Position begin = positionOf(params["range"]["start"]), end = positionOf(params["range"]["end"]);
+  // A selection of whole lines ends at the beginning of the next one.
+  const bool is_whole = end.character == 0 && end.line > begin.line;
+  return format(session, params, {begin.line + 1, is_whole ? end.line : end.line + 1});
+}
+
+// The line that has been finished: with a `;`, or the one above the new one.
+Answer formatOnType(Session& session, const Json& params) {
+  const uint32_t line = positionOf(params["position"]).line;
+  const bool is_new_line = params["ch"].text() == "\n";
+  if (is_new_line && line == 0) return Json();
+  const uint32_t finished = is_new_line ? line : line + 1;
+  return format(session, params, {finished, finished});
+}
 
 }  // namespace rung::lsp

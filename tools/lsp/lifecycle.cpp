@@ -23,6 +23,11 @@ void readCapabilities(Session& session, const Json& client) {
   session.client.snippets = text["completion"]["completionItem"]["snippetSupport"].isTrue();
   session.client.hierarchical_symbols = text["documentSymbol"]["hierarchicalDocumentSymbolSupport"].isTrue();
   session.client.location_links = text["definition"]["linkSupport"].isTrue();
+  const Json& edit = client["workspace"]["workspaceEdit"];
+  session.client.document_changes = edit["documentChanges"].isTrue();
+  session.client.renames_files = session.client.document_changes && has(edit["resourceOperations"], "rename");
+  for (const Json& command : client["experimental"]["commands"]["commands"].items())
+    session.client.commands.insert(std::string(command.text()));
   session.client.only_line_folding = text["foldingRange"]["lineFoldingOnly"].isTrue();
 }
 
@@ -51,6 +56,14 @@ Json serverCapabilities(const Session& session) {
       {"definitionProvider", true},
       {"typeDefinitionProvider", true},
       {"implementationProvider", true},
+      {"referencesProvider", true},
+      {"documentHighlightProvider", true},
+      {"inlayHintProvider", true},
+      {"documentLinkProvider", Json::emptyObject()},
+      {"codeLensProvider", Json{{"resolveProvider", true}}},
+      {"callHierarchyProvider", true},
+      {"typeHierarchyProvider", true},
+      {"renameProvider", Json{{"prepareProvider", true}}},
       {"completionProvider",
        Json{{"triggerCharacters", Json::Array{".", "#", "%", "{", "'"}}, {"resolveProvider", true}}},
       {"signatureHelpProvider", Json{{"triggerCharacters", Json::Array{"(", ","}}}},
@@ -58,7 +71,10 @@ Json serverCapabilities(const Session& session) {
       {"selectionRangeProvider", true},
       {"documentFormattingProvider", true},
       {"documentRangeFormattingProvider", true},
-      {"semanticTokensProvider", Json{{"legend", semanticTokensLegend()}, {"full", true}, {"range", true}}},
+      {"documentOnTypeFormattingProvider",
+       Json{{"firstTriggerCharacter", ";"}, {"moreTriggerCharacter", Json::Array{"\n"}}}},
+      {"semanticTokensProvider",
+       Json{{"legend", semanticTokensLegend()}, {"full", Json{{"delta", true}}}, {"range", true}}},
       {"workspace", Json{{"workspaceFolders", Json{{"supported", true}, {"changeNotifications", true}}}}},
   };
 }
@@ -108,6 +124,7 @@ void didClose(Session& session, const Json& params) {
   const std::string path = pathOfUri(params["textDocument"]["uri"].text());
   if (session.documents.find(path) == nullptr) return;
   session.documents.close(path);
+  session.sent_tokens.erase(path);
   session.projects.close(path);
 }
 

@@ -15,10 +15,12 @@ Answer foldingRanges(Session& session, const Json& params);
 Answer selectionRanges(Session& session, const Json& params);
 // semantic_tokens.cpp
 Answer semanticTokensFull(Session& session, const Json& params);
+Answer semanticTokensDelta(Session& session, const Json& params);
 Answer semanticTokensRange(Session& session, const Json& params);
 // formatting.cpp
 Answer formatDocument(Session& session, const Json& params);
 Answer formatRange(Session& session, const Json& params);
+Answer formatOnType(Session& session, const Json& params);
 // navigation.cpp
 Answer declaration(Session& session, const Json& params);
 Answer definition(Session& session, const Json& params);
@@ -26,6 +28,26 @@ Answer typeDefinition(Session& session, const Json& params);
 Answer implementation(Session& session, const Json& params);
 Answer hover(Session& session, const Json& params);
 Answer signatureHelp(Session& session, const Json& params);
+// references.cpp
+Answer references(Session& session, const Json& params);
+Answer documentHighlights(Session& session, const Json& params);
+// rename.cpp
+Answer prepareRename(Session& session, const Json& params);
+Answer rename(Session& session, const Json& params);
+// hierarchy.cpp
+Answer prepareCallHierarchy(Session& session, const Json& params);
+Answer incomingCalls(Session& session, const Json& params);
+Answer outgoingCalls(Session& session, const Json& params);
+Answer prepareTypeHierarchy(Session& session, const Json& params);
+Answer supertypes(Session& session, const Json& params);
+Answer subtypes(Session& session, const Json& params);
+// inlay_hints.cpp
+Answer inlayHints(Session& session, const Json& params);
+// code_lens.cpp
+Answer codeLenses(Session& session, const Json& params);
+Answer resolveCodeLens(Session& session, const Json& params);
+// document_links.cpp
+Answer documentLinks(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);

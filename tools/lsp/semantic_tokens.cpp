@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/lsp/semantic_tokens.h"
 
+#include <algorithm>
+
 #include "tools/ide/tokens.h"
 #include "tools/lsp/requests.h"
 
@@ -34,6 +36,23 @@ Json::Numbers encoded(const ide::View& view, FileId file, Encoding encoding, uin
   return numbers;
 }
 
+// The edit that makes the one of the other, of whole tokens; none where they are equal.
+Json::Array difference(const Json::Numbers& before, const Json::Numbers& after) {
+  constexpr size_t kToken = 5;
+  const size_t shorter = std::min(before.size(), after.size());
+  size_t head = 0, tail = 0;
+  while (head + kToken <= shorter &&
+         std::equal(before.begin() + head, before.begin() + head + kToken, after.begin() + head))
+    head += kToken;
+  while (head + tail + kToken <= shorter &&
+         std::equal(before.end() - tail - kToken, before.end() - tail, after.end() - tail - kToken))
+    tail += kToken;
+  if (head == before.size() && head == after.size()) return {};
+  Json edit{{"start", static_cast<int64_t>(head)}, {"deleteCount", static_cast<int64_t>(before.size() - head - tail)}};
+  edit.set("data", Json::Numbers(after.begin() + head, after.end() - tail));
+  return {std::move(edit)};
+}
+
 }  // namespace
 
 Json semanticTokensLegend() {
@@ -47,7 +66,25 @@ Answer semanticTokensFull(Session& session, const Json& params) {
   const std::optional<Place> place = placeOf(session, params);
   if (!place) return noDocument();
   if (place->view == nullptr) return Json();
-  return Json{{"data", encoded(*place->view, place->file, session.encoding, 0, UINT32_MAX)}};
+  Json::Numbers data = encoded(*place->view, place->file, session.encoding, 0, UINT32_MAX);
+  if (session.documents.find(place->path) == nullptr) return Json{{"data", std::move(data)}};
+  SentTokens& sent = session.sent_tokens[place->path];
+  sent = {sent.id + 1, std::move(data)};
+  return Json{{"resultId", std::to_string(sent.id)}, {"data", sent.data}};
+}
+
+Answer semanticTokensDelta(Session& session, const Json& params) {
+  const std::optional<Place> place = placeOf(session, params);
+  if (!place) return noDocument();
+  if (place->view == nullptr) return Json();
+  const auto known = session.sent_tokens.find(place->path);
+  if (known == session.sent_tokens.end() || std::to_string(known->second.id) != params["previousResultId"].text())
+    return semanticTokensFull(session, params);
+  SentTokens& sent = known->second;
+  Json::Numbers data = encoded(*place->view, place->file, session.encoding, 0, UINT32_MAX);
+  Json::Array edits = difference(sent.data, data);
+  sent = {sent.id + 1, std::move(data)};
+  return Json{{"resultId", std::to_string(sent.id)}, {"edits", std::move(edits)}};
 }
 
 Answer semanticTokensRange(Session& session, const Json& params) {

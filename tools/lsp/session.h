@@ -6,6 +6,7 @@
 #include <atomic>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tools/ide/projects.h"
@@ -46,6 +47,15 @@ struct ClientCapabilities {
   bool hierarchical_symbols = false;
   bool location_links = false;  // of definitions
   bool only_line_folding = false;
+  bool document_changes = false;   // of workspace edits
+  bool renames_files = false;      // in workspace edits
+  std::set<std::string> commands;  // of its own, that a lens may name
+};
+
+// The semantic tokens that the client has of an open buffer.
+struct SentTokens {
+  uint64_t id = 0;
+  Json::Numbers data;
 };
 
 class Session {
@@ -57,7 +67,8 @@ class Session {
   ide::Projects projects;
   Encoding encoding = Encoding::Utf16;
   ClientCapabilities client;
-  const std::atomic<bool>* cancelled = nullptr;  // of the request that is being answered
+  std::map<std::string, SentTokens> sent_tokens;  // by path
+  const std::atomic<bool>* cancelled = nullptr;   // of the request that is being answered
 
   // The current view of the project of a file; null: there is none, or the request was cancelled.
   const ide::View* viewOf(const std::string& path);

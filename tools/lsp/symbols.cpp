@@ -3,13 +3,11 @@
 
 #include "tools/ide/symbols.h"
 #include "tools/lsp/requests.h"
+#include "tools/lsp/symbol_kinds.h"
 #include "tools/lsp/uri.h"
 
 namespace rung::lsp {
-namespace {
-
-// SymbolKind of the protocol.
-int numberOf(ide::SymbolKind kind) {
+int symbolNumber(ide::SymbolKind kind) {
   using Kind = ide::SymbolKind;
   switch (kind) {
     case Kind::Program:
@@ -37,9 +35,11 @@ int numberOf(ide::SymbolKind kind) {
   return 13;
 }
 
+namespace {
+
 Json nested(const ide::Symbol& symbol, Translator& translator) {
   Json json{{"name", symbol.name},
-            {"kind", numberOf(symbol.kind)},
+            {"kind", symbolNumber(symbol.kind)},
             {"range", translator.range(symbol.range)},
             {"selectionRange", translator.range(symbol.name_range)}};
   if (!symbol.detail.empty()) json.set("detail", symbol.detail);
@@ -50,7 +50,7 @@ Json nested(const ide::Symbol& symbol, Translator& translator) {
 }
 
 Json flat(const ide::Symbol& symbol, const std::string& container, Json location) {
-  Json json{{"name", symbol.name}, {"kind", numberOf(symbol.kind)}, {"location", std::move(location)}};
+  Json json{{"name", symbol.name}, {"kind", symbolNumber(symbol.kind)}, {"location", std::move(location)}};
   if (!container.empty()) json.set("containerName", container);
   return json;
 }

@@ -129,6 +129,12 @@ class TaskWriter {
     any_ = true;
   }
 
+  // As the file has it, so that an editor finds the variable there.
+  void variable(std::string_view word, const xml::Attribute& path) {
+    setting(word, path.loc, {});
+    import_.out.add(import_.document, path);
+  }
+
   bool writeInterval() {
     if (writeInterval(import_.document.attribute(task_, "interval"), "")) return true;
     return settings_ != nullptr && writeInterval(import_.document.attribute(*settings_, "Interval"),
@@ -160,9 +166,9 @@ class TaskWriter {
       setting("TRIGGER", trigger->loc, "'" + import_.document.decoded(*trigger) + "'");
     } else if (trigger != nullptr && kindIs("Status")) {
       setting("KIND", task_.loc, "STATUS");
-      setting("TRIGGER", trigger->loc, import_.document.decoded(*trigger));
+      variable("TRIGGER", *trigger);
     } else if (trigger != nullptr && !kindIs("Cyclic")) {
-      setting("SINGLE", trigger->loc, import_.document.decoded(*trigger));
+      variable("SINGLE", *trigger);
       if (kind.empty()) writeInterval();  // of the standard, which runs it periodically too
     } else if (!writeInterval()) {
       setting("KIND", task_.loc, "FREEWHEELING");
@@ -222,12 +228,20 @@ class BlocksInTasks {
   }
   // (u WITH slow)
   void write(Import& import, const xml::Element& program) const {
-    const std::string name = upper(import.document.value(program, "name"));
+    const std::string program_name = upper(import.document.value(program, "name"));
     bool any = false;
     for (const Block& block : all_) {
-      if (block.program != name) continue;
+      if (block.program != program_name) continue;
       import.out.put(block.instance->loc, any ? ", " : "(");
-      import.out.put(block.instance->loc, block.path + " WITH ");
+      const xml::Attribute& name_and_path = *import.document.attribute(*block.instance, "name");
+      const size_t path = name_and_path.raw.rfind(block.path);
+      if (path == std::string_view::npos) {
+        import.out.put(block.instance->loc, block.path);
+      } else {
+        const Loc begin{name_and_path.loc.offset + static_cast<uint32_t>(path)};
+        import.out.add(begin, Loc{begin.offset + static_cast<uint32_t>(block.path.size())});
+      }
+      import.out.word(" WITH ");
       writeIdentifier(import, *block.task, "Task");
       any = true;
     }

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# Random renames with `rung lsp`: the project with an unused name compiles to the C++ of before but for this name.
+# A used name is refused, or leads to the same sources: renamed once more, they are as if renamed at once.
+#
+#   rename.py PROJECT... [--seed N] [--count N] [--verbose]     folders and files, of which it works on copies
+#
+# Prints each rename that fails, and at the end one line; with --verbose also how often what was refused.
+import argparse
+import collections
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from client import CAPABILITIES, Client, read_text, uri  # noqa: E402
+from edits import path_of, position_of, sources_in  # noqa: E402
+
+NAMED = {"type", "class", "interface", "struct", "enum", "enumMember", "variable", "parameter", "property", "function",
+         "method", "namespace"}
+# What may be refused although the new name is unused.
+REFUSED = ("is declared in a library", "has a meaning because of its name", "has its name from a file or a library",
+           "is used in the C++ body", "there is no name here")
+SUFFIX = "0zq7"  # makes an unused name, and leaves it where it is in a sorted list
+OF_LIBRARY = 8  # the modifier defaultLibrary
+
+
+def offset_of(text, position):
+    lines = re.split(r"(?<=\n)|(?<=\r)(?!\n)", text)
+    before = sum(len(line) for line in lines[:position["line"]])
+    line = lines[position["line"]] if position["line"] < len(lines) else ""
+    return before + len(line.encode("utf-16-le")[:2 * position["character"]].decode("utf-16-le"))
+
+
+class Project:
+    def __init__(self, source, seed):
+        self.random = random.Random(seed)
+        self.source = source
+        self.client = Client()
+        legend = self.client.initialize(["."], CAPABILITIES)["result"]["capabilities"]["semanticTokensProvider"]["legend"]
+        self.types = legend["tokenTypes"]
+        self.texts = {file: read_text(file) for file in sources_in(".")}
+        self.base = self.emitted(self.texts)
+        self.names = [name for file in self.texts for name in self.names_in(file)]
+
+    # Of a file: its path, and where a name begins and ends.
+    def names_in(self, file):
+        answer = self.client.request("textDocument/semanticTokens/full", {"textDocument": {"uri": uri(file)}})["result"]
+        text, line, character, found = self.texts[file], 0, 0, []
+        data = answer["data"] if answer else []
+        for i in range(0, len(data), 5):
+            character = data[i + 1] + (character if data[i] == 0 else 0)
+            line += data[i]
+            if self.types[data[i + 3]] in NAMED and data[i + 4] & OF_LIBRARY == 0:
+                begin = offset_of(text, {"line": line, "character": character})
+                found.append((file, begin, begin + data[i + 2]))
+        return found
+
+    # The generated C++ by file, or None: the project has errors.
+    def emitted(self, texts):
+        with tempfile.TemporaryDirectory() as folder:
+            inputs = os.path.join(folder, "in")
+            shutil.copytree(".", inputs)
+            for file, text in texts.items():
+                with open(os.path.join(inputs, file), "w", encoding="utf-8", newline="") as stream:
+                    stream.write(text)
+            output = os.path.join(folder, "out")
+            run = subprocess.run(["rung", "emit", ".", "-o", output, "--root=."], cwd=inputs, capture_output=True, text=True)
+            if run.returncode != 0:
+                return None
+            return {name: read_text(os.path.join(output, name)) for name in sorted(os.listdir(output))
+                    if name.endswith((".cpp", ".h", ".hpp"))}
+
+    def edited(self, texts, changes):
+        result = dict(texts)
+        for name, edits in changes.items():
+            file = path_of(name)
+            text = texts[file] if file in texts else read_text(file)
+            for edit in reversed(edits):
+                begin, end = (offset_of(text, edit["range"][side]) for side in ("start", "end"))
+                text = text[:begin] + edit["newText"] + text[end:]
+            result[file] = text
+        return result
+
+    # The texts with another name, where the name is then, and why not.
+    def renamed(self, texts, file, offset, name):
+        params = {"textDocument": {"uri": uri(file)}, "position": position_of(texts[file], offset), "newName": name}
+        answer = self.client.request("textDocument/rename", params)
+        if "error" in answer:
+            return None, offset, answer["error"]["message"]
+        changes = answer["result"]["changes"]
+        moved = offset
+        for edit in changes.get(uri(file), []):
+            begin, end = (offset_of(texts[file], edit["range"][side]) for side in ("start", "end"))
+            if begin < offset:
+                moved += len(edit["newText"]) - (end - begin)
+        return self.edited(texts, changes), moved, ""
+
+    # ---- one rename, and what is wrong with it
+
+    def fresh(self, file, begin, end):
+        old = self.texts[file][begin:end]
+        texts, _, refusal = self.renamed(self.texts, file, begin, old + SUFFIX)
+        if texts is None:
+            return refusal, "" if any(part in refusal for part in REFUSED) else "refused: " + refusal
+        after = self.emitted(texts)
+        if after is None:
+            return "", "the project has errors then"
+        return "", self.difference(after)
+
+    # Tables of names have hashes of them, and where they begin in one text: their comments say what is in them.
+    def difference(self, after):
+        def shape(name, text):
+            text = re.sub(r"[ \t]+|// bodies from .*", " ", text.lower().replace(SUFFIX, "")).replace("_globals", "")
+            if name == "sites.cpp":  # lines and columns
+                return re.sub(r"\d+", "0", text)
+            return sorted(set(re.findall(r"// (.*)", text))) if name == "module.cpp" else text
+        after = {name.lower().replace(SUFFIX, ""): text for name, text in after.items()}
+        changed = [name for name, text in self.base.items() if shape(name, text) != shape(name, after.get(name.lower(), ""))]
+        return "%s is another one" % changed[0] if changed else ""
+
+    def taken(self, file, begin, end):
+        other_file, other_begin, other_end = self.random.choice(self.names)
+        name = self.texts[other_file][other_begin:other_end]
+        texts, moved, refusal = self.renamed(self.texts, file, begin, name)
+        if texts is None:
+            return "taken: " + refusal.split(": ")[-1], ""
+        fresh = self.texts[file][begin:end] + SUFFIX
+        direct, _, _ = self.renamed(self.texts, file, begin, fresh)
+        changed = [changed_file for changed_file in texts if texts[changed_file] != self.texts.get(changed_file)]
+        for changed_file in changed:
+            self.client.open(changed_file, texts[changed_file])
+        twice, _, refusal = self.renamed(texts, file, moved, fresh)
+        for changed_file in changed:
+            self.client.close(changed_file)
+        if twice != direct:
+            return "", "renamed to `%s` and again, it is another project: %s" % (name, refusal)
+        return "", ""
+
+    def one(self):
+        file, begin, end = self.random.choice(self.names)
+        is_taken = self.random.random() < 0.3
+        refusal, wrong = self.taken(file, begin, end) if is_taken else self.fresh(file, begin, end)
+        if wrong:
+            text = self.texts[file]
+            line = text[:begin].count("\n") + 1
+            print("%s: %s:%d `%s`: %s" % (self.source, file, line, text[begin:end], wrong))
+        return refusal, not wrong
+
+
+def run(source, seed, count, refusals):
+    failed = done = 0
+    here = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        copy = os.path.join(folder, "project")
+        if os.path.isdir(source):
+            shutil.copytree(source, copy)
+        else:
+            os.mkdir(copy)
+            shutil.copy(source, copy)
+        os.chdir(copy)
+        project = Project(source, seed)
+        for _ in range(count if project.base and project.names else 0):
+            refusal, ok = project.one()
+            failed += not ok
+            done += 1
+            if refusal:
+                refusals[re.sub(r"`[^`]*`", "`…`", refusal)] += 1
+        project.client.finish()
+        os.chdir(here)
+    return done, failed
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("projects", nargs="+")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=10, help="renames of each project")
+    parser.add_argument("--verbose", action="store_true")
+    arguments = parser.parse_args()
+    refusals = collections.Counter()
+    done = failed = 0
+    for number, source in enumerate(arguments.projects):
+        renames, wrong = run(os.path.abspath(source), arguments.seed + number, arguments.count, refusals)
+        done += renames
+        failed += wrong
+    if arguments.verbose:
+        for refusal, times in refusals.most_common():
+            print("%6d  %s" % (times, refusal))
+    print("%d renames, %d failed" % (done, failed))
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
