@@ -77,6 +77,7 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
 
   Loaded loaded;
   if (program) loaded.module = &program->description();
+  run_options.monitor.engine = program ? "interp" : "native";
   if (!program) {
     times.begin("c++");
     request.level = compilation.options.code.level;

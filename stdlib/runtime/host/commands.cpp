@@ -91,8 +91,9 @@ std::string readOperand(std::string_view name, Operand operand, std::string_view
   return "";
 }
 
-// Empty, or why the text is not a command.
-std::string parse(std::string_view text, Command& command) {
+}  // namespace
+
+std::string parseCommand(std::string_view text, Command& command) {
   const std::string_view name = takeWord(text);
   for (const auto& row : kCommands) {
     if (lowerCase(name) != row.name) continue;
@@ -104,8 +105,6 @@ std::string parse(std::string_view text, Command& command) {
     names += std::string(&row == kCommands ? "" : &row + 1 == std::end(kCommands) ? " or " : ", ") + row.name;
   return "`" + std::string(name) + "` is not a command; write " + names;
 }
-
-}  // namespace
 
 Commands::~Commands() {
   if (pipe_ >= 0) close(pipe_);
@@ -130,7 +129,7 @@ bool Commands::take(std::string_view line, bool realtime, std::string& error) {
   if (what.empty() && text.empty()) what = "expected a command after the number of the cycle";
   if (what.empty() && !pending_.empty() && command.cycle >= 0 && command.cycle < pending_.back().cycle)
     what = "the cycles are not in ascending order";
-  if (what.empty()) what = parse(text, command);
+  if (what.empty()) what = parseCommand(text, command);
   if (!what.empty()) return error = command.location + ": " + what, false;
   pending_.push_back(std::move(command));
   return true;

@@ -28,6 +28,9 @@ struct Command {
   bool isAboutValues() const { return kind >= Get; }
 };
 
+// Reads a command without a cycle. Empty, or why the text is not one.
+std::string parseCommand(std::string_view text, Command& command);
+
 class Commands {
  public:
   ~Commands();

@@ -46,27 +46,21 @@ void Forces::unforceAll() {
   names_.clear();
 }
 
-std::string Forces::list() const {
-  // The table is memory like any other.
-  void* blocks[] = {table_.values};
-  rung_context context{};
-  context.blocks = blocks;
-  context.module = &symbols_.module().description;
-  std::string lines;
+std::vector<std::pair<std::string, std::string>> Forces::values() const {
+  std::vector<std::pair<std::string, std::string>> all;
   for (const Variable& name : names_) {
     const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
       return rung_is_same_variable(&forced.variable, &name);
     });
-    Variable value = name;
-    value.context = &context;
-    value.storage = RUNG_IN_BLOCK;
-    value.index = value.pointers = 0;
-    value.offsets[0] = row->value;
-    value.bit = 255;
-    lines += name.path + " = ";
-    formatValue(symbols_.module(), value, lines);
-    lines += '\n';
+    std::string& text = all.emplace_back(name.path, "").second;
+    formatCopied(symbols_.module(), name, table_.values + row->value, text);
   }
+  return all;
+}
+
+std::string Forces::list() const {
+  std::string lines;
+  for (const auto& [path, value] : values()) lines += path + " = " + value + '\n';
   return lines;
 }
 

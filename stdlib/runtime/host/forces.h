@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "symbols.h"
@@ -26,8 +27,10 @@ class Forces {
   void force(const Variable& variable, std::string_view value);
   void unforce(const Variable& variable);
   void unforceAll();
-  // `path = value` lines, in the order in which the variables were forced.
+  // Paths and values, in the order in which the variables were forced; the same as `path = value` lines.
+  std::vector<std::pair<std::string, std::string>> values() const;
   std::string list() const;
+  const std::vector<Variable>& names() const { return names_; }
   // Tells whether a forced variable has a bit in common with this one.
   bool touches(const Variable& variable) const;
 

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "crashes.h"
+#include "monitor_access.h"
 #include "rung/host.h"
 #include "rung/values.h"
 #include "symbols.h"
@@ -49,6 +50,9 @@ const char kHelp[] =
     "  --control FILE        commands, each after the number of its cycle: stop, start, cycle, reset, get, set, force "
     "and\n"
     "                        others; in real time also a pipe\n"
+    "  --monitor [ADDR:]PORT serve a page and tools (HTTP) at this port, 0: any; the program keeps pace with the "
+    "clock\n"
+    "  --monitor-insecure    the address may be one that other machines reach, without encryption\n"
     "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
@@ -167,6 +171,11 @@ const ValueOption kValueOptions[] = {
     {"--plot", setString<&RunOptions::plot_path>},
     {"--retain", setString<&RunOptions::retain_path>},
     {"--control", setString<&RunOptions::control_path>},
+    {"--monitor",
+     [](Value value, RunOptions& options) -> std::string {
+       options.monitor.address = value;
+       return "";
+     }},
     {"--driver", addDriver},
     {"--watch", addWatched},
     {"--set", addPreset},
@@ -177,6 +186,26 @@ const ValueOption kValueOptions[] = {
     {"--start", setStart},
 };
 
+// The option without a value; null: there is none of this name.
+bool* flagOf(const std::string& name, RunOptions& options) {
+  if (name == "--realtime") return &options.realtime;
+  if (name == "--trace-calls") return &options.trace_calls;
+  if (name == "--trace-forces") return &options.trace_forces;
+  if (name == "--monitor-insecure") return &options.monitor.is_insecure;
+  return nullptr;
+}
+
+std::string checkMonitor(const RunOptions& options) {
+  const MonitorOptions& monitor = options.monitor;
+  if (monitor.address.empty()) return monitor.is_insecure ? "--monitor-insecure needs --monitor" : "";
+  MonitorAddress address;
+  std::string error = readMonitorAddress(monitor.address, address);
+  if (error.empty() && !address.isLoopback() && !monitor.is_insecure)
+    error = "--monitor: other machines reach `" + monitor.address +
+            "`, and what they send and read is not encrypted; add --monitor-insecure, or use a tunnel to 127.0.0.1";
+  return error;
+}
+
 std::string contradiction(const RunOptions& options) {
   if (options.realtime && !options.stop_on.empty()) return "--stop-on works only in virtual time; remove --realtime";
   if (options.realtime && options.trace_calls) return "--trace-calls works only in virtual time; remove --realtime";
@@ -184,7 +213,7 @@ std::string contradiction(const RunOptions& options) {
     return "--trace-calls and --trace - would both write to stdout; give --trace a file";
   if (options.trace_forces && options.trace_path.empty())
     return "--trace-forces adds a column to the trace; name its file with --trace";
-  return "";
+  return checkMonitor(options);
 }
 
 }  // namespace
@@ -196,12 +225,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     const size_t equals = argument.find('=');
     const bool has_value = argument.compare(0, 2, "--") == 0 && equals != std::string::npos;
     const std::string name = has_value ? argument.substr(0, equals) : argument;
-    if (name == "--realtime" || name == "--trace-calls" || name == "--trace-forces") {
+    if (bool* const flag = flagOf(name, options); flag != nullptr) {
       if (has_value) return name + " takes no value";
-      bool& flag = name == "--realtime"      ? options.realtime
-                   : name == "--trace-calls" ? options.trace_calls
-                                             : options.trace_forces;
-      flag = true;
+      *flag = true;
       continue;
     }
     const auto option = std::find_if(std::begin(kValueOptions), std::end(kValueOptions),

@@ -18,6 +18,7 @@
 #include "condition.h"
 #include "faults.h"
 #include "inputs.h"
+#include "monitor.h"
 #include "output_file.h"
 #include "plot.h"
 #include "progress.h"
@@ -90,12 +91,17 @@ struct Run {
   int finishInterrupted(int64_t cycle);
   [[noreturn]] void leaveHung(std::string what);
   RealtimeOptions realtimeOptions() const;
+  RealtimeHooks realtimeHooks();
 
   SessionHooks hooks();
   void printMessage(uint8_t severity, const char* text);
   void reportAssertion(const rung_assertion& assertion, const char* expected, const char* actual);
-  // The commands that count before this row. False: the run ends.
+  // The commands that count before this row, and what clients of the monitor ask. False: the run ends.
   bool obey(int64_t row);
+  Answer obey(const Command& command);
+  bool openMonitor(std::string& error);
+  bool waitForReset(const Ending& ending, int64_t cycle);
+  void keepPace(int64_t cycle);
   // Statistics of virtual time say something where activations take time.
   bool hasTimes() const {
     const auto& tasks = session.module().tasks;
@@ -122,6 +128,7 @@ struct Run {
   CallTrace calls;
   Commands commands;
   std::optional<Retain> retain;
+  std::optional<Monitor> monitor;
   std::optional<Stopper> stopper;     // in virtual time
   std::optional<Progress> progress;   // in virtual time
   std::vector<std::string> reported;  // locations of violated assertions
@@ -129,6 +136,12 @@ struct Run {
   std::vector<bool> is_reported;      // by task: that a fault has stopped it
   int64_t cycles = 0;
   int64_t next_save_ns = 0, next_hint_ns = INT64_MAX;  // in virtual time
+  int64_t pace_ns = 0;                                 // in virtual time with a monitor: the clock at cycle 0
+  int64_t first_row = 0;                               // in real time: of the threads that run
+  std::atomic<int64_t> cycle_now{0};
+  bool ends = false;              // a command says so
+  bool is_faulted = false;        // and waits for a reset
+  bool is_fault_printed = false;  // before the end of the run
   bool has_quit = false;
   bool has_refused = false;  // a command
   bool cannot_pause = false;
@@ -198,9 +211,11 @@ SessionHooks Run::hooks() {
 
 void Run::printMessage(uint8_t severity, const char* text) {
   static const char* const words[] = {"note", "warning", "error"};
-  const int64_t ms = session.nowNs() / 1'000'000;
-  fprintf(options.err, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000),
-          words[severity <= RUNG_MESSAGE_ERROR ? severity : 0], text);
+  const int64_t now_ns = session.nowNs(), ms = now_ns / 1'000'000;
+  const char* const word = words[severity <= RUNG_MESSAGE_ERROR ? severity : 0];
+  fprintf(options.err, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000), word,
+          text);
+  if (monitor) monitor->log().addMessage(now_ns, word, text);
 }
 
 // A violated ASSERT outside of tests is reported once per location; the program continues.
@@ -212,6 +227,7 @@ void Run::reportAssertion(const rung_assertion& assertion, const char* expected,
   std::string message = location + ": assertion failed: expected " + expected + ", got " + actual;
   if (assertion.message != nullptr) message += std::string(" (") + assertion.message + ')';
   fprintf(options.err, "%s\n", message.c_str());
+  if (monitor) monitor->log().addMessage(session.nowNs(), "error", message);
 }
 
 std::string Run::describe(const Ending& ending) {
@@ -243,8 +259,17 @@ bool Run::loadAll(std::string& error) {
       options.trace_path.empty() && options.plot_path.empty() ? Trace::Use::LastRow : Trace::Use::Rows;
   if (!trace.choose(options.watch, use, error)) return error.insert(0, "--watch: "), false;
   if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return error.insert(0, "--stop-on: "), false;
-  if (options.retain_path.empty()) return true;
-  retain.emplace(session.symbols(), session.memory(), options.retain_path);
+  if (!options.retain_path.empty()) retain.emplace(session.symbols(), session.memory(), options.retain_path);
+  return true;
+}
+
+bool Run::openMonitor(std::string& error) {
+  if (options.monitor.address.empty()) return true;
+  monitor.emplace(session, options, [this](const Command& command) { return obey(command); });
+  if (!monitor->start(error)) return false;
+  fprintf(options.err, "monitor: %s\n", monitor->url().c_str());
+  fflush(options.err);
+  if (options.monitor.on_start) options.monitor.on_start(monitor->url());
   return true;
 }
 
@@ -275,7 +300,7 @@ int64_t Run::cyclesWanted() const {
   const int64_t cycle_ns = session.cycleNs();
   if (options.cycles >= 0) return options.cycles;
   if (options.for_ns >= 0) return options.for_ns / cycle_ns + (options.for_ns % cycle_ns != 0 ? 1 : 0);
-  if (options.realtime) return -1;
+  if (options.realtime || monitor) return -1;
   return inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
 }
 
@@ -283,13 +308,15 @@ int Run::prepare() {
   std::string error;
   if (!loadAll(error)) return refuse(options, error);
   is_reported.resize(session.module().tasks.size());
+  running = this;
   if (!options.realtime) {
-    running = this;
     stopper.emplace(session.context(), endHungRun, Stopper::Interrupt::AfterTheCycle);
+    if (!options.monitor.address.empty()) stopper->alsoOnTermination();
     stopper->limitTime(options.timeout_ns);
   }
   const int started = start();
   if (started != kSuccess) return started;
+  if (!openMonitor(error)) return refuse(options, error);
   if (options.trace_forces) trace.markForced(session.forces());
   if (!trace.open(options.trace_path, options.out, error)) return refuse(options, error);
   if (!options.plot_path.empty() && !plot.open(options.plot_path, options.out, trace.variables(), error))
@@ -298,29 +325,41 @@ int Run::prepare() {
   return kSuccess;
 }
 
+// After a fault only a reset makes sense of what changes how the program runs.
+Answer Run::obey(const Command& command) {
+  Answer answer;
+  const bool is_about_running = command.kind <= Command::Event && command.kind != Command::Reset;
+  if (is_faulted && is_about_running) {
+    answer.error = "the program has faulted; `reset` makes it ready to start again";
+    answer.is_busy = true;
+    return answer;
+  }
+  answer = session.obey(command);
+  cannot_pause = answer.hangs;
+  has_quit = has_quit || command.kind == Command::Quit;
+  if (command.kind == Command::Reset && answer.goes_on) is_faulted = false;
+  if (!answer.goes_on) command_ending = answer.ending;
+  ends = ends || !answer.goes_on;
+  return answer;
+}
+
 // In real time a flood of commands waits for the next turn, so that the watchdog and the program go on.
 bool Run::obey(int64_t row) {
-  if (options.control_path.empty()) return true;
   constexpr int kMostAtOnce = 16;
   Command command;
   std::string error;
-  bool goes_on = true;
-  for (int turn = 0; goes_on && (!options.realtime || turn < kMostAtOnce) && commands.next(row, command, error);
-       ++turn) {
-    const Answer answer = session.obey(command);
+  for (int turn = 0; !ends && (!options.realtime || turn < kMostAtOnce) && commands.next(row, command, error); ++turn) {
+    const Answer answer = obey(command);
     fputs(answer.text.c_str(), options.err);
     fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
     if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
     has_refused = has_refused || !answer.error.empty();
     if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
-    goes_on = answer.goes_on;
-    cannot_pause = answer.hangs;
-    has_quit = command.kind == Command::Quit;
-    if (!goes_on) command_ending = answer.ending;
-    if (session.isSingleCycle()) return goes_on;
+    if (session.isSingleCycle()) return !ends;
   }
   if (!error.empty()) fprintf(options.err, "warning: %s\n", error.c_str());
-  return goes_on;
+  if (monitor) monitor->attend();
+  return !ends;
 }
 
 void Run::reportStopped() {
@@ -335,7 +374,44 @@ void Run::reportStopped() {
     std::string text = describe(then, task.fault);
     text.insert(std::min(text.find('\n'), text.size()), "; task `" + session.tasks().nameOf(task) + "` is stopped");
     fprintf(options.err, "%s\n", text.c_str());
+    if (monitor) monitor->log().addFault(session.nowNs(), session.cyclesDone(), text);
   }
+}
+
+// ---- a run with a monitor
+
+// Keeps pace with the clock. What a long cycle has lost is not made up for.
+void Run::keepPace(int64_t cycle) {
+  constexpr int64_t kMostBehindNs = 100'000'000;
+  if (!monitor) return;
+  const int64_t now = monotonicNs(), since_begin = (cycle + 1) * session.cycleNs();
+  if (pace_ns == 0 || now - pace_ns - since_begin > kMostBehindNs) pace_ns = now - since_begin + session.cycleNs();
+  while (!ends && stopper->reason() == RUNG_STOP_NONE && monotonicNs() < pace_ns + since_begin)
+    monitor->attendUntil(pace_ns + since_begin);
+}
+
+// After a fault it rests with safe outputs until a client resets it. False: the run ends.
+bool Run::waitForReset(const Ending& ending, int64_t cycle) {
+  if (!monitor || has_quit || (stopper && stopper->reason() != RUNG_STOP_NONE)) return false;
+  const std::string what = describe(ending);
+  fprintf(options.err, "%s\n", what.c_str());
+  monitor->log().addFault(session.nowNs(), cycle, what);
+  session.markStopped();
+  session.makeOutputsSafe();
+  monitor->setState(Monitor::State::Faulted);
+  std::optional<Stopper> own;  // in real time the threads of the tasks have had the signals
+  if (!stopper) own.emplace(session.context(), endHungRun).alsoOnTermination();
+  const Stopper& signals = stopper ? *stopper : *own;
+  is_faulted = true;
+  do {
+    ends = false;
+    command_ending = {};
+    monitor->attendUntil(monotonicNs() + session.cycleNs());
+    obey(cycle);
+  } while (is_faulted && !has_quit && signals.reason() == RUNG_STOP_NONE);
+  is_fault_printed = is_faulted;
+  monitor->setState(Monitor::State::Stopped);
+  return !is_faulted;
 }
 
 // ---- the end
@@ -343,6 +419,7 @@ void Run::reportStopped() {
 // `what`: why it faulted, a line; `extra`: lines for the user.
 int Run::finish(bool faulted, const std::string& what, const std::string& extra) {
   std::string error, reason = what;
+  if (monitor) monitor->stop();
   session.markStopped();
   const bool is_listed = options.trace_path.empty() && (!faulted || is_interrupted);
   const std::string last_row = is_listed ? trace.lastRow() : std::string();
@@ -364,7 +441,7 @@ int Run::finish(bool faulted, const std::string& what, const std::string& extra)
   if (fflush(options.out) != 0 || ferror(options.out) != 0)
     return refuse(options, std::string("standard output: ") + strerror(errno));
   if (faulted) {
-    fprintf(options.err, "%s\n", reason.c_str());
+    if (!is_fault_printed) fprintf(options.err, "%s\n", reason.c_str());
     return kFaulted;
   }
   if (!refused.empty()) return refuse(options, refused);
@@ -398,17 +475,21 @@ std::optional<int> Run::runCycle(int64_t cycle) {
   if (options.trace_calls) fputs(calls.line(cycle).c_str(), options.out);
   if (ending.kind != Ending::Faulted && stopper->reason() == RUNG_STOP_TIME)
     ending = {Ending::Faulted, stopper->fault(), nullptr, ""};
-  if (!ending.isComplete()) return finishEnded(ending, cycle);
+  while (!ending.isComplete()) {
+    if (!waitForReset(ending, cycle)) return finishEnded(ending, cycle);
+    ending = session.cycle();
+  }
   reportStopped();
   trace.row(cycle, cycle * session.cycleNs());
   plot.row();
   session.completeCycle();
+  if (monitor) monitor->completeCycle(cycle, cycle * session.cycleNs());
   if (retain && session.isIdle()) retain->copy(session.nextRowNs());
   if (stopper->reason() == RUNG_STOP_INTERRUPT) {
     progress->clear();
-    return finishInterrupted(cycle);
+    return monitor ? finish(false, "", "") : finishInterrupted(cycle);
   }
-  progress->show(cycle);
+  if (!monitor) progress->show(cycle);
   session.stopAfterSingleCycle();
   if (options.stop_on.empty() || !stop_on.holds()) return std::nullopt;
   progress->clear();
@@ -431,13 +512,14 @@ std::optional<int> Run::attend(int64_t cycle) {
 
 int Run::runVirtual() {
   next_save_ns = monotonicNs() + options.retain_interval_ns;
-  if (!options.hint_when_long.empty() && isatty(2) != 0) next_hint_ns = monotonicNs() + kLongRunNs;
+  if (!options.hint_when_long.empty() && !monitor && isatty(2) != 0) next_hint_ns = monotonicNs() + kLongRunNs;
   progress.emplace(options.err, cycles);
-  for (int64_t cycle = 0; cycle < cycles; ++cycle) {
-    if (!obey(cycle)) break;
+  for (int64_t cycle = 0; cycles < 0 || cycle < cycles; ++cycle) {
+    if (!obey(cycle) && (command_ending.isComplete() || !waitForReset(command_ending, cycle))) break;
     inputs.apply(cycle);
     if (const std::optional<int> code = runCycle(cycle)) return *code;
     if (const std::optional<int> code = attend(cycle)) return *code;
+    keepPace(cycle);
   }
   progress->clear();
   stopper->limitTime(0);
@@ -465,46 +547,59 @@ void Run::leaveHung(std::string what) {
 
 RealtimeOptions Run::realtimeOptions() const {
   RealtimeOptions wanted;
-  wanted.rows = cycles < 0 ? cycles : (cycles - 1) * session.rowsPerCycle() + 1;
+  wanted.rows = cycles < 0 ? cycles : std::max<int64_t>((cycles - 1) * session.rowsPerCycle() + 1 - first_row, 1);
   wanted.timeout_ns = options.timeout_ns;
-  wanted.base_ns = session.beginNs();
+  wanted.base_ns = session.nowNs();
   const auto& tasks = session.module().tasks;
   const bool has_events =
       std::any_of(tasks.begin(), tasks.end(), [](const rung_task& task) { return task.kind == RUNG_EXTERNAL; });
-  if (has_events || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
+  if (has_events || monitor || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
   wanted.others_go_on = options.others_go_on;
   return wanted;
 }
 
-int Run::runInRealTime() {
-  if (cycles == 0) return finish(false, "", "");
-  const int64_t row_ns = session.tasks().rowNs(), per_cycle = session.rowsPerCycle();
-  std::atomic<int64_t> cycle_now{0};
+RealtimeHooks Run::realtimeHooks() {
   RealtimeHooks hooks;
-  hooks.before = [&](int64_t row) {
+  hooks.before = [this](int64_t row) {
+    const int64_t per_cycle = session.rowsPerCycle();
+    row += first_row;
     cycle_now.store(row / per_cycle);
     if ((row + per_cycle - 1) % per_cycle == 0) inputs.apply((row + per_cycle - 1) / per_cycle);
   };
-  hooks.after = [&](int64_t row) {
-    if (row % per_cycle != 0) return;
-    trace.row(row / per_cycle, row * row_ns);
+  hooks.after = [this](int64_t row) {
+    row += first_row;
+    if (row % session.rowsPerCycle() != 0) return;
+    const int64_t cycle = row / session.rowsPerCycle(), time_ns = row * session.tasks().rowNs();
+    trace.row(cycle, time_ns);
     plot.row();
+    if (monitor) monitor->completeCycle(cycle, time_ns);
   };
-  if (retain) hooks.complete = [&](int64_t now_ns) { retain->copy(now_ns); };
-  hooks.idle = [&] {
+  if (retain) hooks.complete = [this](int64_t now_ns) { retain->copy(now_ns); };
+  hooks.idle = [this] {
     reportStopped();
     session.raiseInterrupts();
     if (!obey(cycle_now.load())) session.endThreads();
   };
+  return hooks;
+}
+
+int Run::runInRealTime() {
+  if (cycles == 0) return finish(false, "", "");
+  const RealtimeHooks hooks = realtimeHooks();
   RealtimeResult result;
-  {
+  Ending ending;
+  bool is_too_long = false;
+  do {
     const Saver saver(*this);
     result = session.runInRealTime(realtimeOptions(), hooks);
-  }
+    first_row += result.rows;
+    ending = result.ending.isComplete() ? command_ending : result.ending;
+    is_too_long = ending.fault.kind == RUNG_FAULT_STOP;
+  } while (!ending.isComplete() && !is_too_long && !result.hung && !cannot_pause &&
+           waitForReset(ending, cycle_now.load()));
   if (const std::string simulated = session.drivers().simulatedNames(); !simulated.empty())
     fprintf(options.err, "note: these modules were simulated: %s\n", simulated.c_str());
   if (!result.missing.empty()) fprintf(options.err, "note: %s\n", result.missing.c_str());
-  const Ending& ending = result.ending.isComplete() ? command_ending : result.ending;
   if (result.hung || cannot_pause) leaveHung(describe(ending));
   reportStopped();
   return finish(!ending.isComplete(), describe(ending), session.tasks().statistics(result.elapsed_ns));

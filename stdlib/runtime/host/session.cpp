@@ -225,11 +225,12 @@ void Session::stopAfterSingleCycle() {
 
 RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks) {
   threads_.emplace(tasks_, memory_.context(), options, hooks);
+  if (is_stopped_) threads_->pause();  // by a reset after a fault
   channels_->start();
   files_->work().start();  // not in the first cycle that needs it
   RealtimeResult result = threads_->run();
   channels_->stop();
-  rows_done_ = result.rows;
+  rows_done_ += result.rows;
   return result;
 }
 
@@ -399,11 +400,15 @@ Answer Session::obeyForValues(const Command& command) {
       case Command::Quit: break;  // obeyAtRest
     }
   };
-  if (!threads_)
-    act();
-  else if (!threads_->between(act))
-    answer.error = "no moment between two activations was found within a second";
+  answer.is_busy = !between(act);
+  if (answer.is_busy) answer.error = "no moment between two activations was found within a second";
   return answer;
+}
+
+bool Session::between(const std::function<void()>& act) {
+  if (threads_) return threads_->between(act);
+  act();
+  return true;
 }
 
 // In real time other tasks rest meanwhile.

@@ -59,13 +59,14 @@ struct SessionHooks {
 
 // The answer to a command.
 struct Answer {
-  bool goes_on = true;  // false: the run ends
-  std::string text;     // what was asked for: about the run
-  std::string values;   // and values of variables
-  std::string error;    // what the user asked cannot be done, and nothing was
-  std::string warning;  // why nothing was done
-  Ending ending;        // of activations that the command began
-  bool hangs = false;   // in real time: a task did not end its activation
+  bool goes_on = true;   // false: the run ends
+  std::string text;      // what was asked for: about the run
+  std::string values;    // and values of variables
+  std::string error;     // what the user asked cannot be done, and nothing was
+  bool is_busy = false;  // because some task is always within an activation
+  std::string warning;   // why nothing was done
+  Ending ending;         // of activations that the command began
+  bool hangs = false;    // in real time: a task did not end its activation
 };
 
 // Everything that decides how the program goes on: its memory, time and tasks, the devices and the numerical control
@@ -114,6 +115,8 @@ class Session {
 
   // From the hook `idle` in real time; tasks rest meanwhile.
   Answer obey(const Command& command);
+  // Calls `act` where no activation runs. False: there was no such moment within a second.
+  bool between(const std::function<void()>& act);
   bool isStopped() const { return is_stopped_; }
   // All outputs get their safe values.
   void makeOutputsSafe() { tasks_.makeOutputsSafe(nowNs()); }

@@ -18,7 +18,8 @@ rung_context* volatile context_to_stop = nullptr;
 Stopper::Hung call_when_hung = nullptr;
 volatile sig_atomic_t stop_reason = RUNG_STOP_NONE, ticks = 0, ticks_for_the_cycle = 0;
 volatile uint32_t stop_site = RUNG_NONE;
-struct sigaction old_interrupt, old_alarm;
+struct sigaction old_interrupt, old_alarm, old_termination;
+bool has_termination = false;
 
 void setTimer(int64_t first_ns, int64_t next_ns) {
   itimerval timer{};
@@ -34,15 +35,22 @@ void onStopSignal(int number, siginfo_t*, void* details) {
   if (context == nullptr) return;
   const bool again = stop_reason != RUNG_STOP_NONE;
   if (!again) {
-    stop_reason = number == SIGINT ? RUNG_STOP_INTERRUPT : RUNG_STOP_TIME;
+    stop_reason = number == SIGALRM ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT;
     ticks = 0;
     if (runningContext() == context) stop_site = currentSite(context, details);
     setTimer(kRepeatNs, kRepeatNs);
   }
   if (number == SIGALRM) ticks = ticks + 1;
   if (stop_reason == RUNG_STOP_TIME || ticks >= ticks_for_the_cycle) context->stop = static_cast<uint8_t>(stop_reason);
-  if (again && (number == SIGINT || ticks > kTicksUntilHung))
+  if (again && (number != SIGALRM || ticks > kTicksUntilHung))
     call_when_hung(context, static_cast<uint8_t>(stop_reason));
+}
+
+void installHandler(int number, struct sigaction* old) {
+  struct sigaction action {};
+  action.sa_sigaction = onStopSignal;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+  sigaction(number, &action, old);
 }
 
 }  // namespace
@@ -54,20 +62,24 @@ Stopper::Stopper(rung_context& context, Hung hung, Interrupt interrupt) {
   stop_reason = RUNG_STOP_NONE;
   stop_site = RUNG_NONE;
   context.stop = RUNG_STOP_NONE;
-  struct sigaction action {};
-  action.sa_sigaction = onStopSignal;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+  has_termination = false;
   sigaction(SIGINT, nullptr, &old_interrupt);
-  sigaction(SIGALRM, &action, &old_alarm);
-  if (old_interrupt.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
+  installHandler(SIGALRM, &old_alarm);
+  if (old_interrupt.sa_handler != SIG_IGN) installHandler(SIGINT, nullptr);
 }
 
 Stopper::~Stopper() {
   setTimer(0, 0);
   sigaction(SIGINT, &old_interrupt, nullptr);
   sigaction(SIGALRM, &old_alarm, nullptr);
+  if (has_termination) sigaction(SIGTERM, &old_termination, nullptr);
   context_to_stop->stop = RUNG_STOP_NONE;
   context_to_stop = nullptr;
+}
+
+void Stopper::alsoOnTermination() {
+  has_termination = true;
+  installHandler(SIGTERM, &old_termination);
 }
 
 void Stopper::limitTime(int64_t ns) {

@@ -23,6 +23,8 @@ class Stopper {
   Stopper(const Stopper&) = delete;
   Stopper& operator=(const Stopper&) = delete;
 
+  // SIGTERM does the same as SIGINT.
+  void alsoOnTermination();
   // From now on; 0: none.
   void limitTime(int64_t ns);
   uint8_t reason() const;  // a rung_stop

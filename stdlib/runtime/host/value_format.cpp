@@ -85,6 +85,19 @@ void formatValue(const LoadedModule& module, const Variable& variable, std::stri
   to.resize(begin + rung_read_text(variable.context, &variable, to.data() + begin, capacity));
 }
 
+void formatCopied(const LoadedModule& module, const Variable& variable, const uint8_t* value, std::string& to) {
+  void* blocks[] = {const_cast<uint8_t*>(value)};
+  rung_context context{};
+  context.blocks = blocks;
+  context.module = &module.description;
+  Variable copy;
+  copy.type = variable.type;
+  copy.context = &context;
+  copy.storage = RUNG_IN_BLOCK;
+  copy.bit = 255;
+  formatValue(module, copy, to);
+}
+
 namespace {
 
 std::string notAValue(const LoadedModule& module, const rung_type& type, std::string_view text) {

@@ -9,6 +9,8 @@ namespace rung::host {
 
 // Appends the value; nothing when a pointer on the path is null.
 void formatValue(const LoadedModule& module, const Variable& variable, std::string& to);
+// The same of a copy of the value, as rung_read_value makes it.
+void formatCopied(const LoadedModule& module, const Variable& variable, const uint8_t* value, std::string& to);
 struct Integer {
   int64_t bits = 0;
   bool is_unsigned = false;

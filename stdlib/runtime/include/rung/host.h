@@ -24,6 +24,25 @@ std::string shownPath(const ShownPaths& paths, const std::string& path);
 
 constexpr int64_t kDefaultMaxSteps = 100'000'000;
 
+// The pictures of the program's own POUs, for the monitor, which asks in a thread of its own. Empty: there are none.
+struct Pictures {
+  struct Pou {
+    std::string name, language;
+  };
+  std::function<std::vector<Pou>()> list;
+  // SVG; empty: there is none of this POU.
+  std::function<std::string(const std::string& pou)> draw;
+};
+
+// How the run is seen and changed by browsers and tools (docs/monitor.md).
+struct MonitorOptions {
+  std::string address;            // --monitor [ADDRESS:]PORT; empty: not at all
+  bool is_insecure = false;       // --monitor-insecure: other machines may reach the address
+  std::string engine = "native";  // that runs the program: `native` or `interp`
+  Pictures pictures;
+  std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
+};
+
 struct RunOptions {
   int64_t cycles = -1;                                    // --cycles; -1: not given
   int64_t for_ns = -1;                                    // --for
@@ -40,10 +59,11 @@ struct RunOptions {
   std::map<uint32_t, std::string> serial;                 // --serial N=DEVICE
   std::vector<std::string> drivers;                       // --driver PATH[=ARGUMENT]
   std::string control_path;                               // --control: commands to the running program
-  bool others_go_on = false;                              // --on-fault=task: a fault stops its task alone
-  int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
-  std::string stop_on;       // --stop-on CONDITION
-  bool trace_calls = false;  // --trace-calls, for interpreted modules that report their calls
+  MonitorOptions monitor;
+  bool others_go_on = false;  // --on-fault=task: a fault stops its task alone
+  int start = -1;             // --start: rung_start, -1: warm when the retain file exists, else cold
+  std::string stop_on;        // --stop-on CONDITION
+  bool trace_calls = false;   // --trace-calls, for interpreted modules that report their calls
   bool realtime = false;
   int64_t max_steps = kDefaultMaxSteps;  // --max-steps, of an activation; 0: none
   int64_t timeout_ns = 0;                // --timeout; 0: none

@@ -1,17 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/protocol/json.h"
+// JSON as a value: see json.h.
+#include "json.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
-#include "frontend/source/files.h"
-#include "frontend/source/render.h"
-
-namespace rung::protocol {
+namespace rung::host {
 namespace {
+
+void appendUtf8(std::string& out, uint32_t c) {
+  const auto add = [&out](uint32_t byte) { out += static_cast<char>(byte); };
+  if (c < 0x80) return add(c);
+  if (c < 0x800) {
+    add(0xc0 | c >> 6);
+  } else if (c < 0x10000) {
+    add(0xe0 | c >> 12);
+    add(0x80 | (c >> 6 & 63));
+  } else {
+    add(0xf0 | c >> 18);
+    add(0x80 | (c >> 12 & 63));
+    add(0x80 | (c >> 6 & 63));
+  }
+  add(0x80 | (c & 63));
+}
+
+// The bytes of the character at the front of a text that is not empty; 0: they are not UTF-8.
+size_t characterSize(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < size) return 0;
+  for (size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const bool is_overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
+  const bool is_surrogate = lead == 0xed && byte(1) >= 0xa0, is_beyond = lead == 0xf4 && byte(1) >= 0x90;
+  return is_overlong || is_surrogate || is_beyond ? 0 : size;
+}
+
+bool isUtf8(std::string_view text) {
+  for (size_t size = 0; !text.empty(); text.remove_prefix(size))
+    if (size = characterSize(text); size == 0) return false;
+  return true;
+}
 
 // A parser by recursive descent over RFC 8259.
 class JsonParser {
@@ -44,7 +77,7 @@ class JsonParser {
     return true;
   }
   bool acceptWord(std::string_view word) {
-    if (!text_.substr(at_).starts_with(word)) return false;
+    if (text_.substr(at_, word.size()) != word) return false;
     at_ += word.size();
     return true;
   }
@@ -140,7 +173,7 @@ class JsonParser {
   // A surrogate without its other half becomes the replacement character.
   void appendEscape(std::string& out) {
     uint32_t c = unit();
-    if (c >= 0xd800 && c < 0xdc00 && text_.substr(at_).starts_with("\\u")) {
+    if (c >= 0xd800 && c < 0xdc00 && text_.substr(at_, 2) == "\\u") {
       at_ += 2;
       const uint32_t low = unit();
       c = low >= 0xdc00 && low < 0xe000 ? 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00) : 0xfffd;
@@ -284,6 +317,12 @@ void appendList(std::string& out, char open, const Values& values, char close, O
   out += close;
 }
 
+void appendControl(std::string& out, unsigned char c) {
+  char text[8];
+  std::snprintf(text, sizeof text, "\\u%04x", static_cast<unsigned>(c));
+  out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : text;
+}
+
 void appendReal(std::string& out, double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -291,6 +330,24 @@ void appendReal(std::string& out, double value) {
 }
 
 }  // namespace
+
+void appendJsonText(std::string& out, std::string_view text) {
+  out += '"';
+  while (!text.empty()) {
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const size_t size = characterSize(text);
+    if (size == 0)
+      out += "\\ufffd";
+    else if (lead < 0x20 || lead == 0x7f)
+      appendControl(out, lead);
+    else if (lead == '"' || lead == '\\')
+      (out += '\\') += text[0];
+    else
+      out += text.substr(0, size);
+    text.remove_prefix(size == 0 ? 1 : size);
+  }
+  out += '"';
+}
 
 void Json::append(std::string& out) const {
   if (const bool* truth = std::get_if<bool>(&value_)) {
@@ -300,14 +357,15 @@ void Json::append(std::string& out) const {
   } else if (const double* real = std::get_if<double>(&value_)) {
     appendReal(out, *real);
   } else if (const std::string* text = std::get_if<std::string>(&value_)) {
-    out += jsonQuote(*text);
+    appendJsonText(out, *text);
   } else if (const Array* items = std::get_if<Array>(&value_)) {
     appendList(out, '[', *items, ']', [&](const Json& item) { item.append(out); });
   } else if (const Numbers* numbers = std::get_if<Numbers>(&value_)) {
     appendList(out, '[', *numbers, ']', [&](uint32_t number) { out += std::to_string(number); });
   } else if (const Object* members = std::get_if<Object>(&value_)) {
     appendList(out, '{', *members, '}', [&](const JsonMember& member) {
-      out += jsonQuote(member.name) + ':';
+      appendJsonText(out, member.name);
+      out += ':';
       member.value.append(out);
     });
   } else {
@@ -319,4 +377,4 @@ bool operator==(const Json& a, const Json& b) { return a.value_ == b.value_; }
 
 JsonResult parseJson(std::string_view text, JsonLimits limits) { return JsonParser(text, limits).parse(); }
 
-}  // namespace rung::protocol
+}  // namespace rung::host

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The monitor of a run (--monitor): HTTP with JSON and Server-Sent Events by which browsers and tools see the variables
+// of the running program, write and force them, and give it commands. docs/monitor.md lists the requests. In: requests
+// of anybody who has the token. Out: answers; the program is touched only by the run's own threads, between
+// activations.
+//
+//     Monitor monitor(session, options, obey);
+//     monitor.start(error);             // serves in a thread of its own
+//     monitor.completeCycle(cycle, ns)  // at the end of each cycle, in its thread
+//     monitor.attend();                 // when the run has time: does what clients wait for
+//
+// Called by run.cpp.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "http_server.h"
+#include "json.h"
+#include "monitor_access.h"
+#include "monitor_gate.h"
+#include "monitor_log.h"
+#include "rung/host.h"
+#include "session.h"
+
+namespace rung::host {
+
+class Monitor : private HttpServer::Handler {
+ public:
+  enum class State : uint8_t { Running, Stopped, Faulted };
+  // In the run's thread.
+  using Obey = std::function<Answer(const Command& command)>;
+
+  Monitor(Session& session, const RunOptions& options, Obey obey);
+  ~Monitor() override { server_.stop(); }
+  bool start(std::string& error);
+  std::string url() const { return access_.url(); }
+  MonitorLog& log() { return log_; }
+
+  // ---- the run
+  // The cycle is complete. Does not wait.
+  void completeCycle(int64_t cycle, int64_t time_ns);
+  // Where no activation runs, or from the hook `idle` in real time.
+  void attend();
+  // Does so until that moment, or less.
+  void attendUntil(int64_t monotonic_ns);
+  void setState(State state) { state_.store(state); }
+  // Clients get the answers that there are, and no more.
+  void stop() { server_.stop(); }
+
+ private:
+  struct Stream {
+    SharedList list;
+    int64_t interval_ns, next_ns;
+  };
+  struct Reader {  // waits for values
+    SharedList list;
+    int64_t asked_ns;
+  };
+  struct Route {
+    const char *method, *path;
+    void (Monitor::*serve)(HttpServer::Client, const HttpRequest&);
+  };
+  static const Route kRoutes[];
+  static constexpr size_t kMostLists = 64, kMostStreams = 16;
+
+  void onRequest(HttpServer::Client client, const HttpRequest& request) override;
+  void onClosed(HttpServer::Client client) override;
+  int64_t onTurn(int64_t now_ns) override;
+
+  void servePage(HttpServer::Client client, const HttpRequest& request);
+  void serveInfo(HttpServer::Client client, const HttpRequest& request);
+  void serveSymbols(HttpServer::Client client, const HttpRequest& request);
+  void serveValues(HttpServer::Client client, const HttpRequest& request);
+  void serveWatch(HttpServer::Client client, const HttpRequest& request);
+  void serveStream(HttpServer::Client client, const HttpRequest& request);
+  void serveWrite(HttpServer::Client client, const HttpRequest& request);
+  void serveForce(HttpServer::Client client, const HttpRequest& request);
+  void serveUnforce(HttpServer::Client client, const HttpRequest& request);
+  void serveForces(HttpServer::Client client, const HttpRequest& request);
+  void serveTasks(HttpServer::Client client, const HttpRequest& request);
+  void serveFaults(HttpServer::Client client, const HttpRequest& request);
+  void serveMessages(HttpServer::Client client, const HttpRequest& request);
+  void serveCommand(HttpServer::Client client, const HttpRequest& request);
+  void servePous(HttpServer::Client client, const HttpRequest& request);
+  void serveDiagram(HttpServer::Client client, const HttpRequest& request);
+
+  void fail(HttpServer::Client client, int status, std::string_view sentence);
+  void ask(HttpServer::Client client, MonitorGate::Act act);
+  bool readBody(HttpServer::Client client, const HttpRequest& request, Json& body);
+  bool readPaths(HttpServer::Client client, const HttpRequest& request, std::vector<std::string>& paths);
+  SharedList makeList(HttpServer::Client client, const std::vector<std::string>& paths);
+  SharedList listOf(HttpServer::Client client, const HttpRequest& request);
+  bool readAssignments(HttpServer::Client client, const HttpRequest& request, Command& command);
+  void askCommand(HttpServer::Client client, Command command);
+  HttpReply obey(const Command& command);
+  const char* stateName() const;
+  void wantSample(int64_t now_ns);
+  void sendSample(int64_t now_ns);
+
+  Session& session_;
+  const MonitorOptions& options_;
+  const bool is_realtime_;
+  const Obey obey_;
+  MonitorAccess access_;
+  MonitorLog log_;
+  MonitorGate gate_;
+  HttpServer server_;
+
+  // Of the last complete cycle; written by the run.
+  std::atomic<int64_t> cycle_{0}, time_ns_{0};
+  std::atomic<State> state_{State::Running};
+
+  // In the thread of the server.
+  std::map<uint64_t, SharedList> lists_;  // by number, of `watch`
+  uint64_t next_list_ = 1;
+  std::map<HttpServer::Client, Stream> streams_;
+  std::map<HttpServer::Client, Reader> readers_;
+  std::vector<HttpServer::Client> sampled_;  // clients of the lists in the sample
+};
+
+}  // namespace rung::host
