@@ -8,6 +8,7 @@
 #include "tools/driver/compile.h"
 #include "tools/driver/module_library.h"
 #include "tools/driver/native.h"
+#include "tools/driver/pou_views.h"
 
 namespace rung::driver {
 
@@ -36,6 +37,18 @@ int load(Compilation& compilation, const NativeRequest& request, bool has_user_c
   if (to.module != nullptr) return kSuccess;
   sink.internalError(error);
   return kInternal;
+}
+
+int runOnHost(const rung_module& module, Compilation& compilation, host::RunOptions& options, Sink& sink) {
+  for (const InputFile& file : compilation.inputs.files) options.paths[file.below] = file.shown;
+  PouViews views;
+  if (!options.monitor.address.empty()) views = PouViews::of(compilation);
+  options.monitor.pous = views.rows();
+  constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+  sink.programRuns(true, (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks);
+  const int exit = host::run(module, options);
+  sink.programRuns(false, false);
+  return exit;
 }
 
 }  // namespace
@@ -89,12 +102,8 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
     run_options.hint_when_long = "rung: a long run is faster with --engine=native";
   }
 
-  for (const InputFile& file : compilation.inputs.files) run_options.paths[file.below] = file.shown;
   times.begin("run");
-  constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
-  sink.programRuns(true, (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks);
-  exit = host::run(*loaded.module, run_options);
-  sink.programRuns(false, false);
+  exit = runOnHost(*loaded.module, compilation, run_options, sink);
   times.end();
   if (project.time_phases) sink.message(times.table());
   return exit;

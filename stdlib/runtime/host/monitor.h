@@ -27,6 +27,9 @@
 
 namespace rung::host {
 
+// A query parameter that is a number of at most `most`, or not there; false: something else.
+bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number);
+
 class Monitor : private HttpServer::Handler {
  public:
   enum class State : uint8_t { Running, Stopped, Faulted };
@@ -86,6 +89,10 @@ class Monitor : private HttpServer::Handler {
   void serveCommand(HttpServer::Client client, const HttpRequest& request);
   void servePous(HttpServer::Client client, const HttpRequest& request);
   void serveDiagram(HttpServer::Client client, const HttpRequest& request);
+  void serveScope(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeStart(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeStop(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeData(HttpServer::Client client, const HttpRequest& request);
 
   void fail(HttpServer::Client client, int status, std::string_view sentence);
   void ask(HttpServer::Client client, MonitorGate::Act act);

@@ -8,6 +8,7 @@
 #include "monitor.h"
 #include "monitor_page.h"
 #include "monitor_symbols.h"
+#include "monitor_views.h"
 #include "value_format.h"
 
 namespace rung::host {
@@ -20,14 +21,6 @@ HttpReply jsonReply(std::string body) {
   HttpReply reply;
   reply.body = std::move(body);
   return reply;
-}
-
-// A query parameter that is a number; false: something else.
-bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number) {
-  const std::string* const text = request.parameter(name);
-  if (text == nullptr) return true;
-  const std::from_chars_result read = std::from_chars(text->data(), text->data() + text->size(), number);
-  return !text->empty() && read.ec == std::errc{} && read.ptr == text->data() + text->size() && number <= most;
 }
 
 void appendField(std::string& json, const char* name, int64_t value) {
@@ -84,6 +77,13 @@ std::string reportedFaults(const std::string& status) {
 
 }  // namespace
 
+bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number) {
+  const std::string* const text = request.parameter(name);
+  if (text == nullptr) return true;
+  const std::from_chars_result read = std::from_chars(text->data(), text->data() + text->size(), number);
+  return !text->empty() && read.ec == std::errc{} && read.ptr == text->data() + text->size() && number <= most;
+}
+
 const Monitor::Route Monitor::kRoutes[] = {
     {"GET", "/", &Monitor::servePage},
     {"GET", "/api/info", &Monitor::serveInfo},
@@ -102,6 +102,10 @@ const Monitor::Route Monitor::kRoutes[] = {
     {"POST", "/api/command", &Monitor::serveCommand},
     {"GET", "/api/pous", &Monitor::servePous},
     {"GET", "/api/diagram", &Monitor::serveDiagram},
+    {"GET", "/api/scope", &Monitor::serveScope},
+    {"POST", "/api/scope", &Monitor::serveScopeStart},
+    {"POST", "/api/scope/stop", &Monitor::serveScopeStop},
+    {"GET", "/api/scope/data", &Monitor::serveScopeData},
 };
 
 void Monitor::onRequest(HttpServer::Client client, const HttpRequest& request) {
@@ -252,13 +256,26 @@ void Monitor::serveValues(HttpServer::Client client, const HttpRequest& request)
 }
 
 void Monitor::serveWatch(HttpServer::Client client, const HttpRequest& request) {
+  Json body;
+  if (!readBody(client, request, body)) return;
+  const bool skips_unknown = body["skip_unknown"].isTrue();
+  Variable variable;
+  std::string error;
   std::vector<std::string> paths;
-  if (!readPaths(client, request, paths)) return;
+  Json::Array unknown;
+  for (const Json& path : body["paths"].items()) {
+    if (skips_unknown && !session_.symbols().find(path.text(), variable, error))
+      unknown.push_back(path);
+    else
+      paths.emplace_back(path.text());
+  }
+  if (paths.empty() && unknown.empty()) return fail(client, 400, "`paths` is missing: the paths of variables");
   SharedList list = makeList(client, paths);
   if (list == nullptr) return;
   if (lists_.size() == kMostLists) lists_.erase(lists_.begin());  // the oldest one
   lists_[next_list_] = std::move(list);
-  server_.reply(client, jsonReply("{\"id\":" + std::to_string(next_list_++) + '}'));
+  server_.reply(client, jsonReply("{\"id\":" + std::to_string(next_list_++) +
+                                  ",\"unknown\":" + Json(std::move(unknown)).toText() + '}'));
 }
 
 // Of `watch=ID` or `paths=…`. Null: the client has its answer.
@@ -356,20 +373,17 @@ void Monitor::serveCommand(HttpServer::Client client, const HttpRequest& request
 }
 
 void Monitor::servePous(HttpServer::Client client, const HttpRequest&) {
-  Json::Array pous;
-  if (options_.pictures.list)
-    for (const Pictures::Pou& pou : options_.pictures.list())
-      pous.push_back(Json{{"name", pou.name}, {"language", pou.language}});
-  server_.reply(client, jsonReply(Json(std::move(pous)).toText()));
+  server_.reply(client, jsonReply(listPous(session_.module(), options_.pous)));
 }
 
 void Monitor::serveDiagram(HttpServer::Client client, const HttpRequest& request) {
-  const std::string* const pou = request.parameter("pou");
-  if (pou == nullptr) return fail(client, 400, "`pou` is missing: the name of a POU");
+  const std::string* const name = request.parameter("pou");
+  if (name == nullptr) return fail(client, 400, "`pou` is missing: the name of a POU");
+  const rung_pou_view* const pou = findPou(options_.pous, *name);
+  if (pou == nullptr) return fail(client, 404, "there is no POU `" + *name + "` with a body");
   HttpReply reply;
-  if (options_.pictures.draw) reply.body = options_.pictures.draw(*pou);
-  if (reply.body.empty()) return fail(client, 404, "there is no picture of `" + *pou + "`");
-  reply.type = "image/svg+xml";
+  reply.body = pou->content;
+  if (reply.body[0] == '<') reply.type = "image/svg+xml";
   server_.reply(client, reply);
 }
 

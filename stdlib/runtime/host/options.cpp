@@ -243,7 +243,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
   return contradiction(options);
 }
 
-int applicationMain(const rung_module& module, int argc, char** argv) {
+int applicationMain(const rung_module& module, int argc, char** argv, const rung_pou_view* pous) {
   signal(SIGXFSZ, SIG_IGN);  // makes exceeding a file size limit a write error, like a full disk
   catchCrashes();
   RunOptions options;
@@ -270,6 +270,7 @@ int applicationMain(const rung_module& module, int argc, char** argv) {
     fprintf(stderr, "error: unknown option `%s`; --help lists all\n", argument.c_str());
     return 2;
   }
+  for (; pous != nullptr && pous->name != nullptr; ++pous) options.monitor.pous.push_back(*pous);
   return run(module, options);
 }
 

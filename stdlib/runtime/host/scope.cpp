@@ -89,7 +89,9 @@ void Scope::stop() {
 
 ScopeState Scope::state() const {
   const std::lock_guard<Exchange> lock(image_);
-  return {static_cast<rung_scope_state>(scope_.state), scope_.taken - scope_.kept, scope_.taken, scope_.trigger_row};
+  const bool has_trigger = scope_.is_triggered != 0;
+  return {static_cast<rung_scope_state>(scope_.state), scope_.taken - scope_.kept, scope_.taken,
+          has_trigger ? scope_.trigger_row : RUNG_NONE};
 }
 
 ScopeRows Scope::read(uint32_t from, uint32_t count) const {

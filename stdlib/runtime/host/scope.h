@@ -24,8 +24,8 @@ struct ScopeOrder {
 
 struct ScopeState {
   rung_scope_state state = RUNG_SCOPE_OFF;
-  uint32_t first = 0, next = 0;  // the numbers of the oldest row, and of the one that follows the newest
-  uint32_t trigger_row = 0;
+  uint32_t first = 0, next = 0;      // the numbers of the oldest row, and of the one that follows the newest
+  uint32_t trigger_row = RUNG_NONE;  // none: not triggered
 };
 
 // Rows that were read. `bytes` has them one after the other.

@@ -94,7 +94,7 @@ bool rung_scope_start(rung_scope* scope) {
   scope->capacity = scope->ring_size / scope->row_size;
   scope->state = RUNG_SCOPE_OFF;
   scope->taken = scope->kept = scope->next = scope->trigger_row = 0;
-  scope->was_at_level = 0;
+  scope->was_at_level = scope->is_triggered = 0;
   scope->left_out = scope->divider == 0 ? 0 : scope->divider - 1;  // the first activation is sampled
   if (scope->capacity < 2 || (scope->condition != RUNG_SCOPE_NONE && scope->rows_before >= scope->capacity))
     return false;
@@ -112,6 +112,7 @@ void rung_scope_sample(rung_scope* scope, const rung_context* context, int64_t n
   scope->left_out = 0;
   if (scope->state == RUNG_SCOPE_WAITING && isTriggered(*scope, *context)) {
     scope->trigger_row = scope->taken;
+    scope->is_triggered = 1;
     scope->state = RUNG_SCOPE_TRIGGERED;
   }
   takeRow(*scope, *context, now_ns);

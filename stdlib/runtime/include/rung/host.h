@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rung/module.h"
+#include "rung/pou_view.h"
 
 namespace rung::host {
 
@@ -24,22 +25,12 @@ std::string shownPath(const ShownPaths& paths, const std::string& path);
 
 constexpr int64_t kDefaultMaxSteps = 100'000'000;
 
-// The pictures of the program's own POUs, for the monitor, which asks in a thread of its own. Empty: there are none.
-struct Pictures {
-  struct Pou {
-    std::string name, language;
-  };
-  std::function<std::vector<Pou>()> list;
-  // SVG; empty: there is none of this POU.
-  std::function<std::string(const std::string& pou)> draw;
-};
-
 // How the run is seen and changed by browsers and tools (docs/monitor.md).
 struct MonitorOptions {
-  std::string address;            // --monitor [ADDRESS:]PORT; empty: not at all
-  bool is_insecure = false;       // --monitor-insecure: other machines may reach the address
-  std::string engine = "native";  // that runs the program: `native` or `interp`
-  Pictures pictures;
+  std::string address;                                   // --monitor [ADDRESS:]PORT; empty: not at all
+  bool is_insecure = false;                              // --monitor-insecure: other machines may reach the address
+  std::string engine = "native";                         // that runs the program: `native` or `interp`
+  std::vector<rung_pou_view> pous;                       // what is shown of bodies; the rows refer to memory that stays
   std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
 };
 
@@ -126,8 +117,9 @@ int reportTests(const TestResults& results, const TestOptions& options);
 // Writes only the JUnit file. Returns an error message, or an empty string.
 std::string writeJunit(const TestResults& results, const std::string& path, std::FILE* out);
 
-// main() of an executable made by `rung build`: the options of `rung run` on its own command line.
-int applicationMain(const rung_module& module, int argc, char** argv);
+// main() of an executable made by `rung build`: the options of `rung run` on its own command line. `pous`: what
+// its monitor shows, up to an empty row; null: nothing.
+int applicationMain(const rung_module& module, int argc, char** argv, const rung_pou_view* pous = nullptr);
 
 // For a handler of SIGSEGV and SIGBUS: does not return when the program's code accessed invalid memory or nested calls
 // too deep; the program gets a fault then. `details`: ucontext_t. applicationMain has a handler.

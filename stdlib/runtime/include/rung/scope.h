@@ -29,7 +29,7 @@ typedef enum rung_scope_state {
 } rung_scope_state;
 
 /* A row is the time in nanoseconds (int64_t), then the value of each channel, without gaps. A bit is a byte of 0 or 1.
- * Values behind a null pointer are 0. */
+ * Values that a null pointer leads to are 0. */
 typedef struct rung_scope {
   /* Set before rung_scope_start; they stay while it runs. */
   const rung_variable* channels; /* elementary variables */
@@ -44,11 +44,12 @@ typedef struct rung_scope {
   /* Written by the functions below. */
   uint8_t state; /* rung_scope_state */
   uint8_t was_at_level;
+  uint8_t is_triggered;
   uint32_t row_size, capacity; /* of the ring, in rows */
   uint32_t taken;              /* rows since the start, the number of the next one; it may wrap */
   uint32_t kept;               /* of them, the last ones */
   uint32_t next;               /* where the next row goes in the ring */
-  uint32_t trigger_row;        /* its number, from RUNG_SCOPE_TRIGGERED on */
+  uint32_t trigger_row;        /* its number, when is_triggered */
   uint32_t left_out;           /* activations since the last row */
 } rung_scope;
 
