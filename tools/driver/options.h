@@ -121,6 +121,7 @@ struct RunOptions {
   Engine engine = Engine::Auto;
   NativeOptions native;
   std::vector<std::string> host_arguments;  // for rung::host::parseRunOptions, one `--name=value` each
+  bool opens_monitor = false;               // and its page in a browser
 
   bool mayInterpret() const { return engine == Engine::Interpreter || (engine == Engine::Auto && !native.keep); }
 };

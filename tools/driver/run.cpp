@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 
 #include "ir/ir.h"
 #include "rung/host.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/installation.h"
 #include "tools/driver/module_library.h"
 #include "tools/driver/native.h"
 #include "tools/driver/pou_views.h"
@@ -51,6 +56,24 @@ int runOnHost(const rung_module& module, Compilation& compilation, host::RunOpti
   return exit;
 }
 
+// Where there is a desktop; else the URL has been printed.
+void openInBrowser(const std::string& url) {
+  if (getenv("DISPLAY") == nullptr && getenv("WAYLAND_DISPLAY") == nullptr) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    if (fork() == 0) execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+    _exit(0);
+  }
+  if (child > 0) waitpid(child, nullptr, 0);  // of the browser's process init is the parent
+}
+
+void prepareMonitor(host::MonitorOptions& monitor, bool opens) {
+  monitor.version = std::string("rung ") + version();
+  if (!opens) return;
+  if (monitor.address.empty()) monitor.address = "0";
+  monitor.on_start = openInBrowser;
+}
+
 }  // namespace
 
 int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink) {
@@ -59,6 +82,7 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   std::string error = host::parseRunOptions(options.host_arguments, run_options, rest);
   if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "` of `rung run`";
   if (!error.empty()) return usageError(sink, error);
+  prepareMonitor(run_options.monitor, options.opens_monitor);
   run_options.color = project.report.color;
   run_options.out = sink.programOutput();
   run_options.err = sink.programErrors();

@@ -11,6 +11,7 @@
 #include "tools/driver/compile.h"
 #include "tools/driver/overwritten.h"
 #include "tools/lsp/server.h"
+#include "tools/monitor/monitor.h"
 #include "tools/rung/console.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
@@ -22,6 +23,15 @@ namespace {
 using rung::tool::Command;
 using rung::tool::CommandLine;
 using rung::tool::Console;
+
+// Of a program that runs, or of one that it runs.
+int runMonitor(const CommandLine& line, Console& console) {
+  if (rung::tool::hasUrl(line))
+    return rung::monitor::runMonitor(line.project.inputs, line.monitor_rate, line.run, console);
+  rung::driver::RunOptions run = line.run;
+  run.opens_monitor = true;
+  return rung::driver::runRun(line.project, run, console);
+}
 
 int runCommand(const CommandLine& line, Console& console) {
   const rung::driver::ProjectOptions& project = line.project;
@@ -39,6 +49,7 @@ int runCommand(const CommandLine& line, Console& console) {
     case Command::New: return rung::driver::runNew(words[0], line.project_template, console);
     case Command::Init: return rung::driver::runInit(project, console);
     case Command::Cam: return rung::driver::runCam(words, line.cam, line.cam_output, console);
+    case Command::Monitor: return runMonitor(line, console);
     case Command::Lsp: return rung::lsp::runServer(project, line.lsp_log, STDIN_FILENO, STDOUT_FILENO, console);
     case Command::Explain: return rung::driver::runExplain(words[0], project.report.color, console);
     case Command::Version: return rung::driver::runVersion(console);
@@ -73,7 +84,7 @@ int main(int argc, char** argv) {
   std::vector<std::string>& inputs = line.project.inputs;
   std::string error = rung::tool::expandResponseFiles(arguments);
   if (error.empty()) error = rung::tool::parseCommandLine(arguments, line);
-  if (error.empty() && !line.help && rung::tool::readsProject(line.command))
+  if (error.empty() && !line.help && rung::tool::readsProject(line))
     error = rung::workspace::addProject(inputs, rung::tool::commandName(line.command), line.command == Command::Test);
   if (error.empty() && !line.help) error = rung::driver::checkDumpName(line.project.code.dump_after);
   if (error.empty() && !line.help) error = rung::driver::checkOutputs(inputs, rung::tool::outputsOf(line));

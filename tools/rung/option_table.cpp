@@ -8,8 +8,9 @@
 namespace rung::tool {
 namespace {
 
+constexpr uint32_t kRuns = bit(Command::Run) | bit(Command::Monitor);
 constexpr uint32_t kCompile =
-    bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
+    bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | kRuns | bit(Command::Test);
 constexpr uint32_t kReads =
     kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Fmt);
 constexpr uint32_t kReadsOrServes = kReads | bit(Command::Lsp);
@@ -30,6 +31,8 @@ constexpr CommandRow kCommands[] = {
     {Command::Init, "init", "[DIR]", "write a rung.project for the sources of a folder"},
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
+    {Command::Monitor, "monitor", "URL COMMAND ... | [FILE|DIR ...]",
+     "watch and change a running program, or run one with its page"},
     {Command::Lsp, "lsp", "", "serve an editor (language server protocol)"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
@@ -155,7 +158,7 @@ std::string addHostArgument(const OptionRow& row, const std::string& value, Comm
 
 // A run takes its limits from the host, a test has its own.
 std::string setLimit(const OptionRow& row, const std::string& value, CommandLine& line) {
-  if (line.command == Command::Run) addHostArgument(row, value, line);
+  if (line.command != Command::Test) addHostArgument(row, value, line);
   return std::string_view(row.name) == "--timeout" ? host::parseTimeout(value, line.test.timeout_ns)
                                                    : host::parseMaxSteps(value, line.test.max_steps);
 }
@@ -266,41 +269,34 @@ constexpr OptionRow kOptions[] = {
      "for gdb, with names and values of ST; default: -O0"},
     {"--symbols", "FILE", bit(Command::Build), setText<&CommandLine::build, &BuildOptions::symbols>,
      "write where the variables are, as JSON"},
-    {"--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test), setKeep,
+    {"--keep", nullptr, bit(Command::Build) | kRuns | bit(Command::Test), setKeep,
      "keep the generated C++ and print its folder"},
-    {"--engine", "native|interp", bit(Command::Run) | bit(Command::Test), setEngine,
+    {"--engine", "native|interp", kRuns | bit(Command::Test), setEngine,
      "compile to C++, or interpret (default: interp)"},
-    {"--cycles", "N", bit(Command::Run), addHostArgument, "run N cycles (default: 100, or all of --inputs)"},
-    {"--for", "T", bit(Command::Run), addHostArgument, "run for a time, such as T#2s"},
-    {"--interval", "T", bit(Command::Run), addHostArgument, "cycle time if there are no tasks (default: T#10ms)"},
-    {"--inputs", "FILE", bit(Command::Run), addHostArgument, "CSV (cycle,PATH,...): values set before each cycle"},
-    {"--set", "PATH=VALUE", bit(Command::Run), addHostArgument, "set a variable before cycle 0; may be repeated"},
-    {"--watch", "PATH,...", bit(Command::Run) | bit(Command::Test), addHostArgument,
-     "variables to trace (default: all)"},
-    {"--trace", "FILE", bit(Command::Run) | bit(Command::Test), addHostArgument,
-     "write a CSV row after each cycle; - is stdout"},
-    {"--plot", "FILE", bit(Command::Run) | bit(Command::Test), addHostArgument, "plot the variables over time, as SVG"},
-    {"--on-fault", "all|task", bit(Command::Run), addHostArgument, "what a fault stops (default: all tasks)"},
-    {"--control", "FILE", bit(Command::Run), addHostArgument, "commands: stop, reset, get, set, force and others"},
-    {"--monitor", "[ADDRESS:]PORT", bit(Command::Run), addHostArgument,
-     "serve a page and tools there; 0: any free port"},
-    {"--monitor-insecure", nullptr, bit(Command::Run), addHostArgument, "that address may be any, without encryption"},
-    {"--driver", "LIB[=ARG]", bit(Command::Run), addHostArgument, "devices of a product: a library with rung_drivers"},
-    {"--retain", "FILE", bit(Command::Run), addHostArgument, "keep retained variables in FILE between runs"},
-    {"--retain-interval", "T", bit(Command::Run), addHostArgument,
-     "how often the retain file is written (default: 1s)"},
-    {"--start", "cold|warm|origin", bit(Command::Run), addHostArgument,
-     "default: warm if the retain file exists, else cold"},
-    {"--files-root", "DIR", bit(Command::Run), addHostArgument, "folder for the program's files (default: current)"},
-    {"--serial", "N=DEVICE", bit(Command::Run), addHostArgument, "device of serial port N; may be repeated"},
-    {"--stop-on", "CONDITION", bit(Command::Run), addHostArgument, "stop after the cycle that makes CONDITION TRUE"},
-    {"--trace-forces", nullptr, bit(Command::Run), addHostArgument, "a column of the trace names forced variables"},
-    {"--trace-calls", nullptr, bit(Command::Run), addHostArgument, "print which POUs ran in each cycle"},
-    {"--realtime", nullptr, bit(Command::Run), addHostArgument, "run in real time"},
-    {"--timeout", "T", bit(Command::Run) | bit(Command::Test), setLimit,
-     "end the run, or each test, after T (a test: 10s)"},
-    {"--max-steps", "N", bit(Command::Run) | bit(Command::Test), setLimit,
-     "end an activation after N steps (100000000)"},
+    {"--cycles", "N", kRuns, addHostArgument, "run N cycles (default: 100, or all of --inputs)"},
+    {"--for", "T", kRuns, addHostArgument, "run for a time, such as T#2s"},
+    {"--interval", "T", kRuns, addHostArgument, "cycle time if there are no tasks (default: T#10ms)"},
+    {"--inputs", "FILE", kRuns, addHostArgument, "CSV (cycle,PATH,...): values set before each cycle"},
+    {"--set", "PATH=VALUE", kRuns, addHostArgument, "set a variable before cycle 0; may be repeated"},
+    {"--watch", "PATH,...", kRuns | bit(Command::Test), addHostArgument, "variables to trace (default: all)"},
+    {"--trace", "FILE", kRuns | bit(Command::Test), addHostArgument, "write a CSV row after each cycle; - is stdout"},
+    {"--plot", "FILE", kRuns | bit(Command::Test), addHostArgument, "plot the variables over time, as SVG"},
+    {"--on-fault", "all|task", kRuns, addHostArgument, "what a fault stops (default: all tasks)"},
+    {"--control", "FILE", kRuns, addHostArgument, "commands: stop, reset, get, set, force and others"},
+    {"--monitor", "[ADDRESS:]PORT", kRuns, addHostArgument, "serve a page and tools there; 0: any free port"},
+    {"--monitor-insecure", nullptr, kRuns, addHostArgument, "that address may be any, without encryption"},
+    {"--driver", "LIB[=ARG]", kRuns, addHostArgument, "devices of a product: a library with rung_drivers"},
+    {"--retain", "FILE", kRuns, addHostArgument, "keep retained variables in FILE between runs"},
+    {"--retain-interval", "T", kRuns, addHostArgument, "how often the retain file is written (default: 1s)"},
+    {"--start", "cold|warm|origin", kRuns, addHostArgument, "default: warm if the retain file exists, else cold"},
+    {"--files-root", "DIR", kRuns, addHostArgument, "folder for the program's files (default: current)"},
+    {"--serial", "N=DEVICE", kRuns, addHostArgument, "device of serial port N; may be repeated"},
+    {"--stop-on", "CONDITION", kRuns, addHostArgument, "stop after the cycle that makes CONDITION TRUE"},
+    {"--trace-forces", nullptr, kRuns, addHostArgument, "a column of the trace names forced variables"},
+    {"--trace-calls", nullptr, kRuns, addHostArgument, "print which POUs ran in each cycle"},
+    {"--realtime", nullptr, kRuns, addHostArgument, "run in real time"},
+    {"--timeout", "T", kRuns | bit(Command::Test), setLimit, "end the run, or each test, after T (a test: 10s)"},
+    {"--max-steps", "N", kRuns | bit(Command::Test), setLimit, "end an activation after N steps (100000000)"},
     {"--filter", "GLOB", bit(Command::Test), addText<&CommandLine::test, &TestOptions::filters>,
      "run only tests whose name matches; may be repeated"},
     {"--allow-none", nullptr, bit(Command::Test), setFlag<&CommandLine::test, &TestOptions::allow_none>,
@@ -317,6 +313,8 @@ constexpr OptionRow kOptions[] = {
      "show the declaration of a function, block or type"},
     {"--template", "NAME", bit(Command::New), setText<&CommandLine::project_template>,
      "what kind of project (default: st)"},
+    {"--rate", "N", bit(Command::Monitor), setNumber<1, 1000, &CommandLine::monitor_rate>,
+     "of watch and trace: rows a second (default: 10)"},
     {"--log", "FILE", bit(Command::Lsp), setText<&CommandLine::lsp_log>, "write every message to FILE"},
     {"--stroke", "S", bit(Command::Cam), setCam, "way of the slave (default: 1)"},
     {"--length", "X", bit(Command::Cam), setCam, "way of the master (default: 1)"},
@@ -376,7 +374,7 @@ constexpr OptionRow kOptions[] = {
     {"--name", "ID", kCompile | bit(Command::Cam), setName, "prefix of the module's symbols, or name of the cam"},
     {"--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build), setPointerSize,
      "size of a pointer on the target (default: 8 bytes)"},
-    {"-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), setJobs,
+    {"-j", "N", bit(Command::Build) | kRuns | bit(Command::Test), setJobs,
      "number of C++ compilers to run in parallel"},
     {"--dump-after", "NAME", kCompile, setText<&CommandLine::project, &ProjectOptions::code, &CodeOptions::dump_after>,
      "print the result of parse, lower or a pass to stderr"},

@@ -7,13 +7,14 @@
 
 #include "frontend/source/diagnostics.h"
 #include "tools/driver/new_project.h"
+#include "tools/monitor/client.h"
 #include "tools/rung/option_table.h"
 
 namespace rung::tool {
 namespace {
 
 // Commands announced in the project's documentation.
-constexpr std::string_view kLaterCommands[] = {"lint", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"lint"};
 
 // `-O2`, `-Wno-x`, `-Idir`, `-j4`, `-oout`: the value follows a one-letter option without a blank.
 const OptionRow* findGlued(std::string_view word) {
@@ -107,7 +108,8 @@ std::string checkCombination(const CommandLine& line) {
     case Command::Emit: return checkEmit(line.emit);
     case Command::Build:
       return line.build.output.empty() ? "`rung build` needs a name for its output: add `-o FILE`" : "";
-    case Command::Run: return checkRun(line.run);
+    case Command::Run:
+    case Command::Monitor: return checkRun(line.run);
     case Command::Test: return checkTest(line.project, line.test);
     case Command::Convert: return checkConvert(line.convert);
     case Command::Graph:
@@ -209,7 +211,12 @@ bool isVerified() {
 
 }  // namespace
 
-bool readsProject(Command command) { return command >= Command::Check && command <= Command::Fmt; }
+bool hasUrl(const CommandLine& line) { return !line.project.inputs.empty() && monitor::isUrl(line.project.inputs[0]); }
+
+bool readsProject(const CommandLine& line) {
+  if (line.command == Command::Monitor) return !hasUrl(line);
+  return line.command >= Command::Check && line.command <= Command::Fmt;
+}
 
 const char* commandName(Command command) {
   for (const CommandRow& row : commandRows())

@@ -30,6 +30,7 @@ enum class Command : uint8_t {
   New,
   Init,
   Cam,
+  Monitor,
   Lsp,
   Explain,
   Version,
@@ -56,7 +57,8 @@ struct CommandLine {
   std::string project_template = "st";  // --template
   CamOptions cam;
   std::string cam_output;
-  std::string lsp_log;  // --log of `rung lsp`
+  std::string lsp_log;         // --log of `rung lsp`
+  uint32_t monitor_rate = 10;  // --rate of `rung monitor`
 };
 
 // Parses the arguments after the program's name. Returns an error message for the user, or an empty string.
@@ -79,8 +81,9 @@ struct CommandDescription {
 };
 std::vector<CommandDescription> describeCommands();
 
-// Tells whether the inputs of the command are sources, so that without them it takes the project around the current
-// folder.
-bool readsProject(Command command);
+// Tells whether the inputs are sources, so that without them the command takes the project around the current folder.
+bool readsProject(const CommandLine& line);
+// Tells whether `rung monitor` goes to a program that runs; else it runs one.
+bool hasUrl(const CommandLine& line);
 
 }  // namespace rung::tool

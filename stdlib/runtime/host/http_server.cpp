@@ -19,16 +19,16 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kSecondNs = 1'000'000'000, kMillisecondNs = 1'000'000;
-constexpr int64_t kRequestNs = 10 * kSecondNs;  // for a request to arrive whole, and for a client to read something
-constexpr int64_t kSilenceNs = 60 * kSecondNs;  // between two requests
-constexpr int64_t kFarewellNs = 200 * kMillisecondNs;
+constexpr int64_t kOneSecondNs = 1'000'000'000, kOneMillisecondNs = 1'000'000;
+constexpr int64_t kRequestNs = 10 * kOneSecondNs;  // for a request to arrive whole, and for a client to read something
+constexpr int64_t kSilenceNs = 60 * kOneSecondNs;  // between two requests
+constexpr int64_t kFarewellNs = 200 * kOneMillisecondNs;
 constexpr uint32_t kRequestsPerSecond = 2000;             // of a connection
 constexpr size_t kMostUnsent = size_t{64} << 20;          // of all connections together
 constexpr size_t kMostUnsentOfStream = size_t{64} << 10;  // before it misses events
 constexpr size_t kMostDropped = size_t{4} << 20;          // of what a client sends in vain
 constexpr size_t kBytesPerTurn = size_t{16} << 10;
-constexpr int kAcceptsPerTurn = 16, kEventsAtOnce = 32, kNiceness = 5;
+constexpr int kAcceptsPerTurn = 16, kMostEvents = 32, kNiceness = 5;
 constexpr uint64_t kListener = ~uint64_t{0}, kWake = kListener - 1;
 
 void addToEpoll(int epoll, int fd, uint64_t what) {
@@ -98,15 +98,15 @@ int64_t HttpServer::nextLimit() const {
 }
 
 void HttpServer::turn() {
-  constexpr int64_t kLongestWaitNs = kSecondNs, kLastWaitNs = 10 * kMillisecondNs;
+  constexpr int64_t kLongestWaitNs = kOneSecondNs, kLastWaitNs = 10 * kOneMillisecondNs;
   const int64_t wanted = handler_.onTurn(monotonicNs());
   const int64_t now = monotonicNs();
   serveDue(now);
   const int64_t most = ends_.load() ? kLastWaitNs : kLongestWaitNs;
   const int64_t wait = std::clamp<int64_t>(std::min(wanted, nextLimit()) - now, 0, most);
-  epoll_event events[kEventsAtOnce];
-  const int64_t wait_ms = (wait + kMillisecondNs - 1) / kMillisecondNs;
-  const int count = epoll_wait(epoll_, events, kEventsAtOnce, static_cast<int>(wait_ms));
+  epoll_event events[kMostEvents];
+  const int64_t wait_ms = (wait + kOneMillisecondNs - 1) / kOneMillisecondNs;
+  const int count = epoll_wait(epoll_, events, kMostEvents, static_cast<int>(wait_ms));
   const int64_t then = monotonicNs();
   for (int i = 0; i < count; ++i) {
     const uint64_t what = events[i].data.u64;
@@ -155,7 +155,7 @@ void HttpServer::close(Connection& connection) {
 
 // When all are in use, the oldest one that has not shown the token goes.
 HttpServer::Connection* HttpServer::room(int64_t now_ns) {
-  constexpr int64_t kChanceNs = 100 * kMillisecondNs;  // to show it
+  constexpr int64_t kChanceNs = 100 * kOneMillisecondNs;  // to show it
   Connection* oldest = nullptr;
   for (Connection& connection : connections_) {
     if (connection.fd < 0) return &connection;
@@ -271,7 +271,7 @@ bool HttpServer::takeRequest(Connection& connection, int64_t now_ns) {
 
 // False: it is a flood.
 bool HttpServer::countRequest(Connection& connection, int64_t now_ns) const {
-  if (now_ns - connection.second_ns >= kSecondNs) {
+  if (now_ns - connection.second_ns >= kOneSecondNs) {
     connection.second_ns = now_ns;
     connection.requests = 0;
   }
@@ -300,7 +300,7 @@ bool HttpServer::send(Connection& connection, int64_t now_ns) const {
 bool HttpServer::endReply(Connection& connection, int64_t now_ns) const {
   if (shutdown(connection.fd, SHUT_WR) != 0) return false;
   connection.state = State::Draining;
-  connection.limit_ns = now_ns + kSecondNs;
+  connection.limit_ns = now_ns + kOneSecondNs;
   return true;
 }
 

@@ -10,8 +10,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kPatienceNs = 2'000'000'000;  // of a client that waits for values
-constexpr int64_t kLongCycleNs = 20'000'000;    // values are not left to the end of a longer one
+constexpr int64_t kLongCycleNs = 20'000'000;  // values are not left to the end of a longer one
 
 }  // namespace
 
@@ -73,7 +72,7 @@ int64_t Monitor::onTurn(int64_t now_ns) {
   if (sample.isTaken()) sendSample(now_ns);
   for (auto reader = readers_.begin(); reader != readers_.end();) {
     const auto next = std::next(reader);
-    if (now_ns - reader->second.asked_ns >= kPatienceNs) {
+    if (now_ns - reader->second.asked_ns >= MonitorGate::kPatienceNs) {
       fail(reader->first, 409, "the program did not end its cycle within 2 s");
       readers_.erase(reader);
     }
@@ -81,7 +80,7 @@ int64_t Monitor::onTurn(int64_t now_ns) {
   }
   if (sample.isIdle()) wantSample(now_ns);
   int64_t next_ns = gate_.nextOverdueNs();
-  for (const auto& [client, reader] : readers_) next_ns = std::min(next_ns, reader.asked_ns + kPatienceNs);
+  for (const auto& [client, reader] : readers_) next_ns = std::min(next_ns, reader.asked_ns + MonitorGate::kPatienceNs);
   if (sample.isIdle())
     for (const auto& [client, stream] : streams_) next_ns = std::min(next_ns, stream.next_ns);
   return next_ns;

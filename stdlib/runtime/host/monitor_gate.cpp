@@ -12,8 +12,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int64_t kPatienceNs = 2'000'000'000;  // of a client whose question the run does not take up
-constexpr int64_t kMostAtOnceNs = 1'000'000;    // of the run's time
+constexpr int64_t kMostAtOnceNs = 1'000'000;  // of the run's time
 constexpr int64_t kLongestWaitNs = 50'000'000;
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace rung::host {
 class MonitorGate {
  public:
   using Client = HttpServer::Client;
+  static constexpr int64_t kPatienceNs = 2'000'000'000;  // of a client that waits for the run
   // The first part of an answer is made in the run's thread, the second one by the server.
   using Finish = std::function<HttpReply()>;
   using Act = std::function<Finish()>;
@@ -35,7 +36,7 @@ class MonitorGate {
   // ---- the server
   void ask(Client client, Act act, int64_t now_ns);
   std::vector<Answer> takeAnswers();
-  // Clients whose questions nobody has taken up until now: they get no other answer.
+  // Clients whose questions the run has not taken up in time: they get no other answer.
   std::vector<Client> takeOverdue(int64_t now_ns);
   // When that may be the case next; INT64_MAX: nothing waits.
   int64_t nextOverdueNs();

@@ -12,7 +12,7 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kLongestPath = 16384;
+constexpr uint32_t kPathRoom = 16384;
 
 bool isSamePart(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; };
@@ -36,7 +36,7 @@ bool isBefore(const rung_variable& a, const rung_variable& b) {
 class Listing {
  public:
   Listing(const LoadedModule& module, const SymbolPage& page, std::vector<Variable> forced)
-      : module_(module), page_(page), forced_(std::move(forced)), path_(std::make_unique<char[]>(kLongestPath)) {
+      : module_(module), page_(page), forced_(std::move(forced)), path_(std::make_unique<char[]>(kPathRoom)) {
     std::sort(forced_.begin(), forced_.end(), isBefore);
   }
 
@@ -45,9 +45,9 @@ class Listing {
     for (uint32_t i = 0; i < module_.symbols.size(); ++i) {
       rung_variable variable;
       rung_variable_of_symbol(&module_.description, i, &variable);
-      if (rung_path_of_symbol(&module_.description, i, path_.get(), kLongestPath) == 0) continue;
+      if (rung_path_of_symbol(&module_.description, i, path_.get(), kPathRoom) == 0) continue;
       const auto visit = [](void* data, const rung_part* part) { return static_cast<Listing*>(data)->visit(*part); };
-      rung_walk_variable(&module_.description, &variable, path_.get(), kLongestPath, visit, this);
+      rung_walk_variable(&module_.description, &variable, path_.get(), kPathRoom, visit, this);
     }
     return json_ += "],\"total\":" + std::to_string(total_) + '}';
   }

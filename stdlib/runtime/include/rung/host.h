@@ -30,6 +30,7 @@ struct MonitorOptions {
   std::string address;                                   // --monitor [ADDRESS:]PORT; empty: not at all
   bool is_insecure = false;                              // --monitor-insecure: other machines may reach the address
   std::string engine = "native";                         // that runs the program: `native` or `interp`
+  std::string version;                                   // of rung; empty: of the one that compiled the module
   std::vector<rung_pou_view> pous;                       // what is shown of bodies; the rows refer to memory that stays
   std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
 };
