@@ -91,12 +91,15 @@ void ChartLabels::openAction(Svg& svg, const std::string& own) const {
       std::vector<Svg::Attribute>{{"data-element", own}, {"data-kind", "action"}, {"data-path", "._" + own + ".x"}});
 }
 
+// A condition with a name is a BOOL of the chart.
 void ChartLabels::openTransition(Svg& svg, uint32_t index) const {
   if (path_of_ == nullptr) return;
-  const ExprId value = valueOf(tree_.list(pou_.transitions)[index]);
-  svg.open(std::vector<Svg::Attribute>{{"data-element", std::to_string(index + 1)},
-                                       {"data-kind", "transition"},
-                                       {"data-path", value ? (*path_of_)(value) : std::string()}});
+  const SfcTransition& transition = tree_.list(pou_.transitions)[index];
+  const ExprId value = valueOf(transition);
+  std::string path = value ? (*path_of_)(value) : std::string();
+  if (path.empty() && transition.name.name) path = "." + std::string(name(transition.name.name));
+  svg.open(std::vector<Svg::Attribute>{
+      {"data-element", std::to_string(index + 1)}, {"data-kind", "transition"}, {"data-path", path}});
 }
 
 std::vector<std::string> ChartLabels::linesOf(NameId action) const {

@@ -2,6 +2,8 @@
 // What a monitor needs to show networks running: which element is where, what it reads or writes, and where the value
 // of each wire is found. The value of a wire is that of its source when this is a variable or a pin of an instance,
 // else that of a target that keeps it. Where neither is, a monitor concludes it from the power rail and the contacts.
+#include <algorithm>
+
 #include "frontend/render/network_plan.h"
 
 namespace rung::picture {
@@ -39,6 +41,11 @@ class EndPaths {
                                                 e.kind == ElementKind::Coil);
     if (!(is_source || is_target) || !keeps || !e.operand) return {};
     return {(*body_.path_of)(e.operand), e.negated};
+  }
+
+  bool isInput(const End& end) const {
+    const uint32_t element = plan_.items[end.item].element;
+    return element != kNone && body_.elements[element].kind == ElementKind::Input;
   }
 
   // `rail`, `5` or `5:Q`; empty: a rail that ends wires.
@@ -84,9 +91,11 @@ std::vector<Svg::Attribute> liveAttributes(const Body& body, const DiagramElemen
 std::vector<Svg::Attribute> liveAttributes(const Body& body, const Plan& plan, const Net& net) {
   const EndPaths paths(body, plan);
   LivePath found;
-  // Several sources are joined by OR, so the value of one is not that of the wire.
-  if (net.sources.size() == 1) found = paths.of(net.sources[0]);
-  for (size_t i = 0; i < net.targets.size() && found.path.empty(); ++i) found = paths.of(net.targets[i]);
+  // Several sources are joined by OR, so the value of one is not that of the wire. A literal needs none.
+  const bool is_single = net.sources.size() == 1;
+  if (is_single) found = paths.of(net.sources[0]);
+  if (!is_single || !paths.isInput(net.sources[0]))
+    for (size_t i = 0; i < net.targets.size() && found.path.empty(); ++i) found = paths.of(net.targets[i]);
   std::string from, to;
   for (const auto& [ends, names] : {std::pair{&net.sources, &from}, std::pair{&net.targets, &to}})
     for (const End& end : *ends)
@@ -98,6 +107,22 @@ std::vector<Svg::Attribute> liveAttributes(const Body& body, const Plan& plan, c
           {"data-negated", yesIf(found.is_negated)},
           {"data-x", std::to_string(at.x)},
           {"data-y", std::to_string(at.y)}};
+}
+
+std::vector<Net> openOutputs(const Body& body, const Plan& plan) {
+  std::vector<Net> open;
+  for (uint32_t i = 0; i < plan.items.size(); ++i) {
+    const Item& item = plan.items[i];
+    if (item.element == kNone || body.elements[item.element].kind != ElementKind::Box) continue;
+    for (uint32_t t = 0; t < item.terminals.size(); ++t) {
+      const End end{i, t};
+      const bool is_wired = std::any_of(plan.nets.begin(), plan.nets.end(), [&](const Net& net) {
+        return std::find(net.sources.begin(), net.sources.end(), end) != net.sources.end();
+      });
+      if (item.terminals[t].output && !is_wired) open.push_back({{end}, {}, {}, {}});
+    }
+  }
+  return open;
 }
 
 }  // namespace rung::picture

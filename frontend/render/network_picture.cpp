@@ -202,6 +202,12 @@ void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
     for (const Point p : net.dots) svg.cycle(p, 2, "d");
     if (body.path_of != nullptr) svg.close();
   }
+  if (body.path_of != nullptr) {
+    for (const Net& net : openOutputs(body, plan)) {
+      svg.open(liveAttributes(body, plan, net));
+      svg.close();
+    }
+  }
   for (const Item& item : plan.items) drawItem(svg, body, item);
 }
 

@@ -97,6 +97,8 @@ void drawItem(Svg& svg, const Body& body, const Item& item);
 // What a monitor needs to show an element, or the wires of a net, running (live.cpp).
 std::vector<Svg::Attribute> liveAttributes(const Body& body, const DiagramElement& e);
 std::vector<Svg::Attribute> liveAttributes(const Body& body, const Plan& plan, const Net& net);
+// Nets without lines, of outputs that nothing reads: their values are of interest, too.
+std::vector<Net> openOutputs(const Body& body, const Plan& plan);
 
 // Positions elements by data flow, from left to right.
 void arrange(const Body& body, Plan& plan);
