@@ -18,6 +18,7 @@
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # service       the systemd unit of samples/service under systemd in a namespace (root; needs the package systemd)
+# page          1 000 values at 10 updates a second in headless Chromium for a minute: under 20 % of a core (SECONDS_EACH)
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
@@ -127,6 +128,11 @@ service() {
   tools/house/service.sh
 }
 
+page() {
+  needs rung
+  PATH=$bin:$PATH PYTHONDONTWRITEBYTECODE=1 python3 tests/programs/page/load.py "${SECONDS_EACH:-60}" | tee /dev/stderr | grep -q '^within'
+}
+
 lateness() {
   needs rung
   tests/bench/lateness.sh "${SECONDS_EACH:-60}"
@@ -180,11 +186,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service page lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,27s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|page|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
+    *) sed -n '3,28s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -6,9 +6,9 @@
 
 #include "clock.h"
 #include "monitor.h"
-#include "monitor_page.h"
 #include "monitor_symbols.h"
 #include "monitor_views.h"
+#include "page_text.h"
 #include "value_format.h"
 
 namespace rung::host {
@@ -222,7 +222,7 @@ void Monitor::askCommand(HttpServer::Client client, Command command) {
 void Monitor::servePage(HttpServer::Client client, const HttpRequest&) {
   HttpReply reply;
   reply.type = "text/html; charset=utf-8";
-  reply.body = embedded::monitor_page[0].text;
+  reply.body = pageText();
   server_.reply(client, reply);
 }
 
