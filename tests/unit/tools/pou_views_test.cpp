@@ -58,6 +58,8 @@ TEST(PouViews, APictureOfALadderHasThePathsOfItsValues) {
             "id=\"e22\" data-element=\"22\" data-kind=\"contact\" data-path=\".reset_button\" data-edge=\"rising\"");
   // The value of a wire: that of a pin, of a coil at its end, or none: it follows from rail and contacts.
   EXPECT_NE(svg.find("data-from=\"11:Q\" data-to=\"13\" data-path=\".run_up.Q\""), std::string::npos);
+  EXPECT_NE(svg.find("data-from=\"11:ET\" data-path=\".run_up.ET\""), std::string::npos) << "nothing reads it";
+  EXPECT_NE(svg.find("data-from=\"12\" data-to=\"11:PT\" data-x"), std::string::npos) << "a literal";
   EXPECT_NE(svg.find("data-from=\"5\" data-to=\"6\" data-path=\".motor\""), std::string::npos);
   EXPECT_NE(svg.find("data-from=\"rail\" data-to=\"2 3\" data-x"), std::string::npos);
   EXPECT_NE(svg.find("data-from=\"20\" data-to=\"21\" data-x"), std::string::npos) << "a coil that only sets";
@@ -106,7 +108,11 @@ TEST(PouViews, LinesHaveThePathsOfTheirVariables) {
 TEST(PouViews, AChartHasThePathsOfItsSteps) {
   const Views views("samples/filling_station");
   const std::string svg = views.of("FillingStation");
-  EXPECT_NE(svg.find("data-kind=\"step\" data-path=\".Fill.x\" data-time=\".Fill.t\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("data-kind=\"step\" data-path=\".Fill.x\" data-time=\".Fill.t\""), std::string::npos);
+  // A condition is a variable, or has a name.
+  EXPECT_NE(svg.find("data-kind=\"transition\" data-path=\".bottle_here\""), std::string::npos);
+  EXPECT_NE(svg.find("data-kind=\"transition\" data-path=\".TooLight\""), std::string::npos);
+  EXPECT_NE(svg.find("data-kind=\"action\" data-path=\"._valve.x\""), std::string::npos);
 }
 
 // Names of NCT without a path: a bit of a word, which its address names, and a constant of the control.
