@@ -222,7 +222,8 @@ void Monitor::askCommand(HttpServer::Client client, Command command) {
 void Monitor::servePage(HttpServer::Client client, const HttpRequest&) {
   HttpReply reply;
   reply.type = "text/html; charset=utf-8";
-  reply.body = pageText();
+  reply.script_nonce = access_.scriptNonce();
+  reply.body = pageText(reply.script_nonce);
   server_.reply(client, reply);
 }
 
@@ -275,8 +276,9 @@ void Monitor::serveWatch(HttpServer::Client client, const HttpRequest& request) 
   if (list == nullptr) return;
   if (lists_.size() == kMostLists) lists_.erase(lists_.begin());  // the oldest one
   lists_[next_list_] = std::move(list);
-  server_.reply(client, jsonReply("{\"id\":" + std::to_string(next_list_++) +
-                                  ",\"unknown\":" + Json(std::move(unknown)).toText() + '}'));
+  std::string json = "{\"id\":" + std::to_string(next_list_++);
+  if (skips_unknown) json += ",\"unknown\":" + Json(std::move(unknown)).toText();
+  server_.reply(client, jsonReply(json += '}'));
 }
 
 // Of `watch=ID` or `paths=…`. Null: the client has its answer.

@@ -23,18 +23,14 @@ void insertAt(std::string& page, std::string_view mark, const std::string& text)
   page.replace(page.find(mark), mark.size(), text);
 }
 
-std::string makePage() {
+}  // namespace
+
+std::string pageText(const std::string& nonce) {
   std::string page(pageFile("page.html")), scripts;
   for (const char* const script : kScripts) scripts += pageFile(script);
   insertAt(page, "/*style*/", std::string(pageFile("style.css")));
+  insertAt(page, "/*nonce*/", nonce);
   insertAt(page, "/*script*/", scripts);
-  return page;
-}
-
-}  // namespace
-
-const std::string& pageText() {
-  static const std::string page = makePage();
   return page;
 }
 

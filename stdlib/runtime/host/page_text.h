@@ -7,6 +7,7 @@
 
 namespace rung::host {
 
-const std::string& pageText();
+// `nonce`: marks its script for the browser.
+std::string pageText(const std::string& nonce);
 
 }  // namespace rung::host
