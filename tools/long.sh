@@ -10,6 +10,7 @@
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
+# monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
 # bodies        each body of the libraries left out: some test notices
 # mutation      300 mistakes in the compiler and the runtime, drawn at random: 95 % of them are noticed (COUNT, SEED)
@@ -82,6 +83,18 @@ snapshots() {
 forces() {
   needs session_test
   RUNG_FORCES_SEED=$first RUNG_FORCES_COUNT=${COUNT:-10000} "$bin/session_test" --gtest_filter='Forces.*' --gtest_brief=1
+}
+
+monitor() {
+  needs rung
+  local folder way
+  folder=$(mktemp -d)
+  cp tests/monitor/fuzzed.st "$folder"
+  for way in "" --realtime; do
+    # shellcheck disable=SC2086
+    PATH=$bin:$PATH tests/monitor/fuzz.py "$first" "${COUNT:-20000}" rung run "$folder/fuzzed.st" -Wno-all $way
+  done
+  rm -r "$folder"
 }
 
 modifiers() {
@@ -186,11 +199,11 @@ compilers() {
 }
 
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces modifiers bodies mutation profiles cams kills tsan service page lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces monitor modifiers bodies mutation profiles cams kills tsan service page lateness asan debug tidy conversions conformance packages compilers)
 for part in "${parts[@]}"; do
   case $part in
-    differential|networks|mutants|frames|forces|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|page|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,28s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    differential|networks|mutants|frames|snapshots|forces|monitor|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|page|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
+    *) sed -n '3,31s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 for part in "${parts[@]}"; do

@@ -2,10 +2,10 @@
 // A server of HTTP: see http_server.h.
 #include "http_server.h"
 
+#include <poll.h>
 #include <pthread.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <algorithm>
@@ -22,13 +22,14 @@ namespace {
 constexpr int64_t kOneSecondNs = 1'000'000'000, kOneMillisecondNs = 1'000'000;
 constexpr int64_t kRequestNs = 10 * kOneSecondNs;  // for a request to arrive whole, and for a client to read something
 constexpr int64_t kSilenceNs = 60 * kOneSecondNs;  // between two requests
+constexpr int64_t kChanceNs = 100 * kOneMillisecondNs;  // to show the token, when others wait
 constexpr int64_t kFarewellNs = 200 * kOneMillisecondNs;
 constexpr uint32_t kRequestsPerSecond = 2000;             // of a connection
 constexpr size_t kMostUnsent = size_t{64} << 20;          // of all connections together
 constexpr size_t kMostUnsentOfStream = size_t{64} << 10;  // before it misses events
 constexpr size_t kMostDropped = size_t{4} << 20;          // of what a client sends in vain
 constexpr size_t kBytesPerTurn = size_t{16} << 10;
-constexpr int kAcceptsPerTurn = 16, kMostEvents = 32, kNiceness = 5;
+constexpr int kAcceptsPerTurn = 16, kMostEvents = 32;
 constexpr uint64_t kListener = ~uint64_t{0}, kWake = kListener - 1;
 
 void addToEpoll(int epoll, int fd, uint64_t what) {
@@ -82,7 +83,7 @@ void HttpServer::wake() {
 }
 
 void HttpServer::run() {
-  setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread
+  handler_.onStart();
   while (!ends_.load()) turn();
   const int64_t end = monotonicNs() + kFarewellNs;
   do turn();  // what has been answered meanwhile
@@ -94,6 +95,9 @@ int64_t HttpServer::nextLimit() const {
   int64_t next = INT64_MAX;
   for (const Connection& connection : connections_)
     if (connection.fd >= 0) next = std::min(next, connection.limit_ns);
+  if (is_listening_) return next;
+  for (const Connection& connection : connections_)
+    if (!connection.is_trusted) next = std::min(next, connection.accepted_ns + kChanceNs);
   return next;
 }
 
@@ -121,6 +125,7 @@ void HttpServer::turn() {
     }
   }
   closeOverdue(then);
+  if (!is_listening_) accept(then);
 }
 
 void HttpServer::serveDue(int64_t now_ns) {
@@ -153,9 +158,8 @@ void HttpServer::close(Connection& connection) {
   handler_.onClosed(client);
 }
 
-// When all are in use, the oldest one that has not shown the token goes.
+// When all are in use, the oldest one that has not shown the token in time goes. Null: none.
 HttpServer::Connection* HttpServer::room(int64_t now_ns) {
-  constexpr int64_t kChanceNs = 100 * kOneMillisecondNs;  // to show it
   Connection* oldest = nullptr;
   for (Connection& connection : connections_) {
     if (connection.fd < 0) return &connection;
@@ -168,20 +172,27 @@ HttpServer::Connection* HttpServer::room(int64_t now_ns) {
 
 void HttpServer::accept(int64_t now_ns) {
   for (int i = 0; i < kAcceptsPerTurn; ++i) {
+    pollfd waiting{listener_, POLLIN, 0};
+    if (poll(&waiting, 1, 0) <= 0) return listen(true);
+    Connection* const connection = room(now_ns);
+    if (connection == nullptr) return listen(false);
     int32_t error = 0;
     const int fd = acceptClient(listener_, error);
     if (fd < 0) return;
-    Connection* const connection = room(now_ns);
-    if (connection == nullptr) {
-      ::close(fd);
-      continue;
-    }
     connection->fd = fd;
     connection->accepted_ns = now_ns;
     connection->limit_ns = now_ns + kRequestNs;
     connection->events = EPOLLIN;
     addToEpoll(epoll_, fd, static_cast<uint64_t>(connection - connections_.data()));
   }
+}
+
+void HttpServer::listen(bool listens) {
+  if (listens == is_listening_) return;
+  is_listening_ = listens;
+  epoll_event event{listens ? uint32_t{EPOLLIN} : 0, {}};
+  event.data.u64 = kListener;
+  epoll_ctl(epoll_, EPOLL_CTL_MOD, listener_, &event);
 }
 
 // A client that does not read its replies is not read either, so what is kept for it has a bound.

@@ -22,6 +22,7 @@ class HttpServer {
   class Handler {
    public:
     virtual ~Handler() = default;
+    virtual void onStart() = 0;
     // To be answered by reply() or beginStream(), now or later. The next request of the client waits until then.
     virtual void onRequest(Client client, const HttpRequest& request) = 0;
     virtual void onClosed(Client client) = 0;
@@ -50,7 +51,7 @@ class HttpServer {
   bool sendEvent(Client client, std::string_view event);
 
  private:
-  static constexpr uint32_t kConnections = 64;
+  static constexpr uint32_t kConnections = 128;
   // Draining: the last reply has left, and what the client still sends is dropped, lest it never sees the reply.
   enum class State : uint8_t { Reading, Waiting, Streaming, Closing, Draining };
   struct Connection {
@@ -78,6 +79,7 @@ class HttpServer {
   int64_t nextLimit() const;
   void accept(int64_t now_ns);
   Connection* room(int64_t now_ns);
+  void listen(bool listens);
   void onEvent(uint32_t index, uint32_t events, int64_t now_ns);
   bool receive(Connection& connection, int64_t now_ns) const;
   void serve(Connection& connection, int64_t now_ns);
@@ -95,6 +97,7 @@ class HttpServer {
   Handler& handler_;
   std::array<Connection, kConnections> connections_;
   int listener_ = -1, epoll_ = -1, wake_ = -1;
+  bool is_listening_ = true;  // else those that come wait until there is room
   uint16_t port_ = 0;
   std::thread thread_;
   std::atomic<bool> ends_{false}, is_woken_{false};

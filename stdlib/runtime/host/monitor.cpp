@@ -59,6 +59,8 @@ void Monitor::attendUntil(int64_t monotonic_ns) {
 
 // ---- the thread of the server
 
+void Monitor::onStart() { yieldToTasks(std::max(session_.module().resources.size(), 1u)); }
+
 void Monitor::onClosed(HttpServer::Client client) {
   streams_.erase(client);
   readers_.erase(client);
@@ -101,31 +103,35 @@ void Monitor::wantSample(int64_t now_ns) {
   if (!is_realtime_) gate_.wakeRun();
 }
 
+std::string Monitor::sampleText(size_t number, const WatchList& list, bool as_lines) {
+  const Sample& sample = gate_.sample();
+  std::string json = "{\"cycle\":" + std::to_string(sample.cycle());
+  json += ",\"time_ms\":" + millisecondsOf(sample.timeNs());
+  if (as_lines) {
+    std::string lines;
+    list.appendLines(session_.module(), sample.values(number), lines);
+    appendJsonText(json += ",\"text\":", lines);
+    return json += '}';
+  }
+  list.append(session_.module(), sample.values(number), json += ",\"values\":{");
+  return json += "}}";
+}
+
+// Clients that have gone meanwhile are neither readers nor streams any more.
 void Monitor::sendSample(int64_t now_ns) {
-  Sample& sample = gate_.sample();
   for (size_t i = 0; i < sampled_.size(); ++i) {
-    const auto reader = readers_.find(sampled_[i]);
-    const auto stream = streams_.find(sampled_[i]);
-    const WatchList* const list = reader != readers_.end()   ? reader->second.list.get()
-                                  : stream != streams_.end() ? stream->second.list.get()
-                                                             : nullptr;
-    if (list == nullptr) continue;  // the client has gone
-    std::string json = "{\"cycle\":" + std::to_string(sample.cycle());
-    json += ",\"time_ms\":" + millisecondsOf(sample.timeNs()) + ",\"values\":{";
-    list->append(session_.module(), sample.values(i), json);
-    json += "}}";
-    if (reader != readers_.end()) {
+    if (const auto reader = readers_.find(sampled_[i]); reader != readers_.end()) {
       HttpReply reply;
-      reply.body = std::move(json);
+      reply.body = sampleText(i, *reader->second.list, reader->second.is_command);
       server_.reply(sampled_[i], reply);
       readers_.erase(reader);
-    } else {
-      server_.sendEvent(sampled_[i], "data: " + json + "\n\n");
+    } else if (const auto stream = streams_.find(sampled_[i]); stream != streams_.end()) {
       Stream& due = stream->second;
+      server_.sendEvent(sampled_[i], "data: " + sampleText(i, *due.list, false) + "\n\n");
       due.next_ns = std::max(due.next_ns + due.interval_ns, now_ns - due.interval_ns);
     }
   }
-  sample.release();
+  gate_.sample().release();
 }
 
 }  // namespace rung::host

@@ -61,6 +61,7 @@ class Monitor : private HttpServer::Handler {
   struct Reader {  // waits for values
     SharedList list;
     int64_t asked_ns;
+    bool is_command = false;  // `get`, which is answered by lines
   };
   struct Route {
     const char *method, *path;
@@ -69,6 +70,7 @@ class Monitor : private HttpServer::Handler {
   static const Route kRoutes[];
   static constexpr size_t kMostLists = 64, kMostStreams = 16;
 
+  void onStart() override;
   void onRequest(HttpServer::Client client, const HttpRequest& request) override;
   void onClosed(HttpServer::Client client) override;
   int64_t onTurn(int64_t now_ns) override;
@@ -106,6 +108,7 @@ class Monitor : private HttpServer::Handler {
   const char* stateName() const;
   void wantSample(int64_t now_ns);
   void sendSample(int64_t now_ns);
+  std::string sampleText(size_t number, const WatchList& list, bool as_lines);
 
   Session& session_;
   const MonitorOptions& options_;

@@ -14,7 +14,8 @@
 namespace rung::host {
 namespace {
 
-constexpr uint64_t kMostSymbols = 100'000;        // of a page
+constexpr uint64_t kMostSymbols = 100'000;  // of a page
+constexpr size_t kMostWritten = 1000, kMostForced = 100;
 constexpr uint64_t kFastest = 1000, kUsual = 10;  // events a second
 
 HttpReply jsonReply(std::string body) {
@@ -213,7 +214,11 @@ HttpReply Monitor::obey(const Command& command) {
   return jsonReply(json += '}');
 }
 
+// What is done between activations delays those that are due meanwhile, so its amount has a bound.
 void Monitor::askCommand(HttpServer::Client client, Command command) {
+  const size_t most = command.kind == Command::Set ? kMostWritten : kMostForced;
+  if (command.values.size() > most)
+    return fail(client, 400, "more than " + std::to_string(most) + " variables at once");
   ask(client, [this, command = std::move(command)] { return [reply = obey(command)] { return reply; }; });
 }
 
@@ -254,7 +259,7 @@ void Monitor::serveSymbols(HttpServer::Client client, const HttpRequest& request
 void Monitor::serveValues(HttpServer::Client client, const HttpRequest& request) {
   std::vector<std::string> paths;
   if (!readPaths(client, request, paths)) return;
-  if (SharedList list = makeList(client, paths)) readers_[client] = {std::move(list), monotonicNs()};
+  if (SharedList list = makeList(client, paths)) readers_[client] = {std::move(list), monotonicNs(), false};
 }
 
 void Monitor::serveWatch(HttpServer::Client client, const HttpRequest& request) {
@@ -372,7 +377,10 @@ void Monitor::serveCommand(HttpServer::Client client, const HttpRequest& request
   Command command;
   const std::string error = parseCommand(trimmed(body["command"].text()), command);
   if (!error.empty()) return fail(client, 400, error);
-  askCommand(client, std::move(command));
+  if (command.kind != Command::Get) return askCommand(client, std::move(command));
+  std::vector<std::string> paths;
+  for (const Command::Value& value : command.values) paths.push_back(value.path);
+  if (SharedList list = makeList(client, paths)) readers_[client] = {std::move(list), monotonicNs(), true};
 }
 
 void Monitor::servePous(HttpServer::Client client, const HttpRequest&) {

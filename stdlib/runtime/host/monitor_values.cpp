@@ -38,19 +38,27 @@ void WatchList::copy(uint8_t* to) const {
 void WatchList::append(const LoadedModule& module, const uint8_t* copied, std::string& json) const {
   std::string text;
   const char* separator = "";
-  for (const Variable& variable : variables_) {
+  each(copied, [&](const Variable& variable, const uint8_t* value) {
     json += separator;
     separator = ",";
     appendJsonText(json, variable.path);
     json += ':';
     text.clear();
-    if (*copied != 0) formatCopied(module, variable, copied + 1, text);
-    if (*copied != 0)
-      appendJsonText(json, text);
-    else
+    if (value == nullptr) {
       json += "null";
-    copied += 1 + variable.type->size;
-  }
+    } else {
+      formatCopied(module, variable, value, text);
+      appendJsonText(json, text);
+    }
+  });
+}
+
+void WatchList::appendLines(const LoadedModule& module, const uint8_t* copied, std::string& text) const {
+  each(copied, [&](const Variable& variable, const uint8_t* value) {
+    text += variable.path + " = ";
+    if (value != nullptr) formatCopied(module, variable, value, text);
+    text += '\n';
+  });
 }
 
 // ---- samples

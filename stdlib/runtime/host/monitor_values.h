@@ -23,8 +23,19 @@ class WatchList {
   void copy(uint8_t* to) const;
   // `"path":"value",…` of a copy; null where a pointer on the path was.
   void append(const LoadedModule& module, const uint8_t* copied, std::string& json) const;
+  // The same as `path = value` lines.
+  void appendLines(const LoadedModule& module, const uint8_t* copied, std::string& text) const;
 
  private:
+  // Of each variable and its value in a copy; null: there is none.
+  template <class F>
+  void each(const uint8_t* copied, F act) const {
+    for (const Variable& variable : variables_) {
+      act(variable, *copied != 0 ? copied + 1 : nullptr);
+      copied += 1 + variable.type->size;
+    }
+  }
+
   std::vector<Variable> variables_;
   size_t bytes_ = 0;
 };

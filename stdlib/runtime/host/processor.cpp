@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <algorithm>
 #include <vector>
 
@@ -44,6 +45,17 @@ Rights findRights() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0)
     rights.missing += std::string(rights.missing.empty() ? "" : "; ") + "no right to lock memory";
   return rights;
+}
+
+void yieldToTasks(uint32_t resources) {
+  constexpr int kNiceness = 5;
+  setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread
+  const std::vector<int> cpus = permittedCpus();
+  if (cpus.size() <= resources) return;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (size_t i = 0; i < cpus.size() - resources; ++i) CPU_SET(cpus[i], &set);
+  sched_setaffinity(0, sizeof set, &set);
 }
 
 void Processor::prepare(uint32_t number, const Rights& rights) {

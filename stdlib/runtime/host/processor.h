@@ -18,6 +18,9 @@ struct Rights {
   std::string missing;
 };
 Rights findRights();
+// The calling thread serves others: it yields to them, and stays off the CPUs of so many resources where there are
+// more.
+void yieldToTasks(uint32_t resources);
 
 class Processor {
  public:
