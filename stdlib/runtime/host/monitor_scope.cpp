@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of the monitor for the scope of the run (scope.h), which are served without waiting for the run: the scope
-// has the lock of the image.
+// Requests of the monitor for the scope of the run (scope.h). They are served where the run has time, since another
+// version of the program, with a scope of its own, may take over between two cycles.
 #include <algorithm>
 #include <limits>
 
@@ -34,26 +34,25 @@ std::string readTrigger(const Json& trigger, ScopeOrder& order) {
   return readCount(trigger, "before", order.rows_before) ? "" : "`before` is a number of rows";
 }
 
-std::string readTask(const Tasks& tasks, const Json& body, ScopeOrder& order) {
-  const std::string_view name = body["task"].text();
-  if (name.empty()) {
-    order.task = tasks.fastest() != nullptr ? tasks.fastest()->index : 0;
-    return "";
-  }
-  for (const Task& task : tasks.all()) {
-    order.task = task.index;
-    if (lowerCase(tasks.nameOf(task)) == lowerCase(name)) return "";
-  }
-  return "there is no task " + backquoted(name);
-}
-
-std::string readOrder(const Tasks& tasks, const Json& body, ScopeOrder& order) {
+// What the body says but the task, which the program knows. Empty, or what is wrong.
+std::string readOrder(const Json& body, ScopeOrder& order) {
   for (const Json& path : body["paths"].items()) order.paths.emplace_back(path.text());
   if (order.paths.empty()) return "`paths` is missing: the paths of variables";
   if (!readCount(body, "rows", order.rows) || !readCount(body, "divider", order.divider))
     return "`rows` and `divider` are numbers";
-  std::string error = readTask(tasks, body, order);
-  return error.empty() ? readTrigger(body["trigger"], order) : error;
+  return readTrigger(body["trigger"], order);
+}
+
+bool findTask(const Tasks& tasks, const std::string& name, uint32_t& task) {
+  if (name.empty()) {
+    task = tasks.fastest() != nullptr ? tasks.fastest()->index : 0;
+    return true;
+  }
+  for (const Task& other : tasks.all()) {
+    task = other.index;
+    if (lowerCase(tasks.nameOf(other)) == lowerCase(name)) return true;
+  }
+  return false;
 }
 
 void appendState(std::string& json, const ScopeState& state) {
@@ -63,57 +62,23 @@ void appendState(std::string& json, const ScopeState& state) {
   json += ",\"trigger_row\":" + (has_trigger ? std::to_string(state.trigger_row) : "null");
 }
 
-HttpReply replyOf(std::string json) {
-  HttpReply reply;
-  reply.body = std::move(json);
-  return reply;
-}
-
-}  // namespace
-
-// ---- requests
-
-void Monitor::serveScope(HttpServer::Client client, const HttpRequest&) {
-  const Scope& scope = session_.tasks().scope();
+std::string stateJson(Tasks& tasks) {
+  const Scope& scope = tasks.scope();
   std::string json = "{";
   appendState(json, scope.state());
   json += ",\"task\":";
-  const std::vector<Task>& tasks = session_.tasks().all();
-  appendJsonText(json, scope.task() < tasks.size() ? session_.tasks().nameOf(tasks[scope.task()]) : "");
+  appendJsonText(json, scope.task() < tasks.all().size() ? tasks.nameOf(tasks.all()[scope.task()]) : "");
   json += ",\"paths\":[";
   for (const Variable& variable : scope.variables()) {
     if (json.back() != '[') json += ',';
     appendJsonText(json, variable.path);
   }
-  server_.reply(client, replyOf(json += "]}"));
-}
-
-void Monitor::serveScopeStart(HttpServer::Client client, const HttpRequest& request) {
-  Json body;
-  if (!readBody(client, request, body)) return;
-  ScopeOrder order;
-  std::string error = readOrder(session_.tasks(), body, order);
-  if (!error.empty()) return fail(client, 400, error);
-  Variable variable;
-  for (const std::string& path : order.paths)
-    if (!session_.symbols().find(path, variable, error)) return fail(client, 404, error);
-  error = session_.tasks().scope().start(order);
-  if (!error.empty()) return fail(client, 400, error);
-  serveScope(client, request);
-}
-
-void Monitor::serveScopeStop(HttpServer::Client client, const HttpRequest& request) {
-  session_.tasks().scope().stop();
-  serveScope(client, request);
+  return json += "]}";
 }
 
 // Rows from the number `from` on, or from the oldest: their times, and the values of each variable.
-void Monitor::serveScopeData(HttpServer::Client client, const HttpRequest& request) {
-  uint64_t from = 0, count = 1000;
-  if (!readNumber(request, "from", UINT32_MAX, from) || !readNumber(request, "count", Scope::kMostRows, count))
-    return fail(client, 400, "`from` and `count` are numbers of rows");
-  const Scope& scope = session_.tasks().scope();
-  const ScopeRows rows = scope.read(static_cast<uint32_t>(from), static_cast<uint32_t>(count));
+std::string dataJson(const Scope& scope, uint32_t from, uint32_t count) {
+  const ScopeRows rows = scope.read(from, count);
   std::string json = "{";
   appendState(json, scope.state());
   json += ",\"from\":" + std::to_string(rows.first) + ",\"times_ms\":[";
@@ -130,7 +95,60 @@ void Monitor::serveScopeData(HttpServer::Client client, const HttpRequest& reque
     }
     json += ']';
   }
-  server_.reply(client, replyOf(json += "}}"));
+  return json += "}}";
+}
+
+MonitorGate::Finish replying(std::string json) {
+  return [json = std::move(json)] {
+    HttpReply reply;
+    reply.body = json;
+    return reply;
+  };
+}
+
+MonitorGate::Finish refusing(int status, std::string sentence) {
+  return [status, sentence = std::move(sentence)] { return httpError(status, sentence); };
+}
+
+}  // namespace
+
+// ---- requests
+
+void Monitor::serveScope(HttpServer::Client client, const HttpRequest&) {
+  ask(client, [this] { return replying(stateJson(session_.tasks())); });
+}
+
+void Monitor::serveScopeStart(HttpServer::Client client, const HttpRequest& request) {
+  Json body;
+  if (!readBody(client, request, body)) return;
+  ScopeOrder order;
+  if (const std::string error = readOrder(body, order); !error.empty()) return fail(client, 400, error);
+  ask(client, [this, order, task = std::string(body["task"].text())]() mutable {
+    Tasks& tasks = session_.tasks();
+    if (!findTask(tasks, task, order.task)) return refusing(400, "there is no task " + backquoted(task));
+    Variable variable;
+    std::string error;
+    for (const std::string& path : order.paths)
+      if (!session_.symbols().find(path, variable, error)) return refusing(404, error);
+    error = tasks.scope().start(order);
+    return error.empty() ? replying(stateJson(tasks)) : refusing(400, error);
+  });
+}
+
+void Monitor::serveScopeStop(HttpServer::Client client, const HttpRequest&) {
+  ask(client, [this] {
+    session_.tasks().scope().stop();
+    return replying(stateJson(session_.tasks()));
+  });
+}
+
+void Monitor::serveScopeData(HttpServer::Client client, const HttpRequest& request) {
+  uint64_t from = 0, count = 1000;
+  if (!readNumber(request, "from", UINT32_MAX, from) || !readNumber(request, "count", Scope::kMostRows, count))
+    return fail(client, 400, "`from` and `count` are numbers of rows");
+  ask(client, [this, from, count] {
+    return replying(dataJson(session_.tasks().scope(), static_cast<uint32_t>(from), static_cast<uint32_t>(count)));
+  });
 }
 
 }  // namespace rung::host

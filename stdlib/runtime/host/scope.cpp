@@ -10,7 +10,7 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kBytesAtOnce = 128u << 10;  // copied while tasks may wait
+constexpr uint32_t kBytesAtOnce = 32u << 10;  // copied while tasks may wait
 
 std::string limit(const char* what, uint32_t most) {
   return std::string("a scope has at most ") + std::to_string(most) + ' ' + what;
