@@ -42,7 +42,8 @@ constexpr struct {
                    {RUNG_FIELD_BASE, "RUNG_FIELD_BASE"},
                    {RUNG_FIELD_READ_ONLY, "RUNG_FIELD_READ_ONLY"},
                    {RUNG_FIELD_NO_EXTERNAL_READ, "RUNG_FIELD_NO_EXTERNAL_READ"},
-                   {RUNG_FIELD_NO_EXTERNAL_WRITE, "RUNG_FIELD_NO_EXTERNAL_WRITE"}};
+                   {RUNG_FIELD_NO_EXTERNAL_WRITE, "RUNG_FIELD_NO_EXTERNAL_WRITE"},
+                   {RUNG_FIELD_NO_COPY, "RUNG_FIELD_NO_COPY"}};
 
 std::string number(uint64_t value) { return std::to_string(value); }
 std::string unsignedOrNone(uint32_t value) { return value == RUNG_NONE ? "RUNG_NONE" : number(value); }
@@ -122,6 +123,7 @@ class Describer {
 
   Description run(const std::vector<Group>& groups) {
     addInitialisers();
+    addLives();
     addTasks();
     addTests();
     addSites(groups);  // may add strings
@@ -145,6 +147,18 @@ class Describer {
       functions_.addInitialiser(function, is.body);
       initialisers_.row({number(is.type), function}, typeName(is.type));
     }
+  }
+
+  void addLives() {
+    for (const ir::Description::Life& is : is_.lives) {
+      const std::string block = "block" + number(is.block);
+      const std::string init = functions_.addBlockInit(block + "_init", is),
+                        refresh = functions_.addBlockFunction(block + "_refresh", is, is.refresh),
+                        reinit = functions_.addBlockFunction(block + "_reinit", is, is.reinit),
+                        exit = functions_.addBlockFunction(block + "_exit", is, is.exit);
+      lives_.row({number(is.block), number(is.type), init, refresh, reinit, exit}, text(is_.blocks[is.block].name));
+    }
+    for (const uint32_t type : is_.classes) classes_.row({number(type)}, typeName(type));
   }
 
   void addTasks() {
@@ -244,13 +258,13 @@ class Describer {
     functions_.addEntries();
     std::string out =
         "// The tables of the module, its tasks and its initial values. The columns are those of rung/module.h; a row\n"
-        "// ends with what it is about.\n#include <string.h>\n\n#include \"rung/module.h\"\n\n" +
-        openNamespace(name_space_) + '\n' + functions_.declarations() + '\n' + textSource();
+        "// ends with what it is about.\n#include <string.h>\n\n" +
+        includes() + '\n' + openNamespace(name_space_) + '\n' + functions_.declarations() + '\n' + textSource();
     for (const Table* table : {&blocks_, &areas_, &types_rows_, &fields_, &enum_items_, &dimensions_, &symbols_,
                                &names_, &retain_, &persistent_, &resources_, &writes_, &io_modules_})
       table->define(out, kExtern);
     out += functions_.functions();
-    for (const Table* table : {&initialisers_, &tasks_, &tests_}) table->define(out, kExtern);
+    for (const Table* table : {&initialisers_, &lives_, &classes_, &tasks_, &tests_}) table->define(out, kExtern);
     return out + functions_.entries() + "\n}  // namespace " + name_space_ + '\n';
   }
 
@@ -272,13 +286,13 @@ class Describer {
   std::string sitesSource() const {
     std::string out =
         "// Where the checks and calls are, and the description of the module: see rung/module.h.\n#include "
-        "\"rung/call_paths.h\"\n#include \"rung/module.h\"\n\n" +
-        openNamespace(name_space_) + '\n' + site_numbers_;
+        "\"rung/call_paths.h\"\n" +
+        includes() + '\n' + openNamespace(name_space_) + '\n' + site_numbers_;
     sites_.define(out, "static const ");
     out += "\nextern const char text[];\n";
     for (const Table* table : tables())
       if (table != &sites_ && !table->empty()) out += kExtern + table->declaration() + ";\n";
-    if (!names_.empty()) out += namesSource();
+    out += extensionsSource();
     out += "void init(rung_context* ctx);\n";
     if (module_.exit) out += "void exit(rung_context* ctx);\n";
     if (module_.safe) out += "void safe(rung_context* ctx);\n";
@@ -294,10 +308,24 @@ class Describer {
             &fields_, &enum_items_, &dimensions_, &retain_, &persistent_, &sites_,      &initialisers_, &tests_};
   }
 
-  // The extension that finds names.
-  std::string namesSource() const {
-    return kExtern + names_.declaration() + ";\nstatic const rung_names name_table = {" + names_.cell() +
-           "};\nstatic const rung_extension extensions[] = {{RUNG_NAMES, &name_table, sizeof name_table}};\n";
+  std::string includes() const {
+    return std::string(lives_.empty() ? "" : "#include \"rung/change.h\"\n") + "#include \"rung/module.h\"\n";
+  }
+
+  // The extension that finds names, and that for online changes.
+  std::string extensionsSource() const {
+    std::string out, rows;
+    if (!names_.empty()) {
+      out += kExtern + names_.declaration() + ";\nstatic const rung_names name_table = {" + names_.cell() + "};\n";
+      rows += "{RUNG_NAMES, &name_table, sizeof name_table}";
+    }
+    if (!lives_.empty()) {
+      out += kExtern + lives_.declaration() + ";\n";
+      if (!classes_.empty()) out += kExtern + classes_.declaration() + ";\n";
+      out += "static const rung_change_tables change_tables = {" + lives_.cell() + ", " + classes_.cell() + "};\n";
+      rows += std::string(rows.empty() ? "" : ", ") + "{RUNG_CHANGE, &change_tables, sizeof change_tables}";
+    }
+    return rows.empty() ? out : out + "static const rung_extension extensions[] = {" + rows + "};\n";
   }
 
   std::string descriptionSource() const {
@@ -307,7 +335,8 @@ class Describer {
     appendQuoted(out, options_.module_name);
     out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n";
     for (const Table* table : tables()) out += "  " + table->cell() + ",\n";
-    const std::string extensions = names_.empty() ? "{nullptr, 0" : "{extensions, 1";
+    const int count = (names_.empty() ? 0 : 1) + (lives_.empty() ? 0 : 1);
+    const std::string extensions = count == 0 ? "{nullptr, 0" : "{extensions, " + std::to_string(count);
     return out + "  " + extensions + ", sizeof(rung_extension)},\n  init, " + (module_.exit ? "exit" : "nullptr") +
            ", " + (module_.safe ? "safe" : "nullptr") + ", nullptr, RUNG_CALL_PATH_FUNCTIONS\n};\n";
   }
@@ -321,6 +350,8 @@ class Describer {
   ModuleFunctions functions_{module_, facts_, is_};
   std::string site_numbers_;
   Table blocks_{"rung_block", "blocks", "name, size, align"};
+  Table lives_{"rung_block_life", "lives", "block, type, init, refresh, reinit, exit"};
+  Table classes_{"uint32_t", "classes", "type"};
   Table areas_{"rung_area", "areas", "name, prefix, size, owner"};
   Table types_rows_{"::rung_type", "types", "kind, is_signed, library, name, size, element, length, first, count"};
   Table fields_{"rung_field", "fields", "name, type, offset, flags"};

@@ -95,6 +95,24 @@ void ModuleFunctions::addInitialiser(const std::string& name, ir::BodyId init) {
   define(functions_, made, body);
 }
 
+std::string ModuleFunctions::addBlockInit(const std::string& name, const ir::Description::Life& life) {
+  Statements body;
+  if (hasCode(life.init)) add(body, callOn(life.init, life.record, block(life.block)));
+  if (life.setup) add(body, callOf(life.setup));
+  if (body.empty()) return "nullptr";
+  define(functions_, function("static", name), body);
+  return name;
+}
+
+std::string ModuleFunctions::addBlockFunction(const std::string& name, const ir::Description::Life& life,
+                                              ir::BodyId called) {
+  if (!called) return "nullptr";
+  Statements body;
+  add(body, callWith(called, block(life.block)));
+  define(functions_, function("static", name), body);
+  return name;
+}
+
 void ModuleFunctions::addTask(const std::string& name, uint32_t task) {
   const ir::Task& is = module_.tasks[task];
   Statements body;

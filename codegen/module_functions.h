@@ -25,6 +25,9 @@ class ModuleFunctions {
   // Functions with a name of the caller, who puts it into a table.
   void addInitialiser(const std::string& name, ir::BodyId init);
   void addTask(const std::string& name, uint32_t task);
+  // Of a block, for an online change. Returns what the table has: the name, or nullptr for a function without code.
+  std::string addBlockInit(const std::string& name, const ir::Description::Life& life);
+  std::string addBlockFunction(const std::string& name, const ir::Description::Life& life, ir::BodyId body);
   struct TestNames {
     std::string init = "nullptr", run, exit = "nullptr";
   };

@@ -32,6 +32,7 @@ class Describer {
     addIoModules();
     if (with_tests) addTests();
     addInitialisers();
+    addLives();
     addNames();
     out_.layout_hash = layoutHash();
     out_.aligned_globals = module_.aligned_globals;
@@ -135,6 +136,28 @@ class Describer {
               [](const auto& a, const auto& b) { return a.type < b.type; });
   }
 
+  // ---- online changes
+
+  const BlockLife* lifeOf(const InitStep& step) const {
+    const auto found = std::find_if(module_.lives.begin(), module_.lives.end(), [&](const BlockLife& life) {
+      return life.is_list == step.is_list && life.index == step.index;
+    });
+    return found == module_.lives.end() ? nullptr : &*found;
+  }
+  void addLives() {
+    if (module_.lives.empty()) return;
+    for (const InitStep& step : initOrder(module_, blocks_)) {
+      const BlockLife* const life = lifeOf(step);
+      if (life == nullptr) continue;
+      const uint32_t block = step.is_list ? blocks_.list_block[step.index] : blocks_.program_block[step.index];
+      const TypeId record = blocks_.blocks[block].record;
+      const BodyId init = step.is_list ? module_.lists[step.index].init : module_.programs[step.index].init;
+      const BodyId setup = step.is_list ? BodyId{} : module_.programs[step.index].setup;
+      out_.lives.push_back({block, type(record), record, init, setup, life->refresh, life->reinit, life->exit});
+    }
+    for (const Class& object : module_.classes) out_.classes.push_back(type(object.record));
+  }
+
   static bool holdsBits(const TypeInfo& record, uint32_t field) {
     return std::any_of(record.bits.begin(), record.bits.end(), [&](const auto& bit) { return bit.field == field; });
   }
@@ -148,6 +171,7 @@ class Describer {
     if (field.role == FieldRole::Input) bits |= RUNG_FIELD_INPUT;
     if (field.role == FieldRole::Output) bits |= RUNG_FIELD_OUTPUT;
     if (field.role == FieldRole::Base) bits |= RUNG_FIELD_BASE;
+    if (field.no_copy) bits |= RUNG_FIELD_NO_COPY;
     return bits | accessFlags(field.symbol_access);
   }
   static uint32_t accessFlags(types::SymbolAccess access) {

@@ -66,6 +66,13 @@ struct Description {
     BodyId body;  // of kind Init, or a maker
   };
   std::vector<Initialiser> initialisers;  // by type
+  struct Life {
+    uint32_t block, type;
+    TypeId record;
+    BodyId init, setup, refresh, reinit, exit;  // on the record, but `setup`; or none
+  };
+  std::vector<Life> lives;        // in the order in which blocks are initialised; see Module::lives
+  std::vector<uint32_t> classes;  // types, by class number - 1
   std::vector<uint32_t> resources;
   std::vector<rung_task> tasks;  // `run` is not set
   std::vector<rung_write> writes;

@@ -399,6 +399,14 @@ struct ProgramInstance {
 };
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
+// What an online change needs of a list or program: functions on its record, or none.
+struct BlockLife {
+  bool is_list;
+  uint32_t index;  // in Module::lists or programs
+  BodyId refresh;  // sets constants, and variables that every change sets
+  BodyId reinit;   // calls FB_Reinit of the instances that a change copies
+  BodyId exit;     // FB_Exit
+};
 struct Task {
   NameId name;
   NameId resource;  // tasks of one resource share a processor; none: of the project
@@ -518,6 +526,7 @@ struct Module {
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
   std::vector<BodyId> makers;        // functions on an instance that make it as a declaration without arguments does
   BodyId safe;                       // a function without parameters that sets outputs to safe values, or none
+  std::vector<BlockLife> lives;      // of all lists and programs but tests; none: the module is not made for changes
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
   // Functions without parameters that run before and after each test of their file.

@@ -14,6 +14,7 @@ namespace rung::ir {
 
 struct LowerOptions {
   uint8_t checks = kCheckDiv | kCheckIndex | kCheckNull | kCheckCast;
+  bool online_change = false;      // Module::lives, and FB_Init and FB_Exit see whether a change copies them
   bool used_of_libraries = false;  // lower library POUs marked `used` even where the project does not call them
 };
 // Must not be called for a project with errors.

@@ -233,6 +233,8 @@ void Verifier::checkMemory() {
 
 void Verifier::checkTasks() {
   for (BodyId function : {module_.after_init, module_.exit, module_.safe}) requireCallable(function);
+  for (const BlockLife& life : module_.lives)
+    for (BodyId function : {life.refresh, life.reinit, life.exit}) requireCallable(function);
   for (const Task& task : module_.tasks)
     for (BodyId function : {task.before, task.after}) requireCallable(function);
   for (const BodyId maker : module_.makers)

@@ -83,6 +83,8 @@ struct Var {
     bool long_time = false;           // {long_time}: a TIME that takes an LTIME too (iec3)
     bool instance_path = false;       // {attribute 'instance-path'}: holds the path of its instance
     bool no_exit = false;             // {attribute 'no-exit'}: an instance whose FB_Exit is not called
+    bool no_copy = false;             // {attribute 'no_copy'}: an online change that moves it sets its initial value
+    bool set_by_change = false;       // {attribute 'init_on_onlchange'}: every online change does
     bool initialize_on_call = false;  // {attribute 'initialize_on_call'}: an input that each call begins with
     std::vector<NameId> aliases;      // {alias 'R'}
   } pragmas;

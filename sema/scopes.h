@@ -258,7 +258,7 @@ struct Scopes {
     struct Attributes {  // {attribute 'name'}
       NameId qualified_only, strict, instance_path, no_check, no_virtual_actions, obsolete, to_string, call_after_init,
           pack_mode, global_init_slot, after_globals, initialize_on_call, is_connected, no_exit, reflection, symbol,
-          unique_name;
+          unique_name, no_copy, init_on_change;
     } attributes;
   } known_names;
 

@@ -9,6 +9,7 @@
 # frames        what peers of Modbus and the freeport send: seeded frames, and libFuzzer (COUNT, FIRST, SECONDS_EACH; needs clang++)
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
+# changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
 # modifiers     each modifier left out of the programs of its row: some test notices
@@ -78,6 +79,11 @@ snapshots() {
     "$bin/snapshot_edits" "$sources" 200 "$first" 1 >"$folder/log" || { cat "$folder/log"; exit 1; }
   done
   rm -r "$folder"
+}
+
+changes() {
+  needs rung
+  PATH=$bin:$PATH tests/online_change/edits.py "${COUNT:-1000}" "$first"
 }
 
 forces() {
@@ -198,13 +204,12 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
+all=(differential networks mutants frames snapshots changes forces monitor modifiers bodies mutation profiles cams kills tsan service
+     lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
-[ ${#parts[@]} -gt 0 ] || parts=(differential networks mutants frames snapshots forces monitor modifiers bodies mutation profiles cams kills tsan service page lateness asan debug tidy conversions conformance packages compilers)
+[ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")
 for part in "${parts[@]}"; do
-  case $part in
-    differential|networks|mutants|frames|snapshots|forces|monitor|modifiers|bodies|mutation|profiles|cams|kills|tsan|service|page|lateness|asan|debug|tidy|conversions|conformance|packages|compilers) ;;
-    *) sed -n '3,31s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
-  esac
+  [[ " ${all[*]} " == *" $part "* ]] || { sed -n '3,/^set -eu/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 done
 for part in "${parts[@]}"; do
   echo "== $part"

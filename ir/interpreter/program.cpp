@@ -9,6 +9,7 @@
 #include "frontend/source/invariant.h"
 #include "ir/description.h"
 #include "ir/interpreter/translate.h"
+#include "rung/change.h"
 
 namespace rung::ir::interpreter {
 
@@ -34,8 +35,14 @@ struct Program::Parts {
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
   std::vector<rung_initialiser> initialisers;
+  std::vector<rung_block_life> lives;
   rung_names names{};
-  rung_extension extension{};
+  rung_change_tables change{};
+  std::vector<rung_extension> extensions;
+  struct LifeEntries {
+    Code::Entry init, refresh, reinit, exit;
+  };
+  std::vector<LifeEntries> of_life;
   Code::Entry init, exit, safe;
   std::vector<Code::Entry> of_initialiser, of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kTaskStack;
@@ -108,6 +115,12 @@ struct Program::Parts {
     const Parts& parts = of(ctx);
     parts.run(ctx, parts.of_task[static_cast<size_t>(static_cast<const rung_task*>(ctx->entry) - parts.tasks.data())]);
   }
+  template <Code::Entry LifeEntries::*Function>
+  static void runLife(rung_context* ctx) {
+    const Parts& parts = of(ctx);
+    const auto row = static_cast<size_t>(static_cast<const rung_block_life*>(ctx->entry) - parts.lives.data());
+    parts.run(ctx, parts.of_life[row].*Function);
+  }
   static size_t testOf(rung_context* ctx) {
     return static_cast<size_t>(static_cast<const rung_test*>(ctx->entry) - of(ctx).tests.data());
   }
@@ -141,6 +154,17 @@ class Entries {
       if (!step.is_list) addCallOf(steps, module_.programs[step.index].setup);
     addCallOf(steps, module_.after_init);
     return translator_.translateSteps(steps);
+  }
+
+  // The functions of a block for an online change.
+  Code::Entry blockInit(const Description::Life& life) {
+    std::vector<Step> steps;
+    if (life.init) steps.push_back({Step::CallOn, life.init, life.block});
+    addCallOf(steps, life.setup);
+    return translator_.translateSteps(steps);
+  }
+  Code::Entry callOnBlock(BodyId body, uint32_t block) {
+    return body ? one({Step::CallOn, body, block}) : Code::Entry{};
   }
 
   Code::Entry task(uint32_t number) {
@@ -231,6 +255,13 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     initialisers.push_back({row.type, runInitialiser});
     of_initialiser.push_back(entries.callOnSelf(row.body));
   }
+  for (const Description::Life& life : description->lives) {
+    of_life.push_back({entries.blockInit(life), entries.callOnBlock(life.refresh, life.block),
+                       entries.callOnBlock(life.reinit, life.block), entries.callOnBlock(life.exit, life.block)});
+    lives.push_back(
+        {life.block, life.type, runLife<&LifeEntries::init>, life.refresh ? runLife<&LifeEntries::refresh> : nullptr,
+         life.reinit ? runLife<&LifeEntries::reinit> : nullptr, life.exit ? runLife<&LifeEntries::exit> : nullptr});
+  }
   for (uint32_t i = 0; i < module.tasks.size(); ++i) of_task.push_back(entries.task(i));
   for (const Description::Test& test : description->tests) {
     of_test.push_back(entries.test(test));
@@ -286,9 +317,13 @@ void Program::Parts::describe() {
   is.tests = table(tests);
   if (!from.names.empty()) {
     names.slots = table(from.names);
-    extension = {RUNG_NAMES, &names, sizeof names};
-    is.extensions = {&extension, 1, sizeof extension};
+    extensions.push_back({RUNG_NAMES, &names, sizeof names});
   }
+  if (!lives.empty()) {
+    change = {table(lives), table(from.classes)};
+    extensions.push_back({RUNG_CHANGE, &change, sizeof change});
+  }
+  is.extensions = table(extensions);
   is.init = runInit;
   is.find_callers = findCallers;
 }

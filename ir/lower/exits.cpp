@@ -76,11 +76,12 @@ void ObjectLowering::lowerExit(ExprId place, TypeId record) {
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.records.pouOf(record), "FB_Exit");
   rung::CallExpr node{};
   node.h.loc = loc;
+  const ExprId copies = methods.empty() ? ExprId{} : isCopied(place);
   for (size_t i = methods.size(); i-- > 0;) {
     sema::Call call;
     call.kind = sema::CallKind::Method;
     call.pou = methods[i];
-    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(methods[i]).owner, loc));
+    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(methods[i]).owner, loc), copies);
   }
   exitParts(place, record);
 }

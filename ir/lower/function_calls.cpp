@@ -61,6 +61,7 @@ struct CallLowering::FunctionCall {
   // what the arguments became
   std::vector<Argument> arguments = {};
   std::vector<Output> outputs = {};
+  ExprId copies = {};  // the value of bInCopyCode
 
   Target& target() { return wanted != nullptr ? *wanted : own; }
 };
@@ -215,7 +216,9 @@ ExprId CallLowering::passArgument(FunctionCall& plan, uint32_t number) {
   const TypeId type = strip(pin.type);
   const sema::Binding* binding = planned.binding;
   switch (planned.passing) {
-    case Passing::Default: return defaultArgument(planned.id, pin.init, plan.loc);
+    case Passing::Default:
+      if (plan.copies && sameIdentifier(project_.names.string(pin.name), "bInCopyCode")) return copy(plan.copies);
+      return defaultArgument(planned.id, pin.init, plan.loc);
     case Passing::Value: {
       const ExprId value = values().lowerValue(binding->value);
       return state_.guard && mayFault(value) ? toTemp(value, plan.loc) : value;
@@ -247,8 +250,9 @@ void CallLowering::spillArguments(FunctionCall& plan, InsertionPoint point) {
 // ---- emission
 
 ExprId CallLowering::lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target,
-                                       ExprId object) {
+                                       ExprId object, ExprId copies) {
   FunctionCall plan = planFunctionCall(call, node, target);
+  plan.copies = copies;
   if (plan.makes_string && plan.wanted == nullptr)
     plan.own = {.place = temp(plan.result_type, plan.loc), .early = true};
   if (plan.makes_string && plan.is_pure && plan.target().early) {

@@ -258,6 +258,7 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
   node.h.loc = at.loc;
   const std::vector<sema::Binding> none;
   const std::vector<sema::Binding>& bindings = given.index ? project_.call(given).bindings : none;
+  const ExprId copies = isCopied(place);
   for (sema::PouId method : methods) {
     sema::Call call;
     call.kind = sema::CallKind::Method;
@@ -268,7 +269,7 @@ void ObjectLowering::construct(ExprId place, TypeId type) {
           call.bindings.push_back(binding);
           call.bindings.back().pin = pin;
         }
-    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(method).owner, at.loc));
+    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(method).owner, at.loc), copies);
   }
 }
 

@@ -32,6 +32,9 @@ struct ResourcePlace {
   uint32_t globals;  // index into Project::resource_globals
 };
 
+// What an online change does with the parts of a record.
+enum class Life : uint8_t { Refresh, Reinit };
+
 struct ModuleLowering {
   ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
 
@@ -59,6 +62,12 @@ struct ModuleLowering {
   bool hasExit(TypeId type);
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
+  // online_change.cpp: whether a type holds an object with FB_Reinit, or a variable that every change sets; the
+  // function on a record that calls or sets them, or none; the function that tells whether a change copies an instance.
+  bool hasPart(Life life, TypeId type);
+  BodyId lifeOf(Life life, TypeId record);
+  BodyId copiesTest();
+  std::vector<sema::VarId> locatedWithValue(TypeId record) const;
   // after_init.cpp: whether a variable of the type is, or holds, an instance of the block.
   bool holds(TypeId type, sema::PouId block);
   // An object's implementation of a method; none when it has none, or an abstract one.
@@ -102,6 +111,7 @@ struct ModuleLowering {
   }
   BodyId endsOf(NameId name, const char* suffix, std::span<const Root> roots);
   void addExit();
+  void addLives();
   void addMakers();
   void addDispatches();
   std::vector<sema::PouId> calledAfterGlobals() const;
@@ -116,6 +126,9 @@ struct ModuleLowering {
   std::unordered_map<uint32_t, BodyId> exit_of_;  // by record TypeId
   std::unordered_map<uint32_t, bool> has_exit_;   // by record TypeId
   std::unordered_map<uint64_t, bool> holds_;      // by record TypeId and PouId
+  std::unordered_map<uint64_t, bool> has_part_;   // by Life and record TypeId
+  std::unordered_map<uint64_t, BodyId> life_of_;  // by Life and record TypeId
+  BodyId copies_test_;
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
   size_t next_to_lower_ = 0;
@@ -233,8 +246,10 @@ class CallLowering : public BodyPart {
 
   // Lowers a call; the result as a value (none: the callee has no result, or target->stored was set).
   ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
-  // `object`: the object of a method; none for a function.
-  ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {});
+  // `object`: the object of a method; none for a function. `copies`: the value of bInCopyCode, an input of methods that
+  // the system calls.
+  ExprId lowerFunctionCall(const sema::Call& call, const rung::CallExpr& node, Target* target, ExprId object = {},
+                           ExprId copies = {});
   // A test that is a function, with these inputs.
   void lowerTestCall(sema::PouId test, std::span<const sema::TestCase::Input> inputs, Loc loc);
   ExprId lowerArithmeticOperator(const sema::Call& call, const rung::CallExpr& node, TypeId native);
@@ -289,7 +304,8 @@ class CallLowering : public BodyPart {
   NameId comparedOperands(const rung::CallExpr& node, const rung::BinaryExpr& condition);
 };
 
-// The life of objects: initial_values.cpp, repeated_values.cpp, after_init.cpp, and FB_Exit in exits.cpp.
+// The life of objects: initial_values.cpp, repeated_values.cpp, after_init.cpp, FB_Exit in exits.cpp, online
+// changes in online_change.cpp.
 class ObjectLowering : public BodyPart {
  public:
   using BodyPart::BodyPart;
@@ -300,11 +316,16 @@ class ObjectLowering : public BodyPart {
   void callExit(ExprId place, bool exact, Loc loc);
   void lowerExit(ExprId place, TypeId record);
   void exitElement(ExprId place, TypeId type);
+  void lowerLife(Life life, ExprId place, TypeId record);
   void callInstances(ExprId place, sema::PouId method);
 
  private:
   void callParts(ExprId base, sema::PouId method);
   void exitParts(ExprId place, TypeId record);
+  ExprId isCopied(ExprId instance);
+  void lifeOfParts(Life life, ExprId place, TypeId record);
+  void lifeOfPart(Life life, ExprId place, TypeId type);
+  void reinit(ExprId place, TypeId record);
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
   bool storeRepeated(ExprId place, TypeId type, std::span<const uint8_t> bytes, bool place_is_zero);
   void storeRows(ExprId array, TypeId type, std::span<const uint8_t> bytes, std::vector<ExprId>& indices,

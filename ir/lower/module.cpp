@@ -55,6 +55,7 @@ void ModuleLowering::run() {
   } while (next_to_lower_ < to_lower_.size());
   addAfterInit();
   addExit();
+  if (options.online_change) addLives();
   addMakers();
   lowerBodies();  // the functions that these call
   addClasses();

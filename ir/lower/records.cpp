@@ -4,6 +4,12 @@
 
 namespace rung::ir {
 
+namespace {
+
+bool isSetByChange(const sema::Var& var) { return var.constant || var.pragmas.set_by_change; }
+
+}  // namespace
+
 RecordLowering::RecordLowering(ModuleLowering& of) : ModulePart(of) {
   pou_of_.resize(types.count());
   list_of_.resize(types.count());
@@ -15,7 +21,8 @@ RecordLowering::RecordLowering(ModuleLowering& of) : ModulePart(of) {
 
 void RecordLowering::readMarks() {
   for (const sema::Var& var : project.vars) {
-    if ((!var.start.constructor.index && !var.pragmas.no_exit) || var.storage == sema::Storage::Local) continue;
+    const bool is_marked = var.start.constructor.index != 0 || var.pragmas.no_exit || isSetByChange(var);
+    if (!is_marked || var.storage == sema::Storage::Local) continue;
     const TypeId record = var.list  ? project.global_lists[var.list.index].record
                           : var.pou ? project.pou(var.pou).record
                                     : var.record;
@@ -130,6 +137,11 @@ const sema::Var* RecordLowering::constructedVar(TypeId record, uint32_t field) c
 bool RecordLowering::isKeptFromExit(TypeId record, uint32_t field) const {
   const auto found = marked_.find(uint64_t{record.index} << 32 | field);
   return found != marked_.end() && found->second->pragmas.no_exit;
+}
+
+const sema::Var* RecordLowering::setByChange(TypeId record, uint32_t field) const {
+  const auto found = marked_.find(uint64_t{record.index} << 32 | field);
+  return found != marked_.end() && isSetByChange(*found->second) ? found->second : nullptr;
 }
 
 }  // namespace rung::ir

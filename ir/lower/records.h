@@ -25,7 +25,7 @@ void takeHeader(T& to, const sema::Pou& owner) {
 class RecordLowering : ModulePart {
  public:
   explicit RecordLowering(ModuleLowering& of);
-  // Variables with arguments of FB_Init, or kept from FB_Exit; once, before anything is lowered.
+  // Variables with arguments of FB_Init, kept from FB_Exit, or set by online changes; once, before anything is lowered.
   void readMarks();
 
   // The module gets the records that the type is made of and those that it points to.
@@ -42,6 +42,9 @@ class RecordLowering : ModulePart {
   // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
   const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   bool isKeptFromExit(TypeId record, uint32_t field) const;  // {attribute 'no-exit'}
+  // The variable in a field that every online change sets: a constant, or one with {attribute 'init_on_onlchange'}; or
+  // null.
+  const sema::Var* setByChange(TypeId record, uint32_t field) const;
 
  private:
   void declareOne(TypeId type);
@@ -53,7 +56,7 @@ class RecordLowering : ModulePart {
   std::vector<TypeId> to_declare_;
   bool is_declaring_ = false;
   std::unordered_map<uint32_t, bool> zero_;                // by TypeId
-  std::unordered_map<uint64_t, const sema::Var*> marked_;  // by record and field: constructed, or kept from exit
+  std::unordered_map<uint64_t, const sema::Var*> marked_;  // by record and field: see readMarks
   std::vector<sema::PouId> pou_of_;                        // by TypeId
   std::vector<sema::ListId> list_of_;                      // by TypeId
 };

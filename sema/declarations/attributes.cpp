@@ -97,6 +97,8 @@ void takeVariableAttributes(Context& context, const DeclHeader& header, Var& var
                                        : Attributed::OtherType);
   const Known& known = context.scopes.known_names.attributes;
   var.pragmas.no_exit = findPragma(context, header, known.no_exit) != nullptr;
+  var.pragmas.no_copy = findPragma(context, header, known.no_copy) != nullptr;
+  var.pragmas.set_by_change = findPragma(context, header, known.init_on_change) != nullptr;
   if (is_input && of_block)
     var.pragmas.initialize_on_call = findPragma(context, header, known.initialize_on_call) != nullptr;
 }

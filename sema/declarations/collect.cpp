@@ -80,6 +80,8 @@ constexpr KnownName<KnownNames::Attributes> kAttributes[] = {
     {&KnownNames::Attributes::is_connected, "is_connected"},
     {&KnownNames::Attributes::reflection, "reflection"},
     {&KnownNames::Attributes::no_exit, "no-exit"},
+    {&KnownNames::Attributes::no_copy, "no_copy"},
+    {&KnownNames::Attributes::init_on_change, "init_on_onlchange"},
     {&KnownNames::Attributes::symbol, "symbol"},
 };
 

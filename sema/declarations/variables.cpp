@@ -186,6 +186,7 @@ void addField(Context& context, TypeId record, VarId id) {
   }
   field.retain = var.keeping.retain;
   field.non_retain = var.keeping.non_retain;
+  field.no_copy = var.pragmas.no_copy || var.pragmas.set_by_change;
   field.persistent = var.keeping.persistent;
   field.constant = var.constant;
   field.symbol_access = var.symbol_access;

@@ -78,6 +78,7 @@ struct Field {
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
   bool non_retain = false;  // not kept, even where the instance is retained
+  bool no_copy = false;     // an online change does not copy it
   SymbolAccess symbol_access = SymbolAccess::ReadWrite;
   uint8_t pack = 0;           // {attribute 'pack_mode'}: aligned to at most this; 0: as its type
   uint32_t given_offset = 0;  // of a union whose members have AT positions

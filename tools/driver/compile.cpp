@@ -336,6 +336,7 @@ bool Compilation::lower() {
   module = std::make_unique<ir::Module>(project->types, names, sources);
   ir::LowerOptions lower_options;
   lower_options.checks = options.code.checks;
+  lower_options.online_change = options.code.online_change;
   ir::lower(*project, lower_options, *module);
   setPhaseSubject("", 0);
   times_.end();

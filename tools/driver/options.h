@@ -73,7 +73,8 @@ struct CodeOptions {
   bool counts_steps = false;
   bool counts_statements = false;  // for coverage
   bool trace_calls = false;
-  bool is_bundled = false;  // a unit of the C++ compiler includes several of the sources
+  bool online_change = false;  // --online-change, and runs that another version may take over
+  bool is_bundled = false;     // a unit of the C++ compiler includes several of the sources
 };
 
 // What all commands that read a project have in common.
@@ -120,6 +121,7 @@ struct BuildOptions {
 struct RunOptions {
   Engine engine = Engine::Auto;
   NativeOptions native;
+  bool watch_files = false;                 // --watch-files: an online change where the project's files change
   std::vector<std::string> host_arguments;  // for rung::host::parseRunOptions, one `--name=value` each
   bool opens_monitor = false;               // and its page in a browser
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host.
+// `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host,
+// which asks for other versions of it while it runs.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,51 +10,46 @@
 #include "ir/ir.h"
 #include "rung/host.h"
 #include "tools/driver/commands.h"
-#include "tools/driver/compile.h"
 #include "tools/driver/installation.h"
-#include "tools/driver/module_library.h"
-#include "tools/driver/native.h"
-#include "tools/driver/pou_views.h"
+#include "tools/driver/program_version.h"
+#include "tools/driver/source_watch.h"
 
 namespace rung::driver {
 
 namespace {
 
-// A program as compiled code.
-struct Loaded {
-  Cache cache;
-  ModuleLibrary library;
-  const rung_module* module = nullptr;
+// What a compilation says while the program runs, as text.
+class Gathered final : public Sink {
+ public:
+  void message(std::string_view what) override { text += what; }
+  std::string output(std::string_view) override { return ""; }
+  std::string text;
 };
 
-// Compiles the C++ to a shared object and loads it. `has_user_cpp`: the compilation reports what the C++ compiler says
-// about it. Returns an exit code.
-int load(Compilation& compilation, const NativeRequest& request, bool has_user_cpp, Loaded& to, Sink& sink) {
-  const NativeResult result = makeShared(to.cache, request, sink);
-  if (has_user_cpp)
-    compilation.finish(result);
-  else if (result.exit == kInternal)
-    sink.internalError(result.message);
-  else if (result.exit == kUsage)
-    usageError(sink, result.message);
-  if (result.exit != kSuccess) return result.exit;
-  std::string error = to.library.open(result.path);
-  to.module = error.empty() ? to.library.find(compilation.options.moduleName(), error) : nullptr;
-  if (to.module != nullptr) return kSuccess;
-  sink.internalError(error);
-  return kInternal;
+host::ShownPaths pathsOf(const ProgramVersion& version) {
+  return host::ShownPaths(version.paths.begin(), version.paths.end());
 }
 
-int runOnHost(const rung_module& module, Compilation& compilation, host::RunOptions& options, Sink& sink) {
-  for (const InputFile& file : compilation.inputs.files) options.paths[file.below] = file.shown;
-  PouViews views;
-  if (!options.monitor.address.empty()) views = PouViews::of(compilation);
-  options.monitor.pous = views.rows();
-  constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
-  sink.programRuns(true, (compilation.options.code.checks & kMemoryChecks) == kMemoryChecks);
-  const int exit = host::run(module, options);
-  sink.programRuns(false, false);
-  return exit;
+// Another version, for an online change. `inputs`: another project; empty: the same.
+host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& options, const std::string& input,
+                             bool has_monitor) {
+  ProjectOptions changed = project;
+  if (!input.empty()) changed.inputs = {input};
+  Gathered gathered;
+  PhaseTimes times;
+  const auto made = std::make_shared<ProgramVersion>();
+  made->has_monitor = has_monitor;
+  host::NewVersion version;
+  if (makeProgram(changed, options, false, times, gathered, *made) != kSuccess) {
+    version.error = "the new version does not compile\n" + gathered.text;
+    while (!version.error.empty() && version.error.back() == '\n') version.error.pop_back();
+    return version;
+  }
+  version.module = made->module;
+  version.paths = pathsOf(*made);
+  version.pous = made->views.rows();
+  version.keeper = made;
+  return version;
 }
 
 // Where there is a desktop; else the URL has been printed.
@@ -92,43 +88,30 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   compiling.code.default_interval_ns = run_options.interval_ns;
   compiling.code.counts_steps = true;
   compiling.code.trace_calls = run_options.trace_calls;
-  Compilation compilation(compiling, times, sink);
-  NativeRequest request;
-  request.has_call_paths = true;
-  request.parts.resize(1);
-  std::unique_ptr<ir::interpreter::Program> program;
-  std::string why;
-  bool ok = options.mayInterpret() ? compilation.translate(program, why) : compilation.lower();
-  if (ok && !program) ok = compilation.checkNatives() && compilation.emit(request.parts[0].files);
-  const bool later = ok && compilation.hasUserCpp() && compilation.exitCode() == kSuccess;
-  int exit = later ? kSuccess : compilation.finish();
-  if (!ok || exit != kSuccess) {
-    if (project.time_phases) sink.message(times.table());
-    return exit;
+  ProgramVersion made;
+  made.has_monitor = !run_options.monitor.address.empty();
+  compiling.code.online_change = options.watch_files || !run_options.control_path.empty() || made.has_monitor;
+  const bool must_interpret = options.engine == Engine::Interpreter || run_options.trace_calls;
+  SourceWatch watch(project);
+  int exit = makeProgram(compiling, options, must_interpret, times, sink, made);
+  if (exit == kSuccess) {
+    if (made.program && options.engine == Engine::Auto)
+      run_options.hint_when_long = "rung: a long run is faster with --engine=native";
+    run_options.paths = pathsOf(made);
+    run_options.monitor.pous = made.views.rows();
+    run_options.monitor.engine = made.program ? "interp" : "native";
+    if (compiling.code.online_change)
+      run_options.compile = [&](const std::string& input) {
+        return makeVersion(compiling, options, input, made.has_monitor);
+      };
+    if (options.watch_files) run_options.has_changed = [&] { return watch.hasChanged(); };
+    times.begin("run");
+    constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+    sink.programRuns(true, (made.checks & kMemoryChecks) == kMemoryChecks);
+    exit = host::run(*made.module, run_options);
+    sink.programRuns(false, false);
+    times.end();
   }
-  if (!why.empty()) {
-    if (options.engine == Engine::Interpreter || run_options.trace_calls)
-      return usageError(sink, "this program cannot be interpreted: " + why);
-    sink.message("rung: this program runs as compiled C++: " + why + "\n");
-  }
-
-  Loaded loaded;
-  if (program) loaded.module = &program->description();
-  run_options.monitor.engine = program ? "interp" : "native";
-  if (!program) {
-    times.begin("c++");
-    request.level = compilation.options.code.level;
-    request.jobs = options.native.jobs;
-    request.keep = options.native.keep;
-    exit = load(compilation, request, later, loaded, sink);
-    if (exit != kSuccess) return exit;
-  } else if (options.engine == Engine::Auto) {
-    run_options.hint_when_long = "rung: a long run is faster with --engine=native";
-  }
-
-  times.begin("run");
-  exit = runOnHost(*loaded.module, compilation, run_options, sink);
-  times.end();
   if (project.time_phases) sink.message(times.table());
   return exit;
 }

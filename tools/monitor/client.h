@@ -34,6 +34,8 @@ class Client {
   };
   Answer get(const std::string& path) { return ask("GET", path, ""); }
   Answer post(const std::string& path, const Json& body) { return ask("POST", path, body.toText()); }
+  // For what takes as long as a compilation.
+  void setPatience(int64_t ms) { patience_ms_ = ms; }
 
   // Opens the stream of events at this path.
   Answer open(const std::string& path);
@@ -47,6 +49,7 @@ class Client {
   std::string send(int fd, const char* method, const std::string& path, const std::string& body) const;
 
   std::string host_;
+  int64_t patience_ms_ = 10'000;
   uint32_t address_ = 0;
   uint16_t port_ = 0;
   std::string token_;

@@ -18,17 +18,18 @@ namespace {
 
 constexpr size_t kLongestLine = 4096;  // by a pipe, and what is read from it at once
 
-enum class Operand : uint8_t { None, Word, Paths, Values };
+enum class Operand : uint8_t { None, Word, Paths, Values, Project };
 const struct {
   const char* name;
   Command::Kind kind;
   Operand operand;
-} kCommands[] = {{"stop", Command::Stop, Operand::None},        {"start", Command::Start, Operand::None},
-                 {"cycle", Command::Cycle, Operand::None},      {"reset", Command::Reset, Operand::Word},
-                 {"event", Command::Event, Operand::Word},      {"status", Command::Status, Operand::None},
-                 {"quit", Command::Quit, Operand::None},        {"get", Command::Get, Operand::Paths},
-                 {"set", Command::Set, Operand::Values},        {"force", Command::Force, Operand::Values},
-                 {"unforce", Command::Unforce, Operand::Paths}, {"forces", Command::Forces, Operand::None}};
+} kCommands[] = {{"stop", Command::Stop, Operand::None},     {"start", Command::Start, Operand::None},
+                 {"cycle", Command::Cycle, Operand::None},   {"reset", Command::Reset, Operand::Word},
+                 {"event", Command::Event, Operand::Word},   {"status", Command::Status, Operand::None},
+                 {"quit", Command::Quit, Operand::None},     {"change", Command::Change, Operand::Project},
+                 {"get", Command::Get, Operand::Paths},      {"set", Command::Set, Operand::Values},
+                 {"force", Command::Force, Operand::Values}, {"unforce", Command::Unforce, Operand::Paths},
+                 {"forces", Command::Forces, Operand::None}};
 
 // The line up to a comment, which begins with `#` at its begin or after a blank, but not in a string.
 std::string_view withoutComment(std::string_view line) {
@@ -73,9 +74,35 @@ std::string readStart(std::string_view word, rung_start& start) {
   return "";
 }
 
+// `[dry-run] [rollback=N] [PROJECT]`
+std::string readChange(std::string_view rest, Command& command) {
+  constexpr std::string_view kRollback = "rollback=";
+  constexpr int64_t kMostCycles = 1'000'000'000;
+  while (!rest.empty()) {
+    std::string_view after = rest;
+    const std::string_view word = takeWord(after);
+    const bool is_rollback = word.substr(0, kRollback.size()) == kRollback;
+    if (word != "dry-run" && !is_rollback) break;
+    rest = after;
+    if (!is_rollback) {
+      command.is_only_asked = true;
+      continue;
+    }
+    const std::string_view number = word.substr(kRollback.size());
+    const std::from_chars_result read =
+        std::from_chars(number.data(), number.data() + number.size(), command.rollback_cycles);
+    if (read.ec != std::errc{} || read.ptr != number.data() + number.size() || command.rollback_cycles < 0 ||
+        command.rollback_cycles > kMostCycles)
+      return "`rollback=` needs a number of cycles";
+  }
+  command.project = rest;
+  return "";
+}
+
 // What is after the name of a command: empty, or what is wrong.
 std::string readOperand(std::string_view name, Operand operand, std::string_view rest, Command& command) {
   const std::string quoted = "`" + std::string(name) + "`";
+  if (operand == Operand::Project) return readChange(rest, command);
   if (operand == Operand::None) return rest.empty() ? "" : quoted + " has nothing after it";
   if (operand == Operand::Word) {
     const std::string_view word = takeWord(rest);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A user asks this of a running program (--control): `stop`, `start`, `cycle`, `reset warm|cold|origin`, `event NAME`,
-// `status`, `quit`, `get PATH,…`, `set PATH=VALUE,…`, `force PATH=VALUE,…`, `unforce PATH,…|*`, `forces`, a line each.
-// In virtual time each line begins with the cycle before which it counts; in real time it may. In: a file, or in real
-// time a pipe that stays open. Out: commands in their order. Called by run.cpp; obeyed by session.cpp.
+// `status`, `quit`, `change [dry-run] [rollback=N] [PROJECT]`, `get PATH,…`, `set PATH=VALUE,…`, `force PATH=VALUE,…`,
+// `unforce PATH,…|*`, `forces`, a line each. In virtual time each line begins with the cycle before which it counts; in
+// real time it may. In: a file, or in real time a pipe that stays open. Out: commands in their order. Called by
+// run.cpp; obeyed by session.cpp.
 #pragma once
 
 #include <deque>
@@ -15,13 +16,30 @@
 namespace rung::host {
 
 struct Command {
-  enum Kind : uint8_t { Stop, Start, Cycle, Reset, Event, Status, Quit, Get, Set, Force, Unforce, Forces } kind = Stop;
+  enum Kind : uint8_t {
+    Stop,
+    Start,
+    Cycle,
+    Reset,
+    Event,
+    Status,
+    Quit,
+    Change,
+    Get,
+    Set,
+    Force,
+    Unforce,
+    Forces
+  } kind = Stop;
   struct Value {
     std::string path, text;  // of Get and Unforce without a text
   };
   int64_t cycle = -1;  // -1: at once
   rung_start start = RUNG_WARM;
   std::string event;
+  std::string project;  // of Change; empty: the one that runs
+  bool is_only_asked = false;
+  int64_t rollback_cycles = -1;  // -1: as --rollback says
   std::vector<Value> values;
   std::string location;  // `file:line`, for messages
 

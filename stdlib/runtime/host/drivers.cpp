@@ -53,19 +53,19 @@ void Drivers::serve(rung_host& host) const {
 }
 
 void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis) {
-  for (uint32_t i = 0; i < module_.io_modules.size(); ++i) {
-    const rung_io_module& row = module_.io_modules[i];
-    const char* const name = module_.strings + row.name;
+  for (uint32_t i = 0; i < module_->io_modules.size(); ++i) {
+    const rung_io_module& row = module_->io_modules[i];
+    const char* const name = module_->strings + row.name;
     const auto serves = [&](const Bound& bound) { return strcasecmp(bound.driver->name, name) == 0; };
-    const ModuleType* const type = findModuleType(module_.strings + row.type, module_.strings[row.station] != 0);
+    const ModuleType* const type = findModuleType(module_->strings + row.type, module_->strings[row.station] != 0);
     if (type == nullptr || std::any_of(drivers_.begin(), drivers_.end(), serves)) continue;
     std::unique_ptr<SimulatedModule> module = simulate(*type, row.input_offset, row.output_offset, hsio);
     if (module == nullptr) continue;
     module->reportTo(diagnosis, i + 1);
-    for (Terminal& wire : module->terminals()) symbols.addTerminal(name, wire);
     rung_driver driver{};
-    driver.name = name;
-    if (row.task != RUNG_NONE) driver.task = module_.strings + module_.tasks[row.task].name;
+    driver.name = names_.emplace_back(name).c_str();
+    if (row.task != RUNG_NONE)
+      driver.task = names_.emplace_back(module_->strings + module_->tasks[row.task].name).c_str();
     driver.input_offset = module->inputOffset();
     driver.input_size = module->inputSize();
     driver.output_offset = module->outputOffset();
@@ -84,6 +84,12 @@ void Drivers::simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diag
     modules_.push_back(std::move(module));
     drivers_.push_back({&of_modules_.back(), RUNG_NONE});
   }
+  addTerminals(symbols);
+}
+
+void Drivers::addTerminals(Symbols& symbols) const {
+  for (size_t i = 0; i < modules_.size(); ++i)
+    for (Terminal& wire : modules_[i]->terminals()) symbols.addTerminal(of_modules_[i].name, wire);
 }
 
 std::string Drivers::simulatedNames() const {
@@ -95,14 +101,14 @@ std::string Drivers::simulatedNames() const {
 bool Drivers::bind(uint32_t fastest, std::string& error) {
   for (Bound& bound : drivers_) {
     const rung_driver& driver = *bound.driver;
-    if (!fits(module_, kInputs, driver.input_offset, driver.input_size) ||
-        !fits(module_, kOutputs, driver.output_offset, driver.output_size))
+    if (!fits(*module_, kInputs, driver.input_offset, driver.input_size) ||
+        !fits(*module_, kOutputs, driver.output_offset, driver.output_size))
       return error = std::string("driver `") + driver.name + "`: the program has fewer inputs or outputs", false;
     bound.task = fastest == RUNG_NONE ? 0 : fastest;
     if (driver.task == nullptr) continue;
     bound.task = RUNG_NONE;
-    for (uint32_t i = 0; i < module_.tasks.size(); ++i)
-      if (strcasecmp(module_.strings + module_.tasks[i].name, driver.task) == 0) bound.task = i;
+    for (uint32_t i = 0; i < module_->tasks.size(); ++i)
+      if (strcasecmp(module_->strings + module_->tasks[i].name, driver.task) == 0) bound.task = i;
     if (bound.task == RUNG_NONE)
       return error = std::string("driver `") + driver.name + "`: there is no task `" + driver.task + "`", false;
   }
@@ -110,7 +116,7 @@ bool Drivers::bind(uint32_t fastest, std::string& error) {
 }
 
 std::string Drivers::readAll(int64_t now_ns) const {
-  for (uint32_t task = 0; task < module_.tasks.size(); ++task)
+  for (uint32_t task = 0; task < module_->tasks.size(); ++task)
     if (std::string lost = read(task, now_ns); !lost.empty()) return lost;
   return {};
 }
@@ -118,7 +124,7 @@ std::string Drivers::readAll(int64_t now_ns) const {
 std::string Drivers::read(uint32_t task, int64_t now_ns) const {
   for (const auto& [driver, own] : drivers_)
     if (own == task && driver->read != nullptr &&
-        !driver->read(driver->data, memory_.area(kInputs) + driver->input_offset, now_ns))
+        !driver->read(driver->data, memory_->area(kInputs) + driver->input_offset, now_ns))
       return driver->name;
   return {};
 }
@@ -126,7 +132,7 @@ std::string Drivers::read(uint32_t task, int64_t now_ns) const {
 std::string Drivers::write(uint32_t task, int64_t now_ns) const {
   for (const auto& [driver, own] : drivers_)
     if (own == task && driver->write != nullptr &&
-        !driver->write(driver->data, memory_.area(kOutputs) + driver->output_offset, now_ns))
+        !driver->write(driver->data, memory_->area(kOutputs) + driver->output_offset, now_ns))
       return driver->name;
   return {};
 }
@@ -134,7 +140,7 @@ std::string Drivers::write(uint32_t task, int64_t now_ns) const {
 void Drivers::writeAll(int64_t now_ns) const {
   for (const auto& [driver, own] : drivers_) {
     if (driver->stopped != nullptr) driver->stopped(driver->data, now_ns);
-    if (driver->write != nullptr) driver->write(driver->data, memory_.area(kOutputs) + driver->output_offset, now_ns);
+    if (driver->write != nullptr) driver->write(driver->data, memory_->area(kOutputs) + driver->output_offset, now_ns);
   }
 }
 

@@ -16,7 +16,11 @@ namespace rung::host {
 
 class Drivers {
  public:
-  Drivers(const LoadedModule& module, Memory& memory) : module_(module), memory_(memory) {}
+  // The program whose image they exchange; before all else, and again for another version of it.
+  void attach(const LoadedModule& module, Memory& memory) {
+    module_ = &module;
+    memory_ = &memory;
+  }
 
   // Loads a shared library with the function `const rung_driver* rung_drivers(const char* argument, uint32_t* count)`,
   // that of drives, or that of a control. `spec`: PATH or PATH=ARGUMENT. False: `error` has the message.
@@ -28,6 +32,8 @@ class Drivers {
   // Simulates the project's modules, but those for which there is a driver of their name. Their terminals become
   // variables, `ad.V0`.
   void simulateModules(Symbols& symbols, Hsio& hsio, rung_diagnosis& diagnosis);
+  // The same variables for another version of the program.
+  void addTerminals(Symbols& symbols) const;
   // Checks areas and the names of tasks. `fastest`: the task of drivers that name none; RUNG_NONE: the first one.
   bool bind(uint32_t fastest, std::string& error);
 
@@ -50,8 +56,8 @@ class Drivers {
     const rung_driver* driver;
     uint32_t task;
   };
-  const LoadedModule& module_;
-  Memory& memory_;
+  const LoadedModule* module_ = nullptr;
+  Memory* memory_ = nullptr;
   std::vector<Bound> drivers_;
   const rung_drives* drives_ = nullptr;
   void* drives_data_ = nullptr;
@@ -59,6 +65,7 @@ class Drivers {
   void* control_data_ = nullptr;
   std::vector<std::unique_ptr<SimulatedModule>> modules_;
   std::deque<rung_driver> of_modules_;
+  std::deque<std::string> names_;  // of them and their tasks: the module may be replaced
 };
 
 }  // namespace rung::host

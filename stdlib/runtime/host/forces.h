@@ -27,6 +27,9 @@ class Forces {
   void force(const Variable& variable, std::string_view value);
   void unforce(const Variable& variable);
   void unforceAll();
+  // Forces what the version before of the program has forced. Returns the paths of variables that this one does not
+  // have, or that do not take the value.
+  std::vector<std::string> takeFrom(const Forces& before);
   // Paths and values, in the order in which the variables were forced; the same as `path = value` lines.
   std::vector<std::pair<std::string, std::string>> values() const;
   std::string list() const;
@@ -47,6 +50,8 @@ class Forces {
   void transfer(StateArchive& archive);
 
  private:
+  std::string valueOf(const Variable& name) const;
+
   const Symbols& symbols_;
   std::vector<rung_forced> rows_;
   std::vector<uint8_t> values_;

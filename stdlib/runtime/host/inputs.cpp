@@ -85,7 +85,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
     }
     Variable variable;
     std::string what;
-    if (!symbols_.find(names[i], variable, what)) {
+    if (!symbols_->find(names[i], variable, what)) {
       if (names[i] != kForcedColumn || i + 1 != names.size()) return fail(header, i, what);
       columns.push_back(kIgnored);
       continue;
@@ -110,7 +110,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;
-      const std::string what = checkValue(symbols_.module(), variables_[columns[i]], row.cells[i]);
+      const std::string what = checkValue(symbols_->module(), variables_[columns[i]], row.cells[i]);
       if (!what.empty()) return fail(row, i, what);
       settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
     }
@@ -121,8 +121,10 @@ bool Inputs::load(const std::string& path, std::string& error) {
 }
 
 void Inputs::apply(int64_t cycle) {
-  for (; next_ < settings_.size() && settings_[next_].cycle <= cycle; ++next_)
-    assignValue(symbols_.module(), variables_[settings_[next_].variable], settings_[next_].value);
+  for (; next_ < settings_.size() && settings_[next_].cycle <= cycle; ++next_) {
+    const Variable& variable = variables_[settings_[next_].variable];
+    if (!variable.isEmpty()) assignValue(symbols_->module(), variable, settings_[next_].value);
+  }
 }
 
 std::string applySet(const Symbols& symbols, const std::string& path, const std::string& value) {

@@ -12,11 +12,16 @@ namespace rung::host {
 
 class Inputs {
  public:
-  explicit Inputs(const Symbols& symbols) : symbols_(symbols) {}
+  explicit Inputs(const Symbols& symbols) : symbols_(&symbols) {}
   // False: `error` is a complete message, with file and line.
   bool load(const std::string& path, std::string& error);
   // Sets the variables of all rows of this cycle; called with ascending cycles.
   void apply(int64_t cycle);
+  // Another version of the program goes on. Returns the paths of variables that it does not have: they are not set.
+  std::vector<std::string> moveTo(const Symbols& symbols) {
+    symbols_ = &symbols;
+    return symbols.findAgain(variables_);
+  }
   // The last cycle that a row names, or -1.
   int64_t lastCycle() const { return last_cycle_; }
 
@@ -26,7 +31,7 @@ class Inputs {
     uint32_t variable;
     std::string value;
   };
-  const Symbols& symbols_;
+  const Symbols* symbols_;
   std::vector<Variable> variables_;
   std::vector<Setting> settings_;
   size_t next_ = 0;

@@ -8,33 +8,50 @@
 #include "crashes.h"
 
 namespace rung::host {
-namespace {
-
-uint8_t* allocate(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
-  if (align == 0) align = 1;
-  // Eight more bytes keep a 64-bit view at the end of an area inside.
-  storage.push_back(std::make_unique<uint8_t[]>(size + align + 8));
-  const uintptr_t address = reinterpret_cast<uintptr_t>(storage.back().get());
-  return storage.back().get() + ((address + align - 1) / align * align - address);
-}
-
-}  // namespace
-
 const char* refusal(const rung_module& module) {
   if (module.abi != RUNG_MODULE_ABI) return "the program was built for another version of the runtime; build it again";
   if (module.pointer_size != sizeof(void*)) return "the program was built for another pointer size (--target-pointer)";
   return nullptr;
 }
 
+Memory::Part Memory::allocate(size_t size, size_t align) {
+  if (align == 0) align = 1;
+  // Eight more bytes keep a 64-bit view at the end of an area inside.
+  Part part;
+  part.storage = std::shared_ptr<uint8_t[]>(new uint8_t[size + align + 8]());
+  const uintptr_t address = reinterpret_cast<uintptr_t>(part.storage.get());
+  part.begin = part.storage.get() + ((address + align - 1) / align * align - address);
+  return part;
+}
+
 Memory::Memory(const LoadedModule& module) : module_(module) {
-  for (uint32_t i = 0; i < module.blocks.size(); ++i) {
-    blocks_.push_back(allocate(storage_, module.blocks[i].size, module.blocks[i].align));
-    block_pointers_.push_back(blocks_.back());
+  for (const rung_block& block : module.blocks) block_parts_.push_back(allocate(block.size, block.align));
+  for (const rung_area& area : module.areas) area_parts_.push_back(allocate(area.size, 8));
+  describe();
+}
+
+Memory::Memory(const LoadedModule& module, const Memory& before, const std::vector<uint32_t>& kept) : module_(module) {
+  for (uint32_t i = 0; i < module.blocks.size(); ++i)
+    block_parts_.push_back(kept[i] != RUNG_NONE ? before.block_parts_[kept[i]]
+                                                : allocate(module.blocks[i].size, module.blocks[i].align));
+  for (uint32_t i = 0; i < module.areas.size(); ++i) {
+    const uint32_t size = module.areas[i].size;
+    const bool is_same = i < before.module_.areas.size() && before.module_.areas[i].size == size;
+    area_parts_.push_back(is_same ? before.area_parts_[i] : allocate(size, 8));
   }
-  for (uint32_t i = 0; i < module.areas.size(); ++i) areas_.push_back(allocate(storage_, module.areas[i].size, 8));
-  context_.blocks = block_pointers_.data();
+  describe();
+  context_.now_ns = before.context_.now_ns;
+  context_.host = before.context_.host;
+  context_.host_data = before.context_.host_data;
+  context_.step_limit = before.context_.step_limit;
+}
+
+void Memory::describe() {
+  for (const Part& block : block_parts_) blocks_.push_back(block.begin);
+  for (const Part& area : area_parts_) areas_.push_back(area.begin);
+  context_.blocks = blocks_.data();
   context_.areas = areas_.data();
-  context_.module = &module.description;
+  context_.module = &module_.description;
   common_ = context_;
 }
 
@@ -45,7 +62,7 @@ uint8_t Memory::run(void (*function)(rung_context*)) {
 }
 
 uint8_t Memory::reset(bool keeps_inputs) {
-  for (uint32_t i = 0; i < module_.blocks.size(); ++i) memset(blocks_[i], 0, module_.blocks[i].size);
+  for (uint32_t i = 0; i < module_.blocks.size(); ++i) memset(block(i), 0, module_.blocks[i].size);
   for (uint32_t i = 0; i < module_.areas.size(); ++i)
     if (!keeps_inputs || module_.areas[i].owner != RUNG_AREA_INPUT) memset(areas_[i], 0, module_.areas[i].size);
   kept_outputs_.clear();
@@ -79,7 +96,7 @@ void Memory::makeOutputsSafe() {
 }
 
 void Memory::transfer(StateArchive& archive) {
-  for (uint32_t i = 0; i < module_.blocks.size(); ++i) archive.bytes(blocks_[i], module_.blocks[i].size);
+  for (uint32_t i = 0; i < module_.blocks.size(); ++i) archive.bytes(block(i), module_.blocks[i].size);
   for (uint32_t i = 0; i < module_.areas.size(); ++i) archive.bytes(areas_[i], module_.areas[i].size);
   size_t kept = kept_outputs_.size();
   archive.value(kept);

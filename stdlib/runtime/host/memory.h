@@ -14,6 +14,9 @@ namespace rung::host {
 class Memory {
  public:
   explicit Memory(const LoadedModule& module);
+  // In the place of another version's: shares the blocks that stay (`kept`: by block its number there, or RUNG_NONE)
+  // and the areas that are as large. All else is 0.
+  Memory(const LoadedModule& module, const Memory& before, const std::vector<uint32_t>& kept);
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
@@ -21,7 +24,7 @@ class Memory {
   const rung_context& context() const { return context_; }
   // The memory that all tasks share, whichever copies the context of an activation has.
   const rung_context& common() const { return common_; }
-  uint8_t* block(uint32_t index) const { return blocks_[index]; }
+  uint8_t* block(uint32_t index) const { return block_parts_[index].begin; }
   uint8_t* area(uint32_t index) const { return areas_[index]; }
   // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised. `keeps_inputs`: the
   // input areas hold what devices gave.
@@ -37,13 +40,19 @@ class Memory {
   void safeOutputs(std::vector<std::vector<uint8_t>>& areas) const;
 
  private:
+  // Memory of one block or area: two versions of a program may share it.
+  struct Part {
+    std::shared_ptr<uint8_t[]> storage;
+    uint8_t* begin = nullptr;
+  };
+  static Part allocate(size_t size, size_t align);
+  void describe();
   uint8_t run(void (*function)(rung_context*));  // of the module; null: it has none
 
   const LoadedModule& module_;
   rung_context context_{}, common_{};
-  std::vector<std::unique_ptr<uint8_t[]>> storage_;
-  std::vector<uint8_t*> blocks_;
-  std::vector<void*> block_pointers_;
+  std::vector<Part> block_parts_, area_parts_;
+  std::vector<void*> blocks_;
   std::vector<uint8_t*> areas_;
   std::vector<std::vector<uint8_t>> kept_outputs_;  // by area, while outputs have their safe values; else empty
 };

@@ -14,9 +14,12 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "changes.h"
 #include "http_server.h"
 #include "json.h"
 #include "monitor_access.h"
@@ -35,8 +38,12 @@ class Monitor : private HttpServer::Handler {
   enum class State : uint8_t { Running, Stopped, Faulted };
   // In the run's thread.
   using Obey = std::function<Answer(const Command& command)>;
+  using Change = std::function<std::optional<Changes::Outcome>(const Command& command)>;
 
-  Monitor(Session& session, const RunOptions& options, Obey obey);
+  // The bodies of the version that runs; asked while hold() is not held.
+  using Pous = std::function<const std::vector<rung_pou_view>&()>;
+
+  Monitor(Session& session, const RunOptions& options, Obey obey, Change change, Pous pous);
   ~Monitor() override { server_.stop(); }
   bool start(std::string& error);
   std::string url() const { return access_.url(); }
@@ -50,6 +57,13 @@ class Monitor : private HttpServer::Handler {
   // Does so until that moment, or less.
   void attendUntil(int64_t monotonic_ns);
   void setState(State state) { state_.store(state); }
+  // While one holds this, the thread of the server does not look at the program, and another version can take over.
+  std::unique_lock<std::mutex> hold() { return std::unique_lock<std::mutex>(program_mutex_); }
+  // It has: clients see this one from now on.
+  void followChange();
+  // Of a change that a client has begun. False: none has.
+  bool answerChange(const Changes::Outcome& outcome);
+  void noteRollback(const std::string& fault);
   // Clients get the answers that there are, and no more.
   void stop() { server_.stop(); }
 
@@ -89,6 +103,7 @@ class Monitor : private HttpServer::Handler {
   void serveFaults(HttpServer::Client client, const HttpRequest& request);
   void serveMessages(HttpServer::Client client, const HttpRequest& request);
   void serveCommand(HttpServer::Client client, const HttpRequest& request);
+  void serveChange(HttpServer::Client client, const HttpRequest& request);
   void servePous(HttpServer::Client client, const HttpRequest& request);
   void serveDiagram(HttpServer::Client client, const HttpRequest& request);
   void serveScope(HttpServer::Client client, const HttpRequest& request);
@@ -105,6 +120,8 @@ class Monitor : private HttpServer::Handler {
   bool readAssignments(HttpServer::Client client, const HttpRequest& request, Command& command);
   void askCommand(HttpServer::Client client, Command command);
   HttpReply obey(const Command& command);
+  void askChange(HttpServer::Client client, Command command);
+  HttpReply changeReply(const Changes::Outcome& outcome) const;
   const char* stateName() const;
   void wantSample(int64_t now_ns);
   void sendSample(int64_t now_ns);
@@ -114,6 +131,8 @@ class Monitor : private HttpServer::Handler {
   const MonitorOptions& options_;
   const bool is_realtime_;
   const Obey obey_;
+  const Pous pous_;
+  const Change change_;
   MonitorAccess access_;
   MonitorLog log_;
   MonitorGate gate_;
@@ -122,6 +141,10 @@ class Monitor : private HttpServer::Handler {
   // Of the last complete cycle; written by the run.
   std::atomic<int64_t> cycle_{0}, time_ns_{0};
   std::atomic<State> state_{State::Running};
+  std::atomic<bool> was_rolled_back_{false};
+  HttpServer::Client changing_ = 0;  // the client whose change is being compiled
+  bool is_changing_ = false;
+  std::mutex program_mutex_;
 
   // In the thread of the server.
   std::map<uint64_t, SharedList> lists_;  // by number, of `watch`

@@ -45,7 +45,9 @@ class MonitorGate {
   void wakeRun();
 
   // ---- the run
-  // Answers some of the questions, as long as `goes_on`. False: there was none.
+  void answer(Client client, Finish finish);
+  // Answers some of the questions, as long as `goes_on`; one whose answer is empty gets it later. False: there was
+  // none.
   bool answerSome(const std::function<bool()>& goes_on);
   // Waits until something is asked or wanted, a signal arrives, or until that moment.
   void waitUntil(int64_t monotonic_ns);

@@ -101,6 +101,7 @@ const Monitor::Route Monitor::kRoutes[] = {
     {"GET", "/api/faults", &Monitor::serveFaults},
     {"GET", "/api/messages", &Monitor::serveMessages},
     {"POST", "/api/command", &Monitor::serveCommand},
+    {"POST", "/api/change", &Monitor::serveChange},
     {"GET", "/api/pous", &Monitor::servePous},
     {"GET", "/api/diagram", &Monitor::serveDiagram},
     {"GET", "/api/scope", &Monitor::serveScope},
@@ -110,6 +111,7 @@ const Monitor::Route Monitor::kRoutes[] = {
 };
 
 void Monitor::onRequest(HttpServer::Client client, const HttpRequest& request) {
+  const std::lock_guard<std::mutex> held(program_mutex_);
   if (const std::optional<HttpReply> refusal = access_.refusal(request)) return server_.reply(client, *refusal);
   server_.trust(client);
   std::string methods;
@@ -240,7 +242,7 @@ void Monitor::serveInfo(HttpServer::Client client, const HttpRequest&) {
       {"name", module.name},       {"version", options_.version.empty() ? module.compiler : options_.version},
       {"engine", options_.engine}, {"state", stateName()},
       {"cycle", cycle_.load()},    {"time_ms", static_cast<double>(time_ns_.load()) / 1e6},
-      {"layout_hash", hash}};
+      {"layout_hash", hash},       {"rolled_back", was_rolled_back_.load()}};
   server_.reply(client, jsonReply(info.toText()));
 }
 
@@ -377,20 +379,70 @@ void Monitor::serveCommand(HttpServer::Client client, const HttpRequest& request
   Command command;
   const std::string error = parseCommand(trimmed(body["command"].text()), command);
   if (!error.empty()) return fail(client, 400, error);
+  if (command.kind == Command::Change) return askChange(client, std::move(command));
   if (command.kind != Command::Get) return askCommand(client, std::move(command));
   std::vector<std::string> paths;
   for (const Command::Value& value : command.values) paths.push_back(value.path);
   if (SharedList list = makeList(client, paths)) readers_[client] = {std::move(list), monotonicNs(), true};
 }
 
+void Monitor::serveChange(HttpServer::Client client, const HttpRequest& request) {
+  Json body;
+  if (!readBody(client, request, body)) return;
+  Command command;
+  command.kind = Command::Change;
+  command.project = body["project"].text();
+  command.is_only_asked = body["dry_run"].isTrue();
+  command.rollback_cycles = body["rollback"].integer(-1);
+  askChange(client, std::move(command));
+}
+
+// In real time it is compiled while the program goes on, and the client waits.
+void Monitor::askChange(HttpServer::Client client, Command command) {
+  ask(client, [this, client, command = std::move(command)]() -> MonitorGate::Finish {
+    if (is_changing_) return [] { return httpError(409, "another change has begun and is not complete"); };
+    const std::optional<Changes::Outcome> outcome = change_(command);
+    if (outcome) return [reply = changeReply(*outcome)] { return reply; };
+    is_changing_ = true;
+    changing_ = client;
+    return {};
+  });
+}
+
+HttpReply Monitor::changeReply(const Changes::Outcome& outcome) const {
+  const auto items = [](const std::vector<ChangeReport::Item>& list) {
+    Json::Array all;
+    for (const ChangeReport::Item& item : list) all.push_back(Json{{"path", item.path}, {"reason", item.reason}});
+    return Json(std::move(all));
+  };
+  Json json = Json::emptyObject();
+  const size_t line_end = outcome.error.find('\n');
+  if (!outcome.error.empty()) json.set("error", outcome.error.substr(0, line_end));
+  if (!outcome.is_compiled) {
+    json.set("diagnostics", line_end == std::string::npos ? "" : outcome.error.substr(line_end + 1));
+  } else {
+    Json::Array removed;
+    for (const ChangeReport::Item& item : outcome.report.removed) removed.push_back(item.path);
+    json.set("kept", outcome.report.kept);
+    json.set("initialised", items(outcome.report.initialised));
+    json.set("removed", std::move(removed));
+    json.set("refused", items(outcome.report.refused));
+    json.set("cycle", cycle_.load() + 1);
+  }
+  HttpReply reply;
+  reply.status = outcome.error.empty() ? 200 : outcome.is_compiled ? 409 : 400;
+  reply.body = json.toText();
+  return reply;
+}
+
 void Monitor::servePous(HttpServer::Client client, const HttpRequest&) {
-  server_.reply(client, jsonReply(listPous(session_.module(), options_.pous)));
+  server_.reply(client, jsonReply(listPous(session_.module(), pous_())));
 }
 
 void Monitor::serveDiagram(HttpServer::Client client, const HttpRequest& request) {
   const std::string* const name = request.parameter("pou");
   if (name == nullptr) return fail(client, 400, "`pou` is missing: the name of a POU");
-  const rung_pou_view* const pou = findPou(options_.pous, *name);
+  const rung_pou_view* const pou = findPou(pous_(), *name);
   if (pou == nullptr) return fail(client, 404, "there is no POU `" + *name + "` with a body");
   HttpReply reply;
   reply.body = pou->content;

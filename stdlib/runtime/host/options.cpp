@@ -53,6 +53,7 @@ const char kHelp[] =
     "  --monitor [ADDR:]PORT serve a page and tools (HTTP) at this port, 0: any; the program keeps pace with the "
     "clock\n"
     "  --monitor-insecure    the address may be one that other machines reach, without encryption\n"
+    "  --rollback N          go back when a new version of the program faults within N cycles\n"
     "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
@@ -76,6 +77,10 @@ namespace {
 std::string readTime(const char* option, const char* example, const std::string& value, int64_t& ns) {
   if (readDuration(value, ns)) return "";
   return std::string(option) + " needs a time such as " + example + ", not `" + value + "`";
+}
+
+std::string setRollback(const std::string& value, RunOptions& options) {
+  return readCount(value, options.rollback_cycles) ? "" : "--rollback needs a number of cycles, not `" + value + "`";
 }
 
 template <std::string RunOptions::*option>
@@ -176,6 +181,7 @@ const ValueOption kValueOptions[] = {
        options.monitor.address = value;
        return "";
      }},
+    {"--rollback", setRollback},
     {"--driver", addDriver},
     {"--watch", addWatched},
     {"--set", addPreset},

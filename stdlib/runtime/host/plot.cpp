@@ -46,9 +46,9 @@ void shorten(std::vector<PlotLane>& lanes) {
 bool Plot::open(const std::string& path, std::FILE* out, const std::vector<Variable>& variables, std::string& error) {
   for (const Variable& variable : variables) {
     double value;
-    if (!numberOf(module_, variable, value)) continue;
+    if (!numberOf(*module_, variable, value)) continue;
     variables_.push_back(variable);
-    lanes_.push_back(laneOf(module_, variable));
+    lanes_.push_back(laneOf(*module_, variable));
   }
   if (lanes_.empty()) {
     error = "--plot: none of the variables is a number or a BOOL";
@@ -62,7 +62,8 @@ bool Plot::open(const std::string& path, std::FILE* out, const std::vector<Varia
 void Plot::row() {
   if (!file_.isOpen()) return;
   for (size_t i = 0; i < variables_.size(); ++i)
-    if (!numberOf(module_, variables_[i], values_[i]) || !std::isfinite(values_[i])) values_[i] = NAN;
+    if (variables_[i].isEmpty() || !numberOf(*module_, variables_[i], values_[i]) || !std::isfinite(values_[i]))
+      values_[i] = NAN;
   add(values_);
 }
 

@@ -16,9 +16,14 @@ namespace rung::host {
 
 class Plot {
  public:
-  explicit Plot(const LoadedModule& module) : module_(module) {}
+  explicit Plot(const LoadedModule& module) : module_(&module) {}
   // Takes the numbers, times, enumerations and BOOLs among the variables. False: `error` has the message.
   bool open(const std::string& path, std::FILE* out, const std::vector<Variable>& variables, std::string& error);
+  // Another version of the program goes on. The lanes of variables that it does not have end.
+  void moveTo(const Symbols& symbols) {
+    module_ = &symbols.module();
+    symbols.findAgain(variables_);
+  }
   void row();
   // The last row lasts this many more.
   void hold(int64_t rows);
@@ -28,7 +33,7 @@ class Plot {
   void add(const std::vector<double>& values);
   void halve();
 
-  const LoadedModule& module_;
+  const LoadedModule* module_;
   std::vector<Variable> variables_;
   std::vector<PlotLane> lanes_;  // of the same number
   std::vector<double> values_;   // of the last row

@@ -44,8 +44,9 @@ sigset_t endingSignals() {
 
 thread_local Realtime::Place Realtime::place_{};
 
-Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks)
-    : tasks_(tasks), options_(options), hooks_(hooks), common_(context) {
+Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
+                   const Realtime* before)
+    : tasks_(tasks), options_(options), hooks_(hooks), common_(context), before_(before) {
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
   tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
@@ -89,6 +90,7 @@ bool Realtime::activate(Worker& worker, int64_t row, int64_t due_ns, int64_t pro
     const std::lock_guard<PriorityMutex> held(activity_);
     is_active = !stop_.load() && !paused_.load() && !worker.task->stopped;
     if (is_active) ++active_;
+    if (!is_left_) worker.next.fetch_add(1);
   }
   if (!is_active) {
     if (row >= 0 && !stop_.load()) makeRow(row);
@@ -146,19 +148,19 @@ bool Realtime::complete(Worker& worker, uint8_t fault, int64_t began_ns, int64_t
 void Realtime::runCyclic(Worker& worker) {
   const int64_t interval = worker.task->interval_ns;
   const bool makes_rows = worker.task == tasks_.fastest();
-  for (int64_t n = 0; !stop_.load(); ++n) {
-    const int64_t due = start_ns_ + n * interval;
+  while (!stop_.load()) {
+    const int64_t n = worker.next.load(), due = start_ns_ + n * interval, row = first_row_ + n - worker.first;
     sleepUntil(due);
-    if (stop_.load() || !activate(worker, makes_rows ? n : -1, due, options_.base_ns + n * interval)) return;
+    if (stop_.load() || !activate(worker, makes_rows ? row : -1, due, options_.base_ns + n * interval)) return;
     if (makes_rows) {
-      rows_done_.store(n + 1);
-      if (options_.rows >= 0 && n + 1 >= options_.rows) stop_.store(true);
+      rows_done_.store(row + 1);
+      if (options_.rows >= 0 && row + 1 >= options_.rows) stop_.store(true);
     }
     const int64_t missed = (monotonicNs() - due) / interval;
     if (missed <= 0) continue;
     tasks_.countOverruns(*worker.task, static_cast<uint32_t>(missed));
-    n += missed;
-    if (makes_rows && options_.rows >= 0 && n + 1 >= options_.rows) {
+    worker.next.fetch_add(missed);
+    if (makes_rows && options_.rows >= 0 && row + missed + 1 >= options_.rows) {
       rows_done_.store(options_.rows);
       stop_.store(true);
     }
@@ -167,7 +169,7 @@ void Realtime::runCyclic(Worker& worker) {
 
 // It rests for a moment between its turns, so that tasks of lower priority are not starved.
 void Realtime::runFreewheeling(Worker& worker) {
-  for (int64_t next = start_ns_; !stop_.load(); next = monotonicNs() + tick_ns_) {
+  for (int64_t next = std::max(start_ns_, monotonicNs()); !stop_.load(); next = monotonicNs() + tick_ns_) {
     sleepUntil(next);
     const int64_t now = monotonicNs();
     if (stop_.load() || !activate(worker, -1, now, options_.base_ns + now - start_ns_)) return;
@@ -214,10 +216,11 @@ bool Realtime::isDue(Worker& worker, int64_t now_ns) {
 void Realtime::sample(uint32_t resource) {
   processors_[resource].join(0, true);
   waitForStart();
-  for (int64_t next = start_ns_; !stop_.load(); next = std::max(next + tick_ns_, monotonicNs())) {
+  for (int64_t next = std::max(start_ns_, monotonicNs()); !stop_.load();
+       next = std::max(next + tick_ns_, monotonicNs())) {
     sleepUntil(next);
     const std::lock_guard<std::mutex> rest(rest_);
-    if (paused_.load()) continue;
+    if (paused_.load() || stop_.load()) continue;
     for (const std::unique_ptr<Worker>& worker : workers_) {
       const uint8_t kind = worker->task->row->kind;
       if (worker->task->row->resource != resource || (kind != RUNG_EVENT && kind != RUNG_STATUS)) continue;
@@ -248,6 +251,29 @@ void Realtime::createWorkers() {
     sem_init(&worker->event, 0, 0);
     workers_.push_back(std::move(worker));
   }
+  if (before_ == nullptr) return;
+  start_ns_ = before_->start_ns_;
+  first_row_ = before_->rows_done_.load();
+  rows_done_.store(first_row_);
+  paused_.store(before_->paused_.load());
+  const int64_t now_ns = monotonicNs();
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    const int64_t interval = std::max<int64_t>(worker->task->interval_ns, 1);
+    worker->next.store((now_ns - start_ns_ + interval - 1) / interval);
+    for (const std::unique_ptr<Worker>& was : before_->workers_)
+      if (before_->tasks_.nameOf(*was->task) == tasks_.nameOf(*worker->task)) goOnFrom(*was, *worker);
+    worker->first = worker->next.load();
+  }
+}
+
+// The next activation is the one that has not begun; what triggered it counts.
+void Realtime::goOnFrom(const Worker& before, Worker& worker) const {
+  worker.was_true = before.was_true;
+  worker.next_ns = before.next_ns;
+  if (before.task->interval_ns == worker.task->interval_ns) worker.next.store(before.next.load());
+  worker.due_ns.store(before.due_ns.load());
+  worker.is_posted.store(before.is_posted.load());
+  if (worker.is_posted.load()) sem_post(&worker.event);
 }
 
 void Realtime::waitForStart() {
@@ -279,8 +305,10 @@ void Realtime::startThreads() {
   for (uint32_t i = 0; has_triggers && i < resources_; ++i) samplers_.emplace_back([this, i] { sample(i); });
   processors_[0].join(0, true);
   const std::lock_guard<std::mutex> lock(start_mutex_);
-  start_ns_ = monotonicNs() + kMillisecondNs + static_cast<int64_t>(workers_.size()) * 50'000;
-  for (const std::unique_ptr<Worker>& worker : workers_) worker->next_ns = start_ns_;
+  if (before_ == nullptr) {
+    start_ns_ = monotonicNs() + kMillisecondNs + static_cast<int64_t>(workers_.size()) * 50'000;
+    for (const std::unique_ptr<Worker>& worker : workers_) worker->next_ns = start_ns_;
+  }
   started_ = true;
   start_condition_.notify_all();
 }
@@ -350,8 +378,9 @@ void Realtime::supervise() {
   const sigset_t signals = endingSignals();
   const bool makes_rows = tasks_.fastest() == nullptr;
   const int64_t poll = makes_rows ? tasks_.rowNs() : pollNs();
-  int64_t row = 0;
-  for (int64_t next = start_ns_ + poll; !stop_.load(); next = std::max(next + poll, monotonicNs())) {
+  int64_t row = first_row_;
+  for (int64_t next = std::max(start_ns_, monotonicNs()) + poll; !stop_.load();
+       next = std::max(next + poll, monotonicNs())) {
     if (makes_rows) {
       const std::lock_guard<Exchange> lock(tasks_.exchange());
       hooks_.before(row);
@@ -427,10 +456,11 @@ bool Realtime::cycle() {
   return true;
 }
 
-void Realtime::joinThreads() {
-  for (const std::unique_ptr<Worker>& worker : workers_) sem_post(&worker->event);
-  for (std::thread& sampler : samplers_) sampler.join();
+void Realtime::join() {
+  for (std::thread& sampler : samplers_)
+    if (sampler.joinable()) sampler.join();
   for (const std::unique_ptr<Worker>& worker : workers_) {
+    if (!worker->thread.joinable()) continue;
     if (result_.hung && worker->running_since.load() != 0)
       worker->thread.detach();  // the task never ends; the process will
     else
@@ -443,8 +473,7 @@ RealtimeResult Realtime::run() {
   result_.missing = rights.missing;
   for (uint32_t i = 0; i < resources_; ++i) processors_[i].prepare(i, rights);
   const sigset_t signals = endingSignals();
-  sigset_t before;
-  pthread_sigmask(SIG_BLOCK, &signals, &before);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   int policy = SCHED_OTHER;
   sched_param priority{};
   cpu_set_t cpus;
@@ -455,11 +484,15 @@ RealtimeResult Realtime::run() {
   startThreads();
   supervise();
   stop_.store(true);
+  for (const std::unique_ptr<Worker>& worker : workers_) sem_post(&worker->event);
+  result_.is_left = is_left_;
+  result_.rows = rows_done_.load();
+  if (is_left_) return result_;  // with the signals and the priority of this thread as the next threads need them
   // A second signal ends the process at once.
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   result_.hung = !endActivations(isTooLong() ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT);
   result_.elapsed_ns = monotonicNs() - start_ns_;
-  joinThreads();
+  join();
   pthread_setschedparam(pthread_self(), policy, &priority);
   sched_setaffinity(0, sizeof cpus, &cpus);
   result_.rows = rows_done_.load();

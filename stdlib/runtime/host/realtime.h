@@ -27,6 +27,8 @@ struct RealtimeOptions {
 };
 
 struct RealtimeHooks {
+  // The run has ended with a fault. True: another version goes on instead (Session::goBack). May be empty.
+  std::function<bool(const Ending& ending)> go_back;
   // In the thread of the fastest cyclic task, around its activation. Rows whose start was missed have none.
   std::function<void(int64_t row)> before, after;
   // When no task is within an activation: what is kept is that of complete cycles. May be empty.
@@ -38,14 +40,17 @@ struct RealtimeHooks {
 struct RealtimeResult {
   Ending ending;  // Faulted without a context: the time is over
   int64_t rows = 0;
-  bool hung = false;    // a thread is still inside the program: it could not be ended
-  std::string missing;  // rights, for the user
+  bool hung = false;     // a thread is still inside the program: it could not be ended
+  bool is_left = false;  // another version takes over (leave)
+  std::string missing;   // rights, for the user
   int64_t elapsed_ns = 0;
 };
 
 class Realtime {
  public:
-  Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks);
+  // `before`: the threads of the version before, whose grid of time and whose rows go on.
+  Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
+           const Realtime* before = nullptr);
   ~Realtime();
   Realtime(const Realtime&) = delete;
   Realtime& operator=(const Realtime&) = delete;
@@ -64,9 +69,17 @@ class Realtime {
   // The named host event that starts external tasks; false: no task waits for it.
   bool raise(const std::string& event);
   void end() { stop_.store(true); }
+  // From `between`: no activation begins any more, and run() returns at once. Threads that sleep still use the tasks
+  // and the context until join() has returned.
+  void leave() {
+    is_left_ = true;
+    stop_.store(true);
+  }
+  void join();
   // While paused, rows go on; none is made, and no trigger is looked at, while one holds this.
   std::unique_lock<std::mutex> rest() { return std::unique_lock<std::mutex>(rest_); }
   int64_t programNs() const;
+  int64_t rowsDone() const { return rows_done_.load(); }
 
  private:
   struct Worker {
@@ -78,6 +91,9 @@ class Realtime {
     std::atomic<uint32_t> missed{0};
     bool was_true = false;  // of the trigger, in the thread that samples
     int64_t next_ns = 0;    // event tasks that are also periodic
+    // Of a cyclic task: the number of its next activation on the grid of its periods, and of the first here.
+    std::atomic<int64_t> next{0};
+    int64_t first = 0;
     sem_t event;
     std::thread thread;
   };
@@ -91,6 +107,7 @@ class Realtime {
   static int waitForOthers(void*);
 
   void createWorkers();
+  void goOnFrom(const Worker& before, Worker& worker) const;
   void startThreads();
   void waitForStart();
   Processor& processorOf(const Worker& worker) { return processors_[worker.task->row->resource]; }
@@ -110,7 +127,6 @@ class Realtime {
   bool isTooLong();
   int64_t pollNs() const;
   void supervise();
-  void joinThreads();
 
   Tasks& tasks_;
   const RealtimeOptions options_;
@@ -123,6 +139,9 @@ class Realtime {
   uint32_t resources_ = 1;
   int64_t tick_ns_ = 1'000'000;
   int64_t start_ns_ = 0;
+  const Realtime* const before_;  // until the threads run
+  int64_t first_row_ = 0;
+  bool is_left_ = false;  // guarded by activity_
 
   std::atomic<bool> stop_{false}, paused_{false};
   std::atomic<int64_t> rows_done_{0};

@@ -17,29 +17,13 @@ rung_slot headerOf(const std::vector<uint8_t>& slot) {
   return header;
 }
 
-// `Main.items[..].x` of `Main.items[3].x`: a changed array is one change.
-std::string withoutIndices(const std::string& path) {
-  std::string text;
-  bool inside = false;
-  for (const char c : path) {
-    if (c == ']') inside = false;
-    if (!inside) text += c;
-    if (c == '[') {
-      inside = true;
-      text += "..";
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 Retain::Retain(const Symbols& symbols, Memory& memory, std::string path)
-    : module_(symbols.module()),
-      symbols_(symbols),
-      memory_(memory),
+    : symbols_(&symbols),
+      memory_(&memory),
       file_(std::move(path)),
-      latest_(rung_retain_bytes(&module_.description)) {}
+      latest_(rung_retain_bytes(&symbols.module().description)) {}
 
 bool Retain::open(std::string& error) {
   if (!file_.open(error)) return false;
@@ -53,11 +37,22 @@ bool Retain::open(std::string& error) {
   return file_.reserve(latest_.size() + directory_.size(), error);
 }
 
+bool Retain::moveTo(const Symbols& symbols, Memory& memory, std::string& error) {
+  const std::lock_guard<std::mutex> writing(writing_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  symbols_ = &symbols;
+  memory_ = &memory;
+  latest_.assign(rung_retain_bytes(&module().description), 0);
+  is_new_ = false;
+  directory_ = directory();
+  return file_.reserve(latest_.size() + directory_.size(), error);
+}
+
 std::string Retain::directory() {
   rung_migration migration = room();
   std::string text;
-  text.resize(rung_retain_directory(&module_.description, nullptr, 0, &migration));
-  rung_retain_directory(&module_.description, text.data(), static_cast<uint32_t>(text.size()), &migration);
+  text.resize(rung_retain_directory(&module().description, nullptr, 0, &migration));
+  rung_retain_directory(&module().description, text.data(), static_cast<uint32_t>(text.size()), &migration);
   return text;
 }
 
@@ -73,18 +68,18 @@ rung_migration Retain::room() {
 
 void Retain::restore(rung_start start) {
   if (found_.empty()) return;
-  if (rung_retain_unpack(&memory_.context(), found_.data(), start)) return;
+  if (rung_retain_unpack(&memory_->context(), found_.data(), start)) return;
   rung_migration migration = room();
   migration.lost = [](void* data, const char* path, rung_loss why, const char* old_type, const char* new_type) {
     static_cast<Retain*>(data)->note(path, why, old_type, new_type);
   };
-  rung_retain_migrate(&memory_.context(), found_.data(), start, &migration);
+  rung_retain_migrate(&memory_->context(), found_.data(), start, &migration);
 }
 
 void Retain::note(const char* path, rung_loss why, const std::string& old_type, const std::string& new_type) {
   Variable variable;
   std::string ignored;
-  const std::string name = symbols_.find(path, variable, ignored) ? variable.path : path;
+  const std::string name = symbols_->find(path, variable, ignored) ? variable.path : path;
   std::string text = "`" + withoutIndices(name) + "` ";
   switch (why) {
     case RUNG_LOSS_MISSING: text += "(" + old_type + ") is not in the program any more: its value is dropped"; break;
@@ -100,16 +95,19 @@ void Retain::note(const char* path, rung_loss why, const std::string& old_type, 
 
 void Retain::copy(int64_t now_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  rung_retain_pack(&memory_.context(), latest_.data());
+  rung_retain_pack(&memory_->context(), latest_.data());
   memcpy(latest_.data() + offsetof(rung_slot, time_ns), &now_ns, sizeof now_ns);
   is_new_ = true;
 }
 
 bool Retain::save(std::string& error) {
+  const std::lock_guard<std::mutex> writing(writing_);
+  std::string directory;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!is_new_) return true;
     saving_ = latest_;
+    directory = directory_;
     is_new_ = false;
   }
   if (saving_.size() == written_.size() &&
@@ -117,9 +115,9 @@ bool Retain::save(std::string& error) {
              saving_.size() - sizeof(rung_slot)) == 0)
     return true;
   written_ = saving_;
-  saving_.insert(saving_.end(), directory_.begin(), directory_.end());
+  saving_.insert(saving_.end(), directory.begin(), directory.end());
   rung_slot header = headerOf(saving_);
-  header.length += static_cast<uint32_t>(directory_.size());
+  header.length += static_cast<uint32_t>(directory.size());
   memcpy(saving_.data(), &header, sizeof header);
   rung_retain_seal(saving_.data(), ++sequence_);
   if (file_.write(saving_, error)) return true;

@@ -28,6 +28,8 @@ class Retain {
   // After restore: a sentence for each variable that does not keep its value, and for a damaged file.
   const std::vector<std::string>& changes() const { return changes_; }
 
+  // Another version of the program goes on; no task runs. False: the file cannot be made large enough.
+  bool moveTo(const Symbols& symbols, Memory& memory, std::string& error);
   // Copies the current values; no task runs. Quick, and from any thread.
   void copy(int64_t now_ns);
   // Writes the last copy, if it is another one than that in the file. One thread at a time.
@@ -38,18 +40,20 @@ class Retain {
   rung_migration room();
   void note(const char* path, rung_loss why, const std::string& old_type, const std::string& new_type);
 
-  const LoadedModule& module_;
-  const Symbols& symbols_;
-  Memory& memory_;
+  const LoadedModule& module() const { return symbols_->module(); }
+
+  const Symbols* symbols_;
+  Memory* memory_;
   RetainFile file_;
   uint64_t sequence_ = 0;
-  std::string directory_;
   std::vector<std::string> changes_;
   std::vector<uint8_t> found_;    // the slot in the file at the start
   std::vector<uint8_t> written_;  // the values of the last save
-  std::mutex mutex_;              // guards the next two
+  std::mutex mutex_;              // guards the next three
+  std::string directory_;
   std::vector<uint8_t> latest_;
   bool is_new_ = false;
+  std::mutex writing_;  // guards the file and the next one
   std::vector<uint8_t> saving_;
   std::string path_;  // room for one
 };

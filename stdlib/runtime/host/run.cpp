@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "call_trace.h"
+#include "changes.h"
 #include "clock.h"
 #include "commands.h"
 #include "condition.h"
@@ -72,9 +73,8 @@ struct Run {
         session(module, sessionOptions(chosen_options), hooks()),
         inputs(session.symbols()),
         trace(session.symbols()),
-        stop_on(session.symbols()),
         plot(session.module()),
-        calls(session.module(), session.memory()) {}
+        changes(session, chosen_options, [this] { return holdMonitor(); }) {}
 
   ~Run() { running = nullptr; }
 
@@ -98,17 +98,26 @@ struct Run {
   void reportAssertion(const rung_assertion& assertion, const char* expected, const char* actual);
   // The commands that count before this row, and what clients of the monitor ask. False: the run ends.
   bool obey(int64_t row);
+  void print(const Command& command);
   Answer obey(const Command& command);
   bool openMonitor(std::string& error);
   bool waitForReset(const Ending& ending, int64_t cycle);
   void keepPace(int64_t cycle);
+  std::optional<Changes::Outcome> change(const Command& command);
+  void report(const std::optional<Changes::Outcome>& change, const std::string& location);
+  void followChange();
+  void warnMissing(const char* option, const std::vector<std::string>& paths) const;
+  bool goBack(const Ending& ending);
+  // Clients of the monitor do not see the program while one holds this.
+  std::unique_lock<std::mutex> holdMonitor() { return monitor ? monitor->hold() : std::unique_lock<std::mutex>(); }
+  const ShownPaths& paths() const { return changes.paths().empty() ? options.paths : changes.paths(); }
   // Statistics of virtual time say something where activations take time.
   bool hasTimes() const {
     const auto& tasks = session.module().tasks;
     return std::any_of(tasks.begin(), tasks.end(), [](const rung_task& task) { return task.duration_ns > 0; });
   }
   std::string describe(const rung_context& context, const rung_fault& fault) const {
-    return describeFault(context, fault, options.paths);
+    return describeFault(context, fault, paths());
   }
   std::string describe(const Ending& ending);
   void reportStopped();
@@ -123,10 +132,11 @@ struct Run {
   Session session;
   Inputs inputs;
   Trace trace;
-  Condition stop_on;
+  std::optional<Condition> stop_on;  // none: the run has no condition to stop on
   Plot plot;
-  CallTrace calls;
+  std::optional<CallTrace> calls;
   Commands commands;
+  Changes changes;
   std::optional<Retain> retain;
   std::optional<Monitor> monitor;
   std::optional<Stopper> stopper;     // in virtual time
@@ -189,7 +199,7 @@ class Saver {
 // Code that cannot be stopped: a body in C++, or output to a full pipe. In a signal handler.
 void endHungRun(const rung_context* context, uint8_t reason) {
   const std::string what =
-      describeCppBody(*context, running->options.paths,
+      describeCppBody(*context, running->paths(),
                       reason == RUNG_STOP_TIME ? "fault[time]: the time limit is reached (--timeout)"
                                                : "fault[interrupt]: interrupted");
   fprintf(running->options.err, "%s\n", what.c_str());
@@ -204,8 +214,9 @@ SessionHooks Run::hooks() {
   hooks.assertion = [this](const rung_assertion& assertion, bool passed, const char* expected, const char* actual) {
     if (!passed) reportAssertion(assertion, expected, actual);
   };
+  hooks.changed = [this] { followChange(); };
   if (options.trace_calls)
-    hooks.called = [this](const char* pou, const void* instance) { calls.called(pou, instance); };
+    hooks.called = [this](const char* pou, const void* instance) { calls->called(pou, instance); };
   return hooks;
 }
 
@@ -220,7 +231,7 @@ void Run::printMessage(uint8_t severity, const char* text) {
 
 // A violated ASSERT outside of tests is reported once per location; the program continues.
 void Run::reportAssertion(const rung_assertion& assertion, const char* expected, const char* actual) {
-  const std::string location = shownPath(options.paths, assertion.file) + ':' + std::to_string(assertion.line);
+  const std::string location = shownPath(paths(), assertion.file) + ':' + std::to_string(assertion.line);
   const std::lock_guard<std::mutex> lock(reported_mutex);
   if (std::find(reported.begin(), reported.end(), location) != reported.end()) return;
   reported.push_back(location);
@@ -258,14 +269,19 @@ bool Run::loadAll(std::string& error) {
   const Trace::Use use =
       options.trace_path.empty() && options.plot_path.empty() ? Trace::Use::LastRow : Trace::Use::Rows;
   if (!trace.choose(options.watch, use, error)) return error.insert(0, "--watch: "), false;
-  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return error.insert(0, "--stop-on: "), false;
+  if (!options.stop_on.empty() && !stop_on.emplace(session.symbols()).parse(options.stop_on, error))
+    return error.insert(0, "--stop-on: "), false;
+  calls.emplace(session.module(), session.memory());
   if (!options.retain_path.empty()) retain.emplace(session.symbols(), session.memory(), options.retain_path);
   return true;
 }
 
 bool Run::openMonitor(std::string& error) {
   if (options.monitor.address.empty()) return true;
-  monitor.emplace(session, options, [this](const Command& command) { return obey(command); });
+  monitor.emplace(
+      session, options, [this](const Command& command) { return obey(command); },
+      [this](const Command& command) { return change(command); },
+      [this]() -> const std::vector<rung_pou_view>& { return changes.pous(); });
   if (!monitor->start(error)) return false;
   fprintf(options.err, "monitor: %s\n", monitor->url().c_str());
   fflush(options.err);
@@ -345,21 +361,80 @@ Answer Run::obey(const Command& command) {
 
 // In real time a flood of commands waits for the next turn, so that the watchdog and the program go on.
 bool Run::obey(int64_t row) {
+  if (!is_faulted) report(changes.attend(), "");
   constexpr int kMostAtOnce = 16;
   Command command;
   std::string error;
   for (int turn = 0; !ends && (!options.realtime || turn < kMostAtOnce) && commands.next(row, command, error); ++turn) {
-    const Answer answer = obey(command);
-    fputs(answer.text.c_str(), options.err);
-    fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
-    if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
-    has_refused = has_refused || !answer.error.empty();
-    if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
+    print(command);
     if (session.isSingleCycle()) return !ends;
   }
   if (!error.empty()) fprintf(options.err, "warning: %s\n", error.c_str());
   if (monitor) monitor->attend();
   return !ends;
+}
+
+// Of --control.
+void Run::print(const Command& command) {
+  if (command.kind == Command::Change) return report(change(command), command.location);
+  const Answer answer = obey(command);
+  fputs(answer.text.c_str(), options.err);
+  fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
+  if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
+  has_refused = has_refused || !answer.error.empty();
+  if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
+}
+
+// ---- online changes
+
+// Empty: it is made when it is ready.
+std::optional<Changes::Outcome> Run::change(const Command& command) {
+  if (is_faulted) return Changes::Outcome{"", "the program has faulted; `reset` makes it ready to start again"};
+  return changes.begin(command);
+}
+
+// `location`: of the command, empty for files that changed.
+void Run::report(const std::optional<Changes::Outcome>& change, const std::string& location) {
+  if (!change || (monitor && monitor->answerChange(*change))) return;
+  if (!change->error.empty())
+    fprintf(options.err, "error: %s%s\n", location.empty() ? "" : (location + ": ").c_str(), change->error.c_str());
+  has_refused = has_refused || !change->error.empty();
+  fputs(change->text.c_str(), options.err);
+}
+
+void Run::warnMissing(const char* option, const std::vector<std::string>& missing) const {
+  for (const std::string& path : missing)
+    fprintf(options.err, "warning: %s: the program does not have `%s` any more\n", option, path.c_str());
+}
+
+// Another version has taken over: what refers to the one before goes on with this one.
+void Run::followChange() {
+  if (stopper) Stopper::moveTo(session.context());
+  warnMissing("--inputs", inputs.moveTo(session.symbols()));
+  warnMissing(options.watch.empty() ? "--trace" : "--watch", trace.moveTo(session.symbols()));
+  if (options.trace_forces) trace.markForced(session.forces());
+  plot.moveTo(session.symbols());
+  calls.emplace(session.module(), session.memory());
+  std::string error;
+  if (stop_on && !stop_on.emplace(session.symbols()).parse(options.stop_on, error)) {
+    fprintf(options.err, "warning: --stop-on: %s\n", error.c_str());
+    stop_on.reset();
+  }
+  if (retain && !retain->moveTo(session.symbols(), session.memory(), error))
+    fprintf(options.err, "warning: %s\n", error.c_str());
+  is_reported.assign(session.module().tasks.size(), false);
+  if (monitor) monitor->followChange();
+}
+
+// A version that took over a few cycles ago has faulted.
+bool Run::goBack(const Ending& ending) {
+  if (ending.kind != Ending::Faulted || ending.fault.kind == RUNG_FAULT_STOP) return false;
+  const std::string what = describe(ending);
+  const std::unique_lock<std::mutex> held = holdMonitor();
+  if (!session.goBack()) return false;
+  fprintf(options.err, "%s\nnote: the version before goes on, with its values of before the change\n", what.c_str());
+  if (monitor) monitor->noteRollback(what);
+  return true;
 }
 
 void Run::reportStopped() {
@@ -472,18 +547,20 @@ int Run::finishEnded(const Ending& ending, int64_t cycle) {
 // The exit code when the run ends with this cycle.
 std::optional<int> Run::runCycle(int64_t cycle) {
   Ending ending = session.cycle();
-  if (options.trace_calls) fputs(calls.line(cycle).c_str(), options.out);
+  if (options.trace_calls) fputs(calls->line(cycle).c_str(), options.out);
   if (ending.kind != Ending::Faulted && stopper->reason() == RUNG_STOP_TIME)
     ending = {Ending::Faulted, stopper->fault(), nullptr, ""};
-  while (!ending.isComplete()) {
+  const bool went_back = !ending.isComplete() && goBack(ending);
+  while (!ending.isComplete() && !went_back) {
     if (!waitForReset(ending, cycle)) return finishEnded(ending, cycle);
     ending = session.cycle();
   }
   reportStopped();
-  trace.row(cycle, cycle * session.cycleNs());
+  const int64_t time_ns = session.cycleTimeNs(cycle);
+  trace.row(cycle, time_ns);
   plot.row();
-  session.completeCycle();
-  if (monitor) monitor->completeCycle(cycle, cycle * session.cycleNs());
+  if (!went_back) session.completeCycle();
+  if (monitor) monitor->completeCycle(cycle, time_ns);
   if (retain && session.isIdle()) retain->copy(session.nextRowNs());
   if (stopper->reason() == RUNG_STOP_INTERRUPT) {
     progress->clear();
@@ -491,7 +568,7 @@ std::optional<int> Run::runCycle(int64_t cycle) {
   }
   if (!monitor) progress->show(cycle);
   session.stopAfterSingleCycle();
-  if (options.stop_on.empty() || !stop_on.holds()) return std::nullopt;
+  if (!stop_on || !stop_on->holds()) return std::nullopt;
   progress->clear();
   return finish(false, "", "stopped after cycle " + std::to_string(cycle) + ": " + options.stop_on + "\n");
 }
@@ -553,7 +630,7 @@ RealtimeOptions Run::realtimeOptions() const {
   const auto& tasks = session.module().tasks;
   const bool has_events =
       std::any_of(tasks.begin(), tasks.end(), [](const rung_task& task) { return task.kind == RUNG_EXTERNAL; });
-  if (has_events || monitor || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
+  if (has_events || monitor || options.has_changed || !options.control_path.empty()) wanted.poll_ns = 10'000'000;
   wanted.others_go_on = options.others_go_on;
   return wanted;
 }
@@ -569,11 +646,12 @@ RealtimeHooks Run::realtimeHooks() {
   hooks.after = [this](int64_t row) {
     row += first_row;
     if (row % session.rowsPerCycle() != 0) return;
-    const int64_t cycle = row / session.rowsPerCycle(), time_ns = row * session.tasks().rowNs();
+    const int64_t cycle = row / session.rowsPerCycle(), time_ns = session.rowTimeNs(row);
     trace.row(cycle, time_ns);
     plot.row();
     if (monitor) monitor->completeCycle(cycle, time_ns);
   };
+  hooks.go_back = [this](const Ending& ending) { return goBack(ending); };
   if (retain) hooks.complete = [this](int64_t now_ns) { retain->copy(now_ns); };
   hooks.idle = [this] {
     reportStopped();

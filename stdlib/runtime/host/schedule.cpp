@@ -17,6 +17,19 @@ void Schedule::restart(int64_t now_ns) {
   for (State& state : states_) state = {now_ns, false, false};
 }
 
+void Schedule::goOnFrom(const Schedule& before, int64_t now_ns) {
+  restart(now_ns);
+  for (const Task& task : tasks_.all()) {
+    const Task* const was = before.tasks_.find(tasks_.nameOf(task));
+    if (was == nullptr || was->row->kind != task.row->kind) continue;
+    State& state = states_[task.index];
+    const State& old_state = before.states_[was->index];
+    state.was_true = old_state.was_true;
+    state.raised = old_state.raised;
+    if (was->interval_ns == task.interval_ns) state.next_ns = std::max(old_state.next_ns, now_ns);
+  }
+}
+
 void Schedule::transfer(StateArchive& archive) {
   for (State& state : states_) archive.value(state);
   archive.values(is_in_row_, ends_first_, now_ns_, end_ns_, next_due_);

@@ -32,6 +32,8 @@ class Schedule {
   bool isIdle() const { return jobs_.empty(); }
   // The periods, the triggers, and the activations of the row that has begun.
   void transfer(StateArchive& archive);
+  // The periods of tasks with the same names and intervals go on as in the version before; others begin at `now_ns`.
+  void goOnFrom(const Schedule& before, int64_t now_ns);
   // Forgets all activations, also those of the row that has begun, and starts the periods again at `now_ns`: after a
   // reset.
   void restart(int64_t now_ns);

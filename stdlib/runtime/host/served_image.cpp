@@ -17,7 +17,7 @@ bool mayWrite(uint8_t function) { return function >= 5; }
 }  // namespace
 
 ServedImage::ServedImage(const LoadedModule& module)
-    : module_(module),
+    : module_(&module),
       inputs_{0, std::vector<uint8_t>(RUNG_MODBUS_INPUT_BYTES), {}},
       outputs_{1, std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES), std::vector<uint8_t>(RUNG_MODBUS_OUTPUT_BYTES)},
       memory_{2, std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES), std::vector<uint8_t>(RUNG_MODBUS_MEMORY_BYTES)} {}
@@ -59,7 +59,7 @@ void ServedImage::exchange(uint8_t* const* areas, void (*force)(void* data), voi
   if (!is_used_.load(std::memory_order_relaxed)) return;
   const std::lock_guard<PriorityMutex> lock(mutex_);
   const auto sizeOf = [&](const Part& part) {
-    return std::min(static_cast<uint32_t>(part.bytes.size()), module_.areas[part.area].size);
+    return std::min(static_cast<uint32_t>(part.bytes.size()), module_.load()->areas[part.area].size);
   };
   if (has_written_)
     for (Part* const part : {&outputs_, &memory_}) applyWritten(*part, areas[part->area], sizeOf(*part));

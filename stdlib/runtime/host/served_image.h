@@ -21,6 +21,8 @@ class ServedImage {
   ServedImage(const ServedImage&) = delete;
   ServedImage& operator=(const ServedImage&) = delete;
 
+  // Another version of the program.
+  void attach(const LoadedModule& module) { module_.store(&module); }
   // A server exists; before, exchange() does nothing.
   void use() { is_used_.store(true); }
   // The copy has values of the program.
@@ -53,7 +55,7 @@ class ServedImage {
   rung_modbus_image imageOf(const Server& server);
   void applyWritten(Part& part, uint8_t* common, uint32_t size) const;
 
-  const LoadedModule& module_;
+  std::atomic<const LoadedModule*> module_;
   std::atomic<bool> is_used_{false}, is_ready_{false};
   PriorityMutex mutex_;  // guards all below
   bool has_written_ = false;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 #include "clock.h"
 #include "crashes.h"
@@ -26,29 +27,26 @@ int64_t systemNs() {
 Session::Session(const rung_module& module, const SessionOptions& options, SessionHooks hooks)
     : options_(options),
       hooks_(std::move(hooks)),
-      module_(module),
-      memory_(module_),
-      symbols_(module_, memory_),
-      drivers_(module_, memory_),
-      forces_(symbols_),
-      tasks_(symbols_, memory_, drivers_, forces_, options.interval_ns),
-      schedule_(tasks_, memory_.context(), hsio_, options.others_go_on),
-      served_(module_) {
+      program_(std::make_unique<Program>(module, around())),
+      served_(program_->module) {
+  drivers_.attach(program_->module, program_->memory);
   if (options.is_isolated) {
-    simulated_channels_.emplace(memory_.context(), served_);
+    simulated_channels_.emplace(program_->memory.context(), served_);
   } else {
     files_.emplace(options.files_root, options.realtime);
     channels_.emplace(options.serial, served_);
   }
-  memory_.context().host = &host_;
-  memory_.context().host_data = this;
-  memory_.context().step_limit = options.max_steps;
+  program_->memory.context().host = &host_;
+  program_->memory.context().host_data = this;
+  program_->memory.context().step_limit = options.max_steps;
   serve();
 }
 
+Session::~Session() = default;
+
 // ---- services of the host
 
-int64_t Session::unsetClock() const { return options_.realtime ? systemNs() : memory_.context().now_ns; }
+int64_t Session::unsetClock() const { return options_.realtime ? systemNs() : program_->memory.context().now_ns; }
 
 int64_t Session::onClock(void* data) {
   const Session& session = *static_cast<Session*>(data);
@@ -98,20 +96,22 @@ bool Session::load(std::string& error) {
   for (const std::string& driver : options_.drivers)
     if (!drivers_.load(driver, error)) return error.insert(0, "--driver: "), false;
   drivers_.serve(host_);
-  drivers_.simulateModules(symbols_, hsio_, controller_.diagnosis());
-  tasks_.serveImage(served_);
-  if (!tasks_.prepare(error)) return false;
-  // A cycle of an NCT program is one of its main program: T_PLC.
-  if (isNct(module_)) {
-    for (const Task& task : tasks_.all())
-      if (tasks_.nameOf(task) == "Main") rows_per_cycle_ = std::max<int64_t>(task.interval_ns / tasks_.rowNs(), 1);
-  }
+  drivers_.simulateModules(program_->symbols, hsio_, controller_.diagnosis());
+  program_->tasks.serveImage(served_);
+  if (!program_->tasks.prepare(error)) return false;
+  countRows();
   return true;
 }
 
+// A cycle of an NCT program is one of its main program: T_PLC.
+void Session::countRows() {
+  const Task* const main = isNct(program_->module) ? program_->tasks.find("Main") : nullptr;
+  rows_per_cycle_ = main == nullptr ? 1 : std::max<int64_t>(main->interval_ns / program_->tasks.rowNs(), 1);
+}
+
 void Session::switchOn() {
-  forces_.unforceAll();
-  tasks_.switchOn();
+  program_->forces.unforceAll();
+  program_->tasks.switchOn();
   controller_.reset();
   hsio_.reset();
   served_.reset();
@@ -119,37 +119,37 @@ void Session::switchOn() {
   if (simulated_channels_) simulated_channels_->reset();
   std::function<void(const std::string&)> on_message;
   if (hooks_.message) on_message = [this](const std::string& text) { hooks_.message(RUNG_MESSAGE_NOTE, text.c_str()); };
-  control_.serve(module_, host_, on_message);
+  control_.serve(program_->module, host_, on_message);
   is_stopped_ = is_single_cycle_ = false;
   pace_ns_ = 0;
 }
 
 Ending Session::init() {
   switchOn();
-  return endingOf(memory_.reset());
+  return endingOf(program_->memory.reset());
 }
 
 Ending Session::begin() {
-  rung_context& context = memory_.context();
+  rung_context& context = program_->memory.context();
   if (hooks_.called) host_.called = onCall;
-  base_ns_ = context.now_ns;
+  begin_ns_ = base_ns_ = context.now_ns;
   cycle_ = row_ = rows_done_ = 0;
   if (test_ != RUNG_NONE) {
     context.entry = rung_test_at(context.module, test_);
-    context.task = module_.tasks.size() + 1;  // none of the module's: only MUTEX and SEMA look at it
-    return call(module_.tests[test_].init);
+    context.task = program_->module.tasks.size() + 1;  // none of the module's: only MUTEX and SEMA look at it
+    return call(program_->module.tests[test_].init);
   }
-  schedule_.restart(base_ns_);
-  tasks_.readInputs(base_ns_);
+  program_->schedule.restart(base_ns_);
+  program_->tasks.readInputs(base_ns_);
   return {};
 }
 
 Ending Session::call(void (*function)(rung_context*)) {
-  return function == nullptr ? Ending{} : endingOf(guarded(&memory_.context(), function));
+  return function == nullptr ? Ending{} : endingOf(guarded(&program_->memory.context(), function));
 }
 
-Ending Session::endTest() { return call(module_.tests[test_].exit); }
-Ending Session::end() { return endingOf(memory_.end()); }
+Ending Session::endTest() { return call(program_->module.tests[test_].exit); }
+Ending Session::end() { return endingOf(program_->memory.end()); }
 
 // ---- virtual time
 
@@ -159,17 +159,17 @@ void Session::keepPace() {
     pace_ns_ = 0;
     return;
   }
-  const int64_t row_ns = tasks_.rowNs();
+  const int64_t row_ns = program_->tasks.rowNs();
   if (pace_ns_ == 0) pace_ns_ = monotonicNs() - (rows_done_ - 1) * row_ns;
   channels_->runUntil(pace_ns_ + rows_done_ * row_ns);
 }
 
 Ending Session::testCycle() {
-  rung_context& context = memory_.context();
+  rung_context& context = program_->memory.context();
   if (cycle_ > 0) context.now_ns += options_.interval_ns;  // the test may have moved it: TEST_ADVANCE
   context.activation = static_cast<uint32_t>(cycle_) + 1;
   served_.exchange(context.areas);
-  Ending ending = call(module_.tests[test_].run);
+  Ending ending = call(program_->module.tests[test_].run);
   if (!ending.isComplete()) return ending;
   served_.exchange(context.areas);
   if (simulated_channels_) simulated_channels_->answerMasters();
@@ -177,13 +177,13 @@ Ending Session::testCycle() {
 }
 
 bool Session::isDone() const {
-  const rung_test& test = module_.tests[test_];
-  return test.done_block == RUNG_NONE || memory_.block(test.done_block)[test.done_offset] != 0;
+  const rung_test& test = program_->module.tests[test_];
+  return test.done_block == RUNG_NONE || program_->memory.block(test.done_block)[test.done_offset] != 0;
 }
 
 bool Session::activate(Ending& ending) {
   const int64_t last_row = cycle_ * rows_per_cycle_;
-  if (row_ == rows_done_ && !schedule_.isInRow()) keepPace();
+  if (row_ == rows_done_ && !program_->schedule.isInRow()) keepPace();
   if (is_stopped_) row_ = last_row + 1;
   for (; row_ <= last_row; ++row_) {
     if (test_ != RUNG_NONE) {
@@ -191,14 +191,14 @@ bool Session::activate(Ending& ending) {
       ending = testCycle();
       return ending.isComplete();
     }
-    if (!schedule_.isInRow()) {
-      tasks_.applyForces();
-      schedule_.beginRow(base_ns_ + row_ * tasks_.rowNs());
+    if (!program_->schedule.isInRow()) {
+      program_->tasks.applyForces();
+      program_->schedule.beginRow(base_ns_ + row_ * program_->tasks.rowNs());
     }
-    if (schedule_.step(ending)) return true;
+    if (program_->schedule.step(ending)) return true;
     if (!ending.isComplete()) return false;
   }
-  const std::string lost = tasks_.lostDriver();
+  const std::string lost = program_->tasks.lostDriver();
   if (!lost.empty()) ending = {Ending::Driver, {}, nullptr, lost};
   return false;
 }
@@ -213,6 +213,7 @@ Ending Session::cycle() {
 void Session::completeCycle() {
   row_ = rows_done_ = cycle_ * rows_per_cycle_ + 1;
   ++cycle_;
+  if (before_ && cycle_ > before_->last_cycle) before_.reset();
 }
 
 void Session::stopAfterSingleCycle() {
@@ -224,11 +225,19 @@ void Session::stopAfterSingleCycle() {
 // ---- real time
 
 RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const RealtimeHooks& hooks) {
-  threads_.emplace(tasks_, memory_.context(), options, hooks);
+  threads_ = std::make_unique<Realtime>(program_->tasks, program_->memory.context(), options, hooks);
   if (is_stopped_) threads_->pause();  // by a reset after a fault
   channels_->start();
   files_->work().start();  // not in the first cycle that needs it
   RealtimeResult result = threads_->run();
+  while (result.is_left ||
+         (!result.hung && !result.ending.isComplete() && hooks.go_back && hooks.go_back(result.ending))) {
+    std::unique_ptr<Realtime> next =
+        std::make_unique<Realtime>(program_->tasks, program_->memory.context(), options, hooks, threads_.get());
+    left_threads_.push_back(std::exchange(threads_, std::move(next)));
+    result = threads_->run();
+  }
+  for (const std::unique_ptr<Realtime>& left : left_threads_) left->join();
   channels_->stop();
   rows_done_ += result.rows;
   return result;
@@ -255,23 +264,23 @@ void Session::stop() {
 void Session::resume() {
   is_stopped_ = false;
   controller_.diagnosis().stopped = 0;
-  tasks_.restoreOutputs();
+  program_->tasks.restoreOutputs();
 }
 
 // TM/TP manual 4.1.4: what a reset keeps. The program is stopped after it.
 Ending Session::reset(rung_start kind) {
-  rung_context& context = memory_.context();
+  rung_context& context = program_->memory.context();
   std::vector<uint64_t> kept(rung_retain_bytes(context.module) / 8 + 1);
-  memory_.end();
+  program_->memory.end();
   rung_retain_pack(&context, kept.data());
   if (channels_) channels_->closeAll();
   const int64_t now = nowNs();
-  Ending ending = endingOf(memory_.reset(true));
+  Ending ending = endingOf(program_->memory.reset(true));
   if (!ending.isComplete()) return ending;
   rung_retain_unpack(&context, kept.data(), kind);
   context.now_ns = now;
-  schedule_.restart(nextRowNs());
-  tasks_.restart();
+  program_->schedule.restart(nextRowNs());
+  program_->tasks.restart();
   stop();
   return ending;
 }
@@ -279,7 +288,7 @@ Ending Session::reset(rung_start kind) {
 // In virtual time the cycle that follows is it.
 bool Session::cycleOnce() {
   if (!is_stopped_) return true;
-  tasks_.restoreOutputs();
+  program_->tasks.restoreOutputs();
   if (!threads_) {
     is_single_cycle_ = true;
     is_stopped_ = false;
@@ -290,7 +299,9 @@ bool Session::cycleOnce() {
   return goes_on;
 }
 
-bool Session::raise(const std::string& event) { return threads_ ? threads_->raise(event) : schedule_.raise(event); }
+bool Session::raise(const std::string& event) {
+  return threads_ ? threads_->raise(event) : program_->schedule.raise(event);
+}
 
 void Session::obeyAtRest(const Command& command, Answer& answer) {
   switch (command.kind) {
@@ -304,8 +315,9 @@ void Session::obeyAtRest(const Command& command, Answer& answer) {
     case Command::Event:
       if (!raise(command.event)) answer.warning = "no task waits for the event `" + command.event + "`";
       break;
-    case Command::Status: answer.text = tasks_.statistics(0) + controller_.faults(); break;
+    case Command::Status: answer.text = program_->tasks.statistics(0) + controller_.faults(); break;
     case Command::Quit: answer.goes_on = false; break;
+    case Command::Change: break;  // change
     case Command::Get:
     case Command::Set:
     case Command::Force:
@@ -318,7 +330,7 @@ void Session::obeyAtRest(const Command& command, Answer& answer) {
 
 bool Session::findAll(const Command& command, std::vector<Variable>& variables, std::string& error) const {
   for (const Command::Value& value : command.values)
-    if (!symbols_.find(value.path, variables.emplace_back(), error)) return false;
+    if (!program_->symbols.find(value.path, variables.emplace_back(), error)) return false;
   return true;
 }
 
@@ -329,17 +341,17 @@ std::string Session::get(const Command& command, std::string& values) const {
   if (!findAll(command, named, error)) return error;
   uint64_t total = 0;
   for (size_t i = 0; i < named.size(); ++i) {
-    total += symbols_.count(*named[i].type, Symbols::Detail::Watched);
+    total += program_->symbols.count(*named[i].type, Symbols::Detail::Watched);
     if (total > kMost) return "more than " + std::to_string(kMost) + " variables, at `" + command.values[i].path + "`";
     named[i].path = command.values[i].path;  // as --watch shows it
     if (named[i].type->kind == RUNG_POINTER)
       listed.push_back(named[i]);
     else
-      symbols_.expand(named[i], listed, Symbols::Detail::Watched);
+      program_->symbols.expand(named[i], listed, Symbols::Detail::Watched);
   }
   for (const Variable& variable : listed) {
     values += variable.path + " = ";
-    formatValue(module_, variable, values);
+    formatValue(program_->module, variable, values);
     values += '\n';
   }
   return "";
@@ -350,12 +362,12 @@ std::string Session::set(const Command& command) {
   std::string error;
   if (!findAll(command, variables, error)) return error;
   for (size_t i = 0; i < variables.size(); ++i) {
-    error = checkValue(module_, variables[i], command.values[i].text);
+    error = checkValue(program_->module, variables[i], command.values[i].text);
     if (error.empty() && variables[i].address() == nullptr)
-      error = whyRefused(module_, variables[i], RUNG_ACCESS_NULL, "");
+      error = whyRefused(program_->module, variables[i], RUNG_ACCESS_NULL, "");
     if (!error.empty()) return error;
   }
-  for (size_t i = 0; i < variables.size(); ++i) assignValue(module_, variables[i], command.values[i].text);
+  for (size_t i = 0; i < variables.size(); ++i) assignValue(program_->module, variables[i], command.values[i].text);
   return "";
 }
 
@@ -364,20 +376,21 @@ std::string Session::force(const Command& command) {
   std::string error;
   if (!findAll(command, variables, error)) return error;
   for (size_t i = 0; i < variables.size(); ++i)
-    if (error = forces_.check(variables[i], command.values[i].text); !error.empty()) return error;
-  if (!forces_.hasRoom(variables.size())) return whyRefused(module_, variables.front(), RUNG_ACCESS_FULL, "");
-  for (size_t i = 0; i < variables.size(); ++i) forces_.force(variables[i], command.values[i].text);
-  tasks_.noteForces();
-  if (!is_stopped_) tasks_.applyForces();
+    if (error = program_->forces.check(variables[i], command.values[i].text); !error.empty()) return error;
+  if (!program_->forces.hasRoom(variables.size()))
+    return whyRefused(program_->module, variables.front(), RUNG_ACCESS_FULL, "");
+  for (size_t i = 0; i < variables.size(); ++i) program_->forces.force(variables[i], command.values[i].text);
+  program_->tasks.noteForces();
+  if (!is_stopped_) program_->tasks.applyForces();
   return "";
 }
 
 std::string Session::unforce(const Command& command) {
   std::vector<Variable> variables;
   std::string error;
-  if (command.values.size() == 1 && command.values[0].path == "*") return forces_.unforceAll(), "";
+  if (command.values.size() == 1 && command.values[0].path == "*") return program_->forces.unforceAll(), "";
   if (!findAll(command, variables, error)) return error;
-  for (const Variable& variable : variables) forces_.unforce(variable);
+  for (const Variable& variable : variables) program_->forces.unforce(variable);
   return "";
 }
 
@@ -390,13 +403,14 @@ Answer Session::obeyForValues(const Command& command) {
       case Command::Set: answer.error = set(command); break;
       case Command::Force: answer.error = force(command); break;
       case Command::Unforce: answer.error = unforce(command); break;
-      case Command::Forces: answer.values = forces_.list(); break;
+      case Command::Forces: answer.values = program_->forces.list(); break;
       case Command::Stop:
       case Command::Start:
       case Command::Cycle:
       case Command::Reset:
       case Command::Event:
       case Command::Status:
+      case Command::Change:
       case Command::Quit: break;  // obeyAtRest
     }
   };
@@ -431,17 +445,17 @@ Answer Session::obey(const Command& command) {
 // ---- the state
 
 void Session::transfer(StateArchive& archive) {
-  memory_.transfer(archive);
-  forces_.transfer(archive);
-  tasks_.transfer(archive);
-  schedule_.transfer(archive);
+  program_->memory.transfer(archive);
+  program_->forces.transfer(archive);
+  program_->tasks.transfer(archive);
+  program_->schedule.transfer(archive);
   controller_.transfer(archive);
   hsio_.transfer(archive);
   drivers_.transfer(archive);
   control_.transfer(archive);
   served_.transfer(archive);
   if (simulated_channels_) simulated_channels_->transfer(archive);
-  archive.values(cycle_, row_, rows_done_, base_ns_, is_stopped_, is_single_cycle_);
+  archive.values(cycle_, row_, rows_done_, begin_ns_, base_ns_, is_stopped_, is_single_cycle_);
 }
 
 SessionState Session::save() {

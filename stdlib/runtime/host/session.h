@@ -20,21 +20,16 @@
 #include <string>
 #include <vector>
 
+#include "change.h"
 #include "channels.h"
 #include "commands.h"
 #include "controller.h"
-#include "drivers.h"
 #include "files.h"
-#include "forces.h"
-#include "loaded_module.h"
-#include "memory.h"
 #include "numerical_control.h"
+#include "program.h"
 #include "realtime.h"
-#include "schedule.h"
 #include "served_image.h"
 #include "simulated_channels.h"
-#include "symbols.h"
-#include "tasks.h"
 
 namespace rung::host {
 
@@ -55,6 +50,16 @@ struct SessionHooks {
   std::function<void(uint8_t severity, const char* text)> message;  // to its operator; a rung_severity
   std::function<void(const rung_assertion& assertion, bool passed, const char* expected, const char* actual)> assertion;
   std::function<void(const char* pou, const void* instance)> called;  // of interpreted modules that report calls
+  // Another version has taken over; no activation runs. All that refers to module(), memory(), symbols(), tasks() and
+  // forces() of the one before has to refer to those of this one.
+  std::function<void()> changed;
+};
+
+// Another version of the program, for Session::change.
+struct Version {
+  const rung_module* module = nullptr;
+  std::shared_ptr<const void> keeper;  // what the module is part of
+  std::string error;                   // why there is none
 };
 
 // The answer to a command.
@@ -79,6 +84,7 @@ class Session {
  public:
   // The module runs here (refusal) and outlives the session.
   Session(const rung_module& module, const SessionOptions& options, SessionHooks hooks);
+  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -119,8 +125,16 @@ class Session {
   bool between(const std::function<void()>& act);
   bool isStopped() const { return is_stopped_; }
   // All outputs get their safe values.
-  void makeOutputsSafe() { tasks_.makeOutputsSafe(nowNs()); }
+  void makeOutputsSafe() { program_->tasks.makeOutputsSafe(nowNs()); }
   void markStopped() { controller_.diagnosis().stopped = 1; }
+
+  // Puts another version in the place of this one, where no activation runs: in virtual time between two cycles, in
+  // real time from the hook `idle`. `rollback_cycles`: how long goBack() can undo it; 0: not. A report with an error:
+  // nothing has changed.
+  ChangeReport change(const Version& version, bool is_only_asked, int64_t rollback_cycles);
+  // After a fault of a version that took over a few cycles ago: the one before goes on with its values of then. False:
+  // there is none.
+  bool goBack();
 
   SessionState save();
   void restore(const SessionState& state);
@@ -128,22 +142,26 @@ class Session {
   int64_t cyclesDone() const { return (rows_done_ + rows_per_cycle_ - 1) / rows_per_cycle_; }
   // A cycle is one row, the period of the fastest cyclic task; of an NCT program the period of T_PLC.
   int64_t rowsPerCycle() const { return rows_per_cycle_; }
-  int64_t cycleNs() const { return rows_per_cycle_ * tasks_.rowNs(); }
-  int64_t beginNs() const { return base_ns_; }
+  int64_t cycleNs() const { return rows_per_cycle_ * program_->tasks.rowNs(); }
+  int64_t beginNs() const { return begin_ns_; }
+  // The program's time from the begin to a row, or to a cycle.
+  int64_t rowTimeNs(int64_t row) const { return base_ns_ + row * program_->tasks.rowNs() - begin_ns_; }
+  int64_t cycleTimeNs(int64_t cycle) const { return rowTimeNs(cycle * rows_per_cycle_); }
   // The program's time at which the next row begins.
-  int64_t nextRowNs() const { return base_ns_ + rows_done_ * tasks_.rowNs(); }
+  int64_t nextRowNs() const { return base_ns_ + rows_done_ * program_->tasks.rowNs(); }
   // The program's time now.
-  int64_t nowNs() const { return threads_ ? threads_->programNs() : memory_.context().now_ns; }
+  int64_t nowNs() const { return threads_ ? threads_->programNs() : program_->memory.context().now_ns; }
   // No activation is between its begin and its end.
-  bool isIdle() const { return schedule_.isIdle(); }
+  bool isIdle() const { return program_->schedule.isIdle(); }
 
-  const LoadedModule& module() const { return module_; }
-  rung_context& context() { return memory_.context(); }
-  Memory& memory() { return memory_; }
-  Symbols& symbols() { return symbols_; }
-  Tasks& tasks() { return tasks_; }
+  // Until another version of the program takes over.
+  const LoadedModule& module() const { return program_->module; }
+  rung_context& context() { return program_->memory.context(); }
+  Memory& memory() { return program_->memory; }
+  Symbols& symbols() { return program_->symbols; }
+  Tasks& tasks() { return program_->tasks; }
+  const Forces& forces() const { return program_->forces; }
   const Drivers& drivers() const { return drivers_; }
-  const Forces& forces() const { return forces_; }
 
  private:
   void serve();
@@ -160,9 +178,17 @@ class Session {
   std::string set(const Command& command);
   std::string force(const Command& command);
   std::string unforce(const Command& command);
+  Program::Around around() { return {drivers_, hsio_, options_.interval_ns, options_.others_go_on}; }
+  void countRows();
+  int64_t cyclesNow() const { return threads_ ? threads_->rowsDone() / rows_per_cycle_ : cycle_; }
+  bool prepare(Program& next, ChangeReport& report);
+  void takeOver(std::unique_ptr<Program> next);
+  ChangeReport changeAtRest(Change& change, std::unique_ptr<Program> next, bool is_only_asked, int64_t rollback_cycles);
   Ending testCycle();
   Ending call(void (*function)(rung_context*));  // of the module; null: it has none
-  Ending endingOf(uint8_t fault) { return fault == RUNG_FAULT_NONE ? Ending{} : Ending::faulted(memory_.context()); }
+  Ending endingOf(uint8_t fault) {
+    return fault == RUNG_FAULT_NONE ? Ending{} : Ending::faulted(program_->memory.context());
+  }
   void keepPace();
   int64_t unsetClock() const;
   void transfer(StateArchive& archive);
@@ -179,21 +205,16 @@ class Session {
 
   const SessionOptions options_;
   const SessionHooks hooks_;
-  const LoadedModule module_;
-  Memory memory_;
-  Symbols symbols_;
   Drivers drivers_;
-  Forces forces_;
-  Tasks tasks_;
   Hsio hsio_;
-  Schedule schedule_;
+  std::unique_ptr<Program> program_;
   Controller controller_;
   ServedImage served_;
   NumericalControl control_;
   std::optional<Files> files_;
   std::optional<Channels> channels_;
   std::optional<SimulatedChannels> simulated_channels_;
-  std::optional<Realtime> threads_;  // since the run in real time began
+  std::unique_ptr<Realtime> threads_;  // since the run in real time began
   rung_host host_{};
   char machine_name_[256] = {}, machine_address_[32] = {};
 
@@ -202,10 +223,22 @@ class Session {
   int64_t row_ = 0;             // the same of the row
   int64_t rows_done_ = 0;       // of complete cycles
   int64_t rows_per_cycle_ = 1;  // the last of them is the cycle's time; cycle 0 has one
-  int64_t base_ns_ = 0;         // the program's time at row 0
+  int64_t begin_ns_ = 0;        // the program's time at the begin
+  int64_t base_ns_ = 0;         // and at row 0; another one when a version with other rows has taken over
   int64_t pace_ns_ = 0;         // in virtual time: the clock at row 0, while a channel is open
   bool is_stopped_ = false;     // by a command
   bool is_single_cycle_ = false;
+
+  // The version before, while goBack() can return to it.
+  struct Before {
+    std::unique_ptr<Program> program;
+    std::vector<uint8_t> memory;
+    int64_t last_cycle = 0;
+  };
+  std::optional<Before> before_;
+  // In real time: programs and threads that other versions have followed, until the threads have ended.
+  std::vector<std::unique_ptr<Program>> left_programs_;
+  std::vector<std::unique_ptr<Realtime>> left_threads_;
 };
 
 }  // namespace rung::host

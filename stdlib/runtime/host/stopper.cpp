@@ -82,6 +82,11 @@ void Stopper::alsoOnTermination() {
   installHandler(SIGTERM, &old_termination);
 }
 
+void Stopper::moveTo(rung_context& context) {
+  context.stop = context_to_stop->stop;
+  context_to_stop = &context;
+}
+
 void Stopper::limitTime(int64_t ns) {
   if (stop_reason == RUNG_STOP_INTERRUPT) return;
   setTimer(0, 0);

@@ -25,6 +25,8 @@ class Stopper {
 
   // SIGTERM does the same as SIGINT.
   void alsoOnTermination();
+  // Another version of the program takes over: its context is the one to stop.
+  static void moveTo(rung_context& context);
   // From now on; 0: none.
   void limitTime(int64_t ns);
   uint8_t reason() const;  // a rung_stop

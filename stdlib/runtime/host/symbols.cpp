@@ -40,6 +40,20 @@ std::vector<std::string_view> indicesOf(std::string_view step) {
 
 std::string backquoted(std::string_view text) { return "`" + std::string(text) + "`"; }
 
+std::string withoutIndices(const std::string& path) {
+  std::string text;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == ']') inside = false;
+    if (!inside) text += c;
+    if (c == '[') {
+      inside = true;
+      text += "..";
+    }
+  }
+  return text;
+}
+
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = rung_lower(c);
@@ -283,6 +297,20 @@ uint64_t Symbols::count(const rung_type& type, Detail detail) const {
   const uint64_t elements = element.size == 0 ? 0 : type.size / element.size;
   parts = elements == 0 ? 0 : count(element, detail);
   return parts != 0 && elements > UINT64_MAX / parts ? UINT64_MAX : elements * parts;
+}
+
+std::vector<std::string> Symbols::findAgain(std::vector<Variable>& variables) const {
+  std::vector<std::string> missing;
+  for (Variable& variable : variables) {
+    Variable found;
+    std::string ignored;
+    const bool exists = find(variable.path, found, ignored);
+    if (!exists && !variable.isEmpty()) missing.push_back(variable.path);
+    found.path = std::move(variable.path);
+    if (!exists) found.type = nullptr;
+    variable = std::move(found);
+  }
+  return missing;
 }
 
 void Symbols::expand(const Variable& variable, std::vector<Variable>& to, Detail detail, size_t most) const {

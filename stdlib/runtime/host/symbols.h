@@ -20,6 +20,7 @@ struct Variable : rung_variable {
   const rung_context* context = nullptr;
 
   Variable() : rung_variable{} {}
+  bool isEmpty() const { return type == nullptr; }
   // nullptr when a pointer on the path is null.
   uint8_t* address() const { return static_cast<uint8_t*>(rung_address(context, this)); }
 };
@@ -36,6 +37,9 @@ class Symbols {
     Watched,  // of an axis: its set values, its actual position and its state
     Own       // as Watched, and of library blocks only the pins
   };
+  // The variables with the same paths in the memory of this version of the program; one that it does not have becomes
+  // empty, and its path is returned.
+  std::vector<std::string> findAgain(std::vector<Variable>& variables) const;
   // The elementary variables, enumerations and pointers inside `variable`, in order of declaration.
   void expand(const Variable& variable, std::vector<Variable>& to, Detail detail = Detail::Everything,
               size_t most = SIZE_MAX) const;
@@ -74,6 +78,8 @@ class Symbols {
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
 std::string backquoted(std::string_view text);  // `text` in backquotes, as messages quote it
+// `Main.items[..].x` of `Main.items[3].x`: a changed array is one change.
+std::string withoutIndices(const std::string& path);
 std::string lowerCase(std::string_view text);
 bool isBlank(char c);                             // a blank, a tab or a carriage return
 std::string_view trimmed(std::string_view text);  // without blanks at both ends

@@ -193,6 +193,25 @@ void Tasks::switchOn() {
   std::fill(states_.begin(), states_.end(), rung_task_state{});
 }
 
+const Task* Tasks::find(const std::string& name) const {
+  const auto found = std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& task) { return nameOf(task) == name; });
+  return found == tasks_.end() ? nullptr : &*found;
+}
+
+void Tasks::goOnFrom(const Tasks& before) {
+  for (Task& task : tasks_) {
+    const Task* const was = before.find(nameOf(task));
+    if (was == nullptr) continue;
+    states_[task.index] = before.states_[was->index];
+    task.activation = was->activation;
+    task.too_long = was->too_long;
+    task.is_first = was->is_first || was->interval_ns != task.interval_ns;
+    task.lateness = was->lateness;
+    task.latest_start = was->latest_start;
+  }
+  served_ = before.served_;
+}
+
 void Tasks::restart() {
   for (Task& task : tasks_) {
     task.stopped = false;

@@ -63,6 +63,7 @@ class Tasks {
   int64_t rowNs() const { return row_ns_; }
   std::vector<Task>& all() { return tasks_; }
   const std::vector<Task>& all() const { return tasks_; }
+  const Task* find(const std::string& name) const;
   const Task* fastest() const { return fastest_ == RUNG_NONE ? nullptr : &tasks_[fastest_]; }
   std::string nameOf(const Task& task) const;
 
@@ -99,6 +100,8 @@ class Tasks {
 
   // As at power on: no task has run.
   void switchOn();
+  // What has become of the tasks with the same names in the version before.
+  void goOnFrom(const Tasks& before);
   // After a reset: tasks that a fault stopped run again.
   void restart();
 

@@ -24,26 +24,26 @@ constexpr uint64_t kMostTraced = 1'000'000;  // columns of a trace
 }  // namespace
 
 bool Trace::add(const Variable& variable, Symbols::Detail detail, Use use, std::string& error) {
-  const uint64_t parts = symbols_.count(*variable.type, detail);
+  const uint64_t parts = symbols_->count(*variable.type, detail);
   if (use == Use::Rows && parts > kMostTraced - total_) {
     error = "more than " + std::to_string(kMostTraced) + " variables, at " + backquoted(variable.path) +
             "; choose some with --watch";
     return false;
   }
   total_ += std::min(parts, UINT64_MAX - total_);
-  symbols_.expand(variable, variables_, detail, use == Use::Rows ? SIZE_MAX : kMostListed);
+  symbols_->expand(variable, variables_, detail, use == Use::Rows ? SIZE_MAX : kMostListed);
   return true;
 }
 
 bool Trace::choose(const std::string& watch, Use use, std::string& error) {
   if (watch.empty()) {
-    for (const Variable& root : symbols_.programRoots())
+    for (const Variable& root : symbols_->programRoots())
       if (!add(root, Symbols::Detail::Own, use, error)) return false;
     return true;
   }
   for (const std::string& path : splitList(watch)) {
     Variable variable;
-    if (!symbols_.find(path, variable, error)) return false;
+    if (!symbols_->find(path, variable, error)) return false;
     variable.path = path;  // the header shows names as the user wrote them
     if (variable.type->kind == RUNG_POINTER) {
       variables_.push_back(variable);
@@ -57,8 +57,8 @@ bool Trace::choose(const std::string& watch, Use use, std::string& error) {
 
 bool Trace::chooseProgram(const std::string& name, std::string& error) {
   Variable program;
-  if (!symbols_.find(name, program, error)) return false;
-  symbols_.expand(program, variables_, Symbols::Detail::Own);
+  if (!symbols_->find(name, program, error)) return false;
+  symbols_->expand(program, variables_, Symbols::Detail::Own);
   return true;
 }
 
@@ -78,7 +78,7 @@ bool Trace::open(const std::string& path, std::FILE* out, std::string& error) {
 void Trace::appendForced() {
   cell_.clear();
   for (const Variable& variable : variables_) {
-    if (forces_->isEmpty() || !forces_->touches(variable)) continue;
+    if (forces_->isEmpty() || variable.isEmpty() || !forces_->touches(variable)) continue;
     cell_ += (cell_.empty() ? "" : " ") + variable.path;
   }
   buffer_ += ',';
@@ -92,12 +92,13 @@ void Trace::row(int64_t cycle, int64_t time_ns) {
   buffer_ += millisecondsOf(time_ns);
   for (const Variable& variable : variables_) {
     buffer_ += ',';
+    if (variable.isEmpty()) continue;
     if (variable.type->kind >= RUNG_CHAR && variable.type->kind <= RUNG_USTRING) {
       cell_.clear();
-      formatValue(symbols_.module(), variable, cell_);
+      formatValue(symbols_->module(), variable, cell_);
       appendCell(buffer_, cell_);
     } else {
-      formatValue(symbols_.module(), variable, buffer_);  // never needs quotes
+      formatValue(symbols_->module(), variable, buffer_);  // never needs quotes
     }
   }
   if (forces_ != nullptr) appendForced();
@@ -116,9 +117,10 @@ bool Trace::close(std::string& error) {
 std::string Trace::lastRow() const {
   std::string lines;
   for (const Variable& variable : variables_) {
+    if (variable.isEmpty()) continue;
     lines += variable.path;
     lines += " = ";
-    formatValue(symbols_.module(), variable, lines);
+    formatValue(symbols_->module(), variable, lines);
     lines += '\n';
   }
   if (total_ > variables_.size())

@@ -14,7 +14,7 @@ namespace rung::host {
 
 class Trace {
  public:
-  explicit Trace(const Symbols& symbols) : symbols_(symbols) {}
+  explicit Trace(const Symbols& symbols) : symbols_(&symbols) {}
 
   enum class Use : uint8_t { Rows, LastRow };
   // `watch`: the list of --watch, or empty for all variables of all programs. Of what is only listed at the end, the
@@ -22,6 +22,12 @@ class Trace {
   bool choose(const std::string& watch, Use use, std::string& error);
   // The variables of one program: of library blocks only the pins.
   bool chooseProgram(const std::string& name, std::string& error);
+  // Another version of the program goes on. Returns the paths of variables that it does not have: their cells are
+  // empty.
+  std::vector<std::string> moveTo(const Symbols& symbols) {
+    symbols_ = &symbols;
+    return symbols.findAgain(variables_);
+  }
   // The last column names the variables of the others that are forced. `forces` outlives the trace.
   void markForced(const Forces& forces) { forces_ = &forces; }
   // `path`: --trace, "-" for standard output, empty for none.
@@ -37,7 +43,7 @@ class Trace {
   void appendForced();
   bool add(const Variable& variable, Symbols::Detail detail, Use use, std::string& error);
 
-  const Symbols& symbols_;
+  const Symbols* symbols_;
   uint64_t total_ = 0;  // with those that are not listed
   std::vector<Variable> variables_;
   const Forces* forces_ = nullptr;  // null: no column of forces

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +34,15 @@ struct MonitorOptions {
   std::string version;                                   // of rung; empty: of the one that compiled the module
   std::vector<rung_pou_view> pous;                       // what is shown of bodies; the rows refer to memory that stays
   std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
+};
+
+// Another version of the program, for an online change.
+struct NewVersion {
+  const rung_module* module = nullptr;
+  std::shared_ptr<const void> keeper;  // what the module is part of: it lives while this does
+  ShownPaths paths;
+  std::vector<rung_pou_view> pous;  // of MonitorOptions; they live as long as `keeper`
+  std::string error;                // why there is no module: a line, and what the compiler says about the project
 };
 
 struct RunOptions {
@@ -60,6 +70,12 @@ struct RunOptions {
   int64_t max_steps = kDefaultMaxSteps;  // --max-steps, of an activation; 0: none
   int64_t timeout_ns = 0;                // --timeout; 0: none
   bool color = false;
+  int64_t rollback_cycles = 0;  // --rollback: how long a fault of a new version brings back the one before it
+  // Compiles a project, '' for the one that runs, for an online change; called in a thread of its own. Empty: a library
+  // of `rung build --kind=shared` is loaded instead.
+  std::function<NewVersion(const std::string& project)> compile;
+  // --watch-files: tells whether the files of the project differ from those when it was asked last. Empty: they do not.
+  std::function<bool()> has_changed;
   ShownPaths paths;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
   std::FILE* out = stdout;     // for results, traces to `-` and traced calls

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Online changes of a run: see changes.h.
+#include "changes.h"
+
+#include <dlfcn.h>
+
+#include "clock.h"
+
+namespace rung::host {
+namespace {
+
+constexpr int64_t kLookNs = 200'000'000;
+
+// A library of `rung build --kind=shared --online-change`, for programs that have no compiler.
+NewVersion loadLibrary(const std::string& name, const std::string& path) {
+  NewVersion version;
+  if (path.empty()) return version.error = "name the library of the new version, made by `rung build`", version;
+  void* const library = dlopen(path.find('/') == std::string::npos ? ("./" + path).c_str() : path.c_str(), RTLD_NOW);
+  if (library == nullptr) return version.error = dlerror(), version;
+  version.keeper = std::shared_ptr<const void>(library, [](void* loaded) { dlclose(loaded); });
+  const auto module = reinterpret_cast<rung_module_function>(dlsym(library, (name + "_module").c_str()));
+  if (module == nullptr)
+    version.error = path + ": it has no function `" + name + "_module`";
+  else
+    version.module = module();
+  return version;
+}
+
+}  // namespace
+
+std::optional<Changes::Outcome> Changes::begin(const Command& command) {
+  if (compiling_.valid()) return Outcome{"", "another change has begun and is not complete", true, {}};
+  command_ = command;
+  if (command_.rollback_cycles < 0) command_.rollback_cycles = options_.rollback_cycles;
+  const std::string name = session_.module().description.name, project = command.project;
+  const auto compile =
+      options_.compile ? options_.compile : [name](const std::string& path) { return loadLibrary(name, path); };
+  if (!options_.realtime) return make(compile(project));
+  compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
+  return std::nullopt;
+}
+
+std::optional<Changes::Outcome> Changes::attend() {
+  if (compiling_.valid()) {
+    if (compiling_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+    return make(compiling_.get());
+  }
+  if (!options_.has_changed || monotonicNs() < next_look_ns_) return std::nullopt;
+  next_look_ns_ = monotonicNs() + kLookNs;
+  if (!options_.has_changed()) return std::nullopt;
+  return begin(Command{});
+}
+
+Changes::Outcome Changes::make(const NewVersion& version) {
+  if (version.module == nullptr) return {"", version.error, false, {}};
+  const std::unique_lock<std::mutex> held = guard_();
+  const ChangeReport report =
+      session_.change({version.module, version.keeper, ""}, command_.is_only_asked, command_.rollback_cycles);
+  if (report.error.empty() && !command_.is_only_asked) {
+    paths_ = version.paths;
+    pous_ = version.pous;
+    keeper_ = version.keeper;
+  }
+  return {report.text(), report.error, true, report};
+}
+
+}  // namespace rung::host

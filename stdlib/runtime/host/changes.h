@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The online changes of a run: the new version is compiled, in real time by a thread while the program goes on, and
+// takes over. In: commands, and files that change. Out: sentences for the user. Used by run.cpp.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "rung/host.h"
+#include "session.h"
+
+namespace rung::host {
+
+class Changes {
+ public:
+  struct Outcome {
+    std::string text, error;
+    bool is_compiled = true;  // else the error says what the compiler says
+    ChangeReport report;
+  };
+  // What others hold on to while another version takes over.
+  using Guard = std::function<std::unique_lock<std::mutex>()>;
+
+  Changes(Session& session, const RunOptions& options, Guard guard)
+      : session_(session), options_(options), guard_(std::move(guard)) {}
+
+  // Of Command::Change. In virtual time it is made at once. Empty: it is made when it is ready.
+  std::optional<Outcome> begin(const Command& command);
+  // Makes the change that is ready, or begins one because files have changed. Called now and then; quick where there is
+  // nothing to do.
+  std::optional<Outcome> attend();
+  // The paths of the version that runs, as messages show them; empty: those of the options.
+  const ShownPaths& paths() const { return paths_; }
+  // Its bodies, for the monitor; asked where no other version can take over.
+  const std::vector<rung_pou_view>& pous() const { return keeper_ ? pous_ : options_.monitor.pous; }
+
+ private:
+  Outcome make(const NewVersion& version);
+
+  Session& session_;
+  const RunOptions& options_;
+  const Guard guard_;
+  Command command_;  // that has begun
+  std::future<NewVersion> compiling_;
+  int64_t next_look_ns_ = 0;  // at the files
+  ShownPaths paths_;
+  std::vector<rung_pou_view> pous_;
+  std::shared_ptr<const void> keeper_;  // of them
+};
+
+}  // namespace rung::host
