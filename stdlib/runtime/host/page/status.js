@@ -5,6 +5,13 @@
 
 // ---- the head of the page
 
+// Another version of the program with other variables: the page begins again, and the URL has what was chosen.
+let layout = '';
+function followVersion(info) {
+  if (layout !== '' && layout !== info.layout_hash) location.reload();
+  layout = info.layout_hash;
+}
+
 function paintInfo(info) {
   byId('name').textContent = info.name;
   byId('state').textContent = info.state;
@@ -27,6 +34,7 @@ async function paintFault(info) {
 async function poll() {
   try {
     const info = await ask('/api/info');
+    followVersion(info);
     paintInfo(info);
     await paintFault(info);
     await readForces();
