@@ -21,6 +21,7 @@
 # kills         10 000 programs killed while they write retained data (COUNT, FIRST)
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # service       the systemd unit of samples/service under systemd in a namespace (root; needs the package systemd)
+# page          1 000 values at 10 updates a second in headless Chromium for a minute: under 20 % of a core (SECONDS_EACH)
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
@@ -153,6 +154,11 @@ tsan() {
 service() {
   needs rung
   tools/house/service.sh
+}
+
+page() {
+  needs rung
+  PATH=$bin:$PATH PYTHONDONTWRITEBYTECODE=1 python3 tests/programs/page/load.py "${SECONDS_EACH:-60}" | tee /dev/stderr | grep -q '^within'
 }
 
 lateness() {

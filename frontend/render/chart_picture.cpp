@@ -18,6 +18,7 @@ constexpr size_t kConditionWidth = 48;
 struct Action {
   std::string qualifier, indicator;
   std::vector<std::string> lines;  // its name, or its statements
+  std::string name;
 
   int32_t height() const { return std::max(kRow, 5 + static_cast<int32_t>(lines.size()) * kLine); }
 };
@@ -50,12 +51,19 @@ const char* defaultWord(SfcQualifier q) {
 
 class ChartLabels {
  public:
-  ChartLabels(const Tree& tree, const Names& names, const PouDecl& pou)
-      : tree_(tree), names_(names), pou_(pou), inline_actions_(tree, names, pou) {}
+  ChartLabels(const Tree& tree, const Names& names, const PouDecl& pou, const PathOf* path_of = nullptr)
+      : tree_(tree), names_(names), pou_(pou), path_of_(path_of), inline_actions_(tree, names, pou) {}
   StepText step(uint32_t index) const;
   std::vector<std::string> condition(uint32_t index) const;  // with the name, if it has one
   std::string priority(uint32_t index) const;
   std::string_view name(NameId id) const { return names_.string(id); }
+  // Groups with what a monitor needs, where it is wanted: a step and its time, an action, a condition.
+  void openStep(Svg& svg, const SfcStep& step) const;
+  void openAction(Svg& svg, const std::string& name) const;
+  void openTransition(Svg& svg, uint32_t index) const;
+  void close(Svg& svg) const {
+    if (path_of_ != nullptr) svg.close();
+  }
 
  private:
   std::vector<std::string> linesOf(NameId action) const;
@@ -65,8 +73,34 @@ class ChartLabels {
   const Tree& tree_;
   const Names& names_;
   const PouDecl& pou_;
+  const PathOf* path_of_;
   InlineActions inline_actions_;
 };
+
+// The variables of steps and actions are those that sfc_schedule.h declares.
+void ChartLabels::openStep(Svg& svg, const SfcStep& step) const {
+  if (path_of_ == nullptr) return;
+  const std::string own(name(step.name.name));
+  svg.open(std::vector<Svg::Attribute>{
+      {"data-element", own}, {"data-kind", "step"}, {"data-path", "." + own + ".x"}, {"data-time", "." + own + ".t"}});
+}
+
+void ChartLabels::openAction(Svg& svg, const std::string& own) const {
+  if (path_of_ == nullptr) return;
+  svg.open(
+      std::vector<Svg::Attribute>{{"data-element", own}, {"data-kind", "action"}, {"data-path", "._" + own + ".x"}});
+}
+
+// A condition with a name is a BOOL of the chart.
+void ChartLabels::openTransition(Svg& svg, uint32_t index) const {
+  if (path_of_ == nullptr) return;
+  const SfcTransition& transition = tree_.list(pou_.transitions)[index];
+  const ExprId value = valueOf(transition);
+  std::string path = value ? (*path_of_)(value) : std::string();
+  if (path.empty() && transition.name.name) path = "." + std::string(name(transition.name.name));
+  svg.open(std::vector<Svg::Attribute>{
+      {"data-element", std::to_string(index + 1)}, {"data-kind", "transition"}, {"data-path", path}});
+}
 
 std::vector<std::string> ChartLabels::linesOf(NameId action) const {
   const PouDecl* own = inline_actions_.find(action);
@@ -80,7 +114,10 @@ StepText ChartLabels::step(uint32_t index) const {
   if (s.min.value) text.times += "min " + exprText(s.min.value);
   if (s.max.value) text.times += (text.times.empty() ? "max " : ", max ") + exprText(s.max.value);
   for (const SfcAssociation& a : tree_.list(s.actions)) {
-    Action action{std::string(a.word ? names_.string(a.word) : defaultWord(a.qualifier)), {}, linesOf(a.action.name)};
+    Action action{std::string(a.word ? names_.string(a.word) : defaultWord(a.qualifier)),
+                  {},
+                  linesOf(a.action.name),
+                  std::string(names_.string(a.action.name))};
     if (a.time.value) action.qualifier += " " + exprText(a.time.value);
     for (const Ident& indicator : tree_.list(a.indicators))
       action.indicator += (action.indicator.empty() ? "" : ", ") + std::string(names_.string(indicator.name));
@@ -127,17 +164,20 @@ std::string ChartLabels::priority(uint32_t index) const {
 void drawStep(Svg& svg, const ChartLabels& texts, const SfcStep& step, const ChartNode& node) {
   const StepText text = texts.step(node.index);
   const Point o = node.origin;
+  texts.openStep(svg, step);
   const Rect box{o.x - text.width / 2, o.y, text.width, text.height};
   svg.rect(box, "w");
   if (step.initial) svg.rect({box.x + 4, box.y + 4, box.width - 8, box.height - 8});
   svg.text({o.x, o.y + (text.times.empty() ? 19 : 18)}, Anchor::Middle, text.name, "b");
   if (!text.times.empty()) svg.text({o.x, o.y + 31}, Anchor::Middle, text.times, "s");
+  texts.close(svg);
   if (text.actions.empty()) return;
   const int32_t x = box.right() + kToActions, middle = x + text.qualifier_width;
   svg.line({box.right(), o.y + 15}, {x, o.y + 15});
   int32_t y = o.y + 5;
   for (const Action& action : text.actions) {
     const int32_t height = action.height();
+    texts.openAction(svg, action.name);
     svg.rect({x, y, text.qualifier_width, height}, "w");
     svg.rect({middle, y, text.name_width, height}, "w");
     svg.text({x + text.qualifier_width / 2, y + 14}, Anchor::Middle, action.qualifier);
@@ -146,12 +186,14 @@ void drawStep(Svg& svg, const ChartLabels& texts, const SfcStep& step, const Cha
       svg.rect({middle + text.name_width, y, text.indicator_width, height}, "w");
       svg.text({middle + text.name_width + 6, y + 14}, Anchor::Start, action.indicator);
     }
+    texts.close(svg);
     y += height;
   }
 }
 
 void drawTransition(Svg& svg, const ChartLabels& texts, const SfcTransition& t, const ChartNode& node) {
   const Point o = node.origin;
+  texts.openTransition(svg, node.index);
   svg.line(o, {o.x, o.y + node.below});
   svg.line({o.x - kBar, o.y + 10}, {o.x + kBar, o.y + 10}, "t");
   svg.text({o.x - kBar - 4, o.y + 14}, Anchor::End, texts.priority(node.index), "s");
@@ -162,6 +204,7 @@ void drawTransition(Svg& svg, const ChartLabels& texts, const SfcTransition& t, 
     named = false;
     y += kLine;
   }
+  texts.close(svg);
 }
 
 void drawJump(Svg& svg, const ChartLabels& texts, const ChartJump& jump) {
@@ -204,11 +247,12 @@ ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou)
   return plan;
 }
 
-std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name) {
+std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name,
+                      const PathOf* path_of) {
   ChartPlan plan = measureChart(tree, names, pou);
   planChart(tree, names, pou, plan);
   const Point by{kChartMargin - plan.bounds.x, kChartMargin - plan.bounds.y};
-  const ChartLabels texts(tree, names, pou);
+  const ChartLabels texts(tree, names, pou, path_of);
   Svg svg;
   for (const ChartLine& line : plan.lines) {
     svg.line(line.from + by, line.to + by);

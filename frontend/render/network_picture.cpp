@@ -197,8 +197,16 @@ void moveBy(Plan& plan, Point by) {
 
 void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
   for (const Net& net : plan.nets) {
+    if (body.path_of != nullptr) svg.open(liveAttributes(body, plan, net));
     for (const std::vector<Point>& line : net.lines) svg.path(route(line.data(), line.size()));
     for (const Point p : net.dots) svg.cycle(p, 2, "d");
+    if (body.path_of != nullptr) svg.close();
+  }
+  if (body.path_of != nullptr) {
+    for (const Net& net : openOutputs(body, plan)) {
+      svg.open(liveAttributes(body, plan, net));
+      svg.close();
+    }
   }
   for (const Item& item : plan.items) drawItem(svg, body, item);
 }
@@ -314,7 +322,7 @@ static std::vector<std::string> executionNumbers(std::span<const DiagramElement>
 std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
                          int32_t page, const NetworkNotes& notes) {
   const std::vector<std::string> numbers = executionNumbers(tree.list(diagram.elements), notes.execution_order);
-  const Body body{tree, names, diagram, tree.list(diagram.elements), numbers, notes.in_outs};
+  const Body body{tree, names, diagram, tree.list(diagram.elements), numbers, notes.in_outs, notes.path_of};
   const int32_t left = diagram.networks.empty() ? kPageMargin : kStrip + kPageMargin;
   std::vector<Plan> plans = planNetworks(body, page == 0 ? 0 : std::max(page - left - kPageMargin, kLeastPage));
   int32_t y = 0, right = 0;

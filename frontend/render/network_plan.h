@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan of a picture of networks: elements with their sizes, positions and pins, and the wires between them. In: the
 // elements of a body as parsed. symbols.cpp measures and draws elements, arrange.cpp and positions.cpp position them,
-// wrap.cpp cuts networks that are too wide, route.cpp routes the wires; network_picture.cpp calls all of these. Private
-// to frontend/render.
+// wrap.cpp cuts networks that are too wide, route.cpp routes the wires, live.cpp finds the values; network_picture.cpp
+// calls all of these. Private to frontend/render.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "frontend/render/picture.h"
 #include "frontend/render/svg.h"
 #include "frontend/syntax/box_outputs.h"
 #include "frontend/syntax/diagram.h"
@@ -28,6 +29,7 @@ struct Body {
   std::span<const DiagramElement> elements;
   std::span<const std::string> numbers = {};   // by element: its place in the execution order; empty: none is shown
   const std::vector<bool>* in_outs = nullptr;  // NetworkNotes
+  const PathOf* path_of = nullptr;             // the same
 
   std::string_view number(uint32_t element) const {
     return element < numbers.size() ? std::string_view(numbers[element]) : std::string_view();
@@ -91,6 +93,12 @@ struct Plan {
 // Measures one element, without a position. `unlisted`: outputs of a box that wires name but the file does not list.
 Item measure(const Body& body, uint32_t element, std::span<const NameId> unlisted);
 void drawItem(Svg& svg, const Body& body, const Item& item);
+
+// What a monitor needs to show an element, or the wires of a net, running (live.cpp).
+std::vector<Svg::Attribute> liveAttributes(const Body& body, const DiagramElement& e);
+std::vector<Svg::Attribute> liveAttributes(const Body& body, const Plan& plan, const Net& net);
+// Nets without lines, of outputs that nothing reads: their values are of interest, too.
+std::vector<Net> openOutputs(const Body& body, const Plan& plan);
 
 // Positions elements by data flow, from left to right.
 void arrange(const Body& body, Plan& plan);

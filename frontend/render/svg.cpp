@@ -35,8 +35,8 @@ size_t characterAt(std::string_view text, size_t p, uint32_t& c) {
   return length;
 }
 
-// Characters that XML does not allow, and bytes that are not UTF-8, become question marks.
-void appendEscaped(std::string& out, std::string_view text) {
+// Characters that XML does not allow, and bytes that are not UTF-8, become question marks. `quote`: what `"` becomes.
+void appendEscaped(std::string& out, std::string_view text, const char* quote = "\"") {
   for (size_t p = 0; p < text.size();) {
     uint32_t c = 0;
     const size_t length = characterAt(text, p, c);
@@ -48,6 +48,8 @@ void appendEscaped(std::string& out, std::string_view text) {
       out += "&lt;";
     } else if (c == '>') {
       out += "&gt;";
+    } else if (c == '"') {
+      out += quote;
     } else if (c == '\t') {
       out += ' ';
     } else {
@@ -145,6 +147,16 @@ void Svg::text(Point base, Anchor anchor, std::string_view text, std::string_vie
 }
 
 void Svg::open(std::string_view id) { body_.append("<g id=\"").append(id).append("\">\n"); }
+void Svg::open(std::span<const Attribute> attributes) {
+  body_ += "<g";
+  for (const Attribute& attribute : attributes) {
+    if (attribute.value.empty()) continue;
+    body_.append(" ").append(attribute.name).append("=\"");
+    appendEscaped(body_, attribute.value, "&quot;");
+    body_ += '"';
+  }
+  body_ += ">\n";
+}
 void Svg::openFaded() { body_ += "<g class=\"z\">\n"; }
 void Svg::close() { body_ += "</g>\n"; }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,14 @@ class Svg {
   void text(Point base, Anchor anchor, std::string_view text, std::string_view kind = {});
   // Below each other; `above` is one line above the first.
   void lines(Point above, const std::vector<std::string>& lines);
+  struct Attribute {
+    std::string_view name;
+    std::string value;
+  };
   void open(std::string_view id);  // a group of shapes
-  void openFaded();                // a group of disabled elements
+  // The same, with the attributes that have a value.
+  void open(std::span<const Attribute> attributes);
+  void openFaded();  // a group of disabled elements
   void close();
 
   std::string finish(std::string_view title, int32_t width, int32_t height) const;

@@ -382,7 +382,10 @@ void drawItem(Svg& svg, const Body& body, const Item& item) {
   }
   if (item.element == kNone) return;
   const DiagramElement& e = body.elements[item.element];
-  svg.open("e" + std::to_string(e.number));
+  if (body.path_of != nullptr)
+    svg.open(liveAttributes(body, e));
+  else
+    svg.open("e" + std::to_string(e.number));
   switch (formOf(e.kind)) {
     case Form::Rail: break;
     case Form::Contact: drawContact(svg, body, e, item); break;

@@ -9,6 +9,7 @@
 #include "tools/driver/compile.h"
 #include "tools/driver/native.h"
 #include "tools/driver/output_files.h"
+#include "tools/driver/pou_views.h"
 
 namespace rung::driver {
 
@@ -54,6 +55,7 @@ int runBuild(const ProjectOptions& project, const BuildOptions& options, Sink& s
     request.debug = options.debug;
     request.jobs = options.native.jobs;
     request.keep = options.native.keep;
+    if (options.kind == BuildKind::Executable) request.views = PouViews::of(compilation).source();
     NativeResult result =
         makeOutput(cache, request, options.kind, compilation.options.moduleName(), options.output, sink);
     times.end();

@@ -242,13 +242,6 @@ ProjectOptions forFormatting(ProjectOptions project) {
   return project;
 }
 
-// For a file of which only the text is wanted.
-class NoSink final : public Sink {
- public:
-  void message(std::string_view) override {}
-  std::string output(std::string_view) override { return {}; }
-};
-
 }  // namespace
 
 std::optional<std::string> formattedText(const ProjectOptions& given, const UnsavedFile& file,
@@ -257,7 +250,7 @@ std::optional<std::string> formattedText(const ProjectOptions& given, const Unsa
   project.inputs = {file.path};
   project.unsaved = {file};
   PhaseTimes times;
-  NoSink sink;
+  SilentSink sink;
   Compilation compilation(project, times, sink);
   if (!compilation.parse() || compilation.inputs.files.size() != 1) return std::nullopt;
   compilation.inputs.project.style = style;

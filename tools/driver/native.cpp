@@ -178,20 +178,25 @@ class Builder {
                 output);
   }
 
-  // Adds the host's main() for an executable.
+  // Adds the host's main() for an executable, and what its monitor shows.
   bool addMain(const std::string& module_name) {
-    if (!needWork()) return false;
-    std::string text = "#include \"rung/host.h\"\nextern \"C\" const rung_module* " + module_name +
-                       "_module(void);\nint main(int argc, char** argv) { return rung::host::applicationMain(*" +
-                       module_name + "_module(), argc, argv); }\n";
+    const std::string main = "#include \"rung/host.h\"\nextern \"C\" const rung_module* " + module_name +
+                             "_module(void);\nconst rung_pou_view* rung_pou_views();\n"
+                             "int main(int argc, char** argv) { return rung::host::applicationMain(*" +
+                             module_name + "_module(), argc, argv, rung_pou_views()); }\n";
+    return needWork() && addUnit("rung_main.cpp", main) && addUnit("rung_views.cpp", request_.views);
+  }
+
+  // Compiles a source of the tool itself, unless the cache has it.
+  bool addUnit(const std::string& name, const std::string& text) {
     Hash hash;
     hash.add(tool_key_);
     hash.add(text);
-    CompileUnit unit{"rung_main.cpp", hash.hex(), {}};
+    CompileUnit unit{name, hash.hex(), {}};
     unit.object = cache_.path(unit.key, "o");
     std::vector<CompileUnit*> missing;
     if (!cache_.has(unit.object)) missing.push_back(&unit);
-    if (std::string error = writeFile(work_ + "/rung_main.cpp", text); !error.empty()) return fail(kUsage, error);
+    if (std::string error = writeFile(work_ + "/" + name, text); !error.empty()) return fail(kUsage, error);
     if (!missing.empty() && !compileUnits(missing)) return false;
     units_.push_back(unit);
     return true;

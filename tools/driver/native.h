@@ -27,6 +27,7 @@ struct NativeRequest {
   uint32_t jobs = 0;
   bool keep = false;            // keep the generated files and report their folder
   bool debug = false;           // with debug information
+  std::string views;            // of an executable: PouViews::source
   bool has_call_paths = false;  // a fault tells who called: rung/call_paths.h
 };
 

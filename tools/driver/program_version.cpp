@@ -45,6 +45,7 @@ int makeProgram(const ProjectOptions& project, const RunOptions& options, bool m
   }
   made.checks = compilation.options.code.checks;
   for (const InputFile& file : compilation.inputs.files) made.paths.emplace_back(file.below, file.shown);
+  if (made.has_monitor) made.views = PouViews::of(compilation);
   if (made.program) {
     made.module = &made.program->description();
     return kSuccess;

@@ -13,6 +13,7 @@
 #include "tools/driver/compile.h"
 #include "tools/driver/module_library.h"
 #include "tools/driver/native.h"
+#include "tools/driver/pou_views.h"
 
 namespace rung::driver {
 
@@ -24,6 +25,8 @@ struct ProgramVersion {
   std::string why_compiled;                                // why it is not interpreted, where it could be
   std::vector<std::pair<std::string, std::string>> paths;  // of its files, as the module has them and as messages do
   uint8_t checks = 0;
+  bool has_monitor = false;  // set before: its bodies are wanted
+  PouViews views;
 };
 
 // Compiles a project; returns an exit code. `must_interpret`: what cannot be interpreted is an error.

@@ -31,12 +31,14 @@ host::ShownPaths pathsOf(const ProgramVersion& version) {
 }
 
 // Another version, for an online change. `inputs`: another project; empty: the same.
-host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& options, const std::string& input) {
+host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& options, const std::string& input,
+                             bool has_monitor) {
   ProjectOptions changed = project;
   if (!input.empty()) changed.inputs = {input};
   Gathered gathered;
   PhaseTimes times;
   const auto made = std::make_shared<ProgramVersion>();
+  made->has_monitor = has_monitor;
   host::NewVersion version;
   if (makeProgram(changed, options, false, times, gathered, *made) != kSuccess) {
     version.error = "the new version does not compile\n" + gathered.text;
@@ -45,6 +47,7 @@ host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& op
   }
   version.module = made->module;
   version.paths = pathsOf(*made);
+  version.pous = made->views.rows();
   version.keeper = made;
   return version;
 }
@@ -85,9 +88,9 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   compiling.code.default_interval_ns = run_options.interval_ns;
   compiling.code.counts_steps = true;
   compiling.code.trace_calls = run_options.trace_calls;
-  compiling.code.online_change =
-      options.watch_files || !run_options.control_path.empty() || !run_options.monitor.address.empty();
   ProgramVersion made;
+  made.has_monitor = !run_options.monitor.address.empty();
+  compiling.code.online_change = options.watch_files || !run_options.control_path.empty() || made.has_monitor;
   const bool must_interpret = options.engine == Engine::Interpreter || run_options.trace_calls;
   SourceWatch watch(project);
   int exit = makeProgram(compiling, options, must_interpret, times, sink, made);
@@ -95,9 +98,12 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
     if (made.program && options.engine == Engine::Auto)
       run_options.hint_when_long = "rung: a long run is faster with --engine=native";
     run_options.paths = pathsOf(made);
+    run_options.monitor.pous = made.views.rows();
     run_options.monitor.engine = made.program ? "interp" : "native";
     if (compiling.code.online_change)
-      run_options.change.compile = [&](const std::string& input) { return makeVersion(compiling, options, input); };
+      run_options.change.compile = [&](const std::string& input) {
+        return makeVersion(compiling, options, input, made.has_monitor);
+      };
     if (options.watch_files) run_options.change.has_changed = [&] { return watch.hasChanged(); };
     times.begin("run");
     constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;

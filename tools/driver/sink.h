@@ -37,4 +37,11 @@ class Sink {
   virtual std::FILE* programErrors() { return stderr; }
 };
 
+// For a file of which only the text or a picture is wanted.
+class SilentSink final : public Sink {
+ public:
+  void message(std::string_view) override {}
+  std::string output(std::string_view) override { return {}; }
+};
+
 }  // namespace rung::driver

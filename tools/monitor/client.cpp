@@ -16,7 +16,6 @@ namespace rung::monitor {
 namespace {
 
 constexpr size_t kLongestAnswer = size_t{64} << 20;
-constexpr int64_t kPatienceMs = Client::kPatienceMs;
 constexpr std::string_view kScheme = "http://";
 const char kNotReached[] = "the program is not reached: ";
 
@@ -30,7 +29,7 @@ bool waitFor(int fd, short events, int64_t wait_ms) {
 }
 
 // Reads until `end` is found, or until the other end closes. False: it takes too long or is too long.
-bool receiveUntil(int fd, std::string& to, std::string_view end, int64_t patience_ms = kPatienceMs) {
+bool receiveUntil(int fd, std::string& to, std::string_view end, int64_t patience_ms) {
   char bytes[16384];
   while (end.empty() || to.find(end) == std::string::npos) {
     if (!waitFor(fd, POLLIN, patience_ms) || to.size() > kLongestAnswer) return false;
@@ -111,7 +110,7 @@ std::string Client::connect(int& fd) const {
   int32_t ignored = 0;
   fd = host::openTcpClient(address_, port_, is_connected, ignored);
   if (fd < 0) return kNotReached + std::string(strerror(errno));
-  if (!is_connected && !waitFor(fd, POLLOUT, kPatienceMs)) return kNotReached + std::string("it does not answer");
+  if (!is_connected && !waitFor(fd, POLLOUT, patience_ms_)) return kNotReached + std::string("it does not answer");
   int number = 0;
   socklen_t size = sizeof number;
   getsockopt(fd, SOL_SOCKET, SO_ERROR, &number, &size);
@@ -125,7 +124,7 @@ std::string Client::send(int fd, const char* method, const std::string& path, co
     text += "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n";
   text += "\r\n" + body;
   for (size_t at = 0; at < text.size();) {
-    if (!waitFor(fd, POLLOUT, kPatienceMs)) return kNotReached + std::string("it does not read");
+    if (!waitFor(fd, POLLOUT, patience_ms_)) return kNotReached + std::string("it does not read");
     const ssize_t count = ::send(fd, text.data() + at, text.size() - at, MSG_NOSIGNAL);
     if (count < 0 && errno != EINTR && errno != EAGAIN) break;  // its answer says why
     at += static_cast<size_t>(std::max<ssize_t>(count, 0));
@@ -133,11 +132,11 @@ std::string Client::send(int fd, const char* method, const std::string& path, co
   return "";
 }
 
-Client::Answer Client::ask(const char* method, const std::string& path, const std::string& body, int64_t patience_ms) {
+Client::Answer Client::ask(const char* method, const std::string& path, const std::string& body) {
   int fd = -1;
   std::string error = connect(fd), text;
   if (error.empty()) error = send(fd, method, path, body);
-  if (error.empty() && !receiveUntil(fd, text, "", patience_ms)) error = "the answer is not complete";
+  if (error.empty() && !receiveUntil(fd, text, "", patience_ms_)) error = "the answer is not complete";
   if (fd >= 0) close(fd);
   if (error.empty()) return answerOf(text);
   Answer answer;
@@ -152,9 +151,9 @@ Client::Answer Client::open(const std::string& path) {
   answer.error = connect(stream_);
   if (answer.error.empty()) answer.error = send(stream_, "GET", path, "");
   if (!answer.error.empty()) return answer;
-  if (!receiveUntil(stream_, received_, "\r\n\r\n")) return answerOf("");
+  if (!receiveUntil(stream_, received_, "\r\n\r\n", patience_ms_)) return answerOf("");
   if (statusOf(received_) != 200) {
-    receiveUntil(stream_, received_, "");
+    receiveUntil(stream_, received_, "", patience_ms_);
     return answerOf(received_);
   }
   received_.erase(0, received_.find("\r\n\r\n") + 4);

@@ -32,11 +32,10 @@ class Client {
     std::string error;        // empty: it was done
     bool is_refused = false;  // by the program's monitor; else it was not reached
   };
-  static constexpr int64_t kPatienceMs = 10'000;  // with the program, until an answer begins
-  Answer get(const std::string& path) { return ask("GET", path, "", kPatienceMs); }
-  Answer post(const std::string& path, const Json& body, int64_t patience_ms = kPatienceMs) {
-    return ask("POST", path, body.toText(), patience_ms);
-  }
+  Answer get(const std::string& path) { return ask("GET", path, ""); }
+  Answer post(const std::string& path, const Json& body) { return ask("POST", path, body.toText()); }
+  // For what takes as long as a compilation.
+  void setPatience(int64_t ms) { patience_ms_ = ms; }
 
   // Opens the stream of events at this path.
   Answer open(const std::string& path);
@@ -45,11 +44,12 @@ class Client {
   Event next(Json& values, int stop, int64_t wait_ms);
 
  private:
-  Answer ask(const char* method, const std::string& path, const std::string& body, int64_t patience_ms);
+  Answer ask(const char* method, const std::string& path, const std::string& body);
   std::string connect(int& fd) const;
   std::string send(int fd, const char* method, const std::string& path, const std::string& body) const;
 
   std::string host_;
+  int64_t patience_ms_ = 10'000;
   uint32_t address_ = 0;
   uint16_t port_ = 0;
   std::string token_;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "rung/host.h"
+#include "stdlib/runtime/host/change.h"
 #include "stdlib/runtime/host/symbols.h"
 #include "tools/driver/commands.h"
 #include "tools/monitor/client.h"
@@ -144,22 +145,41 @@ int command(const Call& call, const std::string& words) {
   return driver::printResult(call.sink, answer.value["text"].text());
 }
 
-constexpr int64_t kCompilingMs = 1'800'000;  // a large project by a C++ compiler
+// `[dry-run] [rollback=N] [PROJECT]`
+Json changeOf(const std::string& text) {
+  Json body = Json::emptyObject();
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == "dry-run")
+      body.set("dry_run", true);
+    else if (word.starts_with("rollback="))
+      body.set("rollback", host::parseJson(word.substr(9)).value);
+    else
+      body.set("project", std::filesystem::absolute(word).string());
+  }
+  return body;
+}
 
-// `[dry-run] [rollback=N] [PROJECT]`; a path is one of this folder, which need not be that of the program.
+// What it says is that of `change` by --control.
 int change(const Call& call) {
-  std::istringstream words(call.rest);
-  std::string command = "change", word;
-  while (words >> word && (word == "dry-run" || word.compare(0, 9, "rollback=") == 0)) command += ' ' + word;
-  std::string project = word == "dry-run" || word.compare(0, 9, "rollback=") == 0 ? "" : word;
-  for (std::string rest; std::getline(words, rest);) project += rest;
-  if (!project.empty()) command += ' ' + std::filesystem::absolute(project).string();
-  const Client::Answer answer = call.client.post("/api/command", Json{{"command", command}}, kCompilingMs);
-  for (const char* part : {"diagnostics", "text"})
-    if (const std::string_view text = answer.value[part].text(); !answer.error.empty() && !text.empty())
-      call.sink.message(std::string(text) + (text.back() == '\n' ? "" : "\n"));
-  if (!answer.error.empty()) return refused(call, answer);
-  return driver::printResult(call.sink, answer.value["text"].text());
+  constexpr int64_t kPatienceMs = 600'000;
+  call.client.setPatience(kPatienceMs);
+  const Client::Answer answer = call.client.post("/api/change", changeOf(call.rest));
+  host::ChangeReport report;
+  const auto read = [&](const char* name, std::vector<host::ChangeReport::Item>& items) {
+    for (const Json& item : answer.value[name].items())
+      items.push_back({std::string(item["path"].text()), std::string(item["reason"].text())});
+  };
+  report.error = answer.error;
+  report.kept = static_cast<uint32_t>(answer.value["kept"].integer());
+  read("initialised", report.initialised);
+  read("refused", report.refused);
+  for (const Json& path : answer.value["removed"].items()) report.removed.push_back({std::string(path.text()), ""});
+  if (answer.error.empty()) return driver::printResult(call.sink, report.text());
+  call.sink.message(report.text());
+  if (const std::string_view said = answer.value["diagnostics"].text(); !said.empty())
+    call.sink.message(std::string(said) + '\n');
+  return refused(call, answer);
 }
 
 int giveCommand(const Call& call) {
@@ -178,10 +198,10 @@ const struct {
                  {"trace", trace, Needs::Something},       {"symbols", listSymbols, Needs::Anything},
                  {"info", showInfo, Needs::Nothing},       {"tasks", showTasks, Needs::Nothing},
                  {"faults", listTexts, Needs::Nothing},    {"messages", listTexts, Needs::Nothing},
-                 {"stop", giveCommand, Needs::Nothing},    {"start", giveCommand, Needs::Nothing},
-                 {"cycle", giveCommand, Needs::Nothing},   {"reset", giveCommand, Needs::Something},
-                 {"event", giveCommand, Needs::Something}, {"status", giveCommand, Needs::Nothing},
-                 {"quit", giveCommand, Needs::Nothing},    {"change", change, Needs::Anything}};
+                 {"change", change, Needs::Anything},      {"stop", giveCommand, Needs::Nothing},
+                 {"start", giveCommand, Needs::Nothing},   {"cycle", giveCommand, Needs::Nothing},
+                 {"reset", giveCommand, Needs::Something}, {"event", giveCommand, Needs::Something},
+                 {"status", giveCommand, Needs::Nothing},  {"quit", giveCommand, Needs::Nothing}};
 
 std::string commandNames() {
   std::string names;

@@ -4,8 +4,6 @@
 
 #include <dlfcn.h>
 
-#include <utility>
-
 #include "clock.h"
 
 namespace rung::host {
@@ -30,50 +28,40 @@ NewVersion loadLibrary(const std::string& name, const std::string& path) {
 
 }  // namespace
 
-void Changes::begin(const Command& command, Done done) {
-  if (compiling_.valid()) {
-    Outcome outcome;
-    outcome.report.error = "another change has begun and is not complete";
-    return done(outcome);
-  }
+std::optional<Changes::Outcome> Changes::begin(const Command& command) {
+  if (compiling_.valid()) return Outcome{"", "another change has begun and is not complete", true, {}};
   command_ = command;
-  done_ = std::move(done);
   if (command_.rollback_cycles < 0) command_.rollback_cycles = options_.change.rollback_cycles;
   const std::string name = session_.module().description.name, project = command.project;
-  const auto compile = options_.change.compile ? options_.change.compile
-                                               : [name](const std::string& path) { return loadLibrary(name, path); };
+  const auto compile =
+      options_.change.compile ? options_.change.compile : [name](const std::string& path) { return loadLibrary(name, path); };
   if (!options_.realtime && options_.monitor.address.empty()) return make(compile(project));
   compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
+  return std::nullopt;
 }
 
-void Changes::attend(const Done& of_files) {
+std::optional<Changes::Outcome> Changes::attend() {
   if (compiling_.valid()) {
-    if (compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) make(compiling_.get());
-    return;
+    if (compiling_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+    return make(compiling_.get());
   }
-  if (!options_.change.has_changed || monotonicNs() < next_look_ns_) return;
+  if (!options_.change.has_changed || monotonicNs() < next_look_ns_) return std::nullopt;
   next_look_ns_ = monotonicNs() + kLookNs;
-  if (options_.change.has_changed()) begin(Command{}, of_files);
+  if (!options_.change.has_changed()) return std::nullopt;
+  return begin(Command{});
 }
 
-void Changes::make(const NewVersion& version) {
-  Outcome outcome;
-  outcome.compiles = version.module != nullptr;
-  outcome.report.error = version.error;
-  if (outcome.compiles)
-    around_([&] {
-      outcome.report =
-          session_.change({version.module, version.keeper, ""}, command_.is_only_asked, command_.rollback_cycles);
-    });
-  if (outcome.report.error.empty() && !command_.is_only_asked) paths_before_ = std::exchange(paths_, version.paths);
-  std::exchange(done_, {})(outcome);
-}
-
-bool Changes::goBack() {
-  bool went_back = false;
-  around_([&] { went_back = session_.goBack(); });
-  if (went_back) paths_ = paths_before_;
-  return went_back;
+Changes::Outcome Changes::make(const NewVersion& version) {
+  if (version.module == nullptr) return {"", version.error, false, {}};
+  const std::unique_lock<std::mutex> held = guard_();
+  const ChangeReport report =
+      session_.change({version.module, version.keeper, ""}, command_.is_only_asked, command_.rollback_cycles);
+  if (report.error.empty() && !command_.is_only_asked) {
+    paths_ = version.paths;
+    pous_ = version.pous;
+    keeper_ = version.keeper;
+  }
+  return {report.text(), report.error, true, report};
 }
 
 }  // namespace rung::host

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The online changes of a run: the new version is compiled, where time goes on by a thread while the program runs, and
-// takes over. In: commands, and files that change. Out: what became of them. Used by run.cpp.
+// The online changes of a run: the new version is compiled, in real time by a thread while the program goes on, and
+// takes over. In: commands, and files that change. Out: sentences for the user. Used by run.cpp.
 #pragma once
 
 #include <functional>
 #include <future>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "rung/host.h"
@@ -15,37 +17,38 @@ namespace rung::host {
 class Changes {
  public:
   struct Outcome {
+    std::string text, error;
+    bool is_compiled = true;  // else the error says what the compiler says
     ChangeReport report;
-    bool compiles = true;  // else the error says why not
   };
-  using Done = std::function<void(const Outcome& outcome)>;
-  // Runs what puts another version in the place of the session's: others may have to know before and after it.
-  using Around = std::function<void(const std::function<void()>& act)>;
+  // What others hold on to while another version takes over.
+  using Guard = std::function<std::unique_lock<std::mutex>()>;
 
-  Changes(Session& session, const RunOptions& options) : session_(session), options_(options) {}
-  void setAround(Around around) { around_ = std::move(around); }
+  Changes(Session& session, const RunOptions& options, Guard guard)
+      : session_(session), options_(options), guard_(std::move(guard)) {}
 
-  // Of Command::Change. Where no time goes on, `done` is called at once, else from attend.
-  void begin(const Command& command, Done done);
+  // Of Command::Change. In virtual time it is made at once. Empty: it is made when it is ready.
+  std::optional<Outcome> begin(const Command& command);
   // Makes the change that is ready, or begins one because files have changed. Called now and then; quick where there is
   // nothing to do.
-  void attend(const Done& of_files);
+  std::optional<Outcome> attend();
   // The paths of the version that runs, as messages show them; empty: those of the options.
   const ShownPaths& paths() const { return paths_; }
-  // The version before goes on: see Session::goBack.
-  bool goBack();
+  // Its bodies, for the monitor; asked where no other version can take over.
+  const std::vector<rung_pou_view>& pous() const { return keeper_ ? pous_ : options_.monitor.pous; }
 
  private:
-  void make(const NewVersion& version);
+  Outcome make(const NewVersion& version);
 
   Session& session_;
   const RunOptions& options_;
-  Around around_ = [](const std::function<void()>& act) { act(); };
+  const Guard guard_;
   Command command_;  // that has begun
-  Done done_;
   std::future<NewVersion> compiling_;
   int64_t next_look_ns_ = 0;  // at the files
-  ShownPaths paths_, paths_before_;
+  ShownPaths paths_;
+  std::vector<rung_pou_view> pous_;
+  std::shared_ptr<const void> keeper_;  // of them
 };
 
 }  // namespace rung::host

@@ -46,15 +46,19 @@ void Forces::unforceAll() {
   names_.clear();
 }
 
+// The value to which a variable is forced.
+std::string Forces::valueOf(const Variable& name) const {
+  const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
+    return rung_is_same_variable(&forced.variable, &name);
+  });
+  std::string text;
+  formatCopied(symbols_.module(), name, table_.values + row->value, text);
+  return text;
+}
+
 std::vector<std::pair<std::string, std::string>> Forces::values() const {
   std::vector<std::pair<std::string, std::string>> all;
-  for (const Variable& name : names_) {
-    const auto* const row = std::find_if(table_.rows, table_.rows + table_.count, [&](const rung_forced& forced) {
-      return rung_is_same_variable(&forced.variable, &name);
-    });
-    std::string& text = all.emplace_back(name.path, "").second;
-    formatCopied(symbols_.module(), name, table_.values + row->value, text);
-  }
+  for (const Variable& name : names_) all.emplace_back(name.path, valueOf(name));
   return all;
 }
 
@@ -66,13 +70,14 @@ std::string Forces::list() const {
 
 std::vector<std::string> Forces::takeFrom(const Forces& before) {
   std::vector<std::string> lost;
-  for (const auto& [path, value] : before.values()) {
+  for (const Variable& name : before.names_) {
     Variable variable;
     std::string error;
-    if (symbols_.find(path, variable, error) && check(variable, value).empty())
+    const std::string value = before.valueOf(name);
+    if (symbols_.find(name.path, variable, error) && check(variable, value).empty())
       force(variable, value);
     else
-      lost.push_back(path);
+      lost.push_back(name.path);
   }
   return lost;
 }

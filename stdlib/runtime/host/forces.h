@@ -50,6 +50,8 @@ class Forces {
   void transfer(StateArchive& archive);
 
  private:
+  std::string valueOf(const Variable& name) const;
+
   const Symbols& symbols_;
   std::vector<rung_forced> rows_;
   std::vector<uint8_t> values_;

@@ -124,8 +124,13 @@ std::string headOf(int status) { return "HTTP/1.1 " + std::to_string(status) + '
 constexpr std::string_view kCommonHeaders =
     "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
     "X-Frame-Options: DENY\r\n"
-    "Content-Security-Policy: default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
-    "img-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'\r\n";
+    "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'; img-src data:; connect-src 'self'; "
+    "base-uri 'none'; form-action 'none'";
+
+// The scripts of the page itself run, and no others.
+std::string securityHeaders(const std::string& nonce) {
+  return std::string(kCommonHeaders) + (nonce.empty() ? "" : "; script-src 'nonce-" + nonce + "'") + "\r\n";
+}
 
 }  // namespace
 
@@ -147,14 +152,14 @@ std::string httpText(const HttpReply& reply, bool is_kept) {
   text += "Content-Type: " + reply.type + "\r\nContent-Length: " + std::to_string(reply.body.size()) + "\r\n";
   if (!reply.allow.empty()) text += "Allow: " + reply.allow + "\r\n";
   if (reply.status == 401) text += "WWW-Authenticate: Bearer\r\n";
-  text += kCommonHeaders;
+  text += securityHeaders(reply.script_nonce);
   text += is_kept ? "\r\n" : "Connection: close\r\n\r\n";
   return text += reply.body;
 }
 
 std::string httpStreamHead() {
   std::string text = headOf(200) + "Content-Type: text/event-stream\r\n";
-  text += kCommonHeaders;
+  text += securityHeaders("");
   return text += "Connection: close\r\n\r\n";
 }
 

@@ -30,7 +30,8 @@ struct HttpReply {
   int status = 200;
   std::string body;
   std::string type = "application/json";
-  std::string allow;  // of 405: the methods that there are
+  std::string allow;         // of 405: the methods that there are
+  std::string script_nonce;  // of a page: only scripts with it run
   bool closes = false;
 };
 // {"error": sentence}.

@@ -14,12 +14,13 @@ constexpr int64_t kLongCycleNs = 20'000'000;  // values are not left to the end 
 
 }  // namespace
 
-Monitor::Monitor(Session& session, const RunOptions& options, Changes& changes, Obey obey)
+Monitor::Monitor(Session& session, const RunOptions& options, Obey obey, Change change, Pous pous)
     : session_(session),
-      changes_(changes),
       options_(options.monitor),
       is_realtime_(options.realtime),
       obey_(std::move(obey)),
+      pous_(std::move(pous)),
+      change_(std::move(change)),
       server_(*this) {}
 
 bool Monitor::start(std::string& error) {
@@ -58,21 +59,29 @@ void Monitor::attendUntil(int64_t monotonic_ns) {
   attend();
 }
 
-void Monitor::changeProgram(const std::function<void()>& act) {
-  const std::lock_guard<std::recursive_mutex> lock(program_);
-  gate_.finishAll();
-  act();
-  gate_.sample().reset();  // its values are wanted again
-  std::map<SharedList, SharedList> renewed;
-  const auto renew = [&](SharedList& list) {
-    SharedList& known = renewed[list];
-    if (known == nullptr) known = list->foundAgain(session_.symbols());
-    list = known;
-  };
-  for (auto& [number, list] : lists_) renew(list);
-  for (auto& [client, stream] : streams_) renew(stream.list);
-  for (auto& [client, reader] : readers_) renew(reader.list);
+// Whoever waits for values gets those of this version.
+void Monitor::followChange() {
+  gate_.sample().cancel();
+  sampled_.clear();
+  const auto move = [this](SharedList& list) { list = std::make_shared<WatchList>(list->movedTo(session_.symbols())); };
+  for (auto& [number, list] : lists_) move(list);
+  for (auto& [client, stream] : streams_) move(stream.list);
+  for (auto& [client, reader] : readers_) move(reader.list);
+  was_rolled_back_.store(false);
   server_.wake();
+}
+
+bool Monitor::answerChange(const Changes::Outcome& outcome) {
+  if (!std::exchange(is_changing_, false)) return false;
+  gate_.answer(changing_, [reply = changeReply(outcome)] { return reply; });
+  server_.wake();
+  return true;
+}
+
+void Monitor::noteRollback(const std::string& fault) {
+  was_rolled_back_.store(true);
+  log_.addFault(session_.nowNs(), cycle_.load(), fault);
+  log_.addMessage(session_.nowNs(), "error", "the change was rolled back: " + fault);
 }
 
 // ---- the thread of the server
@@ -80,13 +89,13 @@ void Monitor::changeProgram(const std::function<void()>& act) {
 void Monitor::onStart() { yieldToTasks(std::max(session_.module().resources.size(), 1u)); }
 
 void Monitor::onClosed(HttpServer::Client client) {
-  const std::lock_guard<std::recursive_mutex> lock(program_);
+  const std::lock_guard<std::mutex> held(program_mutex_);
   streams_.erase(client);
   readers_.erase(client);
 }
 
 int64_t Monitor::onTurn(int64_t now_ns) {
-  const std::lock_guard<std::recursive_mutex> lock(program_);
+  const std::lock_guard<std::mutex> held(program_mutex_);
   for (const MonitorGate::Answer& answer : gate_.takeAnswers()) server_.reply(answer.client, answer.finish());
   for (const HttpServer::Client client : gate_.takeOverdue(now_ns))
     fail(client, 409, "the program did not end its cycle within 2 s");

@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,20 @@
 
 namespace rung::host {
 
+// A query parameter that is a number of at most `most`, or not there; false: something else.
+bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number);
+
 class Monitor : private HttpServer::Handler {
  public:
   enum class State : uint8_t { Running, Stopped, Faulted };
   // In the run's thread.
   using Obey = std::function<Answer(const Command& command)>;
+  using Change = std::function<std::optional<Changes::Outcome>(const Command& command)>;
 
-  Monitor(Session& session, const RunOptions& options, Changes& changes, Obey obey);
+  // The bodies of the version that runs; asked while hold() is not held.
+  using Pous = std::function<const std::vector<rung_pou_view>&()>;
+
+  Monitor(Session& session, const RunOptions& options, Obey obey, Change change, Pous pous);
   ~Monitor() override { server_.stop(); }
   bool start(std::string& error);
   std::string url() const { return access_.url(); }
@@ -48,11 +56,14 @@ class Monitor : private HttpServer::Handler {
   void attend();
   // Does so until that moment, or less.
   void attendUntil(int64_t monotonic_ns);
-  // Runs what puts another version in the place of the program: no request is served meanwhile, and lists of variables
-  // go on with those of the new version.
-  void changeProgram(const std::function<void()>& act);
-  void noteRollback() { is_rolled_back_.store(true); }
   void setState(State state) { state_.store(state); }
+  // While one holds this, the thread of the server does not look at the program, and another version can take over.
+  std::unique_lock<std::mutex> hold() { return std::unique_lock<std::mutex>(program_mutex_); }
+  // It has: clients see this one from now on.
+  void followChange();
+  // Of a change that a client has begun. False: none has.
+  bool answerChange(const Changes::Outcome& outcome);
+  void noteRollback(const std::string& fault);
   // Clients get the answers that there are, and no more.
   void stop() { server_.stop(); }
 
@@ -95,6 +106,10 @@ class Monitor : private HttpServer::Handler {
   void serveChange(HttpServer::Client client, const HttpRequest& request);
   void servePous(HttpServer::Client client, const HttpRequest& request);
   void serveDiagram(HttpServer::Client client, const HttpRequest& request);
+  void serveScope(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeStart(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeStop(HttpServer::Client client, const HttpRequest& request);
+  void serveScopeData(HttpServer::Client client, const HttpRequest& request);
 
   void fail(HttpServer::Client client, int status, std::string_view sentence);
   void ask(HttpServer::Client client, MonitorGate::Act act);
@@ -104,20 +119,20 @@ class Monitor : private HttpServer::Handler {
   SharedList listOf(HttpServer::Client client, const HttpRequest& request);
   bool readAssignments(HttpServer::Client client, const HttpRequest& request, Command& command);
   void askCommand(HttpServer::Client client, Command command);
-  void askChange(HttpServer::Client client, Command command);
   HttpReply obey(const Command& command);
+  void askChange(HttpServer::Client client, Command command);
+  HttpReply changeReply(const Changes::Outcome& outcome) const;
   const char* stateName() const;
   void wantSample(int64_t now_ns);
   void sendSample(int64_t now_ns);
   std::string sampleText(size_t number, const WatchList& list, bool as_lines);
 
-  void answerChange(HttpServer::Client client, const Changes::Outcome& outcome);
-
   Session& session_;
-  Changes& changes_;
   const MonitorOptions& options_;
   const bool is_realtime_;
   const Obey obey_;
+  const Pous pous_;
+  const Change change_;
   MonitorAccess access_;
   MonitorLog log_;
   MonitorGate gate_;
@@ -126,8 +141,10 @@ class Monitor : private HttpServer::Handler {
   // Of the last complete cycle; written by the run.
   std::atomic<int64_t> cycle_{0}, time_ns_{0};
   std::atomic<State> state_{State::Running};
-  std::atomic<bool> is_rolled_back_{false};
-  std::recursive_mutex program_;  // the server holds it while it refers to the program
+  std::atomic<bool> was_rolled_back_{false};
+  HttpServer::Client changing_ = 0;  // the client whose change is being compiled
+  bool is_changing_ = false;
+  std::mutex program_mutex_;
 
   // In the thread of the server.
   std::map<uint64_t, SharedList> lists_;  // by number, of `watch`

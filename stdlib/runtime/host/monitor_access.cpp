@@ -28,6 +28,18 @@ bool isSameSecret(std::string_view given, std::string_view secret) {
   return difference == 0;
 }
 
+// 32 hexadecimal digits; empty: the system has no random numbers.
+std::string randomText() {
+  unsigned char bytes[16];
+  std::string text;
+  if (getrandom(bytes, sizeof bytes, 0) != static_cast<ssize_t>(sizeof bytes)) return text;
+  for (const unsigned char byte : bytes) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string readMonitorAddress(const std::string& text, MonitorAddress& address) {
@@ -43,14 +55,9 @@ std::string readMonitorAddress(const std::string& text, MonitorAddress& address)
 
 bool MonitorAccess::prepare(const MonitorAddress& address) {
   address_ = address;
-  unsigned char bytes[16];
-  if (getrandom(bytes, sizeof bytes, 0) != static_cast<ssize_t>(sizeof bytes)) return false;
-  token_.clear();
-  for (const unsigned char byte : bytes) {
-    token_ += "0123456789abcdef"[byte >> 4];
-    token_ += "0123456789abcdef"[byte & 15];
-  }
-  return true;
+  token_ = randomText();
+  script_nonce_ = randomText();
+  return !token_.empty() && !script_nonce_.empty();
 }
 
 std::string MonitorAccess::url() const {

@@ -22,9 +22,11 @@ std::string readMonitorAddress(const std::string& text, MonitorAddress& address)
 
 class MonitorAccess {
  public:
-  // Makes the token. False: the system has no random numbers.
+  // Makes token and nonce. False: the system has no random numbers.
   bool prepare(const MonitorAddress& address);
   const std::string& token() const { return token_; }
+  // Marks the scripts of the page.
+  const std::string& scriptNonce() const { return script_nonce_; }
   std::string url() const;
   std::optional<HttpReply> refusal(const HttpRequest& request) const;
 
@@ -33,7 +35,7 @@ class MonitorAccess {
   bool hasToken(const HttpRequest& request) const;
 
   MonitorAddress address_;
-  std::string token_;
+  std::string token_, script_nonce_;
 };
 
 }  // namespace rung::host

@@ -64,27 +64,20 @@ bool MonitorGate::takeQuestion(Question& question) {
   return true;
 }
 
+void MonitorGate::answer(Client client, Finish finish) {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  answers_.push_back({client, std::move(finish)});
+}
+
 bool MonitorGate::answerSome(const std::function<bool()>& goes_on) {
   if (!has_questions_.load(std::memory_order_relaxed)) return false;
   bool has_answered = false;
   Question question;
   for (const int64_t end = monotonicNs() + kMostAtOnceNs; monotonicNs() < end && goes_on() && takeQuestion(question);) {
-    Finish finish = question.act();
+    if (Finish finish = question.act()) answer(question.client, std::move(finish));
     has_answered = true;
-    const std::lock_guard<PriorityMutex> lock(mutex_);
-    if (finish) answers_.push_back({question.client, std::move(finish)});
   }
   return has_answered;
-}
-
-void MonitorGate::answer(Client client, HttpReply reply) {
-  const std::lock_guard<PriorityMutex> lock(mutex_);
-  answers_.push_back({client, [reply = std::move(reply)] { return reply; }});
-}
-
-void MonitorGate::finishAll() {
-  const std::lock_guard<PriorityMutex> lock(mutex_);
-  for (Answer& answer : answers_) answer.finish = [reply = answer.finish()] { return reply; };
 }
 
 void MonitorGate::waitUntil(int64_t monotonic_ns) {

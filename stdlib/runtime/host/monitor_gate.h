@@ -20,8 +20,7 @@ class MonitorGate {
  public:
   using Client = HttpServer::Client;
   static constexpr int64_t kPatienceNs = 2'000'000'000;  // of a client that waits for the run
-  // The first part of an answer is made in the run's thread, the second one by the server. A null second part: the
-  // answer comes later.
+  // The first part of an answer is made in the run's thread, the second one by the server.
   using Finish = std::function<HttpReply()>;
   using Act = std::function<Finish()>;
   struct Answer {
@@ -46,12 +45,10 @@ class MonitorGate {
   void wakeRun();
 
   // ---- the run
-  // Answers some of the questions, as long as `goes_on`. False: there was none.
+  void answer(Client client, Finish finish);
+  // Answers some of the questions, as long as `goes_on`; one whose answer is empty gets it later. False: there was
+  // none.
   bool answerSome(const std::function<bool()>& goes_on);
-  // An answer that comes later.
-  void answer(Client client, HttpReply reply);
-  // Makes the second parts of all answers that wait: the program on which they depend is about to change.
-  void finishAll();
   // Waits until something is asked or wanted, a signal arrives, or until that moment.
   void waitUntil(int64_t monotonic_ns);
 

@@ -6,8 +6,9 @@
 
 #include "clock.h"
 #include "monitor.h"
-#include "monitor_page.h"
 #include "monitor_symbols.h"
+#include "monitor_views.h"
+#include "page_text.h"
 #include "value_format.h"
 
 namespace rung::host {
@@ -21,14 +22,6 @@ HttpReply jsonReply(std::string body) {
   HttpReply reply;
   reply.body = std::move(body);
   return reply;
-}
-
-// A query parameter that is a number; false: something else.
-bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number) {
-  const std::string* const text = request.parameter(name);
-  if (text == nullptr) return true;
-  const std::from_chars_result read = std::from_chars(text->data(), text->data() + text->size(), number);
-  return !text->empty() && read.ec == std::errc{} && read.ptr == text->data() + text->size() && number <= most;
 }
 
 void appendField(std::string& json, const char* name, int64_t value) {
@@ -85,6 +78,13 @@ std::string reportedFaults(const std::string& status) {
 
 }  // namespace
 
+bool readNumber(const HttpRequest& request, std::string_view name, uint64_t most, uint64_t& number) {
+  const std::string* const text = request.parameter(name);
+  if (text == nullptr) return true;
+  const std::from_chars_result read = std::from_chars(text->data(), text->data() + text->size(), number);
+  return !text->empty() && read.ec == std::errc{} && read.ptr == text->data() + text->size() && number <= most;
+}
+
 const Monitor::Route Monitor::kRoutes[] = {
     {"GET", "/", &Monitor::servePage},
     {"GET", "/api/info", &Monitor::serveInfo},
@@ -104,12 +104,16 @@ const Monitor::Route Monitor::kRoutes[] = {
     {"POST", "/api/change", &Monitor::serveChange},
     {"GET", "/api/pous", &Monitor::servePous},
     {"GET", "/api/diagram", &Monitor::serveDiagram},
+    {"GET", "/api/scope", &Monitor::serveScope},
+    {"POST", "/api/scope", &Monitor::serveScopeStart},
+    {"POST", "/api/scope/stop", &Monitor::serveScopeStop},
+    {"GET", "/api/scope/data", &Monitor::serveScopeData},
 };
 
 void Monitor::onRequest(HttpServer::Client client, const HttpRequest& request) {
+  const std::lock_guard<std::mutex> held(program_mutex_);
   if (const std::optional<HttpReply> refusal = access_.refusal(request)) return server_.reply(client, *refusal);
   server_.trust(client);
-  const std::lock_guard<std::recursive_mutex> lock(program_);
   std::string methods;
   for (const Route& route : kRoutes) {
     if (request.path != route.path) continue;
@@ -225,7 +229,8 @@ void Monitor::askCommand(HttpServer::Client client, Command command) {
 void Monitor::servePage(HttpServer::Client client, const HttpRequest&) {
   HttpReply reply;
   reply.type = "text/html; charset=utf-8";
-  reply.body = embedded::monitor_page[0].text;
+  reply.script_nonce = access_.scriptNonce();
+  reply.body = pageText(reply.script_nonce);
   server_.reply(client, reply);
 }
 
@@ -237,7 +242,7 @@ void Monitor::serveInfo(HttpServer::Client client, const HttpRequest&) {
       {"name", module.name},       {"version", options_.version.empty() ? module.compiler : options_.version},
       {"engine", options_.engine}, {"state", stateName()},
       {"cycle", cycle_.load()},    {"time_ms", static_cast<double>(time_ns_.load()) / 1e6},
-      {"layout_hash", hash},       {"rolled_back", is_rolled_back_.load()}};
+      {"layout_hash", hash},       {"rolled_back", was_rolled_back_.load()}};
   server_.reply(client, jsonReply(info.toText()));
 }
 
@@ -260,13 +265,27 @@ void Monitor::serveValues(HttpServer::Client client, const HttpRequest& request)
 }
 
 void Monitor::serveWatch(HttpServer::Client client, const HttpRequest& request) {
+  Json body;
+  if (!readBody(client, request, body)) return;
+  const bool skips_unknown = body["skip_unknown"].isTrue();
+  Variable variable;
+  std::string error;
   std::vector<std::string> paths;
-  if (!readPaths(client, request, paths)) return;
+  Json::Array unknown;
+  for (const Json& path : body["paths"].items()) {
+    if (skips_unknown && !session_.symbols().find(path.text(), variable, error))
+      unknown.push_back(path);
+    else
+      paths.emplace_back(path.text());
+  }
+  if (paths.empty() && unknown.empty()) return fail(client, 400, "`paths` is missing: the paths of variables");
   SharedList list = makeList(client, paths);
   if (list == nullptr) return;
   if (lists_.size() == kMostLists) lists_.erase(lists_.begin());  // the oldest one
   lists_[next_list_] = std::move(list);
-  server_.reply(client, jsonReply("{\"id\":" + std::to_string(next_list_++) + '}'));
+  std::string json = "{\"id\":" + std::to_string(next_list_++);
+  if (skips_unknown) json += ",\"unknown\":" + Json(std::move(unknown)).toText();
+  server_.reply(client, jsonReply(json += '}'));
 }
 
 // Of `watch=ID` or `paths=…`. Null: the client has its answer.
@@ -374,66 +393,60 @@ void Monitor::serveChange(HttpServer::Client client, const HttpRequest& request)
   command.kind = Command::Change;
   command.project = body["project"].text();
   command.is_only_asked = body["dry_run"].isTrue();
-  if (body["rollback"].isInteger()) command.rollback_cycles = body["rollback"].integer();
-  if (command.rollback_cycles < -1) return fail(client, 400, "`rollback` needs a number of cycles");
+  command.rollback_cycles = body["rollback"].integer(-1);
   askChange(client, std::move(command));
 }
 
-// The answer comes when the new version is compiled and has taken over.
+// In real time it is compiled while the program goes on, and the client waits.
 void Monitor::askChange(HttpServer::Client client, Command command) {
-  ask(client, [this, client, command = std::move(command)] {
-    changes_.begin(command, [this, client](const Changes::Outcome& outcome) { answerChange(client, outcome); });
-    return MonitorGate::Finish();
+  ask(client, [this, client, command = std::move(command)]() -> MonitorGate::Finish {
+    if (is_changing_) return [] { return httpError(409, "another change has begun and is not complete"); };
+    const std::optional<Changes::Outcome> outcome = change_(command);
+    if (outcome) return [reply = changeReply(*outcome)] { return reply; };
+    is_changing_ = true;
+    changing_ = client;
+    return {};
   });
 }
 
-// In the run's thread. The new version does not compile: 400; it cannot take over: 409.
-void Monitor::answerChange(HttpServer::Client client, const Changes::Outcome& outcome) {
-  const ChangeReport& report = outcome.report;
-  HttpReply reply = jsonReply("");
-  std::string json = "{";
-  if (!report.error.empty()) {
-    const size_t line = report.error.find('\n');
-    reply.status = outcome.compiles ? 409 : 400;
-    appendJsonText(json += "\"error\":", report.error.substr(0, line));
-    if (line != std::string::npos) appendJsonText(json += ",\"diagnostics\":", report.error.substr(line + 1));
-    json += ',';
-  }
-  const auto list = [&](const char* name, const std::vector<ChangeReport::Item>& items, bool with_reasons) {
-    json += std::string(",\"") + name + "\":[";
-    for (const ChangeReport::Item& item : items) {
-      if (json.back() != '[') json += ',';
-      appendJsonText(with_reasons ? json += "{\"path\":" : json, item.path);
-      if (with_reasons) appendJsonText(json += ",\"reason\":", item.reason), json += '}';
-    }
-    json += ']';
+HttpReply Monitor::changeReply(const Changes::Outcome& outcome) const {
+  const auto items = [](const std::vector<ChangeReport::Item>& list) {
+    Json::Array all;
+    for (const ChangeReport::Item& item : list) all.push_back(Json{{"path", item.path}, {"reason", item.reason}});
+    return Json(std::move(all));
   };
-  json += "\"kept\":" + std::to_string(report.kept);
-  list("initialised", report.initialised, true);
-  list("removed", report.removed, false);
-  list("refused", report.refused, true);
-  appendJsonText(json += ",\"text\":", report.text());
-  if (report.error.empty()) is_rolled_back_.store(false);
-  reply.body = json + ",\"cycle\":" + std::to_string(cycle_.load() + 1) + '}';
-  gate_.answer(client, std::move(reply));
-  server_.wake();
+  Json json = Json::emptyObject();
+  const size_t line_end = outcome.error.find('\n');
+  if (!outcome.error.empty()) json.set("error", outcome.error.substr(0, line_end));
+  if (!outcome.is_compiled) {
+    json.set("diagnostics", line_end == std::string::npos ? "" : outcome.error.substr(line_end + 1));
+  } else {
+    Json::Array removed;
+    for (const ChangeReport::Item& item : outcome.report.removed) removed.push_back(item.path);
+    json.set("kept", outcome.report.kept);
+    json.set("initialised", items(outcome.report.initialised));
+    json.set("removed", std::move(removed));
+    json.set("refused", items(outcome.report.refused));
+    json.set("cycle", cycle_.load() + 1);
+  }
+  HttpReply reply;
+  reply.status = outcome.error.empty() ? 200 : outcome.is_compiled ? 409 : 400;
+  reply.body = json.toText();
+  return reply;
 }
 
 void Monitor::servePous(HttpServer::Client client, const HttpRequest&) {
-  Json::Array pous;
-  if (options_.pictures.list)
-    for (const Pictures::Pou& pou : options_.pictures.list())
-      pous.push_back(Json{{"name", pou.name}, {"language", pou.language}});
-  server_.reply(client, jsonReply(Json(std::move(pous)).toText()));
+  server_.reply(client, jsonReply(listPous(session_.module(), pous_())));
 }
 
 void Monitor::serveDiagram(HttpServer::Client client, const HttpRequest& request) {
-  const std::string* const pou = request.parameter("pou");
-  if (pou == nullptr) return fail(client, 400, "`pou` is missing: the name of a POU");
+  const std::string* const name = request.parameter("pou");
+  if (name == nullptr) return fail(client, 400, "`pou` is missing: the name of a POU");
+  const rung_pou_view* const pou = findPou(pous_(), *name);
+  if (pou == nullptr) return fail(client, 404, "there is no POU `" + *name + "` with a body");
   HttpReply reply;
-  if (options_.pictures.draw) reply.body = options_.pictures.draw(*pou);
-  if (reply.body.empty()) return fail(client, 404, "there is no picture of `" + *pou + "`");
-  reply.type = "image/svg+xml";
+  reply.body = pou->content;
+  if (reply.body[0] == '<') reply.type = "image/svg+xml";
   server_.reply(client, reply);
 }
 

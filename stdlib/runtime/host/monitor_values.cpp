@@ -2,8 +2,6 @@
 // Values for clients of the monitor: see monitor_values.h.
 #include "monitor_values.h"
 
-#include <algorithm>
-
 #include "json.h"
 #include "value_format.h"
 
@@ -29,22 +27,28 @@ bool WatchList::add(const Symbols& symbols, const std::string& path, std::string
   return true;
 }
 
-// Before each value a byte that is 0 where there is none.
-std::shared_ptr<const WatchList> WatchList::foundAgain(const Symbols& symbols) const {
-  auto list = std::make_shared<WatchList>();
-  list->variables_ = variables_;
-  symbols.findAgain(list->variables_);
-  list->variables_.erase(std::remove_if(list->variables_.begin(), list->variables_.end(),
-                                        [](const Variable& variable) { return variable.isEmpty(); }),
-                         list->variables_.end());
-  for (const Variable& variable : list->variables_) list->bytes_ += 1 + variable.type->size;
+WatchList WatchList::movedTo(const Symbols& symbols) const {
+  WatchList list;
+  for (const Variable& before : variables_) {
+    Variable variable;
+    std::string ignored;
+    const bool is_there = symbols.find(before.path, variable, ignored) &&
+                          (variable.type->kind < RUNG_ARRAY || variable.type->kind == RUNG_POINTER);
+    if (!is_there) variable.type = nullptr;
+    variable.path = before.path;
+    list.bytes_ += 1 + sizeOf(variable);
+    list.variables_.push_back(std::move(variable));
+  }
   return list;
 }
 
+// Before each value a byte that is 0 where there is none.
 void WatchList::copy(uint8_t* to) const {
   for (const Variable& variable : variables_) {
-    *to = rung_read_value(variable.context, &variable, to + 1, variable.type->size) ? 1 : 0;
-    to += 1 + variable.type->size;
+    const size_t size = sizeOf(variable);
+    const bool is_there = variable.type != nullptr && rung_read_value(variable.context, &variable, to + 1, size);
+    *to = is_there ? 1 : 0;
+    to += 1 + size;
   }
 }
 

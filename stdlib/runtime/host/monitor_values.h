@@ -18,9 +18,9 @@ class WatchList {
   // Elementary variables; of records and arrays what is in them. False: `error` says why not, with `is_unknown` where
   // the path is.
   bool add(const Symbols& symbols, const std::string& path, std::string& error, bool& is_unknown);
+  // The same variables of another version of the program; those that it does not have have no value.
+  WatchList movedTo(const Symbols& symbols) const;
   size_t bytes() const { return bytes_; }
-  // The same variables of another version of the program; without those that it does not have.
-  std::shared_ptr<const WatchList> foundAgain(const Symbols& symbols) const;
   // Copies the values, where no activation changes them.
   void copy(uint8_t* to) const;
   // `"path":"value",…` of a copy; null where a pointer on the path was.
@@ -29,12 +29,13 @@ class WatchList {
   void appendLines(const LoadedModule& module, const uint8_t* copied, std::string& text) const;
 
  private:
+  static size_t sizeOf(const Variable& variable) { return variable.type == nullptr ? 0 : variable.type->size; }
   // Of each variable and its value in a copy; null: there is none.
   template <class F>
   void each(const uint8_t* copied, F act) const {
     for (const Variable& variable : variables_) {
       act(variable, *copied != 0 ? copied + 1 : nullptr);
-      copied += 1 + variable.type->size;
+      copied += 1 + sizeOf(variable);
     }
   }
 
@@ -54,13 +55,13 @@ class Sample {
   void want(std::vector<SharedList> lists, int64_t now_ns);
   // While wanted. Tells whether it was.
   bool take(int64_t cycle, int64_t time_ns);
-  // Where no thread takes it: nothing is wanted.
-  void reset() { state_.store(State::Idle, std::memory_order_release); }
   // While taken; then it is idle again.
   const uint8_t* values(size_t list) const { return copies_[list].data(); }
   int64_t cycle() const { return cycle_; }
   int64_t timeNs() const { return time_ns_; }
   void release();
+  // What refers to another version of the program is not wanted any more; no activation runs.
+  void cancel() { release(); }
 
  private:
   enum class State : uint8_t { Idle, Wanted, Taking, Taken };

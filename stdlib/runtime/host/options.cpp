@@ -52,6 +52,8 @@ const char kHelp[] =
     "                        others; in real time also a pipe\n"
     "  --monitor [ADDR:]PORT serve a page and tools (HTTP) at this port, 0: any; the program keeps pace with the "
     "clock\n"
+    "  --monitor-insecure    the address may be one that other machines reach, without encryption\n"
+    "  --rollback N          go back when a new version of the program faults within N cycles\n"
     "  --serial N=DEVICE     the device of serial port N of the program: --serial 1=/dev/ttyUSB0; may be repeated\n"
     "  --driver LIB[=ARG]    devices of a product: a shared library with the function rung_drivers\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
@@ -78,8 +80,7 @@ std::string readTime(const char* option, const char* example, const std::string&
 }
 
 std::string setRollback(const std::string& value, RunOptions& options) {
-  return readCount(value, options.change.rollback_cycles) ? ""
-                                                          : "--rollback needs a number of cycles, not `" + value + "`";
+  return readCount(value, options.change.rollback_cycles) ? "" : "--rollback needs a number of cycles, not `" + value + "`";
 }
 
 template <std::string RunOptions::*option>
@@ -248,7 +249,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
   return contradiction(options);
 }
 
-int applicationMain(const rung_module& module, int argc, char** argv) {
+int applicationMain(const rung_module& module, int argc, char** argv, const rung_pou_view* pous) {
   signal(SIGXFSZ, SIG_IGN);  // makes exceeding a file size limit a write error, like a full disk
   catchCrashes();
   RunOptions options;
@@ -275,6 +276,7 @@ int applicationMain(const rung_module& module, int argc, char** argv) {
     fprintf(stderr, "error: unknown option `%s`; --help lists all\n", argument.c_str());
     return 2;
   }
+  for (; pous != nullptr && pous->name != nullptr; ++pous) options.monitor.pous.push_back(*pous);
   return run(module, options);
 }
 

@@ -74,7 +74,7 @@ struct Run {
         inputs(session.symbols()),
         trace(session.symbols()),
         plot(session.module()),
-        changes(session, chosen_options) {}
+        changes(session, chosen_options, [this] { return holdMonitor(); }) {}
 
   ~Run() { running = nullptr; }
 
@@ -98,15 +98,19 @@ struct Run {
   void reportAssertion(const rung_assertion& assertion, const char* expected, const char* actual);
   // The commands that count before this row, and what clients of the monitor ask. False: the run ends.
   bool obey(int64_t row);
+  void print(const Command& command);
   Answer obey(const Command& command);
-  void report(const Changes::Outcome& change, const std::string& location);
-  void followChange();
-  void warnMissing(const char* option, const std::vector<std::string>& paths) const;
-  bool goBack(const Ending& ending);
-  const ShownPaths& paths() const { return changes.paths().empty() ? options.paths : changes.paths(); }
   bool openMonitor(std::string& error);
   bool waitForReset(const Ending& ending, int64_t cycle);
   void keepPace(int64_t cycle);
+  std::optional<Changes::Outcome> change(const Command& command);
+  void report(const std::optional<Changes::Outcome>& change, const std::string& location);
+  void followChange();
+  void warnMissing(const char* option, const std::vector<std::string>& paths) const;
+  bool goBack(const Ending& ending);
+  // Clients of the monitor do not see the program while one holds this.
+  std::unique_lock<std::mutex> holdMonitor() { return monitor ? monitor->hold() : std::unique_lock<std::mutex>(); }
+  const ShownPaths& paths() const { return changes.paths().empty() ? options.paths : changes.paths(); }
   // Statistics of virtual time say something where activations take time.
   bool hasTimes() const {
     const auto& tasks = session.module().tasks;
@@ -274,8 +278,10 @@ bool Run::loadAll(std::string& error) {
 
 bool Run::openMonitor(std::string& error) {
   if (options.monitor.address.empty()) return true;
-  monitor.emplace(session, options, changes, [this](const Command& command) { return obey(command); });
-  changes.setAround([this](const std::function<void()>& act) { monitor->changeProgram(act); });
+  monitor.emplace(
+      session, options, [this](const Command& command) { return obey(command); },
+      [this](const Command& command) { return change(command); },
+      [this]() -> const std::vector<rung_pou_view>& { return changes.pous(); });
   if (!monitor->start(error)) return false;
   fprintf(options.err, "monitor: %s\n", monitor->url().c_str());
   fflush(options.err);
@@ -355,21 +361,12 @@ Answer Run::obey(const Command& command) {
 
 // In real time a flood of commands waits for the next turn, so that the watchdog and the program go on.
 bool Run::obey(int64_t row) {
+  if (!is_faulted) report(changes.attend(), "");
   constexpr int kMostAtOnce = 16;
   Command command;
   std::string error;
-  changes.attend([this](const Changes::Outcome& change) { report(change, ""); });
   for (int turn = 0; !ends && (!options.realtime || turn < kMostAtOnce) && commands.next(row, command, error); ++turn) {
-    if (command.kind == Command::Change) {
-      changes.begin(command, [this, at = command.location](const Changes::Outcome& change) { report(change, at); });
-      continue;
-    }
-    const Answer answer = obey(command);
-    fputs(answer.text.c_str(), options.err);
-    fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
-    if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
-    has_refused = has_refused || !answer.error.empty();
-    if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
+    print(command);
     if (session.isSingleCycle()) return !ends;
   }
   if (!error.empty()) fprintf(options.err, "warning: %s\n", error.c_str());
@@ -377,15 +374,32 @@ bool Run::obey(int64_t row) {
   return !ends;
 }
 
+// Of --control.
+void Run::print(const Command& command) {
+  if (command.kind == Command::Change) return report(change(command), command.location);
+  const Answer answer = obey(command);
+  fputs(answer.text.c_str(), options.err);
+  fputs(answer.values.c_str(), options.trace_path == "-" ? options.err : options.out);
+  if (!answer.error.empty()) fprintf(options.err, "error: %s: %s\n", command.location.c_str(), answer.error.c_str());
+  has_refused = has_refused || !answer.error.empty();
+  if (!answer.warning.empty()) fprintf(options.err, "warning: %s\n", answer.warning.c_str());
+}
+
 // ---- online changes
 
+// Empty: it is made when it is ready.
+std::optional<Changes::Outcome> Run::change(const Command& command) {
+  if (is_faulted) return Changes::Outcome{"", "the program has faulted; `reset` makes it ready to start again"};
+  return changes.begin(command);
+}
+
 // `location`: of the command, empty for files that changed.
-void Run::report(const Changes::Outcome& change, const std::string& location) {
-  const std::string& error = change.report.error;
-  if (!error.empty())
-    fprintf(options.err, "error: %s%s\n", location.empty() ? "" : (location + ": ").c_str(), error.c_str());
-  has_refused = has_refused || !error.empty();
-  fputs(change.report.text().c_str(), options.err);
+void Run::report(const std::optional<Changes::Outcome>& change, const std::string& location) {
+  if (!change || (monitor && monitor->answerChange(*change))) return;
+  if (!change->error.empty())
+    fprintf(options.err, "error: %s%s\n", location.empty() ? "" : (location + ": ").c_str(), change->error.c_str());
+  has_refused = has_refused || !change->error.empty();
+  fputs(change->text.c_str(), options.err);
 }
 
 void Run::warnMissing(const char* option, const std::vector<std::string>& missing) const {
@@ -409,19 +423,17 @@ void Run::followChange() {
   if (retain && !retain->moveTo(session.symbols(), session.memory(), error))
     fprintf(options.err, "warning: %s\n", error.c_str());
   is_reported.assign(session.module().tasks.size(), false);
+  if (monitor) monitor->followChange();
 }
 
 // A version that took over a few cycles ago has faulted.
 bool Run::goBack(const Ending& ending) {
   if (ending.kind != Ending::Faulted || ending.fault.kind == RUNG_FAULT_STOP) return false;
   const std::string what = describe(ending);
-  if (!changes.goBack()) return false;
-  if (monitor) {
-    monitor->noteRollback();
-    monitor->log().addFault(session.nowNs(), session.cyclesDone(), what);
-    monitor->log().addMessage(session.nowNs(), "warning", "the version before goes on after a fault");
-  }
+  const std::unique_lock<std::mutex> held = holdMonitor();
+  if (!session.goBack()) return false;
   fprintf(options.err, "%s\nnote: the version before goes on, with its values of before the change\n", what.c_str());
+  if (monitor) monitor->noteRollback(what);
   return true;
 }
 
@@ -544,10 +556,11 @@ std::optional<int> Run::runCycle(int64_t cycle) {
     ending = session.cycle();
   }
   reportStopped();
-  trace.row(cycle, session.cycleTimeNs(cycle));
+  const int64_t time_ns = session.cycleTimeNs(cycle);
+  trace.row(cycle, time_ns);
   plot.row();
   if (!went_back) session.completeCycle();
-  if (monitor) monitor->completeCycle(cycle, session.cycleTimeNs(cycle));
+  if (monitor) monitor->completeCycle(cycle, time_ns);
   if (retain && session.isIdle()) retain->copy(session.nextRowNs());
   if (stopper->reason() == RUNG_STOP_INTERRUPT) {
     progress->clear();

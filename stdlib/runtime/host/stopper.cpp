@@ -77,14 +77,14 @@ Stopper::~Stopper() {
   context_to_stop = nullptr;
 }
 
-void Stopper::moveTo(rung_context& context) {
-  context.stop = context_to_stop->stop;
-  context_to_stop = &context;
-}
-
 void Stopper::alsoOnTermination() {
   has_termination = true;
   installHandler(SIGTERM, &old_termination);
+}
+
+void Stopper::moveTo(rung_context& context) {
+  context.stop = context_to_stop->stop;
+  context_to_stop = &context;
 }
 
 void Stopper::limitTime(int64_t ns) {

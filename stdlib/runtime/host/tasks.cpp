@@ -42,6 +42,7 @@ Tasks::Tasks(const Symbols& symbols, Memory& memory, Drivers& drivers, Forces& f
       drivers_(drivers),
       forces_(forces),
       exchange_(symbols, memory),
+      scope_(symbols, exchange_),
       tasks_(symbols.module().tasks.size()),
       states_(symbols.module().tasks.size()) {
   const LoadedModule& module = symbols.module();
@@ -163,6 +164,7 @@ bool Tasks::end(Task& task, rung_context& context, int64_t now_ns, int64_t took_
   noteEnd(task, took_ns);
   if (!goes_on) return false;
   applyForces();
+  scope_.sample(task.index, memory_.common(), states_[task.index].last_start_ns);
   exchangeServed();
   noteLost(drivers_.write(task.index, now_ns));
   return true;

@@ -12,6 +12,7 @@
 #include "drivers.h"
 #include "exchange.h"
 #include "forces.h"
+#include "scope.h"
 #include "served_image.h"
 #include "symbols.h"
 
@@ -105,6 +106,7 @@ class Tasks {
   void restart();
 
   Exchange& exchange() { return exchange_; }
+  Scope& scope() { return scope_; }
   const rung_task_state& stateOf(const Task& task) const { return states_[task.index]; }
   // What has become of the tasks, with their statistics; no activation runs.
   void transfer(StateArchive& archive);
@@ -137,6 +139,7 @@ class Tasks {
   Drivers& drivers_;
   Forces& forces_;
   Exchange exchange_;
+  Scope scope_;
   int64_t row_ns_ = 0;
   uint32_t fastest_ = RUNG_NONE;
   std::vector<Task> tasks_;

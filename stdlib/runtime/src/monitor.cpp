@@ -208,17 +208,24 @@ uint32_t rung_text_capacity(const rung_module* module, const rung_variable* vari
   return capacity;
 }
 
-uint32_t rung_read_text(const rung_context* context, const rung_variable* variable, char* text, uint32_t capacity) {
-  const void* const at = rung_address(context, variable);
+uint32_t rung_format_value(const rung_module* module, const rung_variable* variable, const void* value, char* text,
+                           uint32_t capacity) {
   const rung_type& type = *variable->type;
   text[0] = 0;
-  if (at == nullptr || type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD || type.kind > RUNG_POINTER) return 0;
-  if (variable->bit != 255) return copyText(bitOf(at, variable->bit) != 0 ? "TRUE" : "FALSE", text, capacity);
-  if (type.kind == RUNG_ENUM) return formatEnum(*context->module, type, at, text, capacity);
-  if (type.kind == RUNG_POINTER) return formatPointer(at, text, capacity);
+  if (type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD || type.kind > RUNG_POINTER) return 0;
+  if (type.kind == RUNG_ENUM) return formatEnum(*module, type, value, text, capacity);
+  if (type.kind == RUNG_POINTER) return formatPointer(value, text, capacity);
   // Other variables may overlap the final zero of a string.
-  if (isString(type)) return rung_format_string(type.kind, at, type.length, text, capacity);
-  return rung_format(type.kind, type.is_signed != 0, at, text, capacity);
+  if (isString(type)) return rung_format_string(type.kind, value, type.length, text, capacity);
+  return rung_format(type.kind, type.is_signed != 0, value, text, capacity);
+}
+
+uint32_t rung_read_text(const rung_context* context, const rung_variable* variable, char* text, uint32_t capacity) {
+  const void* const at = rung_address(context, variable);
+  text[0] = 0;
+  if (at == nullptr) return 0;
+  const uint8_t bit = variable->bit != 255 ? bitOf(at, variable->bit) : uint8_t{0};
+  return rung_format_value(context->module, variable, variable->bit != 255 ? &bit : at, text, capacity);
 }
 
 rung_access rung_parse_value(const rung_module* module, const rung_variable* variable, const char* text, size_t size,

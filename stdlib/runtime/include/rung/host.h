@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "rung/module.h"
+#include "rung/pou_view.h"
 
 namespace rung::host {
 
@@ -25,32 +26,23 @@ std::string shownPath(const ShownPaths& paths, const std::string& path);
 
 constexpr int64_t kDefaultMaxSteps = 100'000'000;
 
+// How the run is seen and changed by browsers and tools (docs/monitor.md).
+struct MonitorOptions {
+  std::string address;                                   // --monitor [ADDRESS:]PORT; empty: not at all
+  bool is_insecure = false;                              // --monitor-insecure: other machines may reach the address
+  std::string engine = "native";                         // that runs the program: `native` or `interp`
+  std::string version;                                   // of rung; empty: of the one that compiled the module
+  std::vector<rung_pou_view> pous;                       // what is shown of bodies; the rows refer to memory that stays
+  std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
+};
+
 // Another version of the program, for an online change.
 struct NewVersion {
   const rung_module* module = nullptr;
   std::shared_ptr<const void> keeper;  // what the module is part of: it lives while this does
   ShownPaths paths;
-  std::string error;  // why there is no module: a line, and what the compiler says about the project
-};
-
-// The pictures of the program's own POUs, for the monitor, which asks in a thread of its own. Empty: there are none.
-struct Pictures {
-  struct Pou {
-    std::string name, language;
-  };
-  std::function<std::vector<Pou>()> list;
-  // SVG; empty: there is none of this POU.
-  std::function<std::string(const std::string& pou)> draw;
-};
-
-// How the run is seen and changed by browsers and tools (docs/monitor.md).
-struct MonitorOptions {
-  std::string address;            // --monitor [ADDRESS:]PORT; empty: not at all
-  bool is_insecure = false;       // --monitor-insecure: other machines may reach the address
-  std::string engine = "native";  // that runs the program: `native` or `interp`
-  std::string version;            // of rung; empty: of the one that compiled the module
-  Pictures pictures;
-  std::function<void(const std::string& url)> on_start;  // it serves at this URL; may be empty
+  std::vector<rung_pou_view> pous;  // of MonitorOptions; they live as long as `keeper`
+  std::string error;                // why there is no module: a line, and what the compiler says about the project
 };
 
 struct ChangeOptions {
@@ -146,8 +138,9 @@ int reportTests(const TestResults& results, const TestOptions& options);
 // Writes only the JUnit file. Returns an error message, or an empty string.
 std::string writeJunit(const TestResults& results, const std::string& path, std::FILE* out);
 
-// main() of an executable made by `rung build`: the options of `rung run` on its own command line.
-int applicationMain(const rung_module& module, int argc, char** argv);
+// main() of an executable made by `rung build`: the options of `rung run` on its own command line. `pous`: what
+// its monitor shows, up to an empty row; null: nothing.
+int applicationMain(const rung_module& module, int argc, char** argv, const rung_pou_view* pous = nullptr);
 
 // For a handler of SIGSEGV and SIGBUS: does not return when the program's code accessed invalid memory or nested calls
 // too deep; the program gets a fault then. `details`: ucontext_t. applicationMain has a handler.

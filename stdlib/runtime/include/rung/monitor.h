@@ -95,7 +95,10 @@ rung_access rung_is_writable(const rung_variable* variable);
 /* The value as the trace prints it; enumerations by name. Cuts at `capacity` characters, ends with NUL (`text` has
  * capacity + 1 bytes), returns the length. Empty: arrays and records, and where a pointer on the path is null. */
 uint32_t rung_read_text(const rung_context* context, const rung_variable* variable, char* text, uint32_t capacity);
-/* The characters that rung_read_text may need. */
+/* The same of a value that rung_read_value gave. */
+uint32_t rung_format_value(const rung_module* module, const rung_variable* variable, const void* value, char* text,
+                           uint32_t capacity);
+/* The characters that both may need. */
 uint32_t rung_text_capacity(const rung_module* module, const rung_variable* variable);
 
 /* Writes what a text says: what rung_read_text gives, or any literal of the language. */
