@@ -174,7 +174,8 @@ int change(const Call& call) {
   report.kept = static_cast<uint32_t>(answer.value["kept"].integer());
   read("initialised", report.initialised);
   read("refused", report.refused);
-  for (const Json& path : answer.value["removed"].items()) report.removed.push_back({std::string(path.text()), ""});
+  for (const Json& path : answer.value["removed"].items())
+    report.removed.push_back({std::string(path.text()), "the program does not have it any more"});
   if (answer.error.empty()) return driver::printResult(call.sink, report.text());
   call.sink.message(report.text());
   if (const std::string_view said = answer.value["diagnostics"].text(); !said.empty())
