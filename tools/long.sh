@@ -213,7 +213,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename changes forces monitor modifiers bodies mutation profiles cams kills tsan service
+all=(differential networks mutants frames snapshots rename changes forces monitor page modifiers bodies mutation profiles cams kills tsan service
      lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

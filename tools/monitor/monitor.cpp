@@ -160,7 +160,7 @@ Json changeOf(const std::string& text) {
   return body;
 }
 
-// What it says is that of `change` by --control.
+// Prints what `change` of --control prints.
 int change(const Call& call) {
   constexpr int64_t kPatienceMs = 600'000;
   call.client.setPatience(kPatienceMs);

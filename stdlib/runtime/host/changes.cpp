@@ -4,6 +4,8 @@
 
 #include <dlfcn.h>
 
+#include <utility>
+
 #include "clock.h"
 
 namespace rung::host {
@@ -33,8 +35,8 @@ std::optional<Changes::Outcome> Changes::begin(const Command& command) {
   command_ = command;
   if (command_.rollback_cycles < 0) command_.rollback_cycles = options_.change.rollback_cycles;
   const std::string name = session_.module().description.name, project = command.project;
-  const auto compile =
-      options_.change.compile ? options_.change.compile : [name](const std::string& path) { return loadLibrary(name, path); };
+  const auto compile = options_.change.compile ? options_.change.compile
+                                               : [name](const std::string& path) { return loadLibrary(name, path); };
   if (!options_.realtime && options_.monitor.address.empty()) return make(compile(project));
   compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
   return std::nullopt;
@@ -56,12 +58,15 @@ Changes::Outcome Changes::make(const NewVersion& version) {
   const std::unique_lock<std::mutex> held = guard_();
   const ChangeReport report =
       session_.change({version.module, version.keeper, ""}, command_.is_only_asked, command_.rollback_cycles);
-  if (report.error.empty() && !command_.is_only_asked) {
-    paths_ = version.paths;
-    pous_ = version.pous;
-    keeper_ = version.keeper;
-  }
+  if (report.error.empty() && !command_.is_only_asked)
+    before_ = std::exchange(shown_, Shown{version.paths, version.pous, version.keeper});
   return {report.text(), report.error, true, report};
+}
+
+bool Changes::goBack() {
+  if (!session_.goBack()) return false;
+  shown_ = std::exchange(before_, {});
+  return true;
 }
 
 }  // namespace rung::host

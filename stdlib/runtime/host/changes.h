@@ -32,10 +32,12 @@ class Changes {
   // Makes the change that is ready, or begins one because files have changed. Called now and then; quick where there is
   // nothing to do.
   std::optional<Outcome> attend();
+  // The version before goes on, where Session::goBack lets it.
+  bool goBack();
   // The paths of the version that runs, as messages show them; empty: those of the options.
-  const ShownPaths& paths() const { return paths_; }
+  const ShownPaths& paths() const { return shown_.paths; }
   // Its bodies, for the monitor; asked where no other version can take over.
-  const std::vector<rung_pou_view>& pous() const { return keeper_ ? pous_ : options_.monitor.pous; }
+  const std::vector<rung_pou_view>& pous() const { return shown_.keeper ? shown_.pous : options_.monitor.pous; }
 
  private:
   Outcome make(const NewVersion& version);
@@ -46,9 +48,13 @@ class Changes {
   Command command_;  // that has begun
   std::future<NewVersion> compiling_;
   int64_t next_look_ns_ = 0;  // at the files
-  ShownPaths paths_;
-  std::vector<rung_pou_view> pous_;
-  std::shared_ptr<const void> keeper_;  // of them
+  // What is shown of the version that runs, and of the one before.
+  struct Shown {
+    ShownPaths paths;
+    std::vector<rung_pou_view> pous;
+    std::shared_ptr<const void> keeper;  // of them; null: they are those of the options
+  };
+  Shown shown_, before_;
 };
 
 }  // namespace rung::host

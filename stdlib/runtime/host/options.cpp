@@ -80,7 +80,8 @@ std::string readTime(const char* option, const char* example, const std::string&
 }
 
 std::string setRollback(const std::string& value, RunOptions& options) {
-  return readCount(value, options.change.rollback_cycles) ? "" : "--rollback needs a number of cycles, not `" + value + "`";
+  return readCount(value, options.change.rollback_cycles) ? ""
+                                                          : "--rollback needs a number of cycles, not `" + value + "`";
 }
 
 template <std::string RunOptions::*option>

@@ -389,7 +389,8 @@ void Run::print(const Command& command) {
 
 // Empty: it is made when it is ready.
 std::optional<Changes::Outcome> Run::change(const Command& command) {
-  if (is_faulted) return Changes::Outcome{"", "the program has faulted; `reset` makes it ready to start again"};
+  if (is_faulted)
+    return Changes::Outcome{"", "the program has faulted; `reset` makes it ready to start again", true, {}};
   return changes.begin(command);
 }
 
@@ -431,7 +432,7 @@ bool Run::goBack(const Ending& ending) {
   if (ending.kind != Ending::Faulted || ending.fault.kind == RUNG_FAULT_STOP) return false;
   const std::string what = describe(ending);
   const std::unique_lock<std::mutex> held = holdMonitor();
-  if (!session.goBack()) return false;
+  if (!changes.goBack()) return false;
   fprintf(options.err, "%s\nnote: the version before goes on, with its values of before the change\n", what.c_str());
   if (monitor) monitor->noteRollback(what);
   return true;
