@@ -109,7 +109,7 @@ TEST(Options, HelpFitsAScreen) {
       lines += c == '\n';
       widest = std::max(widest, column);
     }
-    EXPECT_LE(lines, 52u) << help;
+    EXPECT_LE(lines, 58u) << help;
     EXPECT_LE(widest, 110u) << help;
   }
   EXPECT_TRUE(parsed({"run", "--help"}).help);
