@@ -15,7 +15,7 @@
 namespace rung::ide {
 namespace {
 
-std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"; }
+std::string asCode(std::string_view name) { return "`" + std::string(name) + "`"; }
 
 // The language uses them because of their names.
 constexpr std::array<std::string_view, 3> kKnownNames = {"FB_Init", "FB_Reinit", "FB_Exit"};
@@ -43,7 +43,7 @@ bool isOfLibrary(const View& view, const FileRange& declaration) {
 
 // Why what is declared there cannot have another name.
 std::string refusalOf(const View& view, const Target& target) {
-  const std::string name = quoted(target.renamable.name);
+  const std::string name = asCode(target.renamable.name);
   bool is_declared = false;
   for (const Reference& reference : target.references) {
     if (!reference.is_declaration) continue;
@@ -77,10 +77,10 @@ Target targetAt(const View& view, FileId file, uint32_t byte) {
 
 std::string refusalOfNewName(const std::string& name) {
   if (!isIdentifier(name))
-    return quoted(name) + " is not an identifier; write letters, digits and single `_`, and a letter or `_` first";
+    return asCode(name) + " is not an identifier; write letters, digits and single `_`, and a letter or `_` first";
   if (const WordKind kind = kindOfWord(name); kind == WordKind::Keyword || kind == WordKind::Type)
-    return quoted(name) + " is a keyword";
-  return isKnownName(name) ? quoted(name) + " would have a meaning because of its name" : std::string();
+    return asCode(name) + " is a keyword";
+  return isKnownName(name) ? asCode(name) + " would have a meaning because of its name" : std::string();
 }
 
 bool hasWord(std::string_view text, std::string_view word) {
@@ -151,7 +151,7 @@ Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::strin
   if (!renaming.refusal.empty()) return renaming;
   const NameChange change{target.renamable.name, new_name};
   if (const std::string pou = bodyInCpp(view, target.declarations, change); !pou.empty()) {
-    renaming.refusal = quoted(change.from) + " or " + quoted(change.to) + " is used in the C++ body of " + quoted(pou);
+    renaming.refusal = asCode(change.from) + " or " + asCode(change.to) + " is used in the C++ body of " + asCode(pou);
     return renaming;
   }
   std::vector<TextEdit> edits;
@@ -162,7 +162,7 @@ Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::strin
   }
   const Edits sorted(std::move(edits));
   if (const std::string conflict = conflictOf(view, target, sorted, change, trial); !conflict.empty()) {
-    renaming.refusal = quoted(change.from) + " cannot become " + quoted(change.to) + ": " + conflict;
+    renaming.refusal = asCode(change.from) + " cannot become " + asCode(change.to) + ": " + conflict;
     return renaming;
   }
   // Only now: for the trial all files have the names that they have.

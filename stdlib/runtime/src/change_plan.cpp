@@ -454,14 +454,16 @@ class Planner {
       holdInFields(old_index, now_index, from.at(i * type.size), to.at(i * type.size));
   }
 
-  void holdInFields(uint32_t old_index, uint32_t now_index, Place from, Place to) {
+  // `is_base`: the record is the base of an object, whose class is that of the whole.
+  void holdInFields(uint32_t old_index, uint32_t now_index, Place from, Place to, bool is_base = false) {
     const rung_type &was = oldType(old_index), &is = nowType(now_index);
-    if (classOf(old_, old_index) != classOf(now_, now_index)) holdClass(now_index, from, to);
+    const uint32_t number = classOf(old_, old_index);
+    if (!is_base && number != classOf(now_, now_index)) holdClass(now_index, from, to);
     for (uint32_t i = 0; i < was.count; ++i) {
       const rung_field &before = fieldOf(old_, was, i), &field = fieldOf(now_, is, i);
       const Place there = from.at(before.offset), here = to.at(field.offset);
-      if ((before.flags & RUNG_FIELD_BASE) != 0 && classOf(old_, old_index) != 0)
-        holdInBase(before.type, field.type, there, here);
+      if ((before.flags & RUNG_FIELD_BASE) != 0 && (is_base || number != 0))
+        holdInFields(before.type, field.type, there, here, true);
       else if ((before.flags & RUNG_FIELD_BY_REFERENCE) != 0)
         hold({RUNG_HOLDS_POINTER, there.memory, there.offset, here.memory, here.offset, 1, 0, before.type});
       else
@@ -469,21 +471,7 @@ class Planner {
     }
   }
 
-  // The number of the class lies in the outermost base, and is that of the whole.
-  void holdInBase(uint32_t old_index, uint32_t now_index, Place from, Place to) {
-    const rung_type &was = oldType(old_index), &is = nowType(now_index);
-    for (uint32_t i = 0; i < was.count; ++i) {
-      const rung_field &before = fieldOf(old_, was, i), &field = fieldOf(now_, is, i);
-      const Place there = from.at(before.offset), here = to.at(field.offset);
-      if ((before.flags & RUNG_FIELD_BASE) != 0)
-        holdInBase(before.type, field.type, there, here);
-      else if ((before.flags & RUNG_FIELD_BY_REFERENCE) != 0)
-        hold({RUNG_HOLDS_POINTER, there.memory, there.offset, here.memory, here.offset, 1, 0, before.type});
-      else
-        holdIn(before.type, field.type, there, here);
-    }
-  }
-
+  // The number of the class lies in the outermost base.
   void holdClass(uint32_t now_index, Place from, Place to) {
     Place there = from, here = to;
     const rung_type& type = nowType(now_index);
