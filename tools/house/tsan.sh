@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The bundled host under ThreadSanitizer: compiles it with -fsanitize=thread and runs the programs with several tasks in
 # tools/house/tsan in real time, with tasks that take turns and, where permitted, with SCHED_FIFO. The code of the
-# programs is not instrumented: plain globals are shared without order by design (docs/language.md). Called by
-# tools/long.sh.
+# programs is not instrumented: plain globals are shared without order by design (docs/language.md). A version with the
+# same text takes over twice while they run. Called by tools/long.sh.
 #   tools/house/tsan.sh [NAME]      only tsan/NAME
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
@@ -13,8 +13,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 runtime=$here/stdlib/runtime
 mkdir "$folder/host"
-flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime -I $runtime/host -I $here/stdlib/nct -I $here"
-ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp "$here"/stdlib/nct/control/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
+flags="-std=c++17 -O1 -g -fsanitize=thread -I $runtime/include -I $runtime -I $runtime/host -I $here/stdlib/nct -I $here -I $lib/../stdlib/runtime/embedded"
+ls "$runtime"/src/*.cpp "$runtime"/host/*.cpp "$runtime"/host/modules/*.cpp "$here"/stdlib/nct/control/*.cpp "$lib"/../stdlib/runtime/embedded/*.cpp | xargs -P "$(nproc)" -I{} sh -c \
   'g++ '"$flags"' -c {} -o '"$folder"'/host/$(basename $(dirname {}))_$(basename {} .cpp).o'
 gcc -std=c99 -shared -fPIC -I "$runtime/include" "$here/tests/programs/tasks/log_driver.c" -o "$folder/log.so"
 cat > "$folder/main.cpp" <<'END'
@@ -35,7 +35,8 @@ for program in "$here"/tools/house/tsan/${1:-*}.st "$here"/tools/house/tsan/${1:
     commands=$folder/commands.txt
   fi
   options=$(sed -n 's,^// options: ,,p' "$program")
-  "$rung" emit "$program" --name plant -Wno-all -o "$folder/$name" > /dev/null
+  "$rung" emit "$program" --name plant --online-change -Wno-all -o "$folder/$name" > /dev/null
+  "$rung" build "$program" --name plant --online-change --shared -Wno-all -o "$folder/next.so" > /dev/null
   ls "$folder/$name"/*.cpp | xargs -P "$(nproc)" -I{} g++ -std=c++17 -O1 -I "$runtime/include" -I "$folder/$name" -c {} -o {}.o
   g++ $flags "$folder/main.cpp" "$folder/$name"/*.o "$folder"/host/*.o "$lib"/librung_runtime.a -lpthread -ldl -o "$folder/$name/app"
   for rights in with without; do

@@ -45,7 +45,7 @@ sigset_t endingSignals() {
 thread_local Realtime::Place Realtime::place_{};
 
 Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
-                   const Realtime* before)
+                   Realtime* before)
     : tasks_(tasks), options_(options), hooks_(hooks), common_(context), before_(before) {
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
@@ -252,6 +252,7 @@ void Realtime::createWorkers() {
     workers_.push_back(std::move(worker));
   }
   if (before_ == nullptr) return;
+  const std::unique_lock<std::mutex> resting = before_->rest();
   start_ns_ = before_->start_ns_;
   first_row_ = before_->rows_done_.load();
   rows_done_.store(first_row_);

@@ -50,7 +50,7 @@ class Realtime {
  public:
   // `before`: the threads of the version before, whose grid of time and whose rows go on.
   Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
-           const Realtime* before = nullptr);
+           Realtime* before = nullptr);
   ~Realtime();
   Realtime(const Realtime&) = delete;
   Realtime& operator=(const Realtime&) = delete;
@@ -139,7 +139,7 @@ class Realtime {
   uint32_t resources_ = 1;
   int64_t tick_ns_ = 1'000'000;
   int64_t start_ns_ = 0;
-  const Realtime* const before_;  // until the threads run
+  Realtime* const before_;  // until the threads run
   int64_t first_row_ = 0;
   bool is_left_ = false;  // guarded by activity_
 

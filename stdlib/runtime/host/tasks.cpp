@@ -198,7 +198,8 @@ const Task* Tasks::find(const std::string& name) const {
   return found == tasks_.end() ? nullptr : &*found;
 }
 
-void Tasks::goOnFrom(const Tasks& before) {
+void Tasks::goOnFrom(Tasks& before) {
+  const std::lock_guard<Exchange> lock(before.exchange_);  // starts that were dropped may be counted meanwhile
   for (Task& task : tasks_) {
     const Task* const was = before.find(nameOf(task));
     if (was == nullptr) continue;

@@ -101,7 +101,7 @@ class Tasks {
   // As at power on: no task has run.
   void switchOn();
   // What has become of the tasks with the same names in the version before.
-  void goOnFrom(const Tasks& before);
+  void goOnFrom(Tasks& before);
   // After a reset: tasks that a fault stopped run again.
   void restart();
 
