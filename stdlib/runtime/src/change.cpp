@@ -4,6 +4,7 @@
 // new ones, and the copied instances are told (FB_Reinit); CODESYS, "Methods FB_Init, FB_Reinit, FB_Exit".
 #include "places.h"
 #include "rung/monitor.h"
+#include "text.h"
 
 using namespace rung_change_detail;
 
@@ -44,12 +45,41 @@ bool isKept(const rung_change& plan, uint32_t old_block) {
 
 // ---- where an old place is in the new version
 
-// The new place of an instance at an old one; of several that begin there, that of this type (RUNG_NONE: the first).
+// Tells whether a record is of this type, or extends it.
+bool isKindOf(const rung_module& module, uint32_t record, uint32_t type) {
+  while (record != type) {
+    const rung_type& is = *rung_type_at(&module, record);
+    record = RUNG_NONE;
+    for (uint32_t i = 0; i < is.count && record == RUNG_NONE; ++i)
+      if ((fieldOf(module, is, i).flags & RUNG_FIELD_BASE) != 0) record = fieldOf(module, is, i).type;
+    if (record == RUNG_NONE) return false;
+  }
+  return true;
+}
+
+// The record of the new version with the same name; RUNG_NONE: none.
+uint32_t namesakeOf(const rung_change& plan, uint32_t record) {
+  const char* const name = plan.old_module->strings + rung_type_at(plan.old_module, record)->name;
+  for (uint32_t i = 0; i < plan.module->types.count; ++i) {
+    const rung_type& type = *rung_type_at(plan.module, i);
+    if (type.kind == RUNG_RECORD && rung_equal_names(name, strlen(name), plan.module->strings + type.name)) return i;
+  }
+  return RUNG_NONE;
+}
+
+// Tells whether an instance that moves is of this type, or extends it, in both versions.
+bool staysKindOf(const rung_change& plan, uint32_t record, uint32_t type) {
+  if (!isKindOf(*plan.old_module, record, type)) return false;
+  const uint32_t now = namesakeOf(plan, record), wanted = namesakeOf(plan, type);
+  return now != RUNG_NONE && wanted != RUNG_NONE && isKindOf(*plan.module, now, wanted);
+}
+
+// The new place of the instance at an old one, of several that begin there the one of this type, or that extends it.
 Place movedInstance(const rung_change& plan, Place place, uint32_t type) {
   for (uint32_t i = 0; i < plan.move_count; ++i) {
     const rung_move& row = plan.moves[i];
     if (row.size == 0 && row.from == place.memory && row.from_offset == place.offset &&
-        (type == RUNG_NONE || row.type == type))
+        staysKindOf(plan, row.type, type))
       return {row.to, row.to_offset};
   }
   return {RUNG_NONE, 0};
@@ -76,19 +106,23 @@ uint32_t typeOfObject(const Change& change, Place place) {
   return *static_cast<const uint32_t*>(rung_row(&classes, number - 1));
 }
 
-// The new place of what a pointer with this target points to; RUNG_NONE: it has none, or it is not clear which.
+// An interface has nothing but the number of an object's class.
+bool isInterface(const rung_module& module, const rung_type& type) {
+  return type.kind == RUNG_RECORD && type.count == 1 &&
+         strcmp(module.strings + fieldOf(module, type, 0).name, "__type") == 0;
+}
+
+// The new place of what a pointer with this target points to; RUNG_NONE: it has none.
 Place movedTarget(const Change& change, Place place, uint32_t target) {
   const rung_change& plan = change.plan;
-  if (Place found = movedInstance(plan, place, target); found.memory != RUNG_NONE) return found;
-  const bool is_record = rung_type_at(plan.old_module, target)->kind == RUNG_RECORD;
-  const uint32_t object = is_record ? typeOfObject(change, place) : RUNG_NONE;
-  if (object != RUNG_NONE)
-    if (const Place found = movedInstance(plan, place, object); found.memory != RUNG_NONE) return found;
-  const Place instance = movedInstance(plan, place, RUNG_NONE), value = movedValue(plan, place);
-  if (value.memory == RUNG_NONE) return is_record ? instance : Place{RUNG_NONE, 0};
-  const bool is_clear = instance.memory == RUNG_NONE || !is_record ||
-                        (instance.memory == value.memory && instance.offset == value.offset);
-  return is_clear ? value : Place{RUNG_NONE, 0};
+  const rung_type& type = *rung_type_at(plan.old_module, target);
+  if (type.kind == RUNG_RECORD)
+    if (const Place found = movedInstance(plan, place, target); found.memory != RUNG_NONE) return found;
+  if (isInterface(*plan.old_module, type)) {
+    const uint32_t object = typeOfObject(change, place);
+    if (object != RUNG_NONE) return movedInstance(plan, place, object);
+  }
+  return movedValue(plan, place);
 }
 
 enum class Fate : uint8_t { Stays, Moves, Lost };
