@@ -17,6 +17,26 @@ CHANGE = 6  # the cycle before which the change is made; even: the slower task b
 CYCLES = 4  # that are compared after it
 
 
+class Holder:
+    """A variable of Main that holds an address."""
+
+    def __init__(self, kind, target, set_to, is_empty, use):
+        self.kind, self.target, self.set_to, self.is_empty, self.use = kind, target, set_to, is_empty, use
+
+
+HOLDERS = {
+    "to_int": Holder("POINTER TO INT", "INT", "to_int := ADR(%s)", "to_int = 0", "to_int^ := to_int^ + 10;"),
+    "to_pair": Holder("POINTER TO Pair", "Pair", "to_pair := ADR(%s)", "to_pair = 0", "met := to_pair = ADR(%s);"),
+    "to_base": Holder("POINTER TO Base", "Base", "to_base := ADR(%s)", "to_base = 0", "sum := to_base^.Sum();"),
+    "itf": Holder("INamed", "Base", "itf := %s", "itf = 0", "name_sum := itf.Sum();"),
+    "ref": Holder("REFERENCE TO REAL", "REAL", "ref REF= %s", "NOT __ISVALIDREF(ref)", "ref := ref + 0.5;"),
+}
+
+
+def places_of(variable):
+    return ["[%d]" % i for i in range(variable.low, variable.high + 1)] if variable.is_array else [""]
+
+
 class Variable:
     def __init__(self, name, kind, low=0, high=0, initial=""):
         self.name, self.kind, self.low, self.high, self.initial = name, kind, low, high, initial
@@ -52,18 +72,17 @@ class Model:
         self.units += [Unit("FUNCTION_BLOCK", "Base"), Unit("FUNCTION_BLOCK", "Pump", "Base"),
                        Unit("FUNCTION_BLOCK", "Valve")]
         self.units += [Unit("GLOBALS", ""), Unit("PROGRAM", "Main"), Unit("PROGRAM", "Second")]
-        self.pointer = None  # the variable of Main to which `Main.target` points, an INT
-        self.object = None  # and `Main.object`, an instance of Base or of what extends it
+        self.targets = {}  # what the pointers of Main point to, as paths in Main, by the names of HOLDERS
         for unit in self.units:
             for _ in range(generator.randint(2, 4)):
                 self.add_variable(unit)
-        if generator.random() < 0.7:
+        for _ in range(generator.randint(0, 5)):
             self.point(None)
 
     def copy(self):
         model = Model.__new__(Model)
         model.random, model.next_name = self.random, self.next_name
-        model.pointer, model.object = self.pointer, self.object
+        model.targets = dict(self.targets)
         model.units = [unit.copy() for unit in self.units]
         return model
 
@@ -95,7 +114,7 @@ class Model:
         unit = self.random.choice(self.units)
         getattr(self, self.random.choice(
             ["add_variable", "add_variable", "remove", "rename", "retype", "bounds", "reorder", "rebase", "body", "body",
-             "add_block", "point", "point", "initial"]))(unit)
+             "add_block", "point", "initial"]))(unit)
 
     def some(self, unit):
         return self.random.choice(unit.variables) if unit.variables else None
@@ -144,37 +163,42 @@ class Model:
         self.add_variable(unit)
         self.add_variable(self.unit("Main"))
 
+    # One of the pointers gets another target, a variable or an element of an array.
     def point(self, _):
-        main = self.unit("Main")
-        for kind in "INT", "Base":
-            if not any(v.kind == kind and not v.is_array for v in main.variables):
-                self.next_name += 1
-                main.variables.append(Variable("v%d" % self.next_name, kind))
-        self.pointer = self.random.choice([v.name for v in main.variables if v.kind == "INT" and not v.is_array])
-        self.object = self.random.choice([v.name for v in main.variables if self.is_base(v)])
+        holder, main = self.random.choice(list(HOLDERS)), self.unit("Main")
+        wanted = HOLDERS[holder].target
+        if not any(v.kind == wanted for v in main.variables):
+            self.next_name += 1
+            main.variables.append(Variable("v%d" % self.next_name, wanted))
+        paths = [v.name + place for v in main.variables for place in places_of(v) if self.is_target(holder, v.kind)]
+        self.targets[holder] = self.random.choice(paths)
 
-    def is_base(self, variable):
-        at = self.unit(variable.kind)
+    # Whether a pointer may point to a variable of this type.
+    def is_target(self, holder, kind):
+        wanted = HOLDERS[holder].target
+        if wanted != "Base":
+            return kind == wanted
+        at = self.unit(kind)
         while at is not None and at.name != "Base":
             at = self.unit(at.base) if at.base else None
-        return at is not None and not variable.is_array
+        return at is not None
 
-    # The variables to which the pointers of Main point once it has run.
-    def target(self):
-        is_there = any(v.name == self.pointer and v.kind == "INT" and not v.is_array
-                       for v in self.unit("Main").variables)
-        return self.pointer if is_there else None
-
-    def base(self):
-        is_there = any(v.name == self.object and self.is_base(v) for v in self.unit("Main").variables)
-        return self.object if is_there else None
+    # The target of a pointer once Main has run, and its type; None: there is none.
+    def target(self, holder):
+        path = self.targets.get(holder)
+        for v in self.unit("Main").variables:
+            for place in places_of(v):
+                if v.name + place == path and self.is_target(holder, v.kind):
+                    return path, v.kind, v.is_array
+        return None
 
     # ---- text
 
     # `faults`: the program divides by zero in its second activation.
     def source(self, faults=False):
         self.faults = faults
-        lines = ["TYPE Color : (Red, Green, Blue); END_TYPE"]
+        lines = ["TYPE Color : (Red, Green, Blue); END_TYPE",
+                 "INTERFACE INamed", "METHOD Sum : DINT", "END_METHOD", "END_INTERFACE"]
         for unit in self.units:
             if unit.what == "STRUCT":
                 lines += ["TYPE %s : STRUCT" % unit.name] + [v.text() for v in unit.variables] + ["END_STRUCT END_TYPE"]
@@ -189,24 +213,27 @@ class Model:
 
     def block(self, unit):
         is_block = unit.what == "FUNCTION_BLOCK"
-        lines = ["%s %s%s" % (unit.what, unit.name, " EXTENDS " + unit.base if unit.base else "")]
+        lines = ["%s %s%s%s" % (unit.what, unit.name, " EXTENDS " + unit.base if unit.base else "",
+                                " IMPLEMENTS INamed" if unit.name == "Base" else "")]
         lines += ["VAR"] + [v.text() for v in unit.variables]
         if unit.name == "Main":
-            lines.append("  mark : BYTE; target : POINTER TO INT; object : POINTER TO Base; sum : DINT;")
+            lines.append("  mark : BYTE; sum, name_sum : DINT; met : BOOL;")
+            lines += ["  %s : %s;" % (name, holder.kind) for name, holder in HOLDERS.items()]
             if self.faults:
                 lines.append("  activations, zero : DINT;")
         lines.append("END_VAR")
         if is_block:
             lines += ["METHOD Sum : DINT", "Sum := %d;" % unit.step, "END_METHOD"]
-        if unit.name == "Main" and self.target():
-            lines.append("IF target = 0 THEN target := ADR(%s); END_IF" % self.target())
-        if unit.name == "Main" and self.base():
-            lines.append("IF object = 0 THEN object := ADR(%s); END_IF" % self.base())
+        if unit.name == "Main":
+            lines += ["IF %s THEN %s; END_IF" % (holder.is_empty, holder.set_to % self.target(name)[0])
+                      for name, holder in HOLDERS.items() if self.target(name)]
         for v in unit.variables:
             lines += self.statement(v, unit.step)
         if unit.name == "Main":
-            lines.append("IF object <> 0 THEN sum := object^.Sum(); END_IF")
-            lines.append("IF target <> 0 THEN target^ := target^ + 10; END_IF")
+            for name, holder in HOLDERS.items():
+                if self.target(name):
+                    use = holder.use % self.target(name)[0] if "%s" in holder.use else holder.use
+                    lines.append("IF NOT (%s) THEN %s END_IF" % (holder.is_empty, use))
             if self.faults:
                 lines.append("IF activations > 0 THEN zero := 1 / zero; END_IF activations := activations + 1;")
         return lines + ["END_" + unit.what]
@@ -232,15 +259,15 @@ class Model:
                 self.collect(unit, "", (), found)
             elif unit.what == "PROGRAM":
                 self.collect(unit, unit.name + ".", (unit.name,), found)
-        found["Main.sum"] = ("Main", "", "DINT")
+        found.update({"Main.sum": ("Main", "", "DINT"), "Main.name_sum": ("Main", "", "DINT"),
+                      "Main.met": ("Main", "", "BOOL")})
         return found
 
     def collect(self, unit, path, kinds, found):
         if unit.base:
             self.collect(self.unit(unit.base), path, kinds, found)
         for v in unit.variables:
-            places = ["[%d]" % i for i in range(v.low, v.high + 1)] if v.is_array else [""]
-            for place in places:
+            for place in places_of(v):
                 here = kinds + (("ARRAY" if v.is_array else ""), v.kind)
                 if v.kind in INITIAL:
                     found[path + v.name + place] = here
@@ -325,18 +352,18 @@ class Edit:
         if wrong:
             self.fail(what, *["%s: expected %s, got %s" % (path, *both) for path, both in sorted(wrong.items())])
 
-    # The change loses what a pointer of Main points to.
+    # The change loses what a pointer of Main points to: it has another type, or does not extend Base any more.
     def loses_target(self):
-        kinds_before = {v.name: (v.kind, v.is_array) for v in self.old.unit("Main").variables}
-        kinds_after = {v.name: (v.kind, v.is_array) for v in self.new.unit("Main").variables}
-        targets = [name for name in (self.old.target(), self.old.base()) if name]
-        return any(kinds_before[name] != kinds_after.get(name) for name in targets) or self.loses_base()
+        return any(self.loses(holder) for holder in HOLDERS)
 
-    # A block that does not extend Base any more has no part that its pointer can point to.
-    def loses_base(self):
-        name = self.old.base()
-        variable = next((v for v in self.new.unit("Main").variables if v.name == name), None)
-        return variable is not None and not self.new.is_base(variable)
+    def loses(self, holder):
+        before = self.old.target(holder)
+        if before is None:
+            return False
+        path, kind, is_array = before
+        return not any(v.name + place == path and (v.kind, v.is_array) == (kind, is_array) and
+                       (holder == "itf" or self.new.is_target(holder, kind))
+                       for v in self.new.unit("Main").variables for place in places_of(v))
 
     def run(self):
         old_leaves, new_leaves = self.old.leaves(), self.new.leaves()
@@ -357,7 +384,7 @@ class Edit:
         self.compare_values(groups[0], groups[1])
         if self.faults:
             return self.expect("after the fault", groups[0], groups[3])
-        if self.old.target() == self.new.target() and self.old.base() == self.new.base():
+        if all(self.old.target(holder) == self.new.target(holder) for holder in HOLDERS):
             self.compare_runs(groups)
 
     def compare_values(self, before, after):

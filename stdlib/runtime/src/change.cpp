@@ -85,11 +85,19 @@ Place movedInstance(const rung_change& plan, Place place, uint32_t type) {
   return {RUNG_NONE, 0};
 }
 
-Place movedValue(const rung_change& plan, Place place) {
+// Tells whether instances or structures lie in values of this type.
+bool holdsRecords(const rung_module& module, uint32_t type) {
+  while (type != RUNG_NONE && rung_type_at(&module, type)->kind == RUNG_ARRAY)
+    type = rung_type_at(&module, type)->element;
+  return type != RUNG_NONE && rung_type_at(&module, type)->kind == RUNG_RECORD;
+}
+
+// The new place of a byte that is copied; for a record only where records are copied as they are.
+Place movedValue(const rung_change& plan, Place place, bool is_record) {
   for (uint32_t i = 0; i < plan.move_count; ++i) {
     const rung_move& row = plan.moves[i];
     if (row.size != 0 && row.from == place.memory && row.from_bit == kNoBit && place.offset >= row.from_offset &&
-        place.offset - row.from_offset < row.size)
+        place.offset - row.from_offset < row.size && (!is_record || holdsRecords(*plan.old_module, row.type)))
       return {row.to, row.to_offset + (place.offset - row.from_offset)};
   }
   return {RUNG_NONE, 0};
@@ -116,13 +124,10 @@ bool isInterface(const rung_module& module, const rung_type& type) {
 Place movedTarget(const Change& change, Place place, uint32_t target) {
   const rung_change& plan = change.plan;
   const rung_type& type = *rung_type_at(plan.old_module, target);
-  if (type.kind == RUNG_RECORD)
-    if (const Place found = movedInstance(plan, place, target); found.memory != RUNG_NONE) return found;
-  if (isInterface(*plan.old_module, type)) {
-    const uint32_t object = typeOfObject(change, place);
-    if (object != RUNG_NONE) return movedInstance(plan, place, object);
-  }
-  return movedValue(plan, place);
+  const bool is_record = type.kind == RUNG_RECORD;
+  const uint32_t instance = isInterface(*plan.old_module, type) ? typeOfObject(change, place) : target;
+  const Place found = is_record && instance != RUNG_NONE ? movedInstance(plan, place, instance) : Place{RUNG_NONE, 0};
+  return found.memory != RUNG_NONE ? found : movedValue(plan, place, is_record);
 }
 
 enum class Fate : uint8_t { Stays, Moves, Lost };

@@ -144,8 +144,8 @@ class Planner {
     if (plan_.move_count < plan_.move_capacity) plan_.moves[plan_.move_count] = row;
     ++plan_.move_count;
   }
-  void moveBytes(Place from, Place to, uint64_t size) {
-    move({from.memory, from.offset, to.memory, to.offset, static_cast<uint32_t>(size), RUNG_NONE, kNoBit, kNoBit});
+  void moveBytes(uint32_t old_index, Place from, Place to, uint64_t size) {
+    move({from.memory, from.offset, to.memory, to.offset, static_cast<uint32_t>(size), old_index, kNoBit, kNoBit});
   }
   void hold(const rung_holder& row) {
     if (plan_.holder_count < plan_.holder_capacity) plan_.holders[plan_.holder_count] = row;
@@ -247,7 +247,7 @@ class Planner {
   void match(uint32_t old_index, uint32_t now_index, Place from, Place to) {
     const rung_type &was = oldType(old_index), &is = nowType(now_index);
     if (isSame(old_index, now_index) && isCopiedWhole(is)) {
-      moveBytes(from, to, is.size);
+      moveBytes(old_index, from, to, is.size);
       plan_.kept_count += count(is);
       return holdIn(old_index, now_index, from, to);
     }
@@ -255,7 +255,7 @@ class Planner {
     if (both_records && equal(oldText(was.name), nowText(is.name))) return matchRecords(old_index, is, from, to);
     if (was.kind == RUNG_ARRAY && is.kind == RUNG_ARRAY && was.count == is.count) return matchArrays(was, is, from, to);
     if (was.kind < RUNG_ARRAY && takesValue(was, is)) {
-      moveBytes(from, to, is.size);
+      moveBytes(old_index, from, to, is.size);
       ++plan_.kept_count;
       return holdIn(old_index, now_index, from, to);
     }
@@ -411,7 +411,7 @@ class Planner {
   void moveRun(const Rows& rows, uint64_t before, uint64_t now, uint64_t length) {
     const uint64_t size = nowType(rows.is.element).size;
     const Place from = rows.from.at(before * size), to = rows.to.at(now * size);
-    moveBytes(from, to, length * size);
+    moveBytes(rows.was.element, from, to, length * size);
     plan_.kept_count += static_cast<uint32_t>(length) * count(nowType(rows.is.element));
     holdInElements(rows.was.element, rows.is.element, from, to, length);
   }

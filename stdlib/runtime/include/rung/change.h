@@ -34,8 +34,8 @@ typedef struct rung_block_life {
 /* A value that goes from an old place to a new one. A place is a block, or RUNG_RANGE_AREA + an area, and an offset. */
 typedef struct rung_move {
   uint32_t from, from_offset, to, to_offset;
-  uint32_t size;            /* bytes; 0: an instance or structure whose members have rows of their own */
-  uint32_t type;            /* of that instance, in the old module */
+  uint32_t size; /* bytes; 0: an instance or structure whose members have rows of their own */
+  uint32_t type; /* in the old module, of that instance or of the values; RUNG_NONE: a bit, or in the image */
   uint8_t from_bit, to_bit; /* of a bit; else 255 */
 } rung_move;
 
