@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 #include "ir/ir.h"
 #include "rung/host.h"
@@ -92,7 +93,8 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
   made.has_monitor = !run_options.monitor.address.empty();
   compiling.code.online_change = options.watch_files || !run_options.control_path.empty() || made.has_monitor;
   const bool must_interpret = options.engine == Engine::Interpreter || run_options.trace_calls;
-  SourceWatch watch(project);
+  std::optional<SourceWatch> watch;
+  if (options.watch_files) watch.emplace(project);
   int exit = makeProgram(compiling, options, must_interpret, times, sink, made);
   if (exit == kSuccess) {
     if (made.program && options.engine == Engine::Auto)
@@ -104,7 +106,7 @@ int runRun(const ProjectOptions& project, const RunOptions& options, Sink& sink)
       run_options.change.compile = [&](const std::string& input) {
         return makeVersion(compiling, options, input, made.has_monitor);
       };
-    if (options.watch_files) run_options.change.has_changed = [&] { return watch.hasChanged(); };
+    if (watch) run_options.change.has_changed = [&] { return watch->hasChanged(); };
     times.begin("run");
     constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
     sink.programRuns(true, (made.checks & kMemoryChecks) == kMemoryChecks);
