@@ -67,6 +67,10 @@ def force_and_unforce(page, program):
     page.until("document.querySelector('#forced-count').textContent === '1 value is forced'")
     close_dialog(page)
     page.click("#forced-list button")
+    nothing_is_forced(page, program)
+
+
+def nothing_is_forced(page, program):
     until(lambda: program.forces() == {}, "nothing is forced")
     page.until("document.querySelector('#forced').hidden")
 
@@ -159,8 +163,7 @@ def watch_by_keys(page, program):
     page.click('#watched tr[data-path="most"] [data-act=Force]')
     until(lambda: program.forces() == {"most": "7"}, "the value is forced as it is")
     page.click('#watched tr[data-path="most"] [data-act=Unforce]')
-    until(lambda: program.forces() == {}, "nothing is forced")
-    page.until("document.querySelector('#forced').hidden")
+    nothing_is_forced(page, program)
 
 
 def record(page, program):
