@@ -176,6 +176,7 @@ int change(const Call& call) {
   read("refused", report.refused);
   for (const Json& path : answer.value["removed"].items())
     report.removed.push_back({std::string(path.text()), "the program does not have it any more"});
+  for (const Json& path : answer.value["unforced"].items()) report.unforced.emplace_back(path.text());
   if (answer.error.empty()) return driver::printResult(call.sink, report.text());
   call.sink.message(report.text());
   if (const std::string_view said = answer.value["diagnostics"].text(); !said.empty())

@@ -49,6 +49,7 @@ std::string ChangeReport::text() const {
   append(text, "initialised", initialised);
   append(text, "removed", removed);
   append(text, "refused", refused);
+  for (const std::string& path : unforced) text += "  not forced any more " + path + '\n';
   return text;
 }
 

@@ -18,7 +18,8 @@ struct ChangeReport {
   };
   uint32_t kept = 0;  // elementary variables
   std::vector<Item> initialised, removed, refused;
-  std::string error;  // why it was not made; empty: it was, or could be
+  std::vector<std::string> unforced;  // paths: the new version cannot force them
+  std::string error;                  // why it was not made; empty: it was, or could be
 
   // The lines that a user reads.
   std::string text() const;

@@ -30,8 +30,15 @@ NewVersion loadLibrary(const std::string& name, const std::string& path) {
 
 }  // namespace
 
+Changes::Outcome Changes::refused(std::string why, bool is_compiled) {
+  Outcome outcome;
+  outcome.report.error = std::move(why);
+  outcome.is_compiled = is_compiled;
+  return outcome;
+}
+
 std::optional<Changes::Outcome> Changes::begin(const Command& command) {
-  if (compiling_.valid()) return Outcome{"", "another change has begun and is not complete", true, {}};
+  if (compiling_.valid()) return refused("another change has begun and is not complete");
   command_ = command;
   if (command_.rollback_cycles < 0) command_.rollback_cycles = options_.change.rollback_cycles;
   const std::string name = session_.module().description.name, project = command.project;
@@ -54,13 +61,13 @@ std::optional<Changes::Outcome> Changes::attend() {
 }
 
 Changes::Outcome Changes::make(const NewVersion& version) {
-  if (version.module == nullptr) return {"", version.error, false, {}};
+  if (version.module == nullptr) return refused(version.error, false);
   const std::unique_lock<std::mutex> held = guard_();
-  const ChangeReport report =
-      session_.change({version.module, version.keeper, ""}, command_.is_only_asked, command_.rollback_cycles);
-  if (report.error.empty() && !command_.is_only_asked)
+  Outcome outcome;
+  outcome.report = session_.change(*version.module, version.keeper, command_.is_only_asked, command_.rollback_cycles);
+  if (outcome.report.error.empty() && !command_.is_only_asked)
     before_ = std::exchange(shown_, Shown{version.paths, version.pous, version.keeper});
-  return {report.text(), report.error, true, report};
+  return outcome;
 }
 
 bool Changes::goBack() {

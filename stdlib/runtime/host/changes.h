@@ -17,10 +17,10 @@ namespace rung::host {
 class Changes {
  public:
   struct Outcome {
-    std::string text, error;
-    bool is_compiled = true;  // else the error says what the compiler says
     ChangeReport report;
+    bool is_compiled = true;  // else the error of the report says what the compiler says
   };
+  static Outcome refused(std::string why, bool is_compiled = true);
   // What others hold on to while another version takes over.
   using Guard = std::function<std::unique_lock<std::mutex>()>;
 

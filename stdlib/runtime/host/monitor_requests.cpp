@@ -416,10 +416,11 @@ HttpReply Monitor::changeReply(const Changes::Outcome& outcome) const {
     return Json(std::move(all));
   };
   Json json = Json::emptyObject();
-  const size_t line_end = outcome.error.find('\n');
-  if (!outcome.error.empty()) json.set("error", outcome.error.substr(0, line_end));
+  const std::string& error = outcome.report.error;
+  const size_t line_end = error.find('\n');
+  if (!error.empty()) json.set("error", error.substr(0, line_end));
   if (!outcome.is_compiled) {
-    json.set("diagnostics", line_end == std::string::npos ? "" : outcome.error.substr(line_end + 1));
+    json.set("diagnostics", line_end == std::string::npos ? "" : error.substr(line_end + 1));
   } else {
     Json::Array removed;
     for (const ChangeReport::Item& item : outcome.report.removed) removed.push_back(item.path);
@@ -427,10 +428,13 @@ HttpReply Monitor::changeReply(const Changes::Outcome& outcome) const {
     json.set("initialised", items(outcome.report.initialised));
     json.set("removed", std::move(removed));
     json.set("refused", items(outcome.report.refused));
+    Json::Array unforced;
+    for (const std::string& path : outcome.report.unforced) unforced.push_back(path);
+    if (!unforced.empty()) json.set("unforced", std::move(unforced));
     json.set("cycle", cycle_.load() + 1);
   }
   HttpReply reply;
-  reply.status = outcome.error.empty() ? 200 : outcome.is_compiled ? 409 : 400;
+  reply.status = error.empty() ? 200 : outcome.is_compiled ? 409 : 400;
   reply.body = json.toText();
   return reply;
 }

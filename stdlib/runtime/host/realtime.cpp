@@ -289,6 +289,7 @@ void Realtime::startThreads() {
   for (const std::unique_ptr<Worker>& worker : workers_) {
     const uint8_t kind = worker->task->row->kind;
     has_triggers = has_triggers || kind == RUNG_EVENT || kind == RUNG_STATUS;
+    live_.fetch_add(1);
     worker->thread = std::thread([this, &worker = *worker] {
       touchStack();
       waitForStart();
@@ -301,9 +302,16 @@ void Realtime::startThreads() {
         case RUNG_STATUS:
         case RUNG_EXTERNAL: runOnEvent(worker); break;
       }
+      live_.fetch_sub(1);
     });
   }
-  for (uint32_t i = 0; has_triggers && i < resources_; ++i) samplers_.emplace_back([this, i] { sample(i); });
+  for (uint32_t i = 0; has_triggers && i < resources_; ++i) {
+    live_.fetch_add(1);
+    samplers_.emplace_back([this, i] {
+      sample(i);
+      live_.fetch_sub(1);
+    });
+  }
   processors_[0].join(0, true);
   const std::lock_guard<std::mutex> lock(start_mutex_);
   if (before_ == nullptr) {

@@ -76,6 +76,8 @@ class Realtime {
     stop_.store(true);
   }
   void join();
+  // Of threads that were left: none sleeps any more.
+  bool hasEnded() const { return live_.load() == 0; }
   // While paused, rows go on; none is made, and no trigger is looked at, while one holds this.
   std::unique_lock<std::mutex> rest() { return std::unique_lock<std::mutex>(rest_); }
   int64_t programNs() const;
@@ -144,6 +146,7 @@ class Realtime {
   bool is_left_ = false;  // guarded by activity_
 
   std::atomic<bool> stop_{false}, paused_{false};
+  std::atomic<uint32_t> live_{0};  // threads of tasks and triggers
   std::atomic<int64_t> rows_done_{0};
   std::mutex start_mutex_;
   std::condition_variable start_condition_;

@@ -32,6 +32,7 @@
 namespace rung::host {
 namespace {
 
+constexpr const char* kHasFaulted = "the program has faulted; `reset` makes it ready to start again";
 constexpr int kSuccess = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
 constexpr int64_t kEndAfterStopNs = 1'000'000'000;  // for FB_Exit after a limit
@@ -346,7 +347,7 @@ Answer Run::obey(const Command& command) {
   Answer answer;
   const bool is_about_running = command.kind <= Command::Event && command.kind != Command::Reset;
   if (is_faulted && is_about_running) {
-    answer.error = "the program has faulted; `reset` makes it ready to start again";
+    answer.error = kHasFaulted;
     answer.is_busy = true;
     return answer;
   }
@@ -389,18 +390,18 @@ void Run::print(const Command& command) {
 
 // Empty: it is made when it is ready.
 std::optional<Changes::Outcome> Run::change(const Command& command) {
-  if (is_faulted)
-    return Changes::Outcome{"", "the program has faulted; `reset` makes it ready to start again", true, {}};
+  if (is_faulted) return Changes::refused(kHasFaulted);
   return changes.begin(command);
 }
 
 // `location`: of the command, empty for files that changed.
 void Run::report(const std::optional<Changes::Outcome>& change, const std::string& location) {
   if (!change || (monitor && monitor->answerChange(*change))) return;
-  if (!change->error.empty())
-    fprintf(options.err, "error: %s%s\n", location.empty() ? "" : (location + ": ").c_str(), change->error.c_str());
-  has_refused = has_refused || !change->error.empty();
-  fputs(change->text.c_str(), options.err);
+  const std::string& error = change->report.error;
+  if (!error.empty())
+    fprintf(options.err, "error: %s%s\n", location.empty() ? "" : (location + ": ").c_str(), error.c_str());
+  has_refused = has_refused || !error.empty();
+  fputs(change->report.text().c_str(), options.err);
 }
 
 void Run::warnMissing(const char* option, const std::vector<std::string>& missing) const {

@@ -55,13 +55,6 @@ struct SessionHooks {
   std::function<void()> changed;
 };
 
-// Another version of the program, for Session::change.
-struct Version {
-  const rung_module* module = nullptr;
-  std::shared_ptr<const void> keeper;  // what the module is part of
-  std::string error;                   // why there is none
-};
-
 // The answer to a command.
 struct Answer {
   bool goes_on = true;   // false: the run ends
@@ -131,7 +124,8 @@ class Session {
   // Puts another version in the place of this one, where no activation runs: in virtual time between two cycles, in
   // real time from the hook `idle`. `rollback_cycles`: how long goBack() can undo it; 0: not. A report with an error:
   // nothing has changed.
-  ChangeReport change(const Version& version, bool is_only_asked, int64_t rollback_cycles);
+  ChangeReport change(const rung_module& next_module, std::shared_ptr<const void> keeper, bool is_only_asked,
+                      int64_t rollback_cycles);
   // After a fault of a version that took over a few cycles ago: the one before goes on with its values of then. False:
   // there is none.
   bool goBack();
@@ -182,7 +176,8 @@ class Session {
   void countRows();
   int64_t cyclesNow() const { return threads_ ? (rows_done_ + threads_->rowsDone()) / rows_per_cycle_ : cycle_; }
   bool prepare(Program& next, ChangeReport& report);
-  void takeOver(std::unique_ptr<Program> next);
+  std::vector<std::string> takeOver(std::unique_ptr<Program> next);
+  void endLeft();
   ChangeReport changeAtRest(Change& change, std::unique_ptr<Program> next, bool is_only_asked, int64_t rollback_cycles);
   Ending testCycle();
   Ending call(void (*function)(rung_context*));  // of the module; null: it has none

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Another version of the program takes over in a running session, or gives way to the one before: see session.h.
+#include <algorithm>
+
 #include "faults.h"
 #include "session.h"
 
@@ -17,11 +19,12 @@ bool Session::prepare(Program& next, ChangeReport& report) {
 }
 
 // Time and forces go on; the one that leaves is kept for a while, for its threads or for goBack().
-void Session::takeOver(std::unique_ptr<Program> next) {
+// Returns the paths of variables that are not forced any more.
+std::vector<std::string> Session::takeOver(std::unique_ptr<Program> next) {
   const int64_t rows = rows_done_ + (threads_ ? threads_->rowsDone() : 0);
   const int64_t next_row_ns = base_ns_ + rows * program_->tasks.rowNs();
   next->schedule.goOnFrom(program_->schedule, next_row_ns);
-  next->forces.takeFrom(program_->forces);
+  std::vector<std::string> unforced = next->forces.takeFrom(program_->forces);
   next->memory.context().now_ns = program_->memory.context().now_ns;
   served_.attach(next->module);
   drivers_.attach(next->module, next->memory);
@@ -31,28 +34,37 @@ void Session::takeOver(std::unique_ptr<Program> next) {
   left_programs_.push_back(std::move(next));
   if (is_stopped_) program_->memory.makeOutputsSafe();
   if (hooks_.changed) hooks_.changed();
+  return unforced;
 }
 
 // What takes time is done while the program goes on.
-ChangeReport Session::change(const Version& version, bool is_only_asked, int64_t rollback_cycles) {
+ChangeReport Session::change(const rung_module& next_module, std::shared_ptr<const void> keeper, bool is_only_asked,
+                             int64_t rollback_cycles) {
   ChangeReport report;
-  report.error = version.error;
-  if (version.module == nullptr) return report;
-  if (const char* const why = refusal(*version.module)) return report.error = why, report;
-  const LoadedModule module(*version.module);
+  if (const char* const why = refusal(next_module)) return report.error = why, report;
+  endLeft();
+  const LoadedModule module(next_module);
   Change change(program_->module, module);
   const bool is_possible = change.plan();
   report = change.report();
   report.error = is_possible ? "" : "the change is refused";
   if (!is_possible) return report;
-  auto next = std::make_unique<Program>(*version.module, version.keeper, around(), *program_, change.kept());
+  auto next = std::make_unique<Program>(next_module, std::move(keeper), around(), *program_, change.kept());
   const auto act = [&] { report = changeAtRest(change, std::move(next), is_only_asked, rollback_cycles); };
   if (!threads_)
     act();
   else if (!threads_->between(act))
     report.error = "no moment between two activations was found within a second";
-  if (!threads_ && !is_only_asked) left_programs_.clear();
   return report;
+}
+
+// Forgets versions that others have followed, where no thread of theirs sleeps any more.
+void Session::endLeft() {
+  const auto hasEnded = [](const std::unique_ptr<Realtime>& threads) { return threads->hasEnded(); };
+  if (!std::all_of(left_threads_.begin(), left_threads_.end(), hasEnded)) return;
+  for (const std::unique_ptr<Realtime>& threads : left_threads_) threads->join();
+  left_threads_.clear();
+  left_programs_.clear();
 }
 
 ChangeReport Session::changeAtRest(Change& change, std::unique_ptr<Program> next, bool is_only_asked,
@@ -81,8 +93,9 @@ ChangeReport Session::changeAtRest(Change& change, std::unique_ptr<Program> next
     if (is_stopped_) program_->memory.makeOutputsSafe();
     return report;
   }
-  takeOver(std::move(next));
+  if (before_) left_programs_.push_back(std::move(before_->program));
   before_.reset();
+  report.unforced = takeOver(std::move(next));
   if (rollback_cycles > 0) {
     before_.emplace(Before{std::move(left_programs_.back()), std::move(saved), cyclesNow() + rollback_cycles});
     left_programs_.pop_back();
