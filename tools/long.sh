@@ -10,6 +10,8 @@
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
 # rename        1 500 random renames in projects and files of all formats: equal C++ but for the name (COUNT, FIRST)
+# typing        20 files of each folder of samples and vendors' projects typed from the first character to the last in the
+#               language server, and random edits: it says what a cold check says (COUNT, FIRST)
 # changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
@@ -88,6 +90,17 @@ rename() {
   mapfile -t files < <(find tests/conformance/language tests/conformance/standard -name '*.st' -o -name '*.xml' | sort)
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count "$((${COUNT:-1500} / 500))" --verbose "${files[@]}"
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count 20 --verbose samples/*/ tests/programs/vendor/*/
+}
+
+typing() {
+  needs rung
+  local folder
+  for folder in samples/*/ tests/programs/vendor/*/; do
+    case $folder in samples/embedding/ | samples/library/ | samples/rtos/ | samples/service/) continue ;; esac
+    echo "$folder"
+    PATH=$bin:$PATH tests/lsp/edits.py "$folder" --seed "$first" --type "${COUNT:-20}"
+    PATH=$bin:$PATH tests/lsp/edits.py "$folder" --seed "$first" --pauses "${COUNT:-20}"
+  done
 }
 
 changes() {
@@ -213,7 +226,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename changes forces monitor page modifiers bodies mutation profiles cams kills tsan service
+all=(differential networks mutants frames snapshots rename typing changes forces monitor page modifiers bodies mutation profiles cams kills tsan service
      lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -6,6 +6,8 @@
 # the ranges in the answers exist.
 #
 #   edits.py FOLDER [--seed N] [--pauses N]      a folder with a project, of which it works on a copy
+#   edits.py FOLDER --type N [--most BYTES]      N of its files, of that size at most, are typed from the first character
+#                                                to the last, with pauses after some of them
 #
 # Prints the first difference with the edits that led to it, or one line.
 import argparse
@@ -60,6 +62,7 @@ class Session:
         self.original = {file: read_text(file) for file in self.files}
         self.texts = dict(self.original)  # as the project has them: of buffers, else on disk
         self.log = []
+        self.pauses = 0
         self.open(self.files[0])
 
     def open(self, file):
@@ -106,6 +109,22 @@ class Session:
         else:
             self.change_on_disk()
 
+    # A whole file, as a person writes it from nothing who never makes a mistake.
+    def write(self, file, copy):
+        whole = self.original[file]
+        if file not in self.client.versions:
+            self.open(file)
+        self.replace(file, 0, len(self.texts[file]), "")
+        pause = self.random.randint(1, 40)
+        for at, character in enumerate(whole):
+            self.replace(file, at, at, character)
+            pause -= 1
+            if (pause > 0 and at + 1 < len(whole)) or whole[at:at + 2] == "\r\n":
+                continue
+            pause = self.random.randint(1, max(40, len(whole) // 30))
+            self.compare(copy, "%s after character %d" % (file, at + 1))
+            self.ask(file, at + 1)
+
     # A file that is open loses its buffer first, so that the disk counts.
     def change_on_disk(self):
         file = self.random.choice(self.files)
@@ -138,8 +157,10 @@ class Session:
         for file, text in self.texts.items():
             with open(os.path.join(folder, file), "w", encoding="utf-8", newline="") as stream:
                 stream.write(text)
-        result = subprocess.run(["rung", "check", ".", "--format=json", "--max-errors=1000"], cwd=folder,
-                                capture_output=True, text=True, check=False)
+        # Without arguments the command finds the project as the server does.
+        is_project = any(name in ("rung.project", "beremiz.xml", "plc.xml") for name in os.listdir(folder))
+        result = subprocess.run(["rung", "check", *([] if is_project else ["."]), "--format=json", "--max-errors=1000"],
+                                cwd=folder, capture_output=True, text=True, check=False)
         found = []
         for one in json.loads(result.stderr)["diagnostics"]:
             path, line, column = one["path"], one.get("line", 1) - 1, one.get("column", 1) - 1
@@ -152,15 +173,14 @@ class Session:
 
     # ---- asking
 
-    def ask(self):
-        for file in sorted(self.client.versions):
-            document = {"uri": uri(file)}
-            at = position_of(self.texts[file], self.place(self.texts[file]))
-            for method in POSITIONED:
-                self.request(method, {"textDocument": document, "position": at})
-            for method in WHOLE:
-                self.request(method, {"textDocument": document, "options": {}})
-            self.request("selectionRange", {"textDocument": document, "positions": [at]})
+    def ask(self, file, offset):
+        document = {"uri": uri(file)}
+        at = position_of(self.texts[file], offset)
+        for method in POSITIONED:
+            self.request(method, {"textDocument": document, "position": at})
+        for method in WHOLE:
+            self.request(method, {"textDocument": document, "options": {}})
+        self.request("selectionRange", {"textDocument": document, "positions": [at]})
 
     def request(self, method, params):
         answer = self.client.request("textDocument/" + method, params)
@@ -191,18 +211,32 @@ class Session:
         print("\n".join(self.log[-10:]))
         sys.exit(why)
 
+    def compare(self, copy, when):
+        self.pauses += 1
+        server, check = self.of_server(), self.of_check(copy)
+        if server != check:
+            self.stop("%s only the server says %s, only the check says %s"
+                      % (when, sorted(set(server) - set(check)), sorted(set(check) - set(server))))
+
     def run(self, pauses, copy):
         for pause in range(pauses):
             for _ in range(self.random.randint(1, 3)):
                 self.edit()
-            server, check = self.of_server(), self.of_check(copy)
-            if server != check:
-                self.stop("after pause %d only the server says %s, only the check says %s"
-                          % (pause, sorted(set(server) - set(check)), sorted(set(check) - set(server))))
-            self.ask()
+            self.compare(copy, "after pause %d" % pause)
+            for file in sorted(self.client.versions):
+                self.ask(file, self.place(self.texts[file]))
+        self.finish()
+
+    def type(self, count, most, copy):
+        files = [file for file in self.files if 0 < len(self.original[file]) <= most]
+        for file in self.random.sample(files, min(count, len(files))):
+            self.write(file, copy)
+        self.finish()
+
+    def finish(self):
         if self.client.finish() != 0:
             sys.exit("the server ends with an error")
-        print("%d pauses, no difference" % pauses)
+        print("%d pauses, no difference" % self.pauses)
 
 
 def main():
@@ -210,12 +244,18 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--pauses", type=int, default=30)
+    parser.add_argument("--type", type=int, default=0)
+    parser.add_argument("--most", type=int, default=8000)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         for name in ("work", "copy"):
             shutil.copytree(options.folder, os.path.join(scratch, name))
         os.chdir(os.path.join(scratch, "work"))
-        Session(options.seed).run(options.pauses, os.path.join(scratch, "copy"))
+        session, copy = Session(options.seed), os.path.join(scratch, "copy")
+        if options.type:
+            session.type(options.type, options.most, copy)
+        else:
+            session.run(options.pauses, copy)
 
 
 if __name__ == "__main__":

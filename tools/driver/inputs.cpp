@@ -63,7 +63,7 @@ class Collector {
  private:
   struct Candidate {
     std::string absolute, path, below;
-    bool named;               // on the command line or in rung.project, not found in a folder
+    bool named;  // on the command line, in rung.project, or a plc.xml; not one that a folder happens to have
     bool is_library = false;  // listed by a .plcproj given with -I
     uint32_t library = 0;     // index in Inputs::library_names
   };
@@ -88,8 +88,7 @@ class Collector {
   void addInput(const std::string& word) {
     struct stat info;
     if (files_.isUnsaved(word)) {
-      bases_.push_back(absolutePath(folderOf(word)));
-      addNamedFile(word);
+      addInputFile(word);
     } else if (stat(word.c_str(), &info) != 0) {
       const char* why = strerror(errno);
       fail(diag::CannotRead, word, {word, why}, similar(word));
@@ -98,15 +97,17 @@ class Collector {
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
       fail(diag::CannotRead, word, {word, "not a file or folder"});
-    } else if (const FileRole role = importer::roleOf(importer::kindOfExtension(word));
-               role == FileRole::RungProject || role == FileRole::FolderProject) {
-      const std::string folder = folderOf(word);
-      bases_.push_back(absolutePath(folder));
-      addProjectFolder(folder);
     } else {
-      bases_.push_back(absolutePath(folderOf(word)));
-      addNamedFile(word);
+      addInputFile(word);
     }
+  }
+
+  void addInputFile(const std::string& path) {
+    const FileRole role = importer::roleOf(importer::kindOfExtension(path));
+    const std::string folder = folderOf(path);
+    bases_.push_back(absolutePath(folder));
+    if (role == FileRole::RungProject || role == FileRole::FolderProject) return addProjectFolder(folder);
+    addNamedFile(path);
   }
 
   void addNamedFile(const std::string& path) {
@@ -307,7 +308,7 @@ class Collector {
     if (!folder.plc_projects.empty()) return;
     for (const std::string& file : folder.files)
       if (options_.written.empty() || absolutePath(file) != absolutePath(options_.written))
-        candidates_.push_back({absolutePath(file), file, {}, false});
+        candidates_.push_back({absolutePath(file), file, {}, folder.is_beremiz});
     if (depth > 100) return;
     for (const std::string& inner : folder.folders) scan(inner, depth + 1, is_extension || folder.is_beremiz);
   }
