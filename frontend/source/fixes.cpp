@@ -111,22 +111,48 @@ Stretch markedBy(const Sources& sources, const Diagnostic& diagnostic) {
   return {{begin}, {begin + static_cast<uint32_t>(name.size())}};
 }
 
+// The length of an entity of XML at the begin of a text that is this character; 0: it is not one.
+uint32_t entityFor(std::string_view text, char c) {
+  constexpr struct {
+    std::string_view name;
+    char c;
+  } kEntities[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  for (const auto& entity : kEntities)
+    if (entity.c == c && text.starts_with(entity.name)) return static_cast<uint32_t>(entity.name.size());
+  return 0;
+}
+
+// The bytes of a file that one byte of what was parsed was made of. None: Rung made it.
+Stretch madeOf(const Sources& sources, Loc at) {
+  if (const Loc copied = sources.copiedFrom(at)) return {copied, {copied.offset + 1}};
+  const FileId text = sources.fileOf(at);
+  const Loc from = sources.originalLocation(at);
+  const FileId file = sources.fileOf(from);
+  const size_t byte = text ? at.offset - sources.begin(text).offset : 0;
+  if (!file || byte >= sources.original(text).size()) return {};
+  const std::string_view source = sources.original(file).substr(from.offset - sources.begin(file).offset);
+  const uint32_t length = entityFor(source, sources.original(text)[byte]);
+  return length == 0 ? Stretch{} : Stretch{from, {from.offset + length}};
+}
+
 // After the byte before it, or before the byte at it; both lie together, unless one of them is not in the file.
 Loc insertionPlace(const Sources& sources, Loc at) {
   const FileId text = sources.fileOf(at);
   if (!text || sources.segments(text).empty()) return at;
   if (sources.begin(text) < at)
-    if (const Loc before = sources.copiedFrom({at.offset - 1})) return {before.offset + 1};
-  return sources.copiedFrom(at);
+    if (const Stretch before = madeOf(sources, {at.offset - 1}); before.begin) return before.end;
+  return madeOf(sources, at).begin;
 }
 
-// Empty: not all of it was copied from one piece of a file.
-Stretch copiedRange(const Sources& sources, Stretch parsed) {
-  const Loc begin = sources.copiedFrom(parsed.begin);
-  if (!begin) return {};
-  for (uint32_t i = 1; i < parsed.end.offset - parsed.begin.offset; ++i)
-    if (sources.copiedFrom({parsed.begin.offset + i}).offset != begin.offset + i) return {};
-  return {begin, {begin.offset + parsed.end.offset - parsed.begin.offset}};
+// Empty: not all of it is in one piece of a file.
+Stretch inOnePiece(const Sources& sources, Stretch parsed) {
+  Stretch range = madeOf(sources, parsed.begin);
+  for (uint32_t at = parsed.begin.offset + 1; range.begin && at < parsed.end.offset; ++at) {
+    const Stretch next = madeOf(sources, {at});
+    if (next.begin != range.end) return {};
+    range.end = next.end;
+  }
+  return range;
 }
 
 std::optional<FileEdit> fileEdit(const Sources& sources, const Diagnostic& diagnostic, const Fix::Edit& edit) {
@@ -137,7 +163,7 @@ std::optional<FileEdit> fileEdit(const Sources& sources, const Diagnostic& diagn
   if (parsed.begin == parsed.end) {
     range.begin = range.end = insertionPlace(sources, parsed.begin);
   } else {
-    range = copiedRange(sources, parsed);
+    range = inOnePiece(sources, parsed);
   }
   const FileId file = sources.fileOf(range.begin);
   if (!file) return std::nullopt;
