@@ -27,6 +27,7 @@
 #include "sema/declarations/types.h"
 #include "sema/declarations/uncopied.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -208,6 +209,28 @@ void checkEdge(Context& context, const Var& var) {
   context.report(diag::EdgeNotBool, var.loc, {context.names().string(var.name)});
 }
 
+// VAR_EXTERNAL CONSTANT
+Fix constantSection(const Context& context, const Var& var) {
+  const Tree& tree = context.tree();
+  if (!var.pou || !context.symbols.pou(var.pou).decl) return {};
+  for (const DeclId id : tree.list(tree.as<PouDecl>(context.symbols.pou(var.pou).decl).sections)) {
+    const SectionDecl& section = tree.as<SectionDecl>(id);
+    const std::span<const DeclId> vars = tree.list(section.vars);
+    if (std::find(vars.begin(), vars.end(), var.decl) == vars.end()) continue;
+    const Loc end{section.h.loc.offset + static_cast<uint32_t>(std::string_view("VAR_EXTERNAL").size())};
+    return {"Write `VAR_EXTERNAL CONSTANT`", {{end, end, " CONSTANT"}}, true};
+  }
+  return {};
+}
+
+// In the declaration of a variable.
+Fix otherType(const Context& context, const Var& var, const std::string& type) {
+  if (!var.decl || context.tree().kind(var.decl) != DeclKind::Var) return {};
+  const TypeExprId written = context.tree().as<VarDecl>(var.decl).type;
+  const Range range = written ? context.tree().range(written) : Range{};
+  return range.begin < range.end ? Fix{"Write `" + type + "`", {{range.begin, range.end, type}}, false} : Fix{};
+}
+
 // Forbids a VAR_EXTERNAL without its VAR_GLOBAL, or with another type. IEC 61131-3 ed. 3, 6.5.2.2.
 //   passes  VAR_GLOBAL level : REAL; END_VAR … VAR_EXTERNAL level : REAL; END_VAR
 //   fails   VAR_EXTERNAL level : INT; END_VAR          E0335
@@ -246,12 +269,15 @@ void matchExternal(Context& context, VarId id) {
     context
         .report(diag::ExternalType, loc,
                 {context.names().string(name), table.toString(var.type), table.toString(global.type)})
-        .declaredHere(global.loc);
+        .declaredHere(global.loc)
+        .fix(otherType(context, var, table.toString(global.type)));
     var.type = types::kError;
     return;
   }
   if (global.constant && !var.constant && !context.profile().implied_constant_externals)
-    context.report(diag::ExternalConstant, loc, {context.names().string(name)}).declaredHere(global.loc);
+    context.report(diag::ExternalConstant, loc, {context.names().string(name)})
+        .declaredHere(global.loc)
+        .fix(constantSection(context, var));
   if (global.constant) var.constant = true;
   var.external = global_id;
   var.storage = global.storage;
