@@ -272,10 +272,8 @@ void Cursor::missingEnd(std::string_view end, const Token* open, std::string_vie
   const std::string line = std::to_string(sources_.location(loc(open)).line);
   const Token* const before = readBefore(t_);
   Report report = missing(diag::MissingEnd, {end, word, line});
-  if (!report) return;
-  const bool ends_statement = beginsBlock(open->kind);
-  const Insertion added = endOfBlock(source_, open->offset, endOf(before).offset - base_, t_->offset,
-                                     std::string(end) + (ends_statement ? ";" : ""));
+  if (!report || beginsBlock(open->kind)) return;  // the blocks balance: the end of this one is further on
+  const Insertion added = endOfBlock(source_, open->offset, endOf(before).offset - base_, t_->offset, end);
   const Loc at{base_ + static_cast<uint32_t>(added.at)};
   report.insert(at, added.text, Sureness::Sure);
 }
