@@ -50,6 +50,27 @@ size_t closedBefore(std::string_view source) {
   return closed;
 }
 
+// A word or sign between two places, outside of comments; none: it is not there.
+Loc findUnit(const Context& context, Loc from, Loc to, std::string_view word) {
+  const Text text = textAt(context, from);
+  if (!from || to <= from || text.at(to) > text.size()) return {};
+  Scanner scanner(text.source.substr(0, text.at(to)));
+  scanner.moveTo(text.at(from));
+  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+    const std::string_view found = scanner.textOf(unit);
+    if (sameIdentifier(found, word)) return text.loc(unit.begin);
+    if (word.size() == 2 && found == word.substr(0, 1) && text[unit.end] == word[1]) return text.loc(unit.begin);  // :=
+  }
+  return {};
+}
+
+Loc beginWithBlanks(const Context& context, Loc loc) {
+  const Text text = textAt(context, loc);
+  size_t at = text.at(loc);
+  while (at > 0 && isSpace(text[at - 1])) --at;
+  return text.loc(at);
+}
+
 // ---- declarations
 
 // Of the source of a declaration: the end with its `;`.
@@ -116,6 +137,34 @@ Fix otherSign(const Context& context, Loc from, Loc to, std::string_view sign, s
   return {"Write `" + std::string(by) + "`",
           {{text.loc(found), text.loc(found + sign.size()), std::string(by)}},
           sureness == Sureness::Sure};
+}
+
+Fix withoutWord(const Context& context, Loc from, Loc to, std::string_view word, Sureness sureness) {
+  const Loc found = findUnit(context, from, to, word);
+  if (!found) return {};
+  const Loc end{found.offset + static_cast<uint32_t>(word.size())};
+  return {
+      "Remove `" + std::string(word) + "`", {{beginWithBlanks(context, found), end, {}}}, sureness == Sureness::Sure};
+}
+
+Fix otherWord(const Context& context, Loc from, Loc to, std::string_view word, std::string_view by, Sureness sureness) {
+  const Loc found = findUnit(context, from, to, word);
+  if (!found) return {};
+  const Loc end{found.offset + static_cast<uint32_t>(word.size())};
+  return {"Write `" + std::string(by) + "`", {{found, end, std::string(by)}}, sureness == Sureness::Sure};
+}
+
+Fix withoutPart(const Context& context, Loc from, std::string_view sign, Loc end) {
+  const Loc found = findUnit(context, from, end, sign);
+  if (!found) return {};
+  const Range part{found, end};
+  return {"Remove `" + sourceText(context, part) + "`", {{beginWithBlanks(context, found), end, {}}}, false};
+}
+
+Fix withPragma(const Context& context, DeclId decl, std::string_view pragma) {
+  const Loc at = decl ? context.tree().decl(decl).begin : Loc{};
+  if (!at) return {};
+  return {"Write `" + std::string(pragma) + "`", {{at, at, std::string(pragma) + "\n" + indentAt(context, at)}}, false};
 }
 
 Fix withoutArgument(const Context& context, const CallExpr& call, const Argument& argument) {

@@ -24,6 +24,13 @@ Fix exchanged(const Context& context, ExprId first, ExprId second);
 Fix otherSign(const Context& context, Loc from, Loc to, std::string_view sign, std::string_view by, Sureness sureness);
 // A statement from its first to past its last byte, with the `;` after it.
 Fix withoutStatement(const Context& context, Loc begin, Loc end);
+// A word between two places is gone, or another one is written in its place; a sign before it goes with it.
+Fix withoutWord(const Context& context, Loc from, Loc to, std::string_view word, Sureness sureness);
+Fix otherWord(const Context& context, Loc from, Loc to, std::string_view word, std::string_view by, Sureness sureness);
+// What a declaration has after a sign, `:= value`, is gone.
+Fix withoutPart(const Context& context, Loc from, std::string_view sign, Loc end);
+// {test} before a declaration.
+Fix withPragma(const Context& context, DeclId decl, std::string_view pragma);
 // The argument of a call, with a comma beside it; that and all after it.
 Fix withoutArguments(const Context& context, const CallExpr& call, const Argument& from);
 Fix withoutArgument(const Context& context, const CallExpr& call, const Argument& argument);

@@ -14,13 +14,6 @@ size_t beginOfLine(std::string_view source, size_t at) {
   return end == std::string_view::npos ? 0 : end + 1;
 }
 
-std::string_view indentOf(std::string_view source, size_t at) {
-  const size_t line = beginOfLine(source, at);
-  size_t end = line;
-  while (end < at && (source[end] == ' ' || source[end] == '\t')) ++end;
-  return source.substr(line, end - line);
-}
-
 // The end of the line that follows a token, its comments included; `before`: another token is on this line.
 size_t endOfLineAfter(std::string_view source, size_t after, size_t before) {
   size_t at = after;
@@ -38,6 +31,13 @@ size_t endOfLineAfter(std::string_view source, size_t after, size_t before) {
 }
 
 }  // namespace
+
+std::string_view indentOf(std::string_view source, size_t at) {
+  const size_t line = beginOfLine(source, at);
+  size_t end = line;
+  while (end < at && (source[end] == ' ' || source[end] == '\t')) ++end;
+  return source.substr(line, end - line);
+}
 
 Insertion insertedAfter(std::string_view source, size_t after, std::string_view word) {
   const bool is_apart = isWord(word) || word == ":=" || word == "=>";

@@ -22,6 +22,8 @@ std::string inPlaceOf(std::string_view source, size_t begin, size_t end, std::st
 // END_… of a block whose first word is at `open`, between the tokens that end at `after` and begin at `before`: on a
 // line of its own, unless all of it is on one line.
 Insertion endOfBlock(std::string_view source, size_t open, size_t after, size_t before, std::string_view end_word);
+// The blanks at the begin of a line.
+std::string_view indentOf(std::string_view source, size_t at);
 // The bytes to take away with a token: also the blanks before it.
 size_t beginOfRemoval(std::string_view source, size_t token);
 

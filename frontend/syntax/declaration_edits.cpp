@@ -76,7 +76,7 @@ Fix::Edit withoutName(const Text& text, std::span<const Ident> names, size_t ind
 }
 
 // The keyword END_VAR of a section; none: it is missing or was not written.
-Loc endWordOf(const Text& text, const SectionDecl& section) {
+Loc endVarOf(const Text& text, const SectionDecl& section) {
   constexpr std::string_view kEnd = "END_VAR";
   const size_t end = text.at(section.h.end);
   if (end > text.size() || end < kEnd.size()) return {};
@@ -118,7 +118,7 @@ const SectionDecl* findSection(const Written& written, Slice<DeclId> declaration
 
 Fix::Edit declarationIn(const Written& written, const SectionDecl& section, const std::string& variable) {
   const Text text = textAt(written.sources, section.h.loc);
-  const Loc end = section.h.end ? endWordOf(text, section) : Loc{};
+  const Loc end = section.h.end ? endVarOf(text, section) : Loc{};
   if (!end) return {};
   const size_t at = text.at(end);
   if (!isFirstOnLine(text, at)) {

@@ -698,7 +698,8 @@ void readProperty(Context& context, ExprId& expr, ExprId value) {
   NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
   for (const Property& property : context.symbols.properties)
     if (get && property.get && property.get == context.symbols.call(get).pou) name = property.name;
-  context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)});
+  context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)})
+      .fix(withoutStatement(context, context.tree().begin(expr), context.tree().as<CallExpr>(expr).end));
   context.replace(expr, value);
 }
 

@@ -57,7 +57,9 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
       .report(diag::NarrowerAccess, pou.loc,
               {string(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
                string(context, context.symbols.pou(other.owner).name)})
-      .declaredHere(other.loc);
+      .declaredHere(other.loc)
+      .fix(otherWord(context, context.tree().decl(pou.decl).begin, pou.loc,
+                     pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED", "PUBLIC", Sureness::Proposal));
 }
 
 void checkSignature(Context& context, PouId method, PouId replaced) {
@@ -283,7 +285,9 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.object.modifiers & kOverride) != 0)
-      context.report(diag::OverridesNothing, method.loc, {string(context, method.name)});
+      context.report(diag::OverridesNothing, method.loc, {string(context, method.name)})
+          .fix(
+              withoutWord(context, context.tree().decl(method.decl).begin, method.loc, "OVERRIDE", Sureness::Proposal));
     return;
   }
   const Pou& other = context.symbols.pou(replaced);

@@ -34,10 +34,10 @@ Loc after(Loc word, std::string_view spelled) {
 }
 
 // A path that can be evaluated again and again.
-bool isPath(const Tree& tree, ExprId expr) {
+bool isPathOfNames(const Tree& tree, ExprId expr) {
   const ExprKind kind = tree.kind(expr);
   if (kind == ExprKind::Name) return true;
-  return (kind == ExprKind::Member || kind == ExprKind::Deref) && isPath(tree, tree.base(expr));
+  return (kind == ExprKind::Member || kind == ExprKind::Deref) && isPathOfNames(tree, tree.base(expr));
 }
 
 bool isWholeNumber(const Selection& selection, TypeId type) {
@@ -75,7 +75,7 @@ class Chain {
       std::vector<std::string> labels;
       if (!readLabels(branches[i].condition, labels)) return;
       const Loc then =
-          after(findWord(selection_.view, tree_.range(branches[i].condition).end, range_.end, "THEN"), "THEN");
+          after(findSign(selection_.view, tree_.range(branches[i].condition).end, range_.end, "THEN"), "THEN");
       const Loc end = endOf(i);
       if (!then || !end) return;
       text += "\n" + indent + "  ";
@@ -86,9 +86,9 @@ class Chain {
     if (selector_ == ExprId{} ||
         !isWholeNumber(selection_, selection_.view.meanings().valueOf(selection_.pou, selector_).type))
       return;
-    const Loc last = findWord(selection_.view, endOfLast(), range_.end, "END_IF");
+    const Loc last = findSign(selection_.view, endOfLast(), range_.end, "END_IF");
     if (!last) return;
-    if (const Loc otherwise = findWord(selection_.view, endOfBody(branches.size() - 1), last, "ELSE"))
+    if (const Loc otherwise = findSign(selection_.view, endOfBody(branches.size() - 1), last, "ELSE"))
       text += "\n" + indent + partOf(selection_, otherwise, last);
     const std::string head = "CASE " + selection_.text(tree_.range(selector_)) + " OF";
     actions.push_back(codeAction(selection_.view, "Convert to CASE", ActionKind::Rewrite,
@@ -109,10 +109,10 @@ class Chain {
   Loc endOf(size_t branch) const {
     const Loc from = endOfBody(branch);
     if (branch + 1 < node_.branches.count)
-      return findWord(selection_.view, from, tree_.range(tree_.list(node_.branches)[branch + 1].condition).begin,
+      return findSign(selection_.view, from, tree_.range(tree_.list(node_.branches)[branch + 1].condition).begin,
                       "ELSIF");
-    const Loc last = findWord(selection_.view, endOfLast(), range_.end, "END_IF");
-    const Loc otherwise = last ? findWord(selection_.view, from, last, "ELSE") : Loc{};
+    const Loc last = findSign(selection_.view, endOfLast(), range_.end, "END_IF");
+    const Loc otherwise = last ? findSign(selection_.view, from, last, "ELSE") : Loc{};
     return otherwise ? otherwise : last;
   }
 
@@ -125,7 +125,7 @@ class Chain {
     if (node.op() != BinaryOp::Equal) return false;
     const bool is_reversed = isConstant(selection_, node.left) && !isConstant(selection_, node.right);
     const ExprId value = is_reversed ? node.right : node.left, label = is_reversed ? node.left : node.right;
-    if (!isPath(tree_, value) || !isConstant(selection_, label)) return false;
+    if (!isPathOfNames(tree_, value) || !isConstant(selection_, label)) return false;
     if (!selector_) selector_ = value;
     const std::string name = selection_.text(tree_.range(value)), shown = selection_.text(tree_.range(label));
     if (name.empty() || shown.empty() || !sameIdentifier(name, selection_.text(tree_.range(selector_)))) return false;
@@ -153,12 +153,12 @@ class Cases {
   void addChain(std::vector<CodeAction>& actions) {
     const std::span<const CaseBranch> branches = tree_.list(node_.branches);
     const Loc last = endWord();
-    if (branches.empty() || !last || !isPath(tree_, node_.selector)) return;
+    if (branches.empty() || !last || !isPathOfNames(tree_, node_.selector)) return;
     const std::string selector = selection_.text(tree_.range(node_.selector)), indent = selection_.indent(range_.begin);
     std::string text;
     for (size_t i = 0; i < branches.size(); ++i) {
       const std::string condition = conditionOf(selector, branches[i]);
-      const Loc body = after(findWord(selection_.view, endOfLabels(branches[i]), last, ":"), ":");
+      const Loc body = after(findSign(selection_.view, endOfLabels(branches[i]), last, ":"), ":");
       const Loc end = i + 1 < branches.size() ? beginOf(branches[i + 1]) : otherwiseOr(last);
       if (condition.empty() || !body || !end) return;
       text += (i == 0 ? "IF " : "\n" + indent + "ELSIF ") + condition + " THEN" + partOf(selection_, body, end);
@@ -199,7 +199,7 @@ class Cases {
     for (const CaseBranch& branch : tree_.list(node_.branches))
       from = branch.body.empty() ? endOfLabels(branch) : tree_.range(tree_.list(branch.body).back()).end;
     if (!node_.otherwise.empty()) from = tree_.range(tree_.list(node_.otherwise).back()).end;
-    return findWord(selection_.view, from, range_.end, "END_CASE");
+    return findSign(selection_.view, from, range_.end, "END_CASE");
   }
   Loc beginOf(const CaseBranch& branch) const {
     return branch.labels.empty() ? Loc{} : tree_.range(tree_.list(branch.labels)[0]).begin;
@@ -211,7 +211,7 @@ class Cases {
     if (!node_.has_else) return last;
     const CaseBranch& branch = tree_.list(node_.branches).back();
     const Loc from = branch.body.empty() ? endOfLabels(branch) : tree_.range(tree_.list(branch.body).back()).end;
-    return findWord(selection_.view, from, last, "ELSE");
+    return findSign(selection_.view, from, last, "ELSE");
   }
 
   std::string conditionOf(const std::string& selector, const CaseBranch& branch) const {

@@ -145,8 +145,7 @@ std::string reindented(const std::string& text, const std::string& from, const s
 void addMethod(const Selection& selection, std::vector<CodeAction>& actions) {
   const PouDecl& pou = selection.pouDecl();
   if (pou.pou_kind != PouKind::FunctionBlock && pou.pou_kind != PouKind::Program) return;
-  if (selection.project().options.dialect == Dialect::Iec2 || !isWholeSource(selection.view.sources(), pou.h.loc))
-    return;
+  if (!isWholeSource(selection.view.sources(), pou.h.loc)) return;
   const std::span<const StmtId> statements = selectedStatements(selection);
   if (statements.empty() || !Movable(selection).is(statements)) return;
   const Loc at = pou.members.empty() ? endOfSections(selection.written(), pou)

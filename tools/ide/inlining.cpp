@@ -69,23 +69,11 @@ bool hasCall(const Tree& tree, ExprId expr) {
 
 // What the statement evaluates once, before it does anything: the reads of the variable must be in it.
 Range evaluatedFirst(const Tree& tree, StmtId stmt) {
-  switch (tree.kind(stmt)) {
-    case StmtKind::Assign: return tree.range(tree.as<AssignStmt>(stmt).value);
-    case StmtKind::Call: return tree.range(tree.as<CallStmt>(stmt).call);
-    case StmtKind::Case: return tree.range(tree.as<CaseStmt>(stmt).selector);
-    case StmtKind::If: return tree.range(tree.list(tree.as<IfStmt>(stmt).branches)[0].condition);
-    case StmtKind::Error:
-    case StmtKind::Empty:
-    case StmtKind::For:
-    case StmtKind::While:
-    case StmtKind::Repeat:
-    case StmtKind::Try:
-    case StmtKind::Exit:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Jump:
-    case StmtKind::Label: return {};
-  }
+  const StmtKind kind = tree.kind(stmt);
+  if (kind == StmtKind::Assign) return tree.range(tree.as<AssignStmt>(stmt).value);
+  if (kind == StmtKind::Call) return tree.range(tree.as<CallStmt>(stmt).call);
+  if (kind == StmtKind::Case) return tree.range(tree.as<CaseStmt>(stmt).selector);
+  if (kind == StmtKind::If) return tree.range(tree.list(tree.as<IfStmt>(stmt).branches)[0].condition);
   return {};
 }
 

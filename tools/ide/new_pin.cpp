@@ -11,9 +11,9 @@ namespace rung::ide {
 namespace {
 
 // The calls of a POU in what was written.
-class Calls {
+class CallsOf {
  public:
-  Calls(const View& view, PouId callee) : view_(view), tree_(view.tree()), callee_(callee) {
+  CallsOf(const View& view, PouId callee) : view_(view), tree_(view.tree()), callee_(callee) {
     for (const FileUnit& unit : tree_.files)
       for (const DeclId decl : tree_.list(unit.decls)) visit(decl, {});
   }
@@ -58,7 +58,7 @@ void addNewPin(const Selection& selection, std::vector<CodeAction>& actions) {
   const std::string pin = selection.freshName("newInput");
   const PouDecl& decl = view.tree().as<PouDecl>(pou.decl);
   std::vector<Fix::Edit> edits = {declarationIn(selection.written(), decl, SectionKind::Input, pin + " : BOOL")};
-  const Calls calls(view, callee);
+  const CallsOf calls(view, callee);
   for (const ExprId call : calls.all()) edits.push_back(withArgument(selection, view.tree().as<CallExpr>(call), pin));
   const std::string title = "Add an input to `" + std::string(view.names().string(pou.name)) + "` and its calls";
   actions.push_back(codeAction(view, title, ActionKind::Rewrite, std::move(edits)));

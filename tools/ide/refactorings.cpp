@@ -108,7 +108,7 @@ std::span<const StmtId> listWith(const Tree& tree, NodeRef parent, StmtId stmt) 
   return found;
 }
 
-Loc findWord(const View& view, Loc from, Loc to, std::string_view word) {
+Loc findSign(const View& view, Loc from, Loc to, std::string_view word) {
   const FileId file = view.sources().fileOf(from);
   if (!file || to <= from) return {};
   const uint32_t base = view.sources().begin(file).offset;

@@ -41,7 +41,7 @@ std::optional<Selection> selectionAt(const View& view, const FileRange& range);
 // The list of statements with this one, which is a child of `parent`.
 std::span<const StmtId> listWith(const Tree& tree, NodeRef parent, StmtId stmt);
 // The first word or sign of a source, outside of comments, from one place to another; none: it is not there.
-Loc findWord(const View& view, Loc from, Loc to, std::string_view word);
+Loc findSign(const View& view, Loc from, Loc to, std::string_view word);
 
 // Without edits: a place is not in a file.
 CodeAction codeAction(const View& view, std::string title, ActionKind kind, std::vector<Fix::Edit> edits);
