@@ -89,8 +89,11 @@ const char* wordOf(SectionKind section) {
   return section == SectionKind::Global ? "VAR_GLOBAL" : "VAR";
 }
 
+// None: it has no header of its own, as GET of a property.
 Loc endOfHeader(const Written& written, const PouDecl& pou) {
-  Loc end{pou.h.loc.offset + static_cast<uint32_t>(written.names.string(pou.name).size())};
+  const std::string_view name = written.names.string(pou.name);
+  Loc end{pou.h.loc.offset + static_cast<uint32_t>(name.size())};
+  if (!sameIdentifier(sourceText(written.sources, {pou.h.loc, end}), name)) return {};
   const auto extend = [&](TypeExprId type) {
     if (type) end = std::max(end, written.tree.range(type).end);
   };
@@ -136,6 +139,7 @@ Fix::Edit declarationIn(const Written& written, const PouDecl& pou, SectionKind 
   if (const SectionDecl* found = findSection(written, pou.sections, kind))
     return declarationIn(written, *found, variable);
   const Loc at = kind == SectionKind::Input ? endOfHeader(written, pou) : endOfSections(written, pou);
+  if (!at) return {};
   const std::string indent = indentAt(written.sources, pou.h.loc);
   return {at, at, "\n" + indent + wordOf(kind) + "\n" + indent + "  " + variable + ";\n" + indent + "END_VAR"};
 }

@@ -52,24 +52,49 @@ bool isEvaluatedFirst(const Selection& selection, StmtId stmt) {
   return !branches.empty() && isIn(branches[0].condition);
 }
 
+// `TRANSITION t := a;` is not a statement, although it looks like one from its value on.
+bool followsSign(const Selection& selection, Loc begin) {
+  Loc before = begin;
+  std::string text;
+  do {
+    --before.offset;
+    text = selection.text({before, {before.offset + 1}});
+  } while (!text.empty() && isBlankCharacter(text[0]));
+  return text == "=" || text == ":";
+}
+
+// A type as its name is known in the project; empty: it has none there.
+std::string typeName(const Selection& selection, TypeId type) {
+  const types::TypeTable& table = selection.project().types;
+  const TypeId resolved = table.resolve(type);
+  const types::TypeKind kind = table.kind(resolved);
+  if (kind == types::TypeKind::Enum || kind == types::TypeKind::Record) {
+    const NameId name = table.info(resolved).name;
+    if (!name || !selection.scope().typeNamed(selection.view.names().key(name))) return {};
+  }
+  return table.toString(resolved);
+}
+
 void addVariable(const Selection& selection, std::vector<CodeAction>& actions) {
   const Tree& tree = selection.tree();
   const ExprId expr = selectedExpression(selection);
   const StatementAt at = statementAt(selection);
-  if (!expr || !at.stmt || !isEvaluatedFirst(selection, at.stmt)) return;
+  if (!expr || !at.stmt || listWith(tree, at.parent, at.stmt).empty() || !isEvaluatedFirst(selection, at.stmt)) return;
   const ExprShape shape_of_it = shape(tree.kind(expr));
   if (shape_of_it != ExprShape::Operation && tree.kind(expr) != ExprKind::Literal) return;  // it may be an lvalue
   const TypeId type = selection.typeOf(expr);
-  if (!type) return;
+  const std::string type_name = type ? typeName(selection, type) : std::string();
+  if (type_name.empty() || followsSign(selection, tree.range(at.stmt).begin)) return;
   const std::string name = selection.freshName("value");
-  const std::string declaration = name + " : " + selection.project().types.toString(type);
+  const std::string declaration = name + " : " + type_name;
   const Loc before = tree.range(at.stmt).begin;
   const bool is_first = withBlanks(selection.view.sources(), {before, before}).begin == before &&
                         selection.text({{before.offset - 1}, before}) != " ";
   const std::string line = name + " := " + selection.text(selection.parsed) + ";";
   const std::string apart = is_first || !selection.indent(before).empty() ? "\n" + selection.indent(before) : " ";
   std::vector<Fix::Edit> edits = {{before, before, line + apart}, {selection.parsed.begin, selection.parsed.end, name}};
-  edits.push_back(declarationIn(selection.written(), selection.pouDecl(), SectionKind::Local, declaration));
+  edits.push_back(declarationIn(selection.written(), selection.declaringPou(), SectionKind::Local, declaration));
+  if (!edits.back().begin) return;
   actions.push_back(
       codeAction(selection.view, "Extract variable `" + name + "`", ActionKind::Extract, std::move(edits)));
 }
@@ -101,10 +126,11 @@ class Movable {
   }
   bool isOfCall(ExprId name) const {
     const Entity entity = selection_.view.meanings().valueOf(selection_.pou, name).entity;
+    if (entity.entityKind() == EntityKind::Pou) return selection_.project().pou(PouId{entity.index}).pragmas.test_only;
     if (entity.entityKind() != EntityKind::Var) return false;
     const sema::Var& var = selection_.project().var(VarId{entity.index});
-    return var.pou == selection_.pou && (var.section == SectionKind::Temp || var.section == SectionKind::InOut ||
-                                         var.section == SectionKind::External);
+    return var.section == SectionKind::Temp ||
+           (var.pou == selection_.pou && (var.section == SectionKind::InOut || var.section == SectionKind::External));
   }
 
   const Selection& selection_;

@@ -67,6 +67,16 @@ bool hasCall(const Tree& tree, ExprId expr) {
   return found;
 }
 
+// The name is an argument of its own, which may need an lvalue.
+bool isArgument(const Selection& selection, const FileRange& name) {
+  const Loc at = selection.view.parsedAt(name.file, name.begin);
+  const FileUnit* const unit = selection.view.unitWith(at);
+  if (unit == nullptr) return true;
+  const std::vector<NodeRef> path = nodeAt(selection.tree(), *unit, at);
+  if (path.size() < 2 || path[path.size() - 2].category != NodeRef::Category::Expr) return false;
+  return selection.tree().kind(ExprId{path[path.size() - 2].word}) == ExprKind::Call;
+}
+
 // What the statement evaluates once, before it does anything: the reads of the variable must be in it.
 Range evaluatedFirst(const Tree& tree, StmtId stmt) {
   const StmtKind kind = tree.kind(stmt);
@@ -101,7 +111,7 @@ void addInlining(const Selection& selection, std::vector<CodeAction>& actions) {
     if (reference.is_declaration || reference.at == target) continue;
     const bool is_in = reads_in && reference.at.file == reads_in.file && reads_in.begin <= reference.at.begin &&
                        reference.at.end <= reads_in.end;
-    if (!is_in || reference.kind != ReferenceKind::Read) return;
+    if (!is_in || reference.kind != ReferenceKind::Read || isArgument(selection, reference.at)) return;
     reads.push_back(reference.at);
   }
   if (reads.empty() || (reads.size() > 1 && hasCall(tree, set.value))) return;

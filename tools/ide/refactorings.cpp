@@ -47,6 +47,11 @@ FileRange withoutBlanks(const View& view, FileRange range) {
 
 const PouDecl& Selection::pouDecl() const { return tree().as<PouDecl>(project().pou(pou).decl); }
 
+const PouDecl& Selection::declaringPou() const {
+  const sema::Pou& of = project().pou(pou);
+  return of.kind == PouKind::Action && of.owner ? tree().as<PouDecl>(project().pou(of.owner).decl) : pouDecl();
+}
+
 std::string Selection::freshName(const std::string& base) const {
   for (uint32_t number = 1;; ++number) {
     std::string name = number == 1 ? base : base + std::to_string(number);

@@ -29,6 +29,7 @@ struct Selection {
   std::string text(Range of) const { return sourceText(view.sources(), of); }
   std::string indent(Loc loc) const { return indentAt(view.sources(), loc); }
   const PouDecl& pouDecl() const;
+  const PouDecl& declaringPou() const;  // of an action the block, which declares its variables
   // A name that is not used yet: `base`, `base2` …
   std::string freshName(const std::string& base) const;
   // The type that the check gave an expression; none: it is not known.
