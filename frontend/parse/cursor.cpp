@@ -167,6 +167,13 @@ Report Cursor::insertion(Report report, const Token* before, std::string_view wo
   static constexpr TokSet kContinue = {Tok::Then, Tok::Do, Tok::Of, Tok::To, Tok::By};
   const bool ends_statement =
       (word == ")" || word == "]") && ends_line && !in_il_ && begins(next) == Begins::New && !kContinue.has(next->kind);
+  const Token* const first = before > tokens_.data() ? before - 1 : before;
+  const bool may_bind =
+      word == "," && !declares_ && isName(before->kind) && (first->kind == Tok::LeftParen || first->kind == Tok::Comma);
+  if (may_bind) {  // `f(pin 1)`
+    sureness = Sureness::Proposal;
+    report.insert(endOf(before), insertedAfter(source_, endOf(before).offset - base_, ":=").text, sureness);
+  }
   const Insertion added = insertedAfter(source_, endOf(before).offset - base_,
                                         ends_statement ? std::string(word) + ";" : std::string(word));
   return report.insert(endOf(before), added.text, sureness);

@@ -6,12 +6,16 @@
 #   fixes.py FILE|DIR ... [--all] [--verbose]   pages of docs/errors, and sources with `// args:` as tests have them;
 #                                               --all: also the fixes that are proposals; --verbose: each that fails
 #   fixes.py FILE|DIR ... --failures            prints the sure fixes that leave their diagnostic or make a new error
+#   fixes.py FILE|DIR ... --cut N               takes N words and signs out of programs without errors, one at a time, and
+#                                               fixes what is sure: prints for each word how often it is there again
 #   fixes.py --pages DIR                        applies the fix of each page of docs/errors that has one: the result is
 #                                               the fixed program of the page, or has no error; prints what differs
 import collections
 import json
 import os
+import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -171,7 +175,61 @@ def compare_page(page):
     return outcome
 
 
+CUT = ["THEN", "DO", "OF", "TO", "UNTIL", "END_IF", "END_FOR", "END_WHILE", "END_CASE", "END_REPEAT", "END_VAR", "END_STRUCT",
+       "END_FUNCTION_BLOCK", "END_FUNCTION", "END_PROGRAM", "END_TYPE", ";", ")", "(", ":=", ":", ","]
+
+
+# Each word of a program in another place of which the program stays the same: those in comments and strings are not.
+def places_in(text, word):
+    code = re.sub(r"\(\*.*?\*\)|//[^\n]*|'[^'\n]*'|\"[^\"\n]*\"|\{[^}]*\}", lambda m: " " * len(m[0]), text, flags=re.S)
+    pattern = r"(?<![\w])" + word + r"(?![\w])" if word[0].isalpha() else re.escape(word) + ("(?!=)" if word == ":" else "")
+    return [match.span() for match in re.finditer(pattern, code)]
+
+
+def cut(paths, count):
+    chance = random.Random(1)
+    rows = collections.defaultdict(collections.Counter)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "program.st")
+        programs = []
+        for source in paths:
+            for suffix, options, text in programs_in(source) if source.endswith(".st") else ():
+                shutil.copy(source, path)
+                found = check(folder, "program.st", options)
+                if found is not None and not errors_in(found):
+                    programs.append((options, text))
+        for _ in range(count):
+            options, text = chance.choice(programs)
+            word = chance.choice(CUT)
+            places = places_in(text, word)
+            if not places:
+                continue
+            begin, end = chance.choice(places)
+            with open(path, "w", encoding="utf-8", errors="surrogateescape", newline="") as stream:
+                stream.write(text[:begin] + text[end:])
+            before = errors_in(check(folder, "program.st", options) or [])
+            if not before:
+                continue
+            subprocess.run(["rung", "check", "--fix", "program.st", *options], cwd=folder, capture_output=True)
+            after = errors_in(check(folder, "program.st", options) or [])
+            result = "the same" if words_of(read_text(path)) == words_of(text) else "clean" if not after else "left"
+            rows[word][result] += 1
+            rows[word]["cut"] += 1
+            if sum(after.values()) > sum(before.values()):
+                rows[word]["more errors"] += 1
+                if "--verbose" in sys.argv:
+                    print(word, repr(text[max(0, begin - 60):begin]), repr(text[end:end + 60]), list(before), list(after))
+    columns = ["cut", "the same", "clean", "left", "more errors"]
+    print("word\t" + "\t".join(columns))
+    for word in [*CUT, "all"]:
+        row = sum(rows.values(), collections.Counter()) if word == "all" else rows[word]
+        print(word + "\t" + "\t".join(str(row[column]) for column in columns))
+
+
 def main():
+    if "--cut" in sys.argv:
+        at = sys.argv.index("--cut")
+        return cut([path for argument in sys.argv[1:at] for path in files_in(argument)], int(sys.argv[at + 1]))
     arguments = [word for word in sys.argv[1:] if not word.startswith("--")]
     if "--pages" in sys.argv:
         outcomes = collections.Counter(compare_page(page) for page in files_in(arguments[0]) if page.endswith(".md"))

@@ -69,9 +69,9 @@ class Fixer {
       std::vector<const Candidate*> all;
       for (const Candidate& candidate : candidates) all.push_back(&candidate);
       take(all);
+      show(textsWith({}));  // the last trial may have been another one
       if (accepted_.empty()) break;
       for (const Candidate* candidate : accepted_) ++fixed_.files[candidate->edits[0].path].fixes;
-      show(textsWith({}));  // the last trial may have been another one
     }
     fixed_.error = snapshot_->error();
     for (auto& [path, file] : fixed_.files) file.after = texts_.count(path) != 0 ? texts_[path] : file.before;
