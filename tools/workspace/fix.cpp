@@ -25,8 +25,9 @@ struct PathEdit {
   std::string text;
 };
 struct Candidate {
-  std::string diagnostic;  // its path, code and message
-  bool is_syntax;          // what comes after a mistake of syntax may not have been looked at
+  std::string diagnostic;    // its path, code and message
+  std::string fix;           // … and the title
+  bool may_uncover = false;  // a sure fix of syntax: what comes after the mistake may not have been looked at
   std::vector<PathEdit> edits;
 };
 // The errors of a snapshot, and all diagnostics, each as often as it is there.
@@ -70,7 +71,6 @@ class Fixer {
       for (const Candidate& candidate : candidates) all.push_back(&candidate);
       take(all);
       show(textsWith({}));  // the last trial may have been another one
-      if (accepted_.empty()) break;
       for (const Candidate* candidate : accepted_) ++fixed_.files[candidate->edits[0].path].fixes;
     }
     fixed_.error = snapshot_->error();
@@ -93,21 +93,24 @@ class Fixer {
     std::map<std::string, std::vector<std::pair<uint32_t, uint32_t>>> taken;  // by path
     for (const Diagnostic& diagnostic : snapshot_->diagnostics()) {
       if (diagnostic.fixes.empty()) continue;
-      Candidate candidate{shownName(snapshot_->sources(), diagnostic), diagnostic.reporter == 0, {}};
-      if (refused_.count(candidate.diagnostic) != 0) continue;
-      candidate.edits = editsOf(diagnostic);
+      Candidate candidate = candidateFor(diagnostic);
       if (!candidate.edits.empty() && isApart(candidate, taken)) candidates.push_back(std::move(candidate));
     }
     return candidates;
   }
 
-  std::vector<PathEdit> editsOf(const Diagnostic& diagnostic) {
-    const auto sure =
-        std::find_if(diagnostic.fixes.begin(), diagnostic.fixes.end(), [](const Fix& fix) { return fix.is_sure; });
-    if (sure != diagnostic.fixes.end()) return inFiles(diagnostic, *sure);
-    if (fixes_ != driver::FixSet::All) return {};
-    for (const Fix& fix : diagnostic.fixes)
-      if (std::vector<PathEdit> edits = inFiles(diagnostic, fix); !edits.empty()) return edits;
+  // A sure fix, else the first proposal, of those that were not taken back.
+  Candidate candidateFor(const Diagnostic& diagnostic) {
+    const std::string name = shownName(snapshot_->sources(), diagnostic);
+    for (const bool is_sure : {true, false}) {
+      if (!is_sure && fixes_ != driver::FixSet::All) break;
+      for (const Fix& fix : diagnostic.fixes) {
+        Candidate candidate{name, name + '\n' + fix.title, is_sure && diagnostic.reporter == 0, {}};
+        if (fix.is_sure != is_sure || refused_.count(candidate.fix) != 0) continue;
+        candidate.edits = inFiles(diagnostic, fix);
+        if (!candidate.edits.empty()) return candidate;
+      }
+    }
     return {};
   }
 
@@ -150,7 +153,7 @@ class Fixer {
       return;
     }
     if (candidates.size() == 1) {
-      refused_.insert(candidates[0]->diagnostic);
+      refused_.insert(candidates[0]->fix);
       return;
     }
     const auto middle = candidates.begin() + static_cast<std::ptrdiff_t>(candidates.size() / 2);
@@ -161,14 +164,14 @@ class Fixer {
   bool isBetter(const std::vector<const Candidate*>& candidates, const Findings& now) const {
     if (!snapshot_->error().empty() || now.errors > known_.errors) return false;
     std::map<std::string, size_t> fixed;
-    bool is_syntax = true;
+    bool may_uncover = true;
     for (const Candidate* candidate : candidates) {
       ++fixed[candidate->diagnostic];
-      is_syntax = is_syntax && candidate->is_syntax;
+      may_uncover = may_uncover && candidate->may_uncover;
     }
     for (const auto& [diagnostic, count] : fixed)
       if (now.all.count(diagnostic) + count > known_.all.count(diagnostic)) return false;
-    return is_syntax || std::all_of(now.of_errors.begin(), now.of_errors.end(), [&](const std::string& error) {
+    return may_uncover || std::all_of(now.of_errors.begin(), now.of_errors.end(), [&](const std::string& error) {
              return now.of_errors.count(error) <= known_.of_errors.count(error);
            });
   }
