@@ -60,5 +60,7 @@ class List {
 int listNct(const ProjectOptions& project, Sink& sink);
 // The tasks of a project, what they run, and in which order. (list_tasks.cpp)
 int listTasks(const ProjectOptions& project, Sink& sink);
+// The tests of a project, without running them. (test_list.cpp)
+int listTests(const ProjectOptions& project, const TestOptions& options, Sink& sink);
 
 }  // namespace rung::driver

@@ -142,6 +142,7 @@ struct TestOptions {
   bool coverage = false;  // as a table
   bool allow_none = false;
   bool separate = false;
+  bool list = false;                    // only print which there are
   int64_t timeout_ns = 10'000'000'000;  // of each test; 0: none
   int64_t max_steps = 100'000'000;      // of an activation; 0: none
 

@@ -13,6 +13,7 @@
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/coverage.h"
+#include "tools/driver/list.h"
 #include "tools/driver/module_library.h"
 #include "tools/driver/native.h"
 #include "tools/driver/output_files.h"
@@ -354,6 +355,8 @@ class Tester {
 }  // namespace
 
 int runTest(const ProjectOptions& project, const TestOptions& options, Sink& sink) {
+  if (options.list && options.separate) return usageError(sink, "`--list` and `--separate` cannot be combined");
+  if (options.list) return listTests(project, options, sink);
   ProjectOptions testing = project;
   testing.written = options.junit;
   testing.code.with_tests = testing.code.counts_steps = true;

@@ -314,6 +314,8 @@ constexpr OptionRow kOptions[] = {
     {"--max-steps", "N", kRuns | bit(Command::Test), setLimit, "end an activation after N steps (100000000)"},
     {"--filter", "GLOB", bit(Command::Test), addText<&CommandLine::test, &TestOptions::filters>,
      "run only tests whose name matches; may be repeated"},
+    {"--list", nullptr, bit(Command::Test), setFlag<&CommandLine::test, &TestOptions::list>,
+     "run nothing; print which tests there are"},
     {"--allow-none", nullptr, bit(Command::Test), setFlag<&CommandLine::test, &TestOptions::allow_none>,
      "no test is not an error"},
     {"--junit", "FILE", bit(Command::Test), setText<&CommandLine::test, &TestOptions::junit>,

@@ -10,8 +10,8 @@ namespace rung::host {
 namespace {
 
 // Each uses what is before it.
-constexpr const char* kScripts[] = {"core.js",  "tree.js",   "watch.js", "program.js",
-                                    "scope.js", "motion.js", "status.js"};
+constexpr const char* kScripts[] = {"core.js",    "tree.js",  "watch.js",  "picture.js",
+                                    "program.js", "scope.js", "motion.js", "status.js"};
 
 std::string_view pageFile(std::string_view name) {
   for (size_t i = 0; i < embedded::monitor_page_count; ++i)
