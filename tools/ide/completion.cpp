@@ -850,7 +850,8 @@ bool isProjectFile(std::string_view path) { return path.ends_with("/rung.project
 
 }  // namespace
 
-Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte, Trial& trial) {
+Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte,
+                         CompletionTrial& trial) {
   Completion result;
   result.replaced = {file, byte, byte};
   const std::string_view text = view.textOf(file);

@@ -61,16 +61,17 @@ struct Completion {
   FileRange replaced;          // what of the name is typed already
 };
 // Workspace::errorsOf and Workspace::goodTypes.
-class Trial {
+class CompletionTrial {
  public:
-  virtual ~Trial() = default;
+  virtual ~CompletionTrial() = default;
   virtual std::optional<std::vector<std::string>> errorsOf(PouId pou, const std::vector<std::string>& statements) = 0;
   virtual std::optional<std::string> goodTypes(const workspace::Analysis::TypeTrial& trial) = 0;
 };
 
 // With no letter typed only what makes a program, as far as a trial can tell; with the first letter also the rest that
 // the place takes, as last.
-Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte, Trial& trial);
+Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte,
+                         CompletionTrial& trial);
 
 // The declaration and documentation of an item, as Markdown.
 std::string documentationOf(const View& view, const CompletionItem& item);

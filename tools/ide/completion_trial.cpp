@@ -59,7 +59,7 @@ std::vector<std::string> codesOf(const std::string& errors, const std::string& w
 
 }  // namespace
 
-void tryItems(const Cursor& cursor, const Clause& clause, std::vector<CompletionItem>& items, Trial& trial) {
+void tryItems(const Cursor& cursor, const Clause& clause, std::vector<CompletionItem>& items, CompletionTrial& trial) {
   std::unordered_map<std::string, size_t> by_key;  // the statement of each
   std::vector<std::string> statements = {statementWith(clause, std::string(kNoName))};
   for (const CompletionItem& item : items) {
@@ -190,7 +190,7 @@ bool mayHave(const View& view, TypeId type, const std::vector<std::string>& memb
 
 }  // namespace
 
-void tryTypes(const View& view, const Cursor& cursor, std::vector<CompletionItem>& items, Trial& trial) {
+void tryTypes(const View& view, const Cursor& cursor, std::vector<CompletionItem>& items, CompletionTrial& trial) {
   constexpr size_t kMostTypes = 60;
   TypeUses uses(view, cursor);
   workspace::Analysis::TypeTrial tried = uses.read();

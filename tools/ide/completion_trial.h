@@ -12,9 +12,9 @@ namespace rung::ide {
 
 // Makes each item that is tried Whole or Part, the best first, as many as one trial takes. Leaves them where there can
 // be no trial.
-void tryItems(const Cursor& cursor, const Clause& clause, std::vector<CompletionItem>& items, Trial& trial);
+void tryItems(const Cursor& cursor, const Clause& clause, std::vector<CompletionItem>& items, CompletionTrial& trial);
 // The same for types: the declaration before the cursor is that of variables that are used already.
-void tryTypes(const View& view, const Cursor& cursor, std::vector<CompletionItem>& items, Trial& trial);
+void tryTypes(const View& view, const Cursor& cursor, std::vector<CompletionItem>& items, CompletionTrial& trial);
 // Takes out what needs more when no letter is typed, else puts it last; and the worst, when there are too many.
 void sortOut(const Cursor& cursor, Completion& completion);
 

@@ -68,9 +68,9 @@ class Projects {
   std::optional<std::string> goodTypes(const Project& project, const workspace::Analysis::TypeTrial& trial) const {
     return project.workspace_ == nullptr ? std::nullopt : project.workspace_->goodTypes(trial);
   }
-  // The project as it would be with other texts, by path. Null: `cancelled` became true.
-  std::unique_ptr<const View> trial(const Project& project, const std::map<std::string, std::string>& texts,
-                                    const std::atomic<bool>* cancelled) const;
+  // Workspace::inTrial.
+  std::optional<std::string> trial(const Project& project, const std::map<std::string, std::string>& texts,
+                                   FunctionRef<std::string(const View& after)> use) const;
   // What the user should know about the folders, once each.
   std::vector<std::string> takeNotices();
 

@@ -60,7 +60,7 @@ Json itemJson(const ide::CompletionItem& item, const Json& replaced, const Json&
   return json;
 }
 
-class ProjectTrial final : public ide::Trial {
+class ProjectTrial final : public ide::CompletionTrial {
  public:
   // `is_on`: there is a trial.
   ProjectTrial(const ide::Projects& projects, const ide::Project& project, bool is_on)

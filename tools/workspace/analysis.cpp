@@ -32,12 +32,15 @@ Analysis::Analysis(driver::ProjectOptions options, const std::atomic<bool>* canc
   checked_size_ = compilation_.tree.size();
 }
 
-bool Analysis::edit(const std::string& path, const std::string& text, const std::atomic<bool>* cancelled) {
+bool Analysis::edit(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled) {
   if (!compilation_.checked || !sink_.error_text.empty()) return false;
-  EditedFile* const edited = editedFile(path);
-  if (edited == nullptr) return false;
-  const bool has_room = compilation_.tree.size() < checked_size_ + kMostGarbage;
-  const bool is_done = (has_room && edited->replace(text)) || checkAgain(*edited, text, cancelled);
+  for (const auto& [path, text] : texts)
+    if (editedFile(path) == nullptr) return false;
+  const auto replace = [&](const auto& change) {
+    const bool has_room = compilation_.tree.size() < checked_size_ + kMostGarbage;
+    return has_room && editedFile(change.first)->replace(change.second);
+  };
+  const bool is_done = std::all_of(texts.begin(), texts.end(), replace) || checkAgain(texts, cancelled);
   if (is_done) compilation_.finish();
   return is_done;
 }
@@ -121,9 +124,10 @@ EditedFile* Analysis::editedFile(const std::string& path) {
 }
 
 // Parses the edited files alone.
-bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled) {
-  if (compilation_.writtenSize() > first_size_ + kMostGarbage || compilation_.asksForNames() || !edited.take(text))
-    return false;
+bool Analysis::checkAgain(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled) {
+  if (compilation_.writtenSize() > first_size_ + kMostGarbage || compilation_.asksForNames()) return false;
+  for (const auto& [path, text] : texts)
+    if (!editedFile(path)->take(text)) return false;
   std::vector<FileId> changed;
   for (const auto& [path, file] : edited_) changed.push_back(file.file());
   compilation_.cancelled = cancelled;

@@ -13,7 +13,7 @@
 namespace rung::workspace {
 namespace {
 
-constexpr std::chrono::seconds kLongest{10};
+constexpr std::chrono::seconds kLongest{60};
 
 void writeAll(int to, const std::string& text) {
   for (size_t done = 0; done < text.size();) {

@@ -29,10 +29,14 @@ std::shared_ptr<const Snapshot> Workspace::apply(std::vector<Change> changes, co
 
 // Whether the last analysis has the change now. It is gone when it does not, and is not as it was.
 bool Workspace::editInPlace(const std::vector<Change>& changes, const std::atomic<bool>* cancelled) {
-  if (!analysis_ || lacks_changes_ || changes.size() != 1 || !changes[0].text) return false;
-  if (analysis_->readers.load(std::memory_order_acquire) != 0) return false;
+  if (!analysis_ || lacks_changes_ || analysis_->readers.load(std::memory_order_acquire) != 0) return false;
+  std::map<std::string, std::string> texts;
+  for (const Change& change : changes) {
+    if (!change.text) return false;
+    texts[change.path] = *change.text;
+  }
   // A body that was changed is known, also to who does not want it any more: the next key goes on from there.
-  if (analysis_->edit(changes[0].path, *changes[0].text, cancelled)) return true;
+  if (!texts.empty() && analysis_->edit(texts, cancelled)) return true;
   analysis_.reset();
   return false;
 }
@@ -60,6 +64,21 @@ std::optional<std::string> Workspace::goodTypes(const Analysis::TypeTrial& trial
   if (!analysis_) return std::nullopt;
   std::optional<std::string> good = inProcessCopy([&] { return analysis_->goodTypes(trial); });
   return good && good->size() == trial.types.size() ? good : std::nullopt;
+}
+
+std::optional<std::string> Workspace::inTrial(const std::map<std::string, std::string>& texts,
+                                              FunctionRef<std::string(std::shared_ptr<const Snapshot>)> use) {
+  return inProcessCopy([&] {
+    if (analysis_) analysis_->makeLast();
+    if (!analysis_ || lacks_changes_ || !analysis_->edit(texts, nullptr)) {
+      driver::ProjectOptions options = options_;
+      std::map<std::string, std::string> open = open_;
+      for (const auto& [path, text] : texts) open[path] = text;
+      for (const auto& [path, text] : open) options.unsaved.push_back({path, text});
+      analysis_ = std::make_shared<Analysis>(std::move(options), nullptr);
+    }
+    return use(std::make_shared<const Snapshot>(analysis_));
+  });
 }
 
 std::shared_ptr<const Snapshot> Workspace::current() {

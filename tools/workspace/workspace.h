@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/source/function_ref.h"
 #include "tools/workspace/analysis.h"
 
 namespace rung::workspace {
@@ -65,6 +66,10 @@ class Workspace {
   std::optional<std::vector<std::string>> errorsOf(sema::PouId pou, const std::vector<std::string>& statements) const;
   // Analysis::goodTypes, without a change of the last snapshot. None: it cannot be said.
   std::optional<std::string> goodTypes(const Analysis::TypeTrial& trial) const;
+  // What `use` says of the project with other texts, by path. It gets a copy of what is known, and may read nothing
+  // that refers to the last snapshot. None: it cannot be said.
+  std::optional<std::string> inTrial(const std::map<std::string, std::string>& texts,
+                                     FunctionRef<std::string(std::shared_ptr<const Snapshot>)> use);
   // The last one that was made; none before the first, and none when the one that was to take its place was cancelled.
   std::shared_ptr<const Snapshot> current();
 
