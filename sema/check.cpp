@@ -139,6 +139,13 @@ size_t CheckedProject::knownBesideBodies() const {
          scopes_->written_types.size() + scopes_->initial_values.size();
 }
 
+void CheckedProject::tryBody(const NewBody& body) {
+  Context context = contextOf(project_, *scopes_);
+  takeBackBodies(context, {&body.pou, 1});
+  project_.pou(body.pou).decl = body.decl;
+  ensureBody(context, body.pou);
+}
+
 bool CheckedProject::replaceBodies(std::span<const NewBody> bodies) {
   Context context = contextOf(project_, *scopes_);
   std::vector<PouId> pous;

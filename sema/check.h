@@ -40,6 +40,9 @@ class CheckedProject {
   // is taken back. False: declarations or other bodies depend on one of them, so that the project is to be checked
   // again, and what is known of it now is of no use.
   bool replaceBodies(std::span<const NewBody> bodies);
+  // Checks a body in the place of that of its POU, to see what is wrong with it. What is known of the project is of no
+  // use afterwards: for a copy of the process, which ends then.
+  void tryBody(const NewBody& body);
   // Grows with what outlives bodies, such as a library block that one used first.
   size_t knownBesideBodies() const;
 

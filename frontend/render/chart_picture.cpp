@@ -58,8 +58,8 @@ class ChartLabels {
   std::string priority(uint32_t index) const;
   std::string_view name(NameId id) const { return names_.string(id); }
   // Groups with what a monitor needs, where it is wanted: a step and its time, an action, a condition.
-  void openStep(Svg& svg, const SfcStep& step) const;
-  void openAction(Svg& svg, const std::string& name) const;
+  void openStep(Svg& svg, uint32_t index) const;
+  void openAction(Svg& svg, uint32_t step, uint32_t index, const std::string& name) const;
   void openTransition(Svg& svg, uint32_t index) const;
   void close(Svg& svg) const {
     if (path_of_ != nullptr) svg.close();
@@ -78,17 +78,20 @@ class ChartLabels {
 };
 
 // The variables of steps and actions are those that sfc_schedule.h declares.
-void ChartLabels::openStep(Svg& svg, const SfcStep& step) const {
+void ChartLabels::openStep(Svg& svg, uint32_t index) const {
   if (path_of_ == nullptr) return;
-  const std::string own(name(step.name.name));
-  svg.open(std::vector<Svg::Attribute>{
-      {"data-element", own}, {"data-kind", "step"}, {"data-path", "." + own + ".x"}, {"data-time", "." + own + ".t"}});
+  const std::string own(name(tree_.list(pou_.steps)[index].name.name));
+  svg.open(std::vector<Svg::Attribute>{{"id", stepId(index)},
+                                       {"data-element", own},
+                                       {"data-kind", "step"},
+                                       {"data-path", "." + own + ".x"},
+                                       {"data-time", "." + own + ".t"}});
 }
 
-void ChartLabels::openAction(Svg& svg, const std::string& own) const {
+void ChartLabels::openAction(Svg& svg, uint32_t step, uint32_t index, const std::string& own) const {
   if (path_of_ == nullptr) return;
-  svg.open(
-      std::vector<Svg::Attribute>{{"data-element", own}, {"data-kind", "action"}, {"data-path", "._" + own + ".x"}});
+  svg.open(std::vector<Svg::Attribute>{
+      {"id", actionId(step, index)}, {"data-element", own}, {"data-kind", "action"}, {"data-path", "._" + own + ".x"}});
 }
 
 // A condition with a name is a BOOL of the chart.
@@ -98,8 +101,10 @@ void ChartLabels::openTransition(Svg& svg, uint32_t index) const {
   const ExprId value = valueOf(transition);
   std::string path = value ? (*path_of_)(value) : std::string();
   if (path.empty() && transition.name.name) path = "." + std::string(name(transition.name.name));
-  svg.open(std::vector<Svg::Attribute>{
-      {"data-element", std::to_string(index + 1)}, {"data-kind", "transition"}, {"data-path", path}});
+  svg.open(std::vector<Svg::Attribute>{{"id", transitionId(index)},
+                                       {"data-element", std::to_string(index + 1)},
+                                       {"data-kind", "transition"},
+                                       {"data-path", path}});
 }
 
 std::vector<std::string> ChartLabels::linesOf(NameId action) const {
@@ -164,7 +169,7 @@ std::string ChartLabels::priority(uint32_t index) const {
 void drawStep(Svg& svg, const ChartLabels& texts, const SfcStep& step, const ChartNode& node) {
   const StepText text = texts.step(node.index);
   const Point o = node.origin;
-  texts.openStep(svg, step);
+  texts.openStep(svg, node.index);
   const Rect box{o.x - text.width / 2, o.y, text.width, text.height};
   svg.rect(box, "w");
   if (step.initial) svg.rect({box.x + 4, box.y + 4, box.width - 8, box.height - 8});
@@ -175,9 +180,10 @@ void drawStep(Svg& svg, const ChartLabels& texts, const SfcStep& step, const Cha
   const int32_t x = box.right() + kToActions, middle = x + text.qualifier_width;
   svg.line({box.right(), o.y + 15}, {x, o.y + 15});
   int32_t y = o.y + 5;
-  for (const Action& action : text.actions) {
+  for (uint32_t k = 0; k < text.actions.size(); ++k) {
+    const Action& action = text.actions[k];
     const int32_t height = action.height();
-    texts.openAction(svg, action.name);
+    texts.openAction(svg, node.index, k, action.name);
     svg.rect({x, y, text.qualifier_width, height}, "w");
     svg.rect({middle, y, text.name_width, height}, "w");
     svg.text({x + text.qualifier_width / 2, y + 14}, Anchor::Middle, action.qualifier);
@@ -218,6 +224,12 @@ void drawJump(Svg& svg, const ChartLabels& texts, const ChartJump& jump) {
 }
 
 }  // namespace
+
+std::string stepId(uint32_t step) { return "step" + std::to_string(step + 1); }
+std::string actionId(uint32_t step, uint32_t action) {
+  return "action" + std::to_string(step + 1) + "." + std::to_string(action + 1);
+}
+std::string transitionId(uint32_t transition) { return "transition" + std::to_string(transition + 1); }
 
 ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou) {
   const ChartLabels texts(tree, names, pou);

@@ -79,7 +79,7 @@ class EndPaths {
 
 std::vector<Svg::Attribute> liveAttributes(const Body& body, const DiagramElement& e) {
   const std::string number = numberOf(e);
-  return {{"id", "e" + number},
+  return {{"id", elementId(e.number)},
           {"data-element", number},
           {"data-kind", std::string(kElementWords[static_cast<size_t>(e.kind)])},
           {"data-path", e.operand ? (*body.path_of)(e.operand) : std::string()},

@@ -39,4 +39,11 @@ std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& di
 std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name,
                       const PathOf* path_of = nullptr);
 
+// The ids of what a picture with paths has: those of an element of networks, a step, the actions at a step and a
+// transition, by their indices.
+std::string elementId(uint64_t number);
+std::string stepId(uint32_t step);
+std::string actionId(uint32_t step, uint32_t action);
+std::string transitionId(uint32_t transition);
+
 }  // namespace rung::picture

@@ -374,6 +374,8 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
   return item;
 }
 
+std::string elementId(uint64_t number) { return "e" + std::to_string(number); }
+
 void drawItem(Svg& svg, const Body& body, const Item& item) {
   if (item.continuation != 0) return drawContinuation(svg, item);
   if (!item.terminals.empty() && item.terminals[0].length > 0) {
@@ -385,7 +387,7 @@ void drawItem(Svg& svg, const Body& body, const Item& item) {
   if (body.path_of != nullptr)
     svg.open(liveAttributes(body, e));
   else
-    svg.open("e" + std::to_string(e.number));
+    svg.open(elementId(e.number));
   switch (formOf(e.kind)) {
     case Form::Rail: break;
     case Form::Contact: drawContact(svg, body, e, item); break;

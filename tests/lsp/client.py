@@ -20,6 +20,7 @@
 #   actions FILE L:C[-L:C] [KIND]      the titles of its code actions; of one kind
 #   act FILE L:C[-L:C] TITLE   applies the code action, and prints the lines that it changes
 #   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
+#   diagram FILE [L:C]         rung/diagram: the title, the elements with their ranges, `*` at that of the cursor
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
 #   bytes JSON                 the bytes of a string, without a header
@@ -420,6 +421,22 @@ class Script:
         else:
             with open(file, "w", encoding="utf-8", newline="") as stream:
                 stream.write(text)
+
+    def do_diagram(self, rest):
+        file, _, at = rest.partition(" ")
+        params = {"textDocument": {"uri": uri(file)}}
+        if at:
+            params["position"] = position_of(at)
+        answer = self.client.request("rung/diagram", params)
+        picture = answer.get("result")
+        if not picture:
+            return show_answer(answer)
+        size = re.match(r'<svg [^>]*viewBox="0 0 (\d+ \d+)"', picture["svg"])
+        print("%s, %s, %s" % (picture["pou"], picture["title"], "a picture" if size else "no picture"))
+        for element in picture["elements"]:
+            where = "" if ' id="%s"' % element["id"] in picture["svg"] else ", not in the picture"
+            mark = " *" if element["id"] == picture.get("cursor") else ""
+            print("  %s %s%s%s" % (element["id"], shown_range(element["range"]), where, mark))
 
     def do_calls(self, rest):
         self.show_hierarchy(rest, "Call", {"incomingCalls": "from", "outgoingCalls": "to"})

@@ -310,8 +310,12 @@ void Compilation::checkParsed() {
 }
 
 bool Compilation::checkAgain(std::span<const FileId> changed) {
-  checked.reset();
-  project.reset();
+  sema::CheckedProject* const old_check = checked.release();
+  sema::Project* const old_project = project.release();
+  if (!is_last) {
+    delete old_check;
+    delete old_project;
+  }
   const bool is_last = changed.size() == 1 && changed[0] == last_changed_;
   size_before_last_ = is_last ? size_before_last_ : written_size_;
   last_changed_ = changed.size() == 1 ? changed[0] : FileId{};

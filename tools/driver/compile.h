@@ -88,6 +88,7 @@ class Compilation {
   int exitCode() const;
 
   bool for_pictures = false;                     // set before parse() by `rung graph`
+  bool is_last = false;                          // checkAgain() need not free what was known: the process ends soon
   bool is_edited = false;                        // set before check(): bodies may be replaced after it, by `checked`
   const std::atomic<bool>* cancelled = nullptr;  // set before check(): sema::Options::cancelled
   sema::Scheduled scheduled;                     // set before check() by `rung convert`

@@ -6,12 +6,17 @@
 
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/keywords.h"
+#include "frontend/syntax/sfc.h"
 #include "sema/declarations/libraries.h"
-#include "tools/driver/project_file.h"
+#include "tools/ide/clause.h"
 #include "tools/ide/completion_context.h"
+#include "tools/ide/completion_trial.h"
+#include "tools/ide/completion_words.h"
+#include "tools/ide/default_values.h"
 #include "tools/ide/hover.h"
 #include "tools/ide/keywords.h"
-#include "tools/ide/pragma_words.h"
+#include "tools/ide/notation.h"
+#include "tools/ide/open_blocks.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/symbols.h"
 
@@ -26,13 +31,13 @@ struct WordSnippet {
   const char* snippet;
 };
 constexpr WordSnippet kStatements[] = {
-    {"IF", "IF ${1:condition} THEN\n\t$0\nEND_IF;"},
-    {"CASE", "CASE ${1:selector} OF\n\t${2:1}:\n\t\t$0\nEND_CASE;"},
-    {"FOR", "FOR ${1:i} := ${2:0} TO ${3:9} DO\n\t$0\nEND_FOR;"},
-    {"WHILE", "WHILE ${1:condition} DO\n\t$0\nEND_WHILE;"},
-    {"REPEAT", "REPEAT\n\t$0\nUNTIL ${1:condition}\nEND_REPEAT;"},
+    {"IF", "IF ${1:TRUE} THEN\n\t$0\nEND_IF;"},
+    {"CASE", "CASE ${1:0} OF\n\t${2:1}:\n\t\t$0\nEND_CASE;"},
+    {"WHILE", "WHILE ${1:FALSE} DO\n\t$0\nEND_WHILE;"},
+    {"REPEAT", "REPEAT\n\t$0\nUNTIL ${1:TRUE}\nEND_REPEAT;"},
     {"RETURN", "RETURN;"},
 };
+constexpr WordSnippet kElsif[] = {{"ELSIF", "ELSIF ${1:TRUE} THEN\n\t$0"}};
 constexpr WordSnippet kInLoops[] = {{"EXIT", "EXIT;"}, {"CONTINUE", "CONTINUE;"}};
 constexpr WordSnippet kDeclarations[] = {
     {"PROGRAM", "PROGRAM ${1:Main}\nVAR\n\t$2\nEND_VAR\n$0\nEND_PROGRAM"},
@@ -47,7 +52,14 @@ constexpr WordSnippet kDeclarations[] = {
      "CONFIGURATION ${1:Plant}\n\tTASK ${2:fast}(INTERVAL := ${3:T#10ms}, PRIORITY := 1);\n\t"
      "PROGRAM ${4:main} WITH ${2:fast} : ${5:Main};\nEND_CONFIGURATION"},
 };
-constexpr const char* kSections[] = {"VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL"};
+constexpr WordSnippet kSections[] = {
+    {"VAR", "VAR\n\t$0\nEND_VAR"},
+    {"VAR_INPUT", "VAR_INPUT\n\t$0\nEND_VAR"},
+    {"VAR_OUTPUT", "VAR_OUTPUT\n\t$0\nEND_VAR"},
+    {"VAR_IN_OUT", "VAR_IN_OUT\n\t$0\nEND_VAR"},
+    {"VAR_TEMP", "VAR_TEMP\n\t$0\nEND_VAR"},
+    {"VAR_EXTERNAL", "VAR_EXTERNAL\n\t$0\nEND_VAR"},
+};
 constexpr WordSnippet kMembers[] = {
     {"METHOD", "METHOD ${1:Name} : ${2:BOOL}\n$0\nEND_METHOD"},
     {"PROPERTY", "PROPERTY ${1:Name} : ${2:INT}\nGET\n\t$0\nEND_GET\nEND_PROPERTY"},
@@ -60,35 +72,12 @@ constexpr WordSnippet kTypes[] = {
 
 std::string closingOf(std::string_view word) { return "END_" + upper(word); }
 
-// An argument `pin := ${1:pin}` for each input and in-out; by position where there are few and the callee is a
-// function.
-std::string callSnippet(const PouSignature& signature) {
-  std::string out = signature.name + "(";
-  const bool is_function = signature.kind == PouKind::Function;
-  const auto inputs =
-      static_cast<size_t>(std::count_if(signature.pins.begin(), signature.pins.end(),
-                                        [](const SignaturePin& pin) { return pin.section != SectionKind::Output; }));
-  uint32_t place = 0;
-  for (const SignaturePin& pin : signature.pins) {
-    if (pin.section == SectionKind::Output) continue;
-    if (place++ > 0) out += ", ";
-    if (!is_function || inputs > 3) out += pin.name + " := ";
-    out += "${" + std::to_string(place) + ":" + pin.name + "}";
-  }
-  return out + ")";
-}
-
 // After the name of an instance: a call with its pins.
 constexpr std::string_view kCall = "(…)";
 
-// The places to fill in of a function, a method or the call of an instance.
-void addCallSnippet(const View& view, CompletionItem& item) {
-  if (!item.is_snippet || !item.insert.empty() || item.entity.entityKind() != EntityKind::Pou) return;
-  PouSignature signature = signatureOf(view, {item.entity.index});
-  const bool is_instance = item.label.ends_with(kCall);
-  if (is_instance) signature.name = item.label.substr(0, item.label.size() - kCall.size());
-  item.insert = callSnippet(signature) + (is_instance ? ";" : "");
-}
+// Of paths to what is in records and arrays.
+constexpr int kMostSteps = 2;
+constexpr size_t kMostPaths = 400;
 
 class Completer {
  public:
@@ -98,9 +87,23 @@ class Completer {
         cursor_(cursor),
         scope_(view.meanings().scope()),
         project_(scope_.project()),
-        context_(contextAt(view, cursor)) {}
+        context_(contextAt(view, cursor)),
+        defaults_(view, cursor.pou) {
+    if (!context_.is_in_body || !cursor.pou) return;
+    if (isInNotation(view, cursor))
+      notation_ = notationAt(view, cursor);
+    else
+      clause_ = clauseAround(view, cursor, context_);
+  }
+
+  const std::optional<Clause>& clause() const { return clause_; }
+  bool writesType() const { return context_.writes == Writes::Type; }
 
   Completion complete() {
+    if (notation_ && context_.writes != Writes::Address) {
+      inNotation();
+      return std::move(result_);
+    }
     switch (context_.writes) {
       case Writes::Nothing: break;
       case Writes::Member: members(); break;
@@ -141,10 +144,10 @@ class Completer {
     for (const char* word : list)
       if (matches(word)) add(word, CompletionKind::Keyword, kWord);
   }
-  template <class List>
-  void keywords(const List& list) {
+  // Words that need more to be a program.
+  void partialWords(std::initializer_list<const char*> list) {
     for (const char* word : list)
-      if (matches(word)) add(word, CompletionKind::Keyword, kWord);
+      if (matches(word)) add(word, CompletionKind::Keyword, kWord).fit = Fit::Part;
   }
   template <size_t count>
   void snippets(const WordSnippet (&list)[count], CompletionKind kind) {
@@ -194,13 +197,67 @@ class Completer {
     return CompletionKind::Block;
   }
 
+  // Names of one key are good at the same places.
+  std::string keyOf(Entity entity) const {
+    if (entity.entityKind() == EntityKind::EnumValue)
+      return "e" + std::to_string(project_.enum_values[entity.index].type.index);
+    if (entity.entityKind() != EntityKind::Var)
+      return "x" + std::to_string(static_cast<int>(entity.entityKind())) + "." + std::to_string(entity.index);
+    const sema::Var& var = project_.vars[entity.index];
+    const char where = !var.pou ? 'g' : var.pou == cursor_.pou ? 'o' : 'm';
+    return std::string{'v', where} + (var.constant ? "c" : "") + (var.external ? "x" : "") +
+           std::to_string(static_cast<int>(var.section)) + "." + std::to_string(static_cast<int>(var.access)) + "." +
+           (hasPragmas(var) ? std::to_string(entity.index) : "") + "." +
+           std::to_string(project_.types.resolve(var.type).index);
+  }
+
+  bool hasPragmas(const sema::Var& var) const { return var.decl && !view_.tree().decl(var.decl).pragmas.empty(); }
+
   void addEntity(NameId name, Entity entity, uint8_t rank) {
     CompletionItem& item = add(text(name), kindOf(entity), rank);
     item.entity = entity;
+    item.fit = Fit::Tried;
+    item.key = keyOf(entity);
     if (const TypeId type = scope_.typeOf(entity); type && entity.entityKind() != EntityKind::Type)
       item.detail = project_.types.toString(type);
     const bool is_called = item.kind == CompletionKind::Function || item.kind == CompletionKind::Method;
-    item.is_snippet = is_called && !followsParenthesis();
+    if (is_called && !followsParenthesis()) {
+      item.is_snippet = true;
+      item.insert = callSnippet(item.label, {entity.index}) + (isStatement() ? ";" : "");
+    } else if (isStatement()) {
+      assign(item, scope_.typeOf(entity), 1);
+    }
+  }
+
+  // The beginning of a statement of which nothing follows.
+  bool isStatement() const { return clause_ && clause_->is_begin && clause_->ends_here; }
+
+  // A value that is written to.
+  void assign(CompletionItem& item, TypeId type, int place) const {
+    const std::string value = defaults_.literalOf(type);
+    if (value.empty()) return;
+    item.insert =
+        (item.insert.empty() ? item.label : item.insert) + " := ${" + std::to_string(place) + ":" + value + "};";
+    item.is_snippet = true;
+  }
+
+  // Arguments for the inputs and in-outs, by position where a function has few of them. An argument is left out where
+  // nothing can be written for it.
+  std::string callSnippet(const std::string& callee, PouId pou) {
+    std::vector<VarId> pins = scope_.pinsOf(pou);
+    std::erase_if(pins, [&](VarId pin) { return project_.var(pin).section == SectionKind::Output; });
+    const bool is_named = project_.pou(pou).kind != PouKind::Function || pins.size() > 3;
+    std::string out = callee + "(";
+    uint32_t place = 0;
+    for (const VarId pin : pins) {
+      std::string value = defaults_.argumentFor(pin);
+      if (value.empty() && is_named) continue;
+      if (value.empty()) value = text(project_.var(pin).name);
+      if (place++ > 0) out += ", ";
+      if (is_named) out += text(project_.var(pin).name) + " := ";
+      out += "${" + std::to_string(place) + ":" + value + "}";
+    }
+    return out + ")";
   }
 
   bool followsParenthesis() const {
@@ -223,9 +280,34 @@ class Completer {
   void visible(Test isTaken, Use use) {
     std::unordered_set<uint32_t> seen;
     scope_.visible(cursor_.pou, [&](NameId name, Entity entity) {
+      if (isHidden(name, entity)) return;
       if (!matches(view_.names().string(name)) || !isTaken(entity)) return;
       if (seen.insert(view_.names().key(name).index).second) use(name, entity);
     });
+  }
+
+  // What a chart has beside its steps: `_belt`, `sfc_entered`.
+  static bool isMade(std::string_view name) {
+    return name.starts_with('_') || sameIdentifier(name.substr(0, 4), "sfc_");
+  }
+  bool isOfChart(Entity entity) const {
+    return entity.entityKind() == EntityKind::Var && project_.vars[entity.index].of_chart;
+  }
+  // Not written by anybody: instances of boxes without a name, lists of globals in libraries.
+  bool isHidden(NameId name, Entity entity) const {
+    const std::string_view written = view_.names().string(name);
+    if (isMade(written) && isOfChart(entity)) return true;
+    if (entity.entityKind() == EntityKind::GlobalList) {
+      const FileRange at = view_.bytesInFile(project_.global_lists[entity.index].loc, 1);
+      return !at || !view_.sources().displayPath(at.file).starts_with('/');
+    }
+    if (entity.entityKind() != EntityKind::Var || !isDrawn(project_.vars[entity.index].pou)) return false;
+    const sema::Var& var = project_.vars[entity.index];
+    return !var.of_chart && !sameIdentifier(view_.sources().tokenAt(var.loc), written);
+  }
+  bool isDrawn(PouId pou) const {
+    const DeclId decl = pou ? project_.pou(pou).decl : DeclId{};
+    return decl && view_.tree().kind(decl) == DeclKind::Pou && view_.tree().as<PouDecl>(decl).body_kind != BodyKind::St;
   }
 
   uint8_t rankOf(Entity entity) const {
@@ -258,9 +340,16 @@ class Completer {
     return false;
   }
 
+  bool isInTest() const {
+    if (!cursor_.pou) return false;
+    const sema::Pou::Pragmas& pragmas = project_.pou(cursor_.pou).pragmas;
+    return pragmas.test || pragmas.test_only || pragmas.replaces;
+  }
+
   bool isType(Entity entity) const {
     if (entity.entityKind() != EntityKind::Pou) return entity.entityKind() == EntityKind::Type;
     const sema::Pou& pou = project_.pous[entity.index];
+    if ((pou.pragmas.test_only || pou.pragmas.replaces) && !isInTest()) return false;
     return pou.record && pou.kind != PouKind::Program;
   }
 
@@ -281,14 +370,88 @@ class Completer {
   void members() {
     std::unordered_set<uint32_t> seen;
     const auto use = [&](NameId name, Entity entity) {
-      if (seen.insert(view_.names().key(name).index).second && matches(view_.names().string(name)))
-        addEntity(name, entity, kMember);
+      if (!seen.insert(view_.names().key(name).index).second || !matches(view_.names().string(name))) return;
+      addEntity(name, entity, kMember);
+      leadOn(text(name), text(name), entity, scope_.typeOf(entity), keyOf(entity), kMember, 1);
     };
     if (context_.base.entity)
       scope_.membersOf(context_.base.entity, use);
     else
       scope_.membersOf(context_.base.type, use);
     if (result_.items.empty()) ofLibrary(context_.base_name);
+  }
+
+  // What a path may go on with.
+  bool isFollowedBy(std::string_view signs) const {
+    const size_t at = cursor_.source.find_first_not_of(" \t", cursor_.offset);
+    return at != std::string_view::npos && signs.find(cursor_.source[at]) != std::string_view::npos;
+  }
+
+  // The values in a record, an array or through a pointer: `pump.on`, `list[0].y`. `insert` has places to fill in.
+  void leadOn(const std::string& label, const std::string& insert, Entity entity, TypeId type, const std::string& key,
+              uint8_t rank, int depth) {
+    if (!clause_ || depth > kMostSteps || paths_ >= kMostPaths || isFollowedBy(".[^(#")) return;
+    const types::TypeInfo& info = project_.types.info(project_.types.resolve(type));
+    if (info.kind == types::TypeKind::Array) {
+      if (info.dimensions.empty()) return;
+      std::string index, places;
+      for (const types::Dimension& dimension : info.dimensions) {
+        const std::string low = std::to_string(dimension.low);
+        index += (index.empty() ? "" : ", ") + low;
+        places += (places.empty() ? "" : ", ") + ("${" + std::to_string(++place_) + ":" + low + "}");
+      }
+      addStep(label + "[" + index + "]", insert + "[" + places + "]", {}, info.base, key + "[]", rank, depth);
+      return;
+    }
+    const EntityKind kind = entity.entityKind();
+    const bool is_list = kind == EntityKind::GlobalList || kind == EntityKind::Program;
+    if (is_list ? !needsPath(entity) : kind == EntityKind::Pou || !scope_.hasMembers(type)) return;
+    std::unordered_set<uint32_t> seen;
+    const auto use = [&](NameId name, Entity member) {
+      if (member.entityKind() != EntityKind::Var && member.entityKind() != EntityKind::Property) return;
+      if (isHidden(name, member) || (isOfChart(entity) && isMade(view_.names().string(name)))) return;
+      if (!seen.insert(view_.names().key(name).index).second) return;
+      addStep(label + "." + text(name), insert + "." + text(name), member, scope_.typeOf(member), key + keyOf(member),
+              rank, depth);
+    };
+    if (is_list)
+      scope_.membersOf(entity, use);
+    else
+      scope_.membersOf(type, use);
+  }
+
+  // Whose variables are not known by their names alone.
+  bool needsPath(Entity list) const {
+    if (list.entityKind() == EntityKind::GlobalList) return project_.global_lists[list.index].qualified_only;
+    return project_.instances[list.index].program != cursor_.pou;
+  }
+
+  void addStep(const std::string& label, const std::string& insert, Entity entity, TypeId type, const std::string& key,
+               uint8_t rank, int depth) {
+    const bool is_value = !context_.expected || canBe(type);
+    if (is_value && matches(label) && paths_ < kMostPaths) {
+      ++paths_;
+      CompletionItem& item = add(label, CompletionKind::Field, fits(type) ? uint8_t{kFits} : rank);
+      item.fit = Fit::Tried;
+      item.key = key;
+      item.entity = entity;
+      item.detail = project_.types.toString(type);
+      if (insert != label) {
+        item.insert = insert;
+        item.is_snippet = true;
+      }
+      if (isStatement()) assign(item, type, place_ + 1);
+    }
+    leadOn(label, insert, entity, type, key, rank, depth + 1);
+  }
+
+  // Of the kind that is expected.
+  bool canBe(TypeId type) const {
+    const types::TypeKind kind = project_.types.plainKind(type), wanted = project_.types.plainKind(context_.expected);
+    if (!types::TypeTable::isElementary(kind) || !types::TypeTable::isElementary(wanted))
+      return project_.types.resolve(type) == project_.types.resolve(context_.expected);
+    return kind == wanted || (types::TypeTable::isNumber(kind) && types::TypeTable::isNumber(wanted)) ||
+           types::categoryOf(kind) == types::categoryOf(wanted);
   }
 
   // `Standard.TON`
@@ -311,6 +474,8 @@ class Completer {
       CompletionItem& item = add(label, CompletionKind::Item, kFits);
       item.entity = entity;
       item.detail = type_name;
+      item.fit = Fit::Tried;
+      item.key = (is_qualified ? "#" : "") + keyOf(entity);
     });
   }
 
@@ -345,65 +510,204 @@ class Completer {
 
   void header() {
     words({"EXTENDS", "IMPLEMENTS"});
-    keywords(kSections);
+    snippets(kSections, CompletionKind::Keyword);
   }
 
   // ---- statements
 
   void statement() {
-    caseLabels();
+    following_ = followingOf(cursor_);
+    const Branches branches = branchesAt(cursor_, context_);
+    const bool is_in_case = sameIdentifier(innermostBlock(), "CASE");
+    if (is_in_case && !branches.is_in_else) caseLabels(branches);
+    if (is_in_case && ((!branches.has_label && !branches.is_in_else) || only_constants_)) return;
     visible([&](Entity entity) { return isInStatement(entity); },
             [&](NameId name, Entity entity) {
-              addEntity(name, entity, rankOf(entity));
+              const uint8_t rank = rankOf(entity);
+              addEntity(name, entity, rank);
               if (entity.entityKind() == EntityKind::Var) call(name, entity);
+              leadOn(text(name), text(name), entity, scope_.typeOf(entity), keyOf(entity), rank, 1);
             });
-    snippets(kStatements, CompletionKind::Snippet);
-    closers();
+    if (!clause_ || clause_->ends_here) {
+      snippets(kStatements, CompletionKind::Snippet);
+      if (matches("FOR")) {
+        const std::string variable = defaults_.variableOf(types::kInt);
+        CompletionItem& item = add("FOR", CompletionKind::Snippet, kWord);
+        item.insert = "FOR ${1:" + (variable.empty() ? "i" : variable) + "} := ${2:0} TO ${3:9} DO\n\t$0\nEND_FOR;";
+        item.is_snippet = true;
+        if (variable.empty()) item.fit = Fit::Part;
+      }
+      closers(branches);
+    }
     libraryNames([](std::string_view word) { return word == "FUNCTION"; });
   }
 
   // The call of an instance with its pins.
   void call(NameId name, Entity entity) {
     const PouId block = scope_.blockOf(scope_.recordOf(scope_.typeOf(entity)));
-    if (!block || project_.pou(block).kind != PouKind::FunctionBlock || followsParenthesis()) return;
+    if (!block || project_.pou(block).kind != PouKind::FunctionBlock || !isStatement()) return;
     CompletionItem& item = add(text(name) + std::string(kCall), CompletionKind::Snippet, kLocal);
     item.is_snippet = true;
     item.detail = project_.types.toString(scope_.typeOf(entity));
     item.entity = Entity::of(EntityKind::Pou, block.index);
+    item.insert = callSnippet(text(name), block) + ";";
+    item.fit = Fit::Tried;
+    item.key = keyOf(entity) + "()";
   }
 
   std::string_view innermostBlock() const {
     return context_.blocks.empty() ? std::string_view() : cursor_.text(context_.blocks.back());
   }
 
-  // The values of the selector, between CASE and OF.
-  void caseLabels() {
-    if (!sameIdentifier(innermostBlock(), "CASE")) return;
+  // The values of the selector, between CASE and OF, that it has no branch for yet.
+  void caseLabels(const Branches& branches) {
+    const size_t first = result_.items.size();
     for (size_t at = context_.blocks.back() + 1; at < cursor_.units.size(); ++at)
-      if (sameIdentifier(cursor_.text(at), "OF")) return items(valueBefore(view_, cursor_, at).type, true);
+      if (sameIdentifier(cursor_.text(at), "OF")) {
+        items(valueBefore(view_, cursor_, at).type, true);
+        break;
+      }
+    const bool is_label = isFollowedBy(":,.");
+    only_constants_ = is_label;
+    std::erase_if(result_.items, [&](const CompletionItem& item) {
+      const std::string name = upper(item.label.substr(item.label.rfind('#') + 1));
+      return std::find(branches.labels.begin(), branches.labels.end(), name) != branches.labels.end();
+    });
+    for (size_t at = first; at < result_.items.size() && !is_label; ++at) {
+      CompletionItem& item = result_.items[at];
+      item.fit = clause_ && clause_->ends_here ? Fit::Whole : Fit::Part;
+      item.insert = item.label + ":\n\t$0";
+      item.is_snippet = true;
+    }
   }
 
-  void closers() {
+  void closers(const Branches& branches) {
     const std::string_view block = innermostBlock();
     const bool is_in_loop = std::any_of(context_.blocks.begin(), context_.blocks.end(), [&](size_t unit) {
       return !sameIdentifier(cursor_.text(unit), "IF") && !sameIdentifier(cursor_.text(unit), "CASE");
     });
     if (is_in_loop) snippets(kInLoops, CompletionKind::Keyword);
-    if (sameIdentifier(block, "IF")) words({"ELSIF", "ELSE"});
-    if (sameIdentifier(block, "CASE")) words({"ELSE"});
-    if (sameIdentifier(block, "REPEAT")) words({"UNTIL"});
+    if (sameIdentifier(block, "IF") && !branches.is_in_else) snippets(kElsif, CompletionKind::Keyword);
+    const bool has_else = sameIdentifier(block, "IF") || sameIdentifier(block, "CASE");
+    if (has_else && !branches.is_in_else && !following_.has_branch) words({"ELSE"});
+    if (sameIdentifier(block, "REPEAT") && following_.closed < context_.blocks.size()) partialWords({"UNTIL"});
     if (!block.empty()) {
       const std::string closing = closingOf(block);
-      if (matches(closing)) add(closing, CompletionKind::Keyword, kWord).insert = closing + ";";
+      if (matches(closing) && following_.closed < context_.blocks.size())
+        add(closing, CompletionKind::Keyword, kWord).insert = closing + ";";
       return;
     }
-    if (!context_.has_body) keywords(kSections);
+    closersOfPou();
+  }
+
+  void closersOfPou() {
+    if (!context_.has_body) snippets(kSections, CompletionKind::Keyword);
     if (!cursor_.pou) return;
     const PouKind kind = project_.pou(cursor_.pou).kind;
-    if (kind == PouKind::FunctionBlock || kind == PouKind::Class || kind == PouKind::Interface)
-      snippets(kMembers, CompletionKind::Snippet);
-    if (const std::string closing = closingOf(keywordOf(kind)); matches(closing))
+    const bool has_methods = kind == PouKind::FunctionBlock || kind == PouKind::Class || kind == PouKind::Interface;
+    if (has_methods && (!context_.has_body || !following_.has_statement)) snippets(kMembers, CompletionKind::Snippet);
+    if (const std::string closing = closingOf(keywordOf(kind)); matches(closing) && !following_.closes_pou)
       add(closing, CompletionKind::Keyword, kWord);
+  }
+
+  // ---- charts and networks
+
+  void inNotation() {
+    const Notation& at = *notation_;
+    const auto use = [&](NameId name, Entity entity) { addWhole(name, entity); };
+    context_.expected = at.expected;
+    switch (at.place) {
+      case NotationPlace::None: return;
+      case NotationPlace::Step: return visible([&](Entity entity) { return isStep(entity); }, use);
+      case NotationPlace::Action:
+        context_.expected = types::kBool;
+        return visible(
+            [&](Entity entity) {
+              const bool is_var = entity.entityKind() == EntityKind::Var && !isStep(entity);
+              return isAction(entity) ||
+                     (is_var && fits(scope_.typeOf(entity)) && !project_.vars[entity.index].constant);
+            },
+            use);
+      case NotationPlace::Value:
+      case NotationPlace::Target:
+        clause_ = at.clause;
+        if (context_.writes == Writes::Member) return members();
+        context_.needs = at.place == NotationPlace::Target ? Needs::Lvalue : Needs::Any;
+        return expression();
+      case NotationPlace::Callee: return callees();
+      case NotationPlace::Instance:
+        return visible(
+            [&](Entity entity) {
+              return entity.entityKind() == EntityKind::Var && at.callee &&
+                     scope_.blockOf(scope_.recordOf(scope_.typeOf(entity))) == at.callee;
+            },
+            use);
+      case NotationPlace::Pin: return pinsOfBox(true);
+      case NotationPlace::Output: return pinsOfBox(false);
+    }
+  }
+
+  // A name that needs no trial.
+  void addWhole(NameId name, Entity entity) {
+    CompletionItem& item = add(text(name), kindOf(entity), kLocal);
+    item.entity = entity;
+  }
+
+  bool isStep(Entity entity) const {
+    if (entity.entityKind() != EntityKind::Var || !project_.vars[entity.index].of_chart) return false;
+    const PouId pou = project_.vars[entity.index].pou;
+    const DeclId decl = pou ? project_.pou(pou).decl : DeclId{};
+    if (!decl || view_.tree().kind(decl) != DeclKind::Pou) return false;
+    const auto steps = view_.tree().list(view_.tree().as<PouDecl>(decl).steps);
+    return std::any_of(steps.begin(), steps.end(), [&](const SfcStep& step) {
+      return view_.names().same(step.name.name, project_.vars[entity.index].name);
+    });
+  }
+  bool isAction(Entity entity) const {
+    return entity.entityKind() == EntityKind::Pou && project_.pous[entity.index].kind == PouKind::Action &&
+           !isMade(view_.names().string(project_.pous[entity.index].name));
+  }
+
+  // Blocks and functions that have the pins which the box has; with an instance those whose instance it is.
+  void callees() {
+    const Notation& at = *notation_;
+    const NameId instance = at.instance.empty() ? NameId{} : view_.names().find(at.instance);
+    const Entity of = instance ? scope_.lookUp(cursor_.pou, view_.names().key(instance)) : Entity{};
+    const PouId block = scope_.blockOf(scope_.recordOf(scope_.typeOf(of)));
+    visible(
+        [&](Entity entity) {
+          if (entity.entityKind() != EntityKind::Pou) return false;
+          if (block) return block.index == entity.index;
+          const PouKind kind = project_.pous[entity.index].kind;
+          if (kind == PouKind::Program || kind == PouKind::Interface || !at.instance.empty()) return false;
+          return std::all_of(at.given.begin(), at.given.end(),
+                             [&](const std::string& pin) { return hasPin({entity.index}, pin); });
+        },
+        [&](NameId name, Entity entity) { addWhole(name, entity); });
+  }
+  bool hasPin(PouId pou, std::string_view name) const {
+    if (sameIdentifier(name, "EN") || sameIdentifier(name, "ENO")) return true;
+    const std::vector<VarId> pins = scope_.pinsOf(pou);
+    return std::any_of(pins.begin(), pins.end(),
+                       [&](VarId pin) { return sameIdentifier(view_.names().string(project_.var(pin).name), name); });
+  }
+
+  // Those of a box that it does not show yet, or its outputs.
+  void pinsOfBox(bool is_list) {
+    const Notation& at = *notation_;
+    const bool is_signed = isFollowedBy(":=");
+    for (const VarId pin : scope_.pinsOf(at.callee)) {
+      const std::string name = text(project_.var(pin).name);
+      const bool is_output = project_.var(pin).section == SectionKind::Output;
+      const bool is_given = is_list && std::any_of(at.given.begin(), at.given.end(), [&](const std::string& given) {
+                              return sameIdentifier(given, name);
+                            });
+      if (is_given || !matches(name) || (is_list ? is_signed && is_output != at.is_output : !is_output)) continue;
+      CompletionItem& item = add(name, CompletionKind::Pin, kPin);
+      item.entity = Entity::of(EntityKind::Var, pin.index);
+      item.detail = project_.types.toString(project_.var(pin).type);
+      if (is_list && !is_signed) item.fit = Fit::Part;
+    }
   }
 
   // ---- expressions
@@ -418,11 +722,22 @@ class Completer {
              scope_.typeOf(entity) == project_.types.resolve(context_.expected);
     };
     visible([&](Entity entity) { return !isListed(entity) && isInExpression(entity) && mayFit(entity); },
-            [&](NameId name, Entity entity) { addEntity(name, entity, rankOf(entity)); });
+            [&](NameId name, Entity entity) {
+              const uint8_t rank = rankOf(entity);
+              addEntity(name, entity, rank);
+              leadOn(text(name), text(name), entity, scope_.typeOf(entity), keyOf(entity), rank, 1);
+            });
     if (context_.needs != Needs::Any) return;
     const types::TypeKind wanted = project_.types.plainKind(context_.expected);
-    if (!context_.expected || wanted == types::TypeKind::Bool) words({"TRUE", "FALSE"});
-    if (!context_.expected || wanted == types::TypeKind::Bool || types::TypeTable::isBits(wanted)) words({"NOT"});
+    if (!context_.expected || wanted == types::TypeKind::Bool)
+      for (const char* word : {"TRUE", "FALSE"})
+        if (matches(word)) {
+          CompletionItem& item = add(word, CompletionKind::Keyword, kWord);
+          item.fit = Fit::Tried;
+          item.key = word;
+        }
+    if (!context_.expected || wanted == types::TypeKind::Bool || types::TypeTable::isBits(wanted))
+      partialWords({"NOT"});
     libraryNames([](std::string_view word) { return word == "FUNCTION"; });
   }
 
@@ -437,8 +752,7 @@ class Completer {
     const types::TypeKind wanted = project_.types.plainKind(context_.expected);
     const bool is_value = is_var || is_item || entity.entityKind() == EntityKind::Property;
     if (!context_.expected || !is_value || !is_plain || !types::TypeTable::isElementary(wanted)) return true;
-    return kind == wanted || (types::TypeTable::isNumber(kind) && types::TypeTable::isNumber(wanted)) ||
-           types::categoryOf(kind) == types::categoryOf(wanted);
+    return canBe(scope_.typeOf(entity));
   }
 
   // `:=` or `=>` after the cursor.
@@ -457,10 +771,17 @@ class Completer {
       const bool is_given = std::any_of(call.given.begin(), call.given.end(),
                                         [&](std::string_view given) { return sameIdentifier(given, name); });
       if (is_given || !matches(name)) continue;
-      const char* const sign = isPinFollowing() ? "" : var.section == SectionKind::Output ? " => " : " := ";
+      const bool is_output = var.section == SectionKind::Output;
+      const char* const sign = isPinFollowing() ? "" : is_output ? " => " : " := ";
       CompletionItem& item = add(name + sign, CompletionKind::Pin, kPin);
       item.entity = Entity::of(EntityKind::Var, pin.index);
       item.detail = project_.types.toString(var.type);
+      item.fit = Fit::Tried;
+      item.key = "p" + std::to_string(pin.index);
+      if (isPinFollowing()) continue;
+      const std::string value = is_output ? defaults_.variableOf(var.type) : defaults_.argumentFor(pin);
+      item.insert = name + sign + "${1" + (value.empty() ? "" : ":") + value + "}";
+      item.is_snippet = true;
     }
   }
 
@@ -514,83 +835,23 @@ class Completer {
   const Cursor& cursor_;
   const Scope& scope_;
   const sema::Project& project_;
-  const CompletionContext context_;
+  CompletionContext context_;
+  DefaultValues defaults_;
+  std::optional<Clause> clause_;      // none: not in a body
+  std::optional<Notation> notation_;  // none: not in a chart or networks
+  Following following_;
+  bool only_constants_ = false;  // the label of a branch
+  size_t paths_ = 0;
+  int place_ = 0;  // the last place to fill in
   Completion result_;
 };
-
-// ---- pragmas and rung.project
-
-void addPragma(const PragmaWord& word, Completion& result) {
-  CompletionItem& item = result.items.emplace_back();
-  item.label = word.name;
-  item.kind = CompletionKind::Pragma;
-  item.documentation = word.meaning;
-  if (!item.label.ends_with("''")) return;
-  item.insert = item.label.substr(0, item.label.size() - 1) + "$1'";
-  item.is_snippet = true;
-}
-
-// The values in `{attribute 'symbol' := '`.
-void addAttributeValues(std::string_view attribute, Completion& result) {
-  for (const PragmaWord& word : pragmaWords()) {
-    if (!word.is_attribute || word.values == nullptr || !sameIdentifier(word.name, attribute)) continue;
-    for (std::string_view values = word.values; !values.empty();) {
-      const std::string_view value = values.substr(0, values.find(' '));
-      CompletionItem& item = result.items.emplace_back();
-      item.label = value;
-      item.kind = CompletionKind::Item;
-      values.remove_prefix(std::min(value.size() + 1, values.size()));
-    }
-  }
-}
-
-// A pragma after its brace, the name of an attribute in quotes, or the value of one.
-void addPragmas(const Cursor& cursor, Completion& result) {
-  const std::string_view text = cursor.prefix;  // from the brace on
-  const auto quotes = std::count(text.begin(), text.end(), '\'');
-  const size_t open = text.find('\''), close = text.find('\'', open + 1);
-  const bool is_attribute = sameIdentifier(text.substr(0, 10), "{attribute");
-  if (quotes == 3 && is_attribute) addAttributeValues(text.substr(open + 1, close - open - 1), result);
-  if (quotes > 1 || (quotes == 1 && !is_attribute)) return;
-  for (const PragmaWord& word : pragmaWords())
-    if (word.is_attribute == (quotes == 1)) addPragma(word, result);
-}
-
-// The sections after `[`, and the keys of the section around the cursor.
-void addProjectKeys(std::string_view source, size_t offset, Completion& result) {
-  const size_t begin = source.find_last_of("\r\n", offset == 0 ? 0 : offset - 1);
-  const size_t line = begin == std::string_view::npos || offset == 0 ? 0 : begin + 1;
-  const std::string_view before = source.substr(line, offset - line);
-  if (before.find('=') != std::string_view::npos) return;
-  const bool is_section = before.starts_with('[');
-  const size_t header = line < 2 ? std::string_view::npos : source.rfind("\n[", line - 2);
-  const size_t section = header == std::string_view::npos ? (source.starts_with('[') ? 0 : source.size()) : header + 1;
-  const std::string_view kind = source.substr(section, source.find_first_of(" ]\r\n", section) - section);
-  for (const driver::ProjectSchema& schema : driver::projectSchemas()) {
-    if (is_section) {
-      CompletionItem& item = result.items.emplace_back();
-      item.label = schema.kind;
-      item.kind = CompletionKind::Key;
-      item.insert = std::string(schema.kind) + (schema.named ? " " : "");
-    } else if (schema.keys != nullptr && kind == "[" + std::string(schema.kind)) {
-      std::string_view keys = schema.keys;
-      while (!keys.empty()) {
-        const std::string_view key = keys.substr(0, keys.find(' '));
-        CompletionItem& item = result.items.emplace_back();
-        item.label = key;
-        item.kind = CompletionKind::Key;
-        item.insert = std::string(key) + " = ";
-        keys.remove_prefix(std::min(key.size() + 1, keys.size()));
-      }
-    }
-  }
-}
 
 bool isProjectFile(std::string_view path) { return path.ends_with("/rung.project"); }
 
 }  // namespace
 
-Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte) {
+Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte,
+                         CompletionTrial& trial) {
   Completion result;
   result.replaced = {file, byte, byte};
   const std::string_view text = view.textOf(file);
@@ -602,17 +863,14 @@ Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId
   const Cursor cursor = cursorAt(view, file, byte);
   if (cursor.place == CursorPlace::Pragma) addPragmas(cursor, result);
   if (cursor.place != CursorPlace::Code) return result;
-  Completion found = Completer(view, libraries, cursor).complete();
+  Completer completer(view, libraries, cursor);
+  Completion found = completer.complete();
   found.replaced = result.replaced;
-  // The best; more letters find the others.
-  constexpr size_t kMost = 300;
   std::stable_sort(found.items.begin(), found.items.end(),
                    [](const CompletionItem& a, const CompletionItem& b) { return a.rank < b.rank; });
-  if (found.items.size() > kMost) {
-    found.items.resize(kMost);
-    found.is_incomplete = true;
-  }
-  for (CompletionItem& item : found.items) addCallSnippet(view, item);
+  if (completer.writesType()) tryTypes(view, cursor, found.items, trial);
+  if (completer.clause()) tryItems(cursor, *completer.clause(), found.items, trial);
+  sortOut(cursor, found);
   return found;
 }
 

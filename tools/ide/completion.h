@@ -4,6 +4,7 @@
 // expression, no type where a value belongs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,13 +35,22 @@ enum class CompletionKind : uint8_t {
   Key
 };
 
+// Whether what is there with the item is a program.
+enum class Fit : uint8_t {
+  Whole,  // it is
+  Tried,  // a trial decides; without one it is taken for one
+  Part    // it needs more: only offered to who has typed a letter
+};
+
 struct CompletionItem {
   std::string label;
   CompletionKind kind;
-  std::string detail;         // its type
-  std::string insert;         // empty: the label
-  bool is_snippet = false;    // `insert` has places to fill in: ${1:IN}
-  uint8_t rank = 9;           // the smaller the better
+  std::string detail;       // its type
+  std::string insert;       // empty: the label
+  bool is_snippet = false;  // `insert` has places to fill in: ${1:IN}
+  uint8_t rank = 9;         // the smaller the better
+  Fit fit = Fit::Whole;
+  std::string key;            // of what is tried: those of one key are good or bad together
   std::string documentation;  // of what is not an entity
   Entity entity;
   const LibraryName* library = nullptr;
@@ -50,7 +60,18 @@ struct Completion {
   bool is_incomplete = false;  // more letters find more
   FileRange replaced;          // what of the name is typed already
 };
-Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte);
+// Workspace::errorsOf and Workspace::goodTypes.
+class CompletionTrial {
+ public:
+  virtual ~CompletionTrial() = default;
+  virtual std::optional<std::vector<std::string>> errorsOf(PouId pou, const std::vector<std::string>& statements) = 0;
+  virtual std::optional<std::string> goodTypes(const workspace::Analysis::TypeTrial& trial) = 0;
+};
+
+// With no letter typed only what makes a program, as far as a trial can tell; with the first letter also the rest that
+// the place takes, as last.
+Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte,
+                         CompletionTrial& trial);
 
 // The declaration and documentation of an item, as Markdown.
 std::string documentationOf(const View& view, const CompletionItem& item);

@@ -70,6 +70,7 @@ class Reader {
       } else if (isOneOf(word, {"END_VAR", "END_TYPE"})) {
         section_ = kNone;
         context_.is_in_body = pou_ != kNone;
+        context_.body = at + 1;
       } else if (section_ == kNone) {
         scanOutsideOfSections(at, word);
       }
@@ -85,13 +86,15 @@ class Reader {
       return;
     }
     if (is_configuration_) return;
-    const bool follows_statement = at == 0 || cursor_.text(at - 1) == ";" || context_.is_in_body;
+    const bool follows_statement =
+        at == 0 || cursor_.text(at - 1) == ";" || upper(cursor_.text(at - 1)).starts_with("END_");
     if (beginsPou(word) && !(context_.is_in_body && context_.has_body && !follows_statement)) {
       pou_ = at;
       context_.is_in_body = context_.has_body = false;
       context_.blocks.clear();
     } else if (opensBlock(word)) {
       context_.blocks.push_back(at);
+      if (!context_.is_in_body) context_.body = at;
       context_.is_in_body = context_.has_body = true;
     } else if (closesBlock(word)) {
       if (!context_.blocks.empty()) context_.blocks.pop_back();
@@ -105,10 +108,13 @@ class Reader {
   // `FUNCTION f : INT` and what relates a block to others; any other name begins the body.
   void header(size_t at, std::string_view word) {
     const std::string_view before = cursor_.text(at - 1);
-    const bool is_header = before == ":" || before == "," || before == "." || isModifier(before) ||
-                           isOneOf(word, {"EXTENDS", "IMPLEMENTS", "USING"}) ||
-                           isOneOf(before, {"EXTENDS", "IMPLEMENTS", "USING"});
-    if (!is_header) context_.is_in_body = context_.has_body = true;
+    const bool is_header =
+        !isOneOf(cursor_.text(pou_), {"ACTION"}) &&
+        (before == ":" || before == "," || before == "." || isModifier(before) ||
+         isOneOf(word, {"EXTENDS", "IMPLEMENTS", "USING"}) || isOneOf(before, {"EXTENDS", "IMPLEMENTS", "USING"}));
+    if (is_header) return;
+    context_.is_in_body = context_.has_body = true;
+    context_.body = at;
   }
 
   CompletionContext after(Writes writes) {
@@ -129,6 +135,12 @@ class Reader {
       return;
     }
     const size_t since = cursor_.units.size() - pou_;
+    if (isBodyAfterHeader(since)) {
+      context_.is_in_body = true;
+      context_.body = cursor_.units.size();
+      context_.writes = Writes::Statement;
+      return;
+    }
     if (since == 1 || isModifier(last)) {
       context_.writes = Writes::Nothing;  // the name
     } else if (last == ":" || isOneOf(last, {"EXTENDS", "IMPLEMENTS"}) || (last == "," && since > 2)) {
@@ -136,6 +148,16 @@ class Reader {
     } else {
       context_.writes = Writes::Header;
     }
+  }
+
+  // A name alone on a line after the header: its body may begin there.
+  bool isBodyAfterHeader(size_t since) const {
+    if (since >= 2 && isOneOf(cursor_.text(pou_), {"ACTION"})) return true;
+    if (since < 2 || cursor_.before() == ":" || cursor_.before() == "," || isModifier(cursor_.before())) return false;
+    if (isOneOf(cursor_.before(), {"EXTENDS", "IMPLEMENTS"}) || isOneOf(cursor_.text(pou_), {"INTERFACE"}))
+      return false;
+    const size_t last = cursor_.units.back().end, begin = cursor_.offset - cursor_.prefix.size();
+    return cursor_.source.substr(last, begin - last).find('\n') != std::string_view::npos;
   }
 
   void inConfiguration() {

@@ -39,6 +39,7 @@ struct CompletionContext {
   Needs needs = Needs::Any;
   std::optional<OpenCall> call;  // whose argument begins here
   std::vector<size_t> blocks;    // the units IF, CASE, FOR … that are not closed
+  size_t body = 0;               // the unit that the body begins with
   bool has_body = false;         // a statement has begun in this POU
   bool is_in_body = false;       // after the header of a POU and its sections
 };

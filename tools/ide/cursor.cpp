@@ -69,7 +69,8 @@ size_t openingOf(const Cursor& cursor, size_t unit) {
 
 bool isName(const Cursor& cursor, size_t unit) { return cursor.units[unit].kind == UnitKind::Name; }
 
-// The first unit of the path that ends before `end`; `end`: there is no path.
+}  // namespace
+
 size_t beginOfPath(const Cursor& cursor, size_t end) {
   size_t at = end;
   while (at > 0) {
@@ -88,6 +89,8 @@ size_t beginOfPath(const Cursor& cursor, size_t end) {
   }
   return end;
 }
+
+namespace {
 
 class PathReader {
  public:
@@ -173,7 +176,7 @@ Cursor cursorAt(const View& view, FileId file, uint32_t byte) {
   const Loc parsed = view.parsedAt(file, byte);
   const FileUnit* const unit = parsed ? view.unitWith(parsed) : nullptr;
   if (unit == nullptr || view.snapshot().project() == nullptr) return cursor;
-  const Loc base = view.sources().begin(unit->file);
+  const Loc base = cursor.base = view.sources().begin(unit->file);
   cursor.source = view.sources().original(unit->file);
   cursor.offset = parsed.offset - base.offset;
   Loc at = parsed;

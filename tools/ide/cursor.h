@@ -24,6 +24,7 @@ enum class CursorPlace : uint8_t {
 
 struct Cursor {
   CursorPlace place = CursorPlace::Outside;
+  Loc base;                 // where the text that was parsed begins
   PouId pou;                // around it; none: file level
   std::string_view source;  // of the parsed text
   size_t offset = 0;        // in it
@@ -40,6 +41,9 @@ struct Cursor {
   }
 };
 Cursor cursorAt(const View& view, FileId file, uint32_t byte);
+
+// The first unit of the path that ends before `end`; `end`: there is no path.
+size_t beginOfPath(const Cursor& cursor, size_t end);
 
 // Of the path that ends before a unit: `a.b[i]^`.
 Value valueBefore(const View& view, const Cursor& cursor, size_t unit);

@@ -14,11 +14,16 @@ namespace {
 
 class Occurrences {
  public:
-  Occurrences(const View& view, std::string_view name, const Edits& known)
-      : view_(view), project_(*view.snapshot().project()), name_(name), folded_(foldedIdentifier(name)) {
+  Occurrences(const View& view, std::string_view name, const Edits& known, bool only_edits)
+      : view_(view),
+        project_(*view.snapshot().project()),
+        name_(name),
+        folded_(foldedIdentifier(name)),
+        only_edits_(only_edits) {
     for (const TextEdit& edit : known.all()) known_.insert(keyOf(edit.range));
     const NameId id = view.names().find(name);
     key_ = id ? view.names().key(id) : NameId{};
+    if (only_edits) return;
     add(project_.mentions);
     for (const sema::Pou& pou : project_.pous) add(pou.body.mentions);
   }
@@ -49,7 +54,8 @@ class Occurrences {
       if (piece.kind == UnitKind::Comment || piece.kind == UnitKind::String || text.size() < name_.size()) continue;
       if (piece.kind == UnitKind::Name && text.size() == name_.size()) {
         const Loc loc{base + static_cast<uint32_t>(piece.begin)};
-        if (sameIdentifier(text, name_) && known_.count(keyOf(view_.nameInFile(loc))) == 0 && !isDeclared(loc))
+        if (sameIdentifier(text, name_) && known_.count(keyOf(view_.nameInFile(loc))) == 0 &&
+            (only_edits_ || !isDeclared(loc)))
           return false;
       } else if (piece.kind == UnitKind::Name ? isConversion(text) : hasWord(text)) {
         return false;
@@ -101,6 +107,7 @@ class Occurrences {
   const sema::Project& project_;
   std::string_view name_;
   std::string folded_;
+  bool only_edits_;
   NameId key_;
   std::unordered_set<uint64_t> known_;  // places in files
 };
@@ -108,7 +115,11 @@ class Occurrences {
 }  // namespace
 
 bool knowsAllOccurrences(const View& view, std::string_view name, const Edits& known) {
-  return Occurrences(view, name, known).areKnown();
+  return Occurrences(view, name, known, false).areKnown();
+}
+
+bool areAllOccurrences(const View& view, std::string_view name, const Edits& known) {
+  return Occurrences(view, name, known, true).areKnown();
 }
 
 }  // namespace rung::ide

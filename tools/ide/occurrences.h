@@ -9,5 +9,7 @@ namespace rung::ide {
 
 // Comments and strings do not count; a pragma with the name does, and what it means is not known.
 bool knowsAllOccurrences(const View& view, std::string_view name, const Edits& known);
+// Whether the edits are at all places of the name.
+bool areAllOccurrences(const View& view, std::string_view name, const Edits& known);
 
 }  // namespace rung::ide

@@ -230,16 +230,12 @@ const View* Projects::update(Project& project, const std::atomic<bool>* cancelle
   return project.view();
 }
 
-std::unique_ptr<const View> Projects::trial(const Project& project, const std::map<std::string, std::string>& texts,
-                                            const std::atomic<bool>* cancelled) const {
-  driver::ProjectOptions options = options_;
-  options.inputs = inputsOf(project);
-  std::vector<workspace::Change> changes;
-  for (const auto& [path, text] : buffers_)
-    if (texts.count(path) == 0) changes.push_back({path, text});
-  for (const auto& [path, text] : texts) changes.push_back({path, text});
-  auto snapshot = workspace::Workspace(std::move(options)).apply(std::move(changes), cancelled);
-  return snapshot == nullptr ? nullptr : std::make_unique<const View>(std::move(snapshot), embedded_);
+std::optional<std::string> Projects::trial(const Project& project, const std::map<std::string, std::string>& texts,
+                                           FunctionRef<std::string(const View& after)> use) const {
+  if (project.workspace_ == nullptr) return std::nullopt;
+  return project.workspace_->inTrial(texts, [&](std::shared_ptr<const workspace::Snapshot> snapshot) {
+    return use(View(std::move(snapshot), embedded_));
+  });
 }
 
 workspace::Fixed Projects::fixed(const Project& project, const std::string& path) const {

@@ -61,14 +61,24 @@ class Projects {
   Project* projectOf(const std::string& path);
   // The view with all changes; null: `cancelled` became true.
   const View* update(Project& project, const std::atomic<bool>* cancelled);
-  // The project as it would be with other texts, by path. Null: `cancelled` became true.
-  std::unique_ptr<const View> trial(const Project& project, const std::map<std::string, std::string>& texts,
-                                    const std::atomic<bool>* cancelled) const;
   // What the sure fixes make of the project, if only this file may change.
   workspace::Fixed fixed(const Project& project, const std::string& path) const;
+  // Workspace::errorsOf: of the last view.
+  std::optional<std::vector<std::string>> errorsOf(const Project& project, sema::PouId pou,
+                                                   const std::vector<std::string>& statements) const {
+    return project.workspace_ == nullptr ? std::nullopt : project.workspace_->errorsOf(pou, statements);
+  }
+  std::optional<std::string> goodTypes(const Project& project, const workspace::Analysis::TypeTrial& trial) const {
+    return project.workspace_ == nullptr ? std::nullopt : project.workspace_->goodTypes(trial);
+  }
+  // Workspace::inTrial.
+  std::optional<std::string> trial(const Project& project, const std::map<std::string, std::string>& texts,
+                                   FunctionRef<std::string(const View& after)> use) const;
   // What the user should know about the folders, once each.
   std::vector<std::string> takeNotices();
 
+  // Of all projects.
+  const driver::ProjectOptions& options() const { return options_; }
   const EmbeddedFiles& embedded() const { return embedded_; }
   const LibraryIndex& libraries();
 

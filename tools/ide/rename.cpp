@@ -5,6 +5,8 @@
 #include <array>
 
 #include "frontend/source/scanner.h"
+#include "frontend/source/text.h"
+#include "tools/ide/free_names.h"
 #include "tools/ide/keywords.h"
 #include "tools/ide/meaning_check.h"
 #include "tools/ide/navigation.h"
@@ -105,7 +107,9 @@ std::string bodyInCpp(const View& view, const std::vector<Entity>& declarations,
     const FileId file = view.sources().fileOf(decl.body_begin);
     const std::string_view body = view.sources().sourceText(file).substr(
         decl.body_begin.offset - view.sources().begin(file).offset, decl.body_end.offset - decl.body_begin.offset);
-    if (hasWord(body, change.from) || hasWord(body, change.to)) return std::string(view.names().string(pou.name));
+    // Functions are called there in capitals.
+    const auto has = [&](const std::string& name) { return hasWord(body, name) || hasWord(body, upper(name)); };
+    if (has(change.from) || has(change.to)) return std::string(view.names().string(pou.name));
   }
   return {};
 }
@@ -130,13 +134,27 @@ bool isTiedToOthers(const View& view, const Target& target) {
          });
 }
 
-// A name that no text and no library has meets no other one. Else the edits are made on trial.
+bool isProgramInstance(Entity entity) { return entity.entityKind() == EntityKind::Program; }
+
+// Whether no other name can be concerned: no text and no library has the new one, or no code that sees the old one.
+bool isSurelyFree(const View& view, const Target& target, const Edits& edits, const NameChange& change) {
+  const std::vector<Entity>& declarations = target.declarations;
+  if (!target.is_complete) return false;
+  const bool is_new = !view.names().find(change.to);
+  const bool is_free = is_new || (declarations.size() == 1 && isFreeFor(view, declarations.front(), change.to));
+  if (!is_free) return false;
+  if (!isTiedToOthers(view, target)) return knowsAllOccurrences(view, change.from, edits);
+  return is_new && std::none_of(declarations.begin(), declarations.end(), isProgramInstance) &&
+         areAllOccurrences(view, change.from, edits);
+}
+
+// Else the edits are made on trial.
 std::string conflictOf(const View& view, const Target& target, const Edits& edits, const NameChange& change,
-                       Trial trial) {
-  if (!view.names().find(change.to) && !isTiedToOthers(view, target) && knowsAllOccurrences(view, change.from, edits))
-    return {};
-  const std::unique_ptr<const View> after = trial(edits.applied(view));
-  return after == nullptr ? "the request was cancelled" : changedMeaning(view, *after, edits, change.from, change.to);
+                       RenameTrial trial) {
+  if (isSurelyFree(view, target, edits, change)) return {};
+  const MeaningRecord before(view, &edits, change.from, change.to);
+  const auto said = trial(edits.applied(view), [&](const View& after) { return before.differenceIn(after); });
+  return said.value_or("the project could not be checked with it");
 }
 
 }  // namespace
@@ -144,7 +162,7 @@ std::string conflictOf(const View& view, const Target& target, const Edits& edit
 Renamable renamableAt(const View& view, FileId file, uint32_t byte) { return targetAt(view, file, byte).renamable; }
 
 Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::string& new_name, bool renames_files,
-                  Trial trial) {
+                  RenameTrial trial) {
   const Target target = targetAt(view, file, byte);
   Renaming renaming{target.renamable.refusal, {}, {}};
   if (renaming.refusal.empty()) renaming.refusal = refusalOfNewName(new_name);

@@ -4,7 +4,8 @@
 // the edits are made on trial, and every name of the project must mean what it meant before.
 #pragma once
 
-#include <memory>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,11 @@ struct Renaming {
   std::vector<TextEdit> edits;
   std::vector<FileMove> moves;  // of TwinCAT's files, which have the names of what they declare
 };
-// The project with other texts, by path; null: cancelled.
-using Trial = FunctionRef<std::unique_ptr<const View>(const std::map<std::string, std::string>&)>;
+// What is said of the project with other texts, by path; none: nothing could be. The view before is of no use there.
+using RenameTrial = FunctionRef<std::optional<std::string>(const std::map<std::string, std::string>&,
+                                                           FunctionRef<std::string(const View& after)>)>;
 // Files keep their names where the editor cannot rename them.
 Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::string& new_name, bool renames_files,
-                  Trial trial);
+                  RenameTrial trial);
 
 }  // namespace rung::ide

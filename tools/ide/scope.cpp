@@ -310,4 +310,9 @@ TypeId Scope::recordOf(TypeId type) const {
 
 PouId Scope::blockOf(TypeId type) const { return found(blocks_, type.index); }
 
+bool Scope::hasMembers(TypeId type) const {
+  const TypeId record = recordOf(type);
+  return blockOf(record) || fields_.count(record.index) != 0;
+}
+
 }  // namespace rung::ide

@@ -56,6 +56,7 @@ class Scope {
   // Through aliases, pointers and references: what has members.
   TypeId recordOf(TypeId type) const;
   PouId blockOf(TypeId type) const;
+  bool hasMembers(TypeId type) const;
 
  private:
   template <class Id>

@@ -37,6 +37,8 @@ int numberOf(ide::CompletionKind kind) {
   return 1;
 }
 
+constexpr std::string_view kCall = "(…)";
+
 // For clients without snippets: the text up to the first place.
 std::string withoutPlaces(const ide::CompletionItem& item) {
   const size_t place = item.insert.find('$');
@@ -58,15 +60,38 @@ Json itemJson(const ide::CompletionItem& item, const Json& replaced, const Json&
   return json;
 }
 
+class ProjectTrial final : public ide::CompletionTrial {
+ public:
+  // `is_on`: there is a trial.
+  ProjectTrial(const ide::Projects& projects, const ide::Project& project, bool is_on)
+      : projects_(projects), project_(project), is_on_(is_on) {}
+  std::optional<std::vector<std::string>> errorsOf(sema::PouId pou,
+                                                   const std::vector<std::string>& statements) override {
+    return is_on_ ? projects_.errorsOf(project_, pou, statements) : std::nullopt;
+  }
+  std::optional<std::string> goodTypes(const workspace::Analysis::TypeTrial& trial) override {
+    return is_on_ ? projects_.goodTypes(project_, trial) : std::nullopt;
+  }
+
+ private:
+  const ide::Projects& projects_;
+  const ide::Project& project_;
+  const bool is_on_;
+};
+
 // The completions at a place, for a request and for the item that a client asks more about.
 struct Found {
   Place place;
   ide::Completion completion;
 };
-std::optional<Found> completionsOf(Session& session, const Json& params) {
+std::optional<Found> completionsOf(Session& session, const Json& params, bool is_tried) {
   std::optional<Place> place = placeOf(session, params);
   if (!place || place->view == nullptr) return std::nullopt;
-  ide::Completion completion = ide::completionsAt(*place->view, session.projects.libraries(), place->file, place->byte);
+  const ide::Project* const project = session.projects.projectOf(place->path);
+  if (project == nullptr) return std::nullopt;
+  ProjectTrial trial(session.projects, *project, is_tried);
+  ide::Completion completion =
+      ide::completionsAt(*place->view, session.projects.libraries(), place->file, place->byte, trial);
   return Found{std::move(*place), std::move(completion)};
 }
 
@@ -74,16 +99,21 @@ std::optional<Found> completionsOf(Session& session, const Json& params) {
 
 Answer completion(Session& session, const Json& params) {
   if (!params["textDocument"]["uri"].isText()) return noDocument();
-  const std::optional<Found> found = completionsOf(session, params);
+  const std::optional<Found> found = completionsOf(session, params, true);
   if (!found) return Json();
   Translator translator(*found->place.view, session.encoding);
   const Json replaced = translator.range(found->completion.replaced);
   const Json data{{"textDocument", Json{{"uri", params["textDocument"]["uri"]}}}, {"position", params["position"]}};
   Json::Array items;
-  for (const ide::CompletionItem& item : found->completion.items) {
-    // A snippet that a client cannot fill in is left out where it only repeats a name.
-    const bool repeats = item.is_snippet && !session.client.snippets && item.label.ends_with("(…)");
-    if (!repeats) items.push_back(itemJson(item, replaced, data, session.client.snippets));
+  const std::vector<ide::CompletionItem>& all = found->completion.items;
+  for (const ide::CompletionItem& item : all) {
+    // Of a call that a client cannot fill in only the name is left.
+    const bool is_name_alone = !session.client.snippets && item.label.ends_with(kCall);
+    ide::CompletionItem name = is_name_alone ? item : ide::CompletionItem();
+    if (is_name_alone) name.label.resize(item.label.size() - kCall.size());
+    const auto has_label = [&](const ide::CompletionItem& other) { return other.label == name.label; };
+    if (is_name_alone && std::any_of(all.begin(), all.end(), has_label)) continue;
+    items.push_back(itemJson(is_name_alone ? name : item, replaced, data, session.client.snippets));
   }
   return Json{{"isIncomplete", found->completion.is_incomplete}, {"items", std::move(items)}};
 }
@@ -91,7 +121,7 @@ Answer completion(Session& session, const Json& params) {
 // The documentation, which is read only for the item that is shown.
 Answer resolveCompletion(Session& session, const Json& params) {
   Json item = params;
-  const std::optional<Found> found = completionsOf(session, params["data"]);
+  const std::optional<Found> found = completionsOf(session, params["data"], false);
   if (!found) return item;
   for (const ide::CompletionItem& candidate : found->completion.items) {
     if (candidate.label != params["label"].text() || numberOf(candidate.kind) != params["kind"].integer()) continue;

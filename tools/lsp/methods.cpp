@@ -41,6 +41,7 @@ constexpr RequestMethod kRequests[] = {
     {"textDocument/formatting", formatDocument},
     {"textDocument/rangeFormatting", formatRange},
     {"textDocument/onTypeFormatting", formatOnType},
+    {"rung/diagram", diagram},
 };
 
 constexpr NotificationMethod kNotifications[] = {

@@ -21,8 +21,9 @@ Answer rename(Session& session, const Json& params) {
   if (!params["newName"].isText()) return {kInvalidParams, "`newName` must be a string"};
   const ide::Project* const project = session.projects.projectOf(place->path);
   if (place->view == nullptr || project == nullptr) return Json();
-  const auto trial = [&](const std::map<std::string, std::string>& texts) {
-    return session.projects.trial(*project, texts, session.cancelled);
+  const auto trial = [&](const std::map<std::string, std::string>& texts,
+                         FunctionRef<std::string(const ide::View&)> use) {
+    return session.projects.trial(*project, texts, use);
   };
   const ide::Renaming renaming =
       ide::renameAt(*place->view, place->file, place->byte, std::string(params["newName"].text()),

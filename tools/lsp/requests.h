@@ -53,6 +53,8 @@ Answer documentLinks(Session& session, const Json& params);
 // completion.cpp
 Answer completion(Session& session, const Json& params);
 Answer resolveCompletion(Session& session, const Json& params);
+// diagram.cpp
+Answer diagram(Session& session, const Json& params);
 
 // The error for parameters without a document.
 inline Answer noDocument() { return {kInvalidParams, "`textDocument.uri` must be a string"}; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/parse/parse.h"
 #include "sema/project.h"
 #include "tools/driver/file_provider.h"
 
@@ -31,14 +32,84 @@ Analysis::Analysis(driver::ProjectOptions options, const std::atomic<bool>* canc
   checked_size_ = compilation_.tree.size();
 }
 
-bool Analysis::edit(const std::string& path, const std::string& text, const std::atomic<bool>* cancelled) {
+bool Analysis::edit(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled) {
   if (!compilation_.checked || !sink_.error_text.empty()) return false;
-  EditedFile* const edited = editedFile(path);
-  if (edited == nullptr) return false;
-  const bool has_room = compilation_.tree.size() < checked_size_ + kMostGarbage;
-  const bool is_done = (has_room && edited->replace(text)) || checkAgain(*edited, text, cancelled);
+  for (const auto& [path, text] : texts)
+    if (editedFile(path) == nullptr) return false;
+  const auto replace = [&](const auto& change) {
+    const bool has_room = compilation_.tree.size() < checked_size_ + kMostGarbage;
+    return has_room && editedFile(change.first)->replace(change.second);
+  };
+  const bool is_done = std::all_of(texts.begin(), texts.end(), replace) || checkAgain(texts, cancelled);
   if (is_done) compilation_.finish();
   return is_done;
+}
+
+// The declaration of a POU with other statements, which are parsed as a file. None: it has no room.
+DeclId Analysis::trialBody(sema::PouId id, const std::string& statements, FileId& file) {
+  driver::Compilation& of = compilation_;
+  const DeclId decl = of.project->pou(id).decl;
+  if (!decl || of.tree.kind(decl) != DeclKind::Pou) return {};
+  file = of.sources.add("trial", "PROGRAM trial\n" + statements + "END_PROGRAM\n");
+  if (!file) return {};
+  of.diagnostics.max_errors = UINT32_MAX;
+  const FileUnit unit = text::parseFile(of.tree, of.names, of.sources, file, of.options.dialect, of.diagnostics);
+  const std::span<const DeclId> parsed = of.tree.list(unit.decls);
+  if (parsed.empty() || of.tree.kind(parsed[0]) != DeclKind::Pou) return {};
+  PouDecl pou = of.tree.as<PouDecl>(decl);
+  pou.body = of.tree.as<PouDecl>(parsed[0]).body;
+  pou.body_kind = BodyKind::St;
+  return of.tree.add<DeclId>(pou);
+}
+
+std::vector<std::string> Analysis::errorsOf(sema::PouId id, const std::vector<std::string>& statements) {
+  driver::Compilation& of = compilation_;
+  std::vector<std::string> errors(statements.size());
+  std::string text;
+  for (const std::string& statement : statements) text += statement + "\n";
+  FileId file;
+  const DeclId body = of.checked ? trialBody(id, text, file) : DeclId{};
+  if (!body) return errors;
+  of.diagnostics.closeLines();
+  of.checked->tryBody({id, body});
+  for (const Diagnostic& diagnostic : of.diagnostics.all()) {
+    if (diagnostic.severity != Severity::Error || of.sources.fileOf(diagnostic.loc) != file) continue;
+    const SourceLocation at = of.sources.location(diagnostic.loc);
+    if (at.line >= 2 && at.line - 2 < errors.size())
+      errors[at.line - 2] += std::to_string(at.column) + ":" + diagInfo(diagnostic.diag).code + " ";
+  }
+  return errors;
+}
+
+size_t Analysis::errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodies) const {
+  const std::vector<Diagnostic>& all = compilation_.diagnostics.all();
+  return static_cast<size_t>(std::count_if(all.begin(), all.end(), [&](const Diagnostic& diagnostic) {
+    return diagnostic.severity == Severity::Error && std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
+             return body.pou.index == diagnostic.reporter;
+           });
+  }));
+}
+
+std::string Analysis::goodTypes(const TypeTrial& trial) {
+  driver::Compilation& of = compilation_;
+  if (!of.checked) return {};
+  std::vector<sema::CheckedProject::NewBody> bodies;
+  std::vector<FileId> files;
+  for (const TypeTrial::Body& body : trial.bodies) {
+    const DeclId own = of.project->pou(body.pou).decl;
+    const DeclId decl = body.statements.empty() ? own : trialBody(body.pou, body.statements, files.emplace_back());
+    if (decl) bodies.push_back({body.pou, decl});
+  }
+  const auto errorsWith = [&](TypeId type) {
+    for (const sema::VarId var : trial.vars) of.project->var(var).type = type;
+    of.diagnostics.closeLines();
+    for (const auto& body : bodies) of.checked->tryBody(body);
+    return errorsOf(bodies);
+  };
+  const size_t known = errorsWith(types::kError);
+  std::string good;
+  for (const TypeId type : trial.types) good += errorsWith(type) <= known ? '+' : '-';
+  return good;
 }
 
 EditedFile* Analysis::editedFile(const std::string& path) {
@@ -53,9 +124,10 @@ EditedFile* Analysis::editedFile(const std::string& path) {
 }
 
 // Parses the edited files alone.
-bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled) {
-  if (compilation_.writtenSize() > first_size_ + kMostGarbage || compilation_.asksForNames() || !edited.take(text))
-    return false;
+bool Analysis::checkAgain(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled) {
+  if (compilation_.writtenSize() > first_size_ + kMostGarbage || compilation_.asksForNames()) return false;
+  for (const auto& [path, text] : texts)
+    if (!editedFile(path)->take(text)) return false;
   std::vector<FileId> changed;
   for (const auto& [path, file] : edited_) changed.push_back(file.file());
   compilation_.cancelled = cancelled;
@@ -65,7 +137,7 @@ bool Analysis::checkAgain(EditedFile& edited, const std::string& text, const std
   edited_.clear();
   checked_size_ = compilation_.tree.size();
   revision = nextRevision();
-  return is_done;
+  return is_done && (cancelled == nullptr || !cancelled->load(std::memory_order_relaxed));
 }
 
 }  // namespace rung::workspace

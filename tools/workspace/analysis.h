@@ -6,6 +6,7 @@
 #include <atomic>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tools/driver/compile.h"
 #include "tools/workspace/edited_file.h"
@@ -16,8 +17,29 @@ class Analysis {
  public:
   Analysis(driver::ProjectOptions options, const std::atomic<bool>* cancelled);
 
-  // Gives a file another text. False: that takes a new analysis, and this one is of no use.
-  bool edit(const std::string& path, const std::string& text, const std::atomic<bool>* cancelled);
+  // Gives files other texts, by path. False: that takes a new analysis, or was cancelled, and this one is of no use.
+  bool edit(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);
+
+  // The errors of statements as the body of a POU, each on a line of its own: for each the columns and codes, `5:E0401
+  // 9:E0231`. The analysis is of no use afterwards.
+  std::vector<std::string> errorsOf(sema::PouId pou, const std::vector<std::string>& statements);
+
+  // Bodies to be checked once for each of several types of some variables.
+  struct TypeTrial {
+    std::vector<sema::VarId> vars;
+    std::vector<TypeId> types;
+    struct Body {
+      sema::PouId pou;
+      std::string statements;  // that name the variables; empty: its own ones
+    };
+    std::vector<Body> bodies;
+  };
+  // The types with which there is no error that there is not with a variable of which nothing is known: for each `+` or
+  // `-`. The analysis is of no use afterwards.
+  std::string goodTypes(const TypeTrial& trial);
+
+  // Only one more edit will come.
+  void makeLast() { compilation_.is_last = true; }
 
   const driver::Compilation& compilation() const { return compilation_; }
   const std::string& error() const { return sink_.error_text; }
@@ -26,8 +48,10 @@ class Analysis {
   mutable std::atomic<uint32_t> readers = 0;
 
  private:
+  DeclId trialBody(sema::PouId id, const std::string& statements, FileId& file);
+  size_t errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodies) const;
   EditedFile* editedFile(const std::string& path);
-  bool checkAgain(EditedFile& edited, const std::string& text, const std::atomic<bool>* cancelled);
+  bool checkAgain(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);
 
   struct Silent final : driver::Sink {
     void message(std::string_view) override {}

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/source/function_ref.h"
 #include "tools/workspace/analysis.h"
 
 namespace rung::workspace {
@@ -60,6 +61,15 @@ class Workspace {
   // open are read from disk. None when `cancelled` became true
   // meanwhile: the changes are noted, and the next snapshot has them.
   std::shared_ptr<const Snapshot> apply(std::vector<Change> changes, const std::atomic<bool>* cancelled = nullptr);
+  // What would be wrong with statements in a POU of the last snapshot: for each its errors as `column:code`, with
+  // blanks between them. None: it cannot be said. The snapshot stays as it is.
+  std::optional<std::vector<std::string>> errorsOf(sema::PouId pou, const std::vector<std::string>& statements) const;
+  // Analysis::goodTypes, without a change of the last snapshot. None: it cannot be said.
+  std::optional<std::string> goodTypes(const Analysis::TypeTrial& trial) const;
+  // What `use` says of the project with other texts, by path. It gets a copy of what is known, and may read nothing
+  // that refers to the last snapshot. None: it cannot be said.
+  std::optional<std::string> inTrial(const std::map<std::string, std::string>& texts,
+                                     FunctionRef<std::string(std::shared_ptr<const Snapshot>)> use);
   // The last one that was made; none before the first, and none when the one that was to take its place was cancelled.
   std::shared_ptr<const Snapshot> current();
 
