@@ -10,9 +10,16 @@
 #include "tools/ide/navigation.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/source_text.h"
+#include "tools/ide/timing_drawings.h"
 
 namespace rung::ide {
 namespace {
+
+// A block of characters: what a picture is in a client that shows text alone.
+std::string timingOf(std::string_view library, std::string_view block) {
+  const std::string_view drawing = library == "Standard" ? timingDrawingOf(block) : std::string_view();
+  return drawing.empty() ? std::string() : "\n\n```text\n" + std::string(drawing) + "\n```";
+}
 
 class Describer {
  public:
@@ -121,7 +128,10 @@ class Describer {
     Description result{signature.declaration(), signature.documentation, {}};
     const sema::Pou& pou = project_.pou(id);
     if (pou.owner) result.facts += paragraph("of `" + text(project_.pou(pou.owner).name) + "`");
-    if (pou.library && pou.library_name) result.facts += paragraph("in the library `" + text(pou.library_name) + "`");
+    if (pou.library && pou.library_name) {
+      result.facts += timingOf(text(pou.library_name), text(pou.name));
+      result.facts += paragraph("in the library `" + text(pou.library_name) + "`");
+    }
     result.facts += tasksOf(id);
     return result;
   }
@@ -219,9 +229,10 @@ std::optional<Hover> hoverAt(const View& view, const LibraryIndex& libraries, Fi
       libraries.find(text.substr(begin, end - begin), view.snapshot().project()->options.dialect);
   const std::optional<PouSignature> signature = name == nullptr ? std::nullopt : signatureOf(*name);
   if (!signature) return std::nullopt;
-  return Hover{{token.file, begin, end},
-               markdownOf({signature->declaration(), signature->documentation,
-                           "\n\nin the library `" + std::string(name->library) + "`"})};
+  return Hover{
+      {token.file, begin, end},
+      markdownOf({signature->declaration(), signature->documentation,
+                  timingOf(name->library, name->name) + "\n\nin the library `" + std::string(name->library) + "`"})};
 }
 
 }  // namespace rung::ide
