@@ -223,7 +223,9 @@ class Completer {
     const bool is_called = item.kind == CompletionKind::Function || item.kind == CompletionKind::Method;
     if (is_called && !followsParenthesis()) {
       item.is_snippet = true;
+      is_open_ = false;
       item.insert = callSnippet(item.label, {entity.index}) + (isStatement() ? ";" : "");
+      if (is_open_) item.fit = Fit::Part;
     } else if (isStatement()) {
       assign(item, scope_.typeOf(entity), 1);
     }
@@ -252,6 +254,7 @@ class Completer {
     for (const VarId pin : pins) {
       std::string value = defaults_.argumentFor(pin);
       if (value.empty() && is_named) continue;
+      if (value.empty()) is_open_ = true;
       if (value.empty()) value = text(project_.var(pin).name);
       if (place++ > 0) out += ", ";
       if (is_named) out += text(project_.var(pin).name) + " := ";
@@ -301,6 +304,7 @@ class Completer {
       const FileRange at = view_.bytesInFile(project_.global_lists[entity.index].loc, 1);
       return !at || !view_.sources().displayPath(at.file).starts_with('/');
     }
+    if (entity.entityKind() == EntityKind::Var && project_.vars[entity.index].list && isInternal(entity)) return true;
     if (entity.entityKind() != EntityKind::Var || !isDrawn(project_.vars[entity.index].pou)) return false;
     const sema::Var& var = project_.vars[entity.index];
     return !var.of_chart && !sameIdentifier(view_.sources().tokenAt(var.loc), written);
@@ -319,8 +323,20 @@ class Completer {
     return var.pou == cursor_.pou ? kLocal : kMember;
   }
 
+  // `|#Green`
+  bool hasItemAfter(Entity type) const {
+    if (project_.types.kind({type.index}) != types::TypeKind::Enum) return false;
+    const size_t begin = cursor_.source.find('#', cursor_.offset) + 1;
+    size_t end = begin;
+    while (end < cursor_.source.size() && isNameCharacter(cursor_.source[end])) ++end;
+    const NameId name = view_.names().find(cursor_.source.substr(begin, end - begin));
+    return name && scope_.memberOf(type, view_.names().key(name));
+  }
+
   // A value, or what leads to one: an instance, a list of globals, a type of enumerations.
   bool isInExpression(Entity entity) const {
+    if (isFollowedBy("#"))
+      return entity.entityKind() == EntityKind::Type && !isInternal(entity) && hasItemAfter(entity);
     switch (entity.entityKind()) {
       case EntityKind::Pou: {
         const sema::Pou& pou = project_.pous[entity.index];
@@ -346,7 +362,15 @@ class Completer {
     return pragmas.test || pragmas.test_only || pragmas.replaces;
   }
 
+  // Declared in a library, which does not give the name to others.
+  bool isInternal(Entity entity) const {
+    const FileRange at = view_.bytesInFile(scope_.locOf(entity), 1);
+    if (!at || view_.sources().displayPath(at.file).starts_with('/')) return false;
+    return libraries_.find(view_.names().string(scope_.nameOf(entity)), project_.options.dialect) == nullptr;
+  }
+
   bool isType(Entity entity) const {
+    if (isInternal(entity)) return false;
     if (entity.entityKind() != EntityKind::Pou) return entity.entityKind() == EntityKind::Type;
     const sema::Pou& pou = project_.pous[entity.index];
     if ((pou.pragmas.test_only || pou.pragmas.replaces) && !isInTest()) return false;
@@ -715,7 +739,7 @@ class Completer {
   void expression() {
     const bool is_argument = context_.call && context_.call->is_at_beginning;
     if (is_argument) pins(*context_.call);
-    if (is_argument && isPinFollowing()) return;
+    if (isPinFollowing()) return;  // the name of a pin or of a field
     items(context_.expected, true);
     const auto isListed = [&](Entity entity) {  // by items()
       return entity.entityKind() == EntityKind::EnumValue && context_.expected &&
@@ -841,6 +865,7 @@ class Completer {
   std::optional<Notation> notation_;  // none: not in a chart or networks
   Following following_;
   bool only_constants_ = false;  // the label of a branch
+  bool is_open_ = false;         // a call lacks an argument
   size_t paths_ = 0;
   int place_ = 0;  // the last place to fill in
   Completion result_;

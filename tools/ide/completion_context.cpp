@@ -88,7 +88,10 @@ class Reader {
     if (is_configuration_) return;
     const bool follows_statement =
         at == 0 || cursor_.text(at - 1) == ";" || upper(cursor_.text(at - 1)).starts_with("END_");
-    if (beginsPou(word) && !(context_.is_in_body && context_.has_body && !follows_statement)) {
+    const bool is_accessor = isOneOf(word, {"GET", "SET"});
+    const bool may_be_accessor = pou_ != kNone && isOneOf(cursor_.text(pou_), {"PROPERTY", "GET", "SET"});
+    if (beginsPou(word) && (!is_accessor || may_be_accessor) &&
+        !(context_.is_in_body && context_.has_body && !follows_statement)) {
       pou_ = at;
       context_.is_in_body = context_.has_body = false;
       context_.blocks.clear();

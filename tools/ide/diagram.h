@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a body that is drawn: LD, FBD, CFC, SFC, the ladder of NCT. In: the text of a file, which is parsed alone,
-// so that a picture never waits for the check of the project, and what the project is known to declare. Out: SVG whose
-// groups have ids, where in the text each of them comes from, and the id of what is at a byte. Asked by editors.
+// The picture of a body that is drawn: LD, FBD, CFC, SFC, the ladder of NCT. In: the text of a file, which is parsed
+// alone, so that a picture never waits for the check of the project, and what the project is known to declare. Out: SVG
+// whose groups have ids, where in the text each of them comes from, and the id of what is at a byte. Asked by editors.
 #pragma once
 
 #include <optional>

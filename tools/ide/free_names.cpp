@@ -11,11 +11,11 @@
 namespace rung::ide {
 namespace {
 
-constexpr int kMostBases = 1000;
+constexpr int kLongestLine = 1000;
 
 bool isDerivedFrom(const sema::Project& project, PouId pou, PouId base) {
   int steps = 0;
-  for (PouId at = pou; at && steps < kMostBases; at = project.pou(at).base, ++steps)
+  for (PouId at = pou; at && steps < kLongestLine; at = project.pou(at).base, ++steps)
     if (at == base) return true;
   return false;
 }

@@ -109,6 +109,64 @@ std::vector<HierarchyItem> itemsOf(const View& view, const std::vector<PouId>& p
   return items;
 }
 
+// STRUCT EXTENDS.
+class Structures {
+ public:
+  explicit Structures(const View& view)
+      : view_(view), tree_(view.tree()), scope_(view.meanings().scope()), project_(scope_.project()) {}
+
+  bool has(Entity entity) const { return static_cast<bool>(structureOf(entity)); }
+
+  std::optional<HierarchyItem> itemOf(Entity entity) const {
+    const Entity type = Entity::of(EntityKind::Type, structureOf(entity).index);
+    const std::optional<Destination> at = destinationOf(view_, type);
+    if (!at) return std::nullopt;
+    return HierarchyItem{type, std::string(view_.names().string(scope_.nameOf(type))), {}, SymbolKind::Structure, *at};
+  }
+
+  // What a structure extends, or those that extend it.
+  std::vector<HierarchyItem> related(Entity structure, bool is_base) const {
+    std::vector<HierarchyItem> items;
+    for (const FileUnit& unit : tree_.files)
+      visit(tree_.list(unit.decls), [&](Entity derived, Entity base) {
+        if ((is_base ? derived : base).index != structure.index) return;
+        if (auto item = itemOf(is_base ? base : derived)) items.push_back(std::move(*item));
+      });
+    return items;
+  }
+
+ private:
+  TypeId structureOf(Entity entity) const {
+    const EntityKind kind = entity.entityKind();
+    if (kind != EntityKind::Type && kind != EntityKind::Var && kind != EntityKind::Property) return {};
+    TypeId type = scope_.recordOf(scope_.typeOf(entity));
+    while (project_.types.info(type).kind == types::TypeKind::Array)
+      type = scope_.recordOf(project_.types.info(type).base);
+    const types::TypeInfo& info = project_.types.info(type);
+    const bool is_structure = info.kind == types::TypeKind::Record && info.record_kind == types::RecordKind::Struct;
+    return is_structure && !scope_.blockOf(type) ? type : TypeId{};
+  }
+
+  void visit(std::span<const DeclId> decls, FunctionRef<void(Entity derived, Entity base)> use) const {
+    for (const DeclId id : decls) {
+      if (tree_.kind(id) == DeclKind::Namespace) visit(tree_.list(tree_.as<NamespaceDecl>(id).decls), use);
+      if (tree_.kind(id) != DeclKind::Type) continue;
+      const TypeDecl& decl = tree_.as<TypeDecl>(id);
+      if (!decl.type || tree_.kind(decl.type) != TypeExprKind::Struct) continue;
+      const TypeExprId base = tree_.as<StructTypeExpr>(decl.type).base;
+      if (!base || tree_.kind(base) != TypeExprKind::Named) continue;
+      const std::span<const Ident> path = tree_.list(tree_.as<NamedTypeExpr>(base).path);
+      if (!path.empty()) use(typeNamed(decl.name), typeNamed(path.back().name));
+    }
+  }
+  Entity typeNamed(NameId name) const { return scope_.typeNamed(view_.names().key(name)); }
+
+  const View& view_;
+  const Tree& tree_;
+  const Scope& scope_;
+  const sema::Project& project_;
+};
+
 bool isDerivable(const sema::Pou& pou) {
   return pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class || pou.kind == PouKind::Interface;
 }
@@ -149,22 +207,26 @@ std::vector<Caller> outgoingCalls(const View& view, Entity caller) {
 }
 
 std::optional<HierarchyItem> derivableAt(const View& view, FileId file, uint32_t byte) {
+  const std::optional<NamePlace> place = nameAt(view, file, byte);
+  if (place && Structures(view).has(place->entity)) return Structures(view).itemOf(place->entity);
   std::optional<HierarchyItem> item = callableAt(view, file, byte);
   const bool is_type = item && item->entity.entityKind() == EntityKind::Pou &&
                        isDerivable(view.snapshot().project()->pous[item->entity.index]);
   return is_type ? item : std::nullopt;
 }
 
-std::vector<HierarchyItem> supertypesOf(const View& view, Entity block) {
-  return itemsOf(view, basesOf(view.snapshot().project()->pous[block.index]));
+std::vector<HierarchyItem> supertypesOf(const View& view, Entity type) {
+  if (type.entityKind() == EntityKind::Type) return Structures(view).related(type, true);
+  return itemsOf(view, basesOf(view.snapshot().project()->pous[type.index]));
 }
 
-std::vector<HierarchyItem> subtypesOf(const View& view, Entity block) {
+std::vector<HierarchyItem> subtypesOf(const View& view, Entity type) {
+  if (type.entityKind() == EntityKind::Type) return Structures(view).related(type, false);
   const auto& pous = view.snapshot().project()->pous;
   std::vector<PouId> derived;
   for (uint32_t i = 1; i < pous.size(); ++i) {
     const std::vector<PouId> bases = basesOf(pous[i]);
-    if (!pous[i].instance.of && std::find(bases.begin(), bases.end(), PouId{block.index}) != bases.end())
+    if (!pous[i].instance.of && std::find(bases.begin(), bases.end(), PouId{type.index}) != bases.end())
       derived.push_back({i});
   }
   return itemsOf(view, derived);

@@ -29,9 +29,9 @@ std::optional<HierarchyItem> callableAt(const View& view, FileId file, uint32_t 
 std::vector<Caller> incomingCalls(const View& view, Entity callee);
 std::vector<Caller> outgoingCalls(const View& view, Entity caller);
 
-// A block, class or interface; of an instance its block.
+// A block, class or interface, or a structure; of an instance or variable that of its type.
 std::optional<HierarchyItem> derivableAt(const View& view, FileId file, uint32_t byte);
-std::vector<HierarchyItem> supertypesOf(const View& view, Entity block);
-std::vector<HierarchyItem> subtypesOf(const View& view, Entity block);
+std::vector<HierarchyItem> supertypesOf(const View& view, Entity type);
+std::vector<HierarchyItem> subtypesOf(const View& view, Entity type);
 
 }  // namespace rung::ide

@@ -6,12 +6,20 @@
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/keywords.h"
 #include "tools/ide/code_lens.h"
+#include "tools/ide/inlay_hints.h"
 #include "tools/ide/navigation.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/source_text.h"
+#include "tools/ide/timing_drawings.h"
 
 namespace rung::ide {
 namespace {
+
+// A block of characters: what a picture is in a client that shows text alone.
+std::string timingOf(std::string_view library, std::string_view block) {
+  const std::string_view drawing = library == "Standard" ? timingDrawingOf(block) : std::string_view();
+  return drawing.empty() ? std::string() : "\n\n```text\n" + std::string(drawing) + "\n```";
+}
 
 class Describer {
  public:
@@ -54,7 +62,7 @@ class Describer {
     if (var.record && !var.pou) result.declaration = text(var.name);  // a field
     result.declaration += " : " + type;
     if (!initial.empty()) result.declaration += " := " + initial;
-    result.facts = ownerOf(var) + valueOf(var) + sizeOf(var.type);
+    result.facts = ownerOf(var) + valueOf(var) + placeOf(var) + tasksOf(var.pou);
     return result;
   }
 
@@ -80,10 +88,39 @@ class Describer {
     return paragraph("value `" + types::toString(project_.types, view_.names(), var.value) + "`");
   }
   std::string sizeOf(TypeId type) const {
-    const types::TypeInfo& info = project_.types.info(project_.types.resolve(type));
+    const types::TypeTable& types = project_.types;
+    const types::TypeInfo& info = types.info(types.resolve(type));
     const bool is_large = info.kind == types::TypeKind::Array || info.kind == types::TypeKind::Record;
-    if (!is_large || !info.laid_out || info.size == 0) return {};
-    return paragraph(std::to_string(info.size) + " bytes");
+    uint64_t size = is_large && info.laid_out ? info.size : 0;
+    if (const types::TypeKind kind = types.plainKind(type); types::TypeTable::isScalar(kind))
+      size = (types::TypeTable::bitWidth(kind) + 7) / 8;
+    return size == 0 ? std::string() : paragraph(std::to_string(size) + (size == 1 ? " byte" : " bytes"));
+  }
+
+  // Its size, and the addresses that it has in the process image: of a variable of a block in each instance.
+  std::string placeOf(const sema::Var& var) const {
+    constexpr size_t kMost = 4;
+    std::vector<std::string> addresses;
+    if (var.storage == sema::Storage::Image) addresses.push_back(addressText(project_, var.image));
+    for (const sema::InstancePath& path : project_.instance_paths)
+      if (path.located && &project_.var(path.var) == &var) addresses.push_back(addressText(project_, path.image));
+    std::string text;
+    for (size_t i = 0; i < std::min(addresses.size(), kMost); ++i)
+      text += (i > 0 ? ", `" : "at `") + addresses[i] + "`";
+    if (addresses.size() > kMost) text += ", …";
+    const bool is_bit = var.storage == sema::Storage::Image && var.image.is_bit;
+    std::string size = is_bit ? std::string() : sizeOf(var.type);
+    if (text.empty()) return size;
+    return size.empty() ? paragraph(text) : size + " " + text;
+  }
+
+  // Those that run a program.
+  std::string tasksOf(PouId program) const {
+    std::string out;
+    if (!program || project_.pou(program).kind != PouKind::Program) return out;
+    for (const sema::ProgramInstance& instance : project_.instances)
+      if (instance.program == program) out += taskOf(instance);
+    return out;
   }
 
   Description pou(PouId id) const {
@@ -91,10 +128,11 @@ class Describer {
     Description result{signature.declaration(), signature.documentation, {}};
     const sema::Pou& pou = project_.pou(id);
     if (pou.owner) result.facts += paragraph("of `" + text(project_.pou(pou.owner).name) + "`");
-    if (pou.library && pou.library_name) result.facts += paragraph("in the library `" + text(pou.library_name) + "`");
-    if (pou.kind == PouKind::Program)
-      for (const sema::ProgramInstance& instance : project_.instances)
-        if (instance.program == id) result.facts += taskOf(instance);
+    if (pou.library && pou.library_name) {
+      result.facts += timingOf(text(pou.library_name), text(pou.name));
+      result.facts += paragraph("in the library `" + text(pou.library_name) + "`");
+    }
+    result.facts += tasksOf(id);
     return result;
   }
 
@@ -191,9 +229,10 @@ std::optional<Hover> hoverAt(const View& view, const LibraryIndex& libraries, Fi
       libraries.find(text.substr(begin, end - begin), view.snapshot().project()->options.dialect);
   const std::optional<PouSignature> signature = name == nullptr ? std::nullopt : signatureOf(*name);
   if (!signature) return std::nullopt;
-  return Hover{{token.file, begin, end},
-               markdownOf({signature->declaration(), signature->documentation,
-                           "\n\nin the library `" + std::string(name->library) + "`"})};
+  return Hover{
+      {token.file, begin, end},
+      markdownOf({signature->declaration(), signature->documentation,
+                  timingOf(name->library, name->name) + "\n\nin the library `" + std::string(name->library) + "`"})};
 }
 
 }  // namespace rung::ide

@@ -80,12 +80,7 @@ class Hinter {
     if (!label.empty()) add(view_.tokenInFile(decl.address_loc), label, HintKind::Value);
   }
 
-  // By bytes, because words are counted in two ways.
-  std::string addressOf(const sema::ImageView& view) const {
-    const std::string area = std::string("%") + project_.options.areas[view.area.index].letter;
-    if (view.is_bit) return area + "X" + std::to_string(view.byte) + "." + std::to_string(view.bit);
-    return area + "B" + std::to_string(view.byte);
-  }
+  std::string addressOf(const sema::ImageView& view) const { return addressText(project_, view); }
 
   // ---- code
 
@@ -155,6 +150,12 @@ class Hinter {
 
 std::vector<InlayHint> hintsIn(const View& view, const FileRange& part) {
   return view.snapshot().project() == nullptr ? std::vector<InlayHint>() : Hinter(view, part).hints();
+}
+
+std::string addressText(const sema::Project& project, const sema::ImageView& at) {
+  const std::string area = std::string("%") + project.options.areas[at.area.index].letter;
+  if (at.is_bit) return area + "X" + std::to_string(at.byte) + "." + std::to_string(at.bit);
+  return area + "B" + std::to_string(at.byte);
 }
 
 }  // namespace rung::ide

@@ -21,4 +21,7 @@ struct InlayHint {
 // In the order of the file. Only code in ST has pins and conversions.
 std::vector<InlayHint> hintsIn(const View& view, const FileRange& part);
 
+// `%IB4`, `%QX0.1`: by bytes, because words are counted in two ways.
+std::string addressText(const sema::Project& project, const sema::ImageView& at);
+
 }  // namespace rung::ide
