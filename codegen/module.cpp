@@ -43,7 +43,8 @@ constexpr struct {
                    {RUNG_FIELD_READ_ONLY, "RUNG_FIELD_READ_ONLY"},
                    {RUNG_FIELD_NO_EXTERNAL_READ, "RUNG_FIELD_NO_EXTERNAL_READ"},
                    {RUNG_FIELD_NO_EXTERNAL_WRITE, "RUNG_FIELD_NO_EXTERNAL_WRITE"},
-                   {RUNG_FIELD_NO_COPY, "RUNG_FIELD_NO_COPY"}};
+                   {RUNG_FIELD_NO_COPY, "RUNG_FIELD_NO_COPY"},
+                   {RUNG_FIELD_OPEN_ARRAY, "RUNG_FIELD_OPEN_ARRAY"}};
 
 std::string number(uint64_t value) { return std::to_string(value); }
 std::string unsignedOrNone(uint32_t value) { return value == RUNG_NONE ? "RUNG_NONE" : number(value); }
@@ -52,9 +53,13 @@ std::string signedNumber(int64_t value) { return value == INT64_MIN ? "INT64_MIN
 // `RUNG_FIELD_INPUT | 3 << RUNG_FIELD_BIT_SHIFT`
 std::string fieldFlags(uint32_t flags) {
   std::string out;
+  uint32_t left = flags & ~uint32_t{RUNG_FIELD_BIT};
   const auto add = [&out](const std::string& word) { out += (out.empty() ? "" : " | ") + word; };
-  for (const auto& known : kFieldFlags)
+  for (const auto& known : kFieldFlags) {
     if ((flags & known.flag) != 0) add(known.name);
+    left &= ~known.flag;
+  }
+  RUNG_INVARIANT(left == 0, "a flag of a field has no name here");
   if ((flags & RUNG_FIELD_BIT) != 0)
     add(number((flags & RUNG_FIELD_BIT) >> RUNG_FIELD_BIT_SHIFT) + " << RUNG_FIELD_BIT_SHIFT");
   return out.empty() ? "0" : out;

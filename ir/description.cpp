@@ -172,6 +172,7 @@ class Describer {
     if (field.role == FieldRole::Output) bits |= RUNG_FIELD_OUTPUT;
     if (field.role == FieldRole::Base) bits |= RUNG_FIELD_BASE;
     if (field.no_copy) bits |= RUNG_FIELD_NO_COPY;
+    if (field.role == FieldRole::InOut && !field.by_reference) bits |= RUNG_FIELD_OPEN_ARRAY;
     return bits | accessFlags(field.symbol_access);
   }
   static uint32_t accessFlags(types::SymbolAccess access) {

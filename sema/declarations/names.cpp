@@ -91,16 +91,26 @@ Entity instanceOfResource(const Context& context, NameId key, Entity found) {
   return found;
 }
 
+// A block or type is not a value, so in an expression the name is that of the global variable: Trace : Trace. But where
+// no variable hides an enumeration, `Color.Red` is an item of it.
+bool givesWay(Context& context, Entity found) {
+  if (found.entityKind() == EntityKind::Pou) {
+    const PouKind kind = context.symbols.pous[found.index].kind;
+    return kind == PouKind::FunctionBlock || kind == PouKind::Class || kind == PouKind::Interface;
+  }
+  if (found.entityKind() != EntityKind::Type) return false;
+  if (context.profile().hidden_enumerations) return true;
+  resolveNamed(context, TypeId{found.index});
+  return context.types().plainKind(TypeId{found.index}) != types::TypeKind::Enum;
+}
+
 // An entity of the project, its namespaces or the libraries.
 Entity findDeclared(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
   if (context.region)
     if (const Entity found = lookUpAround(context, key, loc, false)) return found;
   if (const Entity found = scopes.pous_and_types.find(key)) {
-    // A block is not a value, so in an expression the name is that of the global instance: Trace : Trace.
-    const bool block =
-        found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].kind == PouKind::FunctionBlock;
-    if (const Entity global = block ? scopes.globals.find(key) : Entity{})
+    if (const Entity global = givesWay(context, found) ? scopes.globals.find(key) : Entity{})
       return globalOfResource(context, key, global);
     return found;
   }

@@ -128,7 +128,7 @@ void startCam(MC_CamIn_type& block, Call& call) {
   if (error != SMC_NO_ERROR_) return call.refuse(error);
   if (!call.isOwner() && waitsInBuffer(block, call, followRequest(block.Deceleration_))) return;
   block.waits_ = 0;
-  const bool is_owner = call.isOwner() && slave.coupled_master_ == reinterpret_cast<uintptr_t>(block.Master_);
+  const bool is_owner = call.isOwner() && slave.coupled_master_ == block.Master_;
   const bool switches = is_owner && !isSame(block.cam_, block.CamTableID_);
   const State master = is_owner ? masterOf(*block.Master_, slave) : stateOf(*block.Master_);
   MC_CamIn_type next = block;  // a refused start changes nothing

@@ -24,7 +24,7 @@ inline State masterOf(const Axis& master, Axis& slave) {
 
 inline void couple(Axis& slave, Axis& master, Coupling coupling) {
   slave.coupled_ = coupling;
-  slave.coupled_master_ = reinterpret_cast<uintptr_t>(&master);
+  slave.coupled_master_ = &master;
   slave.phase_ = {};
 }
 

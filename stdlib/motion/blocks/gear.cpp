@@ -259,8 +259,7 @@ void rung_sm3_basic_MC_Phasing(rung_context*, MC_Phasing_type* self) {
   Call call(self->Slave_, self->command_, self->Execute_ != 0);
   if (call.rises()) {
     Axis& slave = call.axis();
-    const bool is_coupled = slave.coupled_ != kNone && isAxis(self->Master_) &&
-                            slave.coupled_master_ == reinterpret_cast<uintptr_t>(self->Master_);
+    const bool is_coupled = slave.coupled_ != kNone && isAxis(self->Master_) && slave.coupled_master_ == self->Master_;
     Request request = {};
     request.kind_ = static_cast<uint8_t>(Motion::Position);
     request.target_ = self->PhaseShift_;

@@ -46,7 +46,7 @@ TRIGGER_REF_type& triggerOf(void* pointer) { return *static_cast<TRIGGER_REF_typ
 void end(MC_TouchProbe_type& block, TRIGGER_REF_type& trigger) {
   if (trigger.bFastLatching_ != 0 && trigger.iTriggerNumber_ >= 0 && trigger.iTriggerNumber_ <= 3) {
     disarm(*block.Axis_, trigger.iTriggerNumber_);
-    block.Axis_->armed_[trigger.iTriggerNumber_] = 0;
+    block.Axis_->armed_[trigger.iTriggerNumber_] = nullptr;
   }
   trigger.bActive_ = 0;
   block.armed_ = 0;
@@ -65,7 +65,7 @@ void rung_sm3_basic_MC_TouchProbe(rung_context*, MC_TouchProbe_type* self) {
   if (call.rises() && self->armed_ == 0) {
     Axis& axis = call.axis();
     const bool is_number = number >= 0 && number <= 3;
-    if (trigger.bActive_ != 0 || (fast && is_number && axis.armed_[number] != 0)) {
+    if (trigger.bActive_ != 0 || (fast && is_number && axis.armed_[number] != nullptr)) {
       call.refuse(SMC_TP_TRIGGEROCCUPIED_);
     } else if (fast && (!is_number || axis.bVirtual_ != 0 || axis.bCommunication_ == 0 ||
                         (axis.drive_.mapped_ & RUNG_DRIVE_PROBE_FUNCTION) == 0)) {
@@ -79,7 +79,7 @@ void rung_sm3_basic_MC_TouchProbe(rung_context*, MC_TouchProbe_type* self) {
       self->last_input_ = trigger.bInput_;
       self->began_ = axis.cycle_;
       if (fast) {
-        axis.armed_[number] = reinterpret_cast<uintptr_t>(self);
+        axis.armed_[number] = self;
         arm(axis, number);
       }
     }

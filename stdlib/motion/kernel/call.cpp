@@ -32,7 +32,7 @@ bool Call::isOwner() const { return isRunning() && axis_->owner_ == command_.ser
 
 void Call::update() {
   if (outcome() != Outcome::Running) return;
-  if (command_.axis_ != reinterpret_cast<uintptr_t>(axis_)) {
+  if (command_.axis_ != axis_) {
     command_.outcome_ = static_cast<uint8_t>(Outcome::Failed);
     command_.error_ = SMC_AXIS_REF_CHANGED_DURING_OPERATION_;
     command_.shown_ = 0;
@@ -65,7 +65,7 @@ void Call::start(const Request& request, Error error) {
 
 void Call::launch() {
   command_.serial_ = 0;
-  command_.axis_ = reinterpret_cast<uintptr_t>(axis_);
+  command_.axis_ = axis_;
   command_.outcome_ = static_cast<uint8_t>(Outcome::Running);
   command_.error_ = SMC_NO_ERROR_;
   command_.shown_ = 0;
@@ -78,7 +78,7 @@ void Call::done() {
 
 // A block that refused new parameters still runs the command that it has.
 void Call::run() {
-  if (command_.serial_ == 0 || command_.axis_ != reinterpret_cast<uintptr_t>(axis_)) return;
+  if (command_.serial_ == 0 || command_.axis_ != axis_) return;
   if (axis_->owner_ == command_.serial_) axis_->supervised_ = axis_->cycle_;
   if (axis_->owner_ == command_.serial_ || isRunning()) advance(*axis_);
   update();

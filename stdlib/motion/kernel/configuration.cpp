@@ -151,17 +151,16 @@ int64_t accessObject(const rung_context* ctx, Axis& a, AXIS_OBJECT_ACCESS_type& 
     return result;
   }
   if (a.bBoundDrive_ != 0) return RUNG_OBJECT_FAILED;  // the process image has no service channel
-  const uint64_t self = reinterpret_cast<uintptr_t>(&access);
-  const bool is_free = a.access_owner_ == 0 || a.access_owner_ == self || a.access_called_ + 1 < a.cycle_;
+  const bool is_free = a.access_owner_ == nullptr || a.access_owner_ == &access || a.access_called_ + 1 < a.cycle_;
   if (!is_free) return RUNG_OBJECT_BUSY;
-  a.access_owner_ = self;
+  a.access_owner_ = &access;
   if (a.access_called_ == a.cycle_ && access.busy_ != 0) return RUNG_OBJECT_BUSY;  // called twice in a cycle
   a.access_called_ = a.cycle_;
   access.busy_ = 1;
   const int64_t result = accessObject(a.simulation_, wanted, &value);
   if (result == RUNG_OBJECT_BUSY) return result;
   access.busy_ = 0;
-  a.access_owner_ = 0;
+  a.access_owner_ = nullptr;
   if (result == RUNG_OBJECT_DONE) access.value_ = value;
   return result;
 }

@@ -175,7 +175,7 @@ void endCommands(Axis& a, Error error) {
   a.owner_ = a.extra_.owner_ = a.phase_.owner_ = 0;
   a.waiting_count_ = 0;
   a.coupled_ = 0;
-  a.coupled_master_ = 0;
+  a.coupled_master_ = nullptr;
   a.homing_ = 0;
   a.mode_wanted_ = driveMode(a.eControllerMode_);
 }

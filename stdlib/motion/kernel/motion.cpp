@@ -58,7 +58,7 @@ void noteEnd(Axis& a, double rest) {
 // A new command of the axis.
 uint32_t adopt(Axis& a, Command& command) {
   command.serial_ = ++a.serials_;
-  command.axis_ = reinterpret_cast<uintptr_t>(&a);
+  command.axis_ = &a;
   command.outcome_ = static_cast<uint8_t>(Outcome::Running);
   command.error_ = SMC_NO_ERROR_;
   command.shown_ = 0;
@@ -440,7 +440,7 @@ bool isWaiting(const Axis& a, uint32_t serial) {
 bool begin(Axis& a, Command& command, const Request& request) {
   const bool waits = request.buffer_mode_ != Aborting_ && a.owner_ != 0;
   // A block has one command: a new edge takes the one that waits out of the buffer, but cannot wait for its own motion.
-  const bool is_own = command.axis_ == reinterpret_cast<uintptr_t>(&a) && command.serial_ != 0;
+  const bool is_own = command.axis_ == &a && command.serial_ != 0;
   if (waits && is_own && command.serial_ == a.owner_) return false;
   Request wanted = request;
   const State from = startState(a);
@@ -473,7 +473,7 @@ bool begin(Axis& a, Command& command, const Request& request) {
   a.owner_ = command.serial_;
   a.waiting_count_ = 0;
   a.coupled_ = 0;
-  a.coupled_master_ = 0;
+  a.coupled_master_ = nullptr;
   a.request_ = wanted;
   a.nAxisState_ = wanted.state_;
   if (wanted.state_ != homing_) {
@@ -572,7 +572,7 @@ bool handOver(Axis& a, Outcome outcome) {
   if (a.waiting_count_ == 0) return false;
   if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.coupled_ = 0;
-  a.coupled_master_ = 0;
+  a.coupled_master_ = nullptr;
   beginNext(a, {a.position_, a.velocity_, a.acceleration_}, 0);
   moveOwner(a);
   return true;
@@ -583,7 +583,7 @@ void release(Axis& a, Outcome outcome) {
   if (outcome == Outcome::Done) noteDone(a, a.owner_);
   a.owner_ = 0;
   a.coupled_ = 0;
-  a.coupled_master_ = 0;
+  a.coupled_master_ = nullptr;
   if (a.velocity_ == 0) {
     rest(a, a.position_);
     a.nAxisState_ = restingState(a);

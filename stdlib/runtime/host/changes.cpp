@@ -45,7 +45,9 @@ std::optional<Changes::Outcome> Changes::begin(const Command& command) {
   const auto compile = options_.change.compile ? options_.change.compile
                                                : [name](const std::string& path) { return loadLibrary(name, path); };
   if (!options_.realtime && options_.monitor.address.empty()) return make(compile(project));
-  compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
+  session_.atEase([&] {  // threads have the priority of the one that begins them
+    compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
+  });
   return std::nullopt;
 }
 

@@ -106,6 +106,13 @@ void Memory::transfer(StateArchive& archive) {
   archive.values(c.now_ns, c.entry, c.task, c.activation, c.fault, c.callers, c.caller_count);
 }
 
+size_t Memory::bytes() const {
+  size_t all = sizeof context_;
+  for (const rung_block& block : module_.blocks) all += block.size;
+  for (const rung_area& area : module_.areas) all += area.size;
+  return all;
+}
+
 void Memory::restoreOutputs() {
   for (uint32_t i = 0; i < kept_outputs_.size(); ++i)
     if (module_.areas[i].owner == RUNG_AREA_OUTPUT)

@@ -34,8 +34,9 @@ class Memory {
   // Sets outputs to their safe values when the program stops; restoreOutputs gives them back, where it goes on.
   void makeOutputsSafe();
   void restoreOutputs();
-  // All blocks and areas, and what the context says of the last activation.
+  // All blocks and areas, and what the context says of the last activation; about so many bytes.
   void transfer(StateArchive& archive);
+  size_t bytes() const;
   // Areas with the safe values of all outputs.
   void safeOutputs(std::vector<std::vector<uint8_t>>& areas) const;
 

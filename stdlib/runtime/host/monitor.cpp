@@ -68,6 +68,7 @@ void Monitor::followChange() {
   for (auto& [client, stream] : streams_) move(stream.list);
   for (auto& [client, reader] : readers_) move(reader.list);
   was_rolled_back_.store(false);
+  changes_.fetch_add(1);
   server_.wake();
 }
 

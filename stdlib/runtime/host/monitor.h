@@ -142,7 +142,8 @@ class Monitor : private HttpServer::Handler {
   std::atomic<int64_t> cycle_{0}, time_ns_{0};
   std::atomic<State> state_{State::Running};
   std::atomic<bool> was_rolled_back_{false};
-  HttpServer::Client changing_ = 0;  // the client whose change is being compiled
+  std::atomic<uint32_t> changes_{0};  // another version took over, or went back
+  HttpServer::Client changing_ = 0;   // the client whose change is being compiled
   bool is_changing_ = false;
   std::mutex program_mutex_;
 

@@ -238,11 +238,15 @@ void Monitor::serveInfo(HttpServer::Client client, const HttpRequest&) {
   const rung_module& module = session_.module().description;
   char hash[20];
   snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(module.layout_hash));
-  const Json info{
-      {"name", module.name},       {"version", options_.version.empty() ? module.compiler : options_.version},
-      {"engine", options_.engine}, {"state", stateName()},
-      {"cycle", cycle_.load()},    {"time_ms", static_cast<double>(time_ns_.load()) / 1e6},
-      {"layout_hash", hash},       {"rolled_back", was_rolled_back_.load()}};
+  const Json info{{"name", module.name},
+                  {"version", options_.version.empty() ? module.compiler : options_.version},
+                  {"engine", options_.engine},
+                  {"state", stateName()},
+                  {"cycle", cycle_.load()},
+                  {"time_ms", static_cast<double>(time_ns_.load()) / 1e6},
+                  {"layout_hash", hash},
+                  {"changes", changes_.load()},
+                  {"rolled_back", was_rolled_back_.load()}};
   server_.reply(client, jsonReply(info.toText()));
 }
 

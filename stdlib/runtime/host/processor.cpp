@@ -44,7 +44,18 @@ Rights findRights() {
   // Pages that are used stay in memory; those of stacks that are never used need none.
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0)
     rights.missing += std::string(rights.missing.empty() ? "" : "; ") + "no right to lock memory";
+  rights.cpus = permittedCpus();
   return rights;
+}
+
+Scheduling::Scheduling() {
+  pthread_getschedparam(pthread_self(), &policy_, &priority_);
+  sched_getaffinity(0, sizeof cpus_, &cpus_);
+}
+
+void Scheduling::restore() const {
+  pthread_setschedparam(pthread_self(), policy_, &priority_);
+  sched_setaffinity(0, sizeof cpus_, &cpus_);
 }
 
 void yieldToTasks(uint32_t resources) {
@@ -59,7 +70,7 @@ void yieldToTasks(uint32_t resources) {
 }
 
 void Processor::prepare(uint32_t number, const Rights& rights) {
-  const std::vector<int> cpus = permittedCpus();
+  const std::vector<int>& cpus = rights.cpus;
   preemptive_ = rights.preemptive;
   // From the last one: the first ones serve most interrupts.
   cpu_ = cpus[cpus.size() - 1 - number % cpus.size()];

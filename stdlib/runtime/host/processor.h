@@ -5,10 +5,12 @@
 // realtime.cpp.
 #pragma once
 
+#include <sched.h>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace rung::host {
 
@@ -16,8 +18,20 @@ namespace rung::host {
 struct Rights {
   bool preemptive = false;  // SCHED_FIFO and the choice of a CPU
   std::string missing;
+  std::vector<int> cpus;  // that the calling thread may use
 };
 Rights findRights();
+// How the calling thread is scheduled, to return to it.
+class Scheduling {
+ public:
+  Scheduling();
+  void restore() const;
+
+ private:
+  int policy_ = SCHED_OTHER;
+  sched_param priority_{};
+  cpu_set_t cpus_{};
+};
 // The calling thread serves others: it yields to them, and stays off the CPUs of so many resources where there are
 // more.
 void yieldToTasks(uint32_t resources);

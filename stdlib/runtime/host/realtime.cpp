@@ -44,9 +44,8 @@ sigset_t endingSignals() {
 
 thread_local Realtime::Place Realtime::place_{};
 
-Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
-                   Realtime* before)
-    : tasks_(tasks), options_(options), hooks_(hooks), common_(context), before_(before) {
+Realtime::Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks)
+    : tasks_(tasks), options_(options), hooks_(hooks), common_(context) {
   if (context.host != nullptr) host_ = *context.host;
   host_.wait = waitForOthers;
   tick_ns_ = std::min(tasks.rowNs(), kMillisecondNs);
@@ -215,7 +214,6 @@ bool Realtime::isDue(Worker& worker, int64_t now_ns) {
 // The triggers of a resource: one thread looks at all of them at each tick.
 void Realtime::sample(uint32_t resource) {
   processors_[resource].join(0, true);
-  waitForStart();
   for (int64_t next = std::max(start_ns_, monotonicNs()); !stop_.load();
        next = std::max(next + tick_ns_, monotonicNs())) {
     sleepUntil(next);
@@ -246,23 +244,22 @@ void Realtime::createWorkers() {
   for (Task& task : tasks_.all()) {
     auto worker = std::make_unique<Worker>();
     worker->task = &task;
-    worker->context = common_;
-    worker->context.host = &host_;
     sem_init(&worker->event, 0, 0);
     workers_.push_back(std::move(worker));
   }
-  if (before_ == nullptr) return;
-  const std::unique_lock<std::mutex> resting = before_->rest();
-  start_ns_ = before_->start_ns_;
-  first_row_ = before_->rows_done_.load();
+}
+
+void Realtime::goOnFrom(const Realtime& before) {
+  start_ns_ = before.start_ns_;
+  first_row_ = before.rows_done_.load();
   rows_done_.store(first_row_);
-  paused_.store(before_->paused_.load());
+  paused_.store(before.paused_.load());
   const int64_t now_ns = monotonicNs();
   for (const std::unique_ptr<Worker>& worker : workers_) {
     const int64_t interval = std::max<int64_t>(worker->task->interval_ns, 1);
     worker->next.store((now_ns - start_ns_ + interval - 1) / interval);
-    for (const std::unique_ptr<Worker>& was : before_->workers_)
-      if (before_->tasks_.nameOf(*was->task) == tasks_.nameOf(*worker->task)) goOnFrom(*was, *worker);
+    for (const std::unique_ptr<Worker>& was : before.workers_)
+      if (before.tasks_.nameOf(*was->task) == tasks_.nameOf(*worker->task)) goOnFrom(*was, *worker);
     worker->first = worker->next.load();
   }
 }
@@ -277,9 +274,11 @@ void Realtime::goOnFrom(const Worker& before, Worker& worker) const {
   if (worker.is_posted.load()) sem_post(&worker.event);
 }
 
-void Realtime::waitForStart() {
+// False: the run ends before it begins.
+bool Realtime::waitForStart() {
   std::unique_lock<std::mutex> lock(start_mutex_);
   start_condition_.wait(lock, [&] { return started_; });
+  return !stop_.load();
 }
 
 // All threads wait for the common start, the alignment point of all periods, before they take their priority: none
@@ -292,34 +291,83 @@ void Realtime::startThreads() {
     live_.fetch_add(1);
     worker->thread = std::thread([this, &worker = *worker] {
       touchStack();
-      waitForStart();
-      place_ = {this, &processorOf(worker), worker.task->row->priority};
-      place_.processor->join(place_.priority);
-      switch (static_cast<rung_task_kind>(worker.task->row->kind)) {
-        case RUNG_CYCLIC: runCyclic(worker); break;
-        case RUNG_FREEWHEELING: runFreewheeling(worker); break;
-        case RUNG_EVENT:
-        case RUNG_STATUS:
-        case RUNG_EXTERNAL: runOnEvent(worker); break;
-      }
+      if (waitForStart()) runWorker(worker);
       live_.fetch_sub(1);
     });
   }
   for (uint32_t i = 0; has_triggers && i < resources_; ++i) {
     live_.fetch_add(1);
     samplers_.emplace_back([this, i] {
-      sample(i);
+      if (waitForStart()) sample(i);
       live_.fetch_sub(1);
     });
   }
-  processors_[0].join(0, true);
+}
+
+void Realtime::runWorker(Worker& worker) {
+  place_ = {this, &processorOf(worker), worker.task->row->priority};
+  place_.processor->join(place_.priority);
+  switch (static_cast<rung_task_kind>(worker.task->row->kind)) {
+    case RUNG_CYCLIC: return runCyclic(worker);
+    case RUNG_FREEWHEELING: return runFreewheeling(worker);
+    case RUNG_EVENT:
+    case RUNG_STATUS:
+    case RUNG_EXTERNAL: return runOnEvent(worker);
+  }
+}
+
+// The threads wait.
+void Realtime::prepare() {
+  for (uint32_t i = 0; i < resources_; ++i) processors_[i].prepare(i, rights_);
+  createWorkers();
+  startThreads();
+  is_prepared_ = true;
+}
+
+void Realtime::begin(const Realtime* before) {
   const std::lock_guard<std::mutex> lock(start_mutex_);
-  if (before_ == nullptr) {
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    worker->context = common_;
+    worker->context.host = &host_;
+  }
+  if (before != nullptr) {
+    goOnFrom(*before);
+  } else {
     start_ns_ = monotonicNs() + kMillisecondNs + static_cast<int64_t>(workers_.size()) * 50'000;
     for (const std::unique_ptr<Worker>& worker : workers_) worker->next_ns = start_ns_;
   }
   started_ = true;
   start_condition_.notify_all();
+}
+
+std::unique_ptr<Realtime> Realtime::successor(Tasks& tasks, rung_context& context) const {
+  auto next = std::make_unique<Realtime>(tasks, context, options_, hooks_);
+  next->rights_ = rights_;
+  next->caller_ = caller_;
+  next->prepare();
+  return next;
+}
+
+void Realtime::leaveTo(Realtime& next) {
+  is_left_ = true;
+  stop_.store(true);
+  next.begin(this);
+}
+
+void Realtime::abandon() {
+  stop_.store(true);
+  {
+    const std::lock_guard<std::mutex> lock(start_mutex_);
+    started_ = true;
+    start_condition_.notify_all();
+  }
+  join();
+}
+
+void Realtime::atEase(const std::function<void()>& act) {
+  caller_.restore();
+  act();
+  processors_[0].join(0, true);
 }
 
 // Asks tasks that still run a moment after the end to stop (rung_poll). False: one does not.
@@ -477,21 +525,24 @@ void Realtime::join() {
   }
 }
 
+RealtimeResult Realtime::runAfter(const Realtime& before) {
+  begin(&before);
+  return run();
+}
+
 RealtimeResult Realtime::run() {
-  const Rights rights = findRights();
-  result_.missing = rights.missing;
-  for (uint32_t i = 0; i < resources_; ++i) processors_[i].prepare(i, rights);
   const sigset_t signals = endingSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  int policy = SCHED_OTHER;
-  sched_param priority{};
-  cpu_set_t cpus;
-  pthread_getschedparam(pthread_self(), &policy, &priority);
-  sched_getaffinity(0, sizeof cpus, &cpus);
-
-  createWorkers();
-  startThreads();
+  if (!is_prepared_) {
+    rights_ = findRights();
+    prepare();
+  }
+  processors_[0].join(0, true);
+  if (!started_) begin(nullptr);
+  result_.missing = rights_.missing;
+  live_.fetch_add(1);
   supervise();
+  live_.fetch_sub(1);
   stop_.store(true);
   for (const std::unique_ptr<Worker>& worker : workers_) sem_post(&worker->event);
   result_.is_left = is_left_;
@@ -502,8 +553,7 @@ RealtimeResult Realtime::run() {
   result_.hung = !endActivations(isTooLong() ? RUNG_STOP_TIME : RUNG_STOP_INTERRUPT);
   result_.elapsed_ns = monotonicNs() - start_ns_;
   join();
-  pthread_setschedparam(pthread_self(), policy, &priority);
-  sched_setaffinity(0, sizeof cpus, &cpus);
+  caller_.restore();
   result_.rows = rows_done_.load();
   if (result_.hung)
     for (std::unique_ptr<Worker>& worker : workers_) (void)worker.release();  // detached threads still use them

@@ -48,14 +48,18 @@ struct RealtimeResult {
 
 class Realtime {
  public:
-  // `before`: the threads of the version before, whose grid of time and whose rows go on.
-  Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks,
-           Realtime* before = nullptr);
+  Realtime(Tasks& tasks, rung_context& context, const RealtimeOptions& options, const RealtimeHooks& hooks);
+  // The threads of another version: they wait until this one gives way, and go on with its grid of time and its rows.
+  std::unique_ptr<Realtime> successor(Tasks& tasks, rung_context& context) const;
   ~Realtime();
   Realtime(const Realtime&) = delete;
   Realtime& operator=(const Realtime&) = delete;
 
   RealtimeResult run();
+  // After the end of the one before: this one goes on.
+  RealtimeResult runAfter(const Realtime& before);
+  // Does what takes time while the tasks go on: in the caller's thread, with the priority that it had before run().
+  void atEase(const std::function<void()>& act);
 
   // A user may ask this of the running program; called from the hook `idle`.
   // Lets the activations that run end, and begins no others. False: one did not end within a second.
@@ -69,14 +73,13 @@ class Realtime {
   // The named host event that starts external tasks; false: no task waits for it.
   bool raise(const std::string& event);
   void end() { stop_.store(true); }
-  // From `between`: no activation begins any more, and run() returns at once. Threads that sleep still use the tasks
-  // and the context until join() has returned.
-  void leave() {
-    is_left_ = true;
-    stop_.store(true);
-  }
+  // From `between`: no activation begins any more, the threads of `next` go on, and run() returns at once. Threads that
+  // sleep still use the tasks and the context until join() has returned.
+  void leaveTo(Realtime& next);
+  // Of threads that wait to go on: they end.
+  void abandon();
   void join();
-  // Of threads that were left: none sleeps any more.
+  // Of threads that were left: none sleeps any more, nor is run() under way.
   bool hasEnded() const { return live_.load() == 0; }
   // While paused, rows go on; none is made, and no trigger is looked at, while one holds this.
   std::unique_lock<std::mutex> rest() { return std::unique_lock<std::mutex>(rest_); }
@@ -108,10 +111,14 @@ class Realtime {
   static thread_local Place place_;
   static int waitForOthers(void*);
 
+  void prepare();
   void createWorkers();
-  void goOnFrom(const Worker& before, Worker& worker) const;
   void startThreads();
-  void waitForStart();
+  void goOnFrom(const Realtime& before);
+  void goOnFrom(const Worker& before, Worker& worker) const;
+  void begin(const Realtime* before);
+  bool waitForStart();
+  void runWorker(Worker& worker);
   Processor& processorOf(const Worker& worker) { return processors_[worker.task->row->resource]; }
   void runCyclic(Worker& worker);
   void runFreewheeling(Worker& worker);
@@ -138,19 +145,21 @@ class Realtime {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<std::thread> samplers_;
   std::unique_ptr<Processor[]> processors_;
+  Rights rights_;
+  Scheduling caller_;  // of the thread that calls run(), before it
   uint32_t resources_ = 1;
   int64_t tick_ns_ = 1'000'000;
   int64_t start_ns_ = 0;
-  Realtime* const before_;  // until the threads run
   int64_t first_row_ = 0;
   bool is_left_ = false;  // guarded by activity_
 
   std::atomic<bool> stop_{false}, paused_{false};
-  std::atomic<uint32_t> live_{0};  // threads of tasks and triggers
+  std::atomic<uint32_t> live_{0};  // threads of tasks and triggers, and the caller's in run()
   std::atomic<int64_t> rows_done_{0};
   std::mutex start_mutex_;
   std::condition_variable start_condition_;
   bool started_ = false;
+  bool is_prepared_ = false;  // there are threads
   std::mutex rest_;
   PriorityMutex activity_;   // guards the next two
   uint32_t active_ = 0;      // activations between begin and end

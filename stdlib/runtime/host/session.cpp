@@ -230,12 +230,17 @@ RealtimeResult Session::runInRealTime(const RealtimeOptions& options, const Real
   channels_->start();
   files_->work().start();  // not in the first cycle that needs it
   RealtimeResult result = threads_->run();
-  while (result.is_left ||
-         (!result.hung && !result.ending.isComplete() && hooks.go_back && hooks.go_back(result.ending))) {
-    std::unique_ptr<Realtime> next =
-        std::make_unique<Realtime>(program_->tasks, program_->memory.context(), options, hooks, threads_.get());
+  const auto goesBack = [&] {
+    return !result.hung && !result.ending.isComplete() && hooks.go_back && hooks.go_back(result.ending);
+  };
+  while (result.is_left || goesBack()) {
+    if (result.is_left) {  // for threads that run already
+      result = threads_->run();
+      continue;
+    }
+    auto next = threads_->successor(program_->tasks, program_->memory.context());
     left_threads_.push_back(std::exchange(threads_, std::move(next)));
-    result = threads_->run();
+    result = threads_->runAfter(*left_threads_.back());
   }
   for (const std::unique_ptr<Realtime>& left : left_threads_) left->join();
   channels_->stop();

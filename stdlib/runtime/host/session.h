@@ -116,6 +116,8 @@ class Session {
   Answer obey(const Command& command);
   // Calls `act` where no activation runs. False: there was no such moment within a second.
   bool between(const std::function<void()>& act);
+  // Does what takes time while the tasks go on.
+  void atEase(const std::function<void()>& act);
   bool isStopped() const { return is_stopped_; }
   // All outputs get their safe values.
   void makeOutputsSafe() { program_->tasks.makeOutputsSafe(nowNs()); }
@@ -178,7 +180,14 @@ class Session {
   bool prepare(Program& next, ChangeReport& report);
   std::vector<std::string> takeOver(std::unique_ptr<Program> next);
   void endLeft();
-  ChangeReport changeAtRest(Change& change, std::unique_ptr<Program> next, bool is_only_asked, int64_t rollback_cycles);
+  // Another version that is ready to take over.
+  struct Next {
+    std::unique_ptr<Program> program;
+    std::unique_ptr<Realtime> threads;  // in real time
+    std::vector<uint8_t> saved;         // memory of this version
+  };
+  void changeAtRest(Change& change, Next& next, bool is_only_asked, int64_t rollback_cycles, ChangeReport& outcome);
+  void saveMemory(std::vector<uint8_t>& to);
   Ending testCycle();
   Ending call(void (*function)(rung_context*));  // of the module; null: it has none
   Ending endingOf(uint8_t fault) {

@@ -40,22 +40,33 @@ std::vector<std::string> Session::takeOver(std::unique_ptr<Program> next) {
 // What takes time is done while the program goes on.
 ChangeReport Session::change(const rung_module& next_module, std::shared_ptr<const void> keeper, bool is_only_asked,
                              int64_t rollback_cycles) {
-  ChangeReport report;
-  if (const char* const why = refusal(next_module)) return report.error = why, report;
-  endLeft();
+  ChangeReport outcome;
+  if (const char* const why = refusal(next_module)) return outcome.error = why, outcome;
   const LoadedModule module(next_module);
   Change change(program_->module, module);
-  const bool is_possible = change.plan();
-  report = change.report();
-  report.error = is_possible ? "" : "the change is refused";
-  if (!is_possible) return report;
-  auto next = std::make_unique<Program>(next_module, std::move(keeper), around(), *program_, change.kept());
-  const auto act = [&] { report = changeAtRest(change, std::move(next), is_only_asked, rollback_cycles); };
-  if (!threads_)
-    act();
-  else if (!threads_->between(act))
-    report.error = "no moment between two activations was found within a second";
+  Next next;
+  atEase([&] {
+    endLeft();
+    if (!change.plan()) return;
+    next.program = std::make_unique<Program>(next_module, std::move(keeper), around(), *program_, change.kept());
+    if (threads_ && !is_only_asked)
+      next.threads = threads_->successor(next.program->tasks, next.program->memory.context());
+    next.saved.resize(program_->memory.bytes());  // room that is ready
+  });
+  if (!next.program)
+    outcome.error = "the change is refused";
+  else if (!between([&] { changeAtRest(change, next, is_only_asked, rollback_cycles, outcome); }))
+    outcome.error = "no moment between two activations was found within a second";
+  if (next.threads) next.threads->abandon();
+  ChangeReport report = change.report();
+  report.error = std::move(outcome.error);
+  report.unforced = std::move(outcome.unforced);
   return report;
+}
+
+void Session::atEase(const std::function<void()>& act) {
+  if (threads_) return threads_->atEase(act);
+  act();
 }
 
 // Forgets versions that others have followed, where no thread of theirs sleeps any more.
@@ -67,41 +78,46 @@ void Session::endLeft() {
   left_programs_.clear();
 }
 
-ChangeReport Session::changeAtRest(Change& change, std::unique_ptr<Program> next, bool is_only_asked,
-                                   int64_t rollback_cycles) {
+void Session::saveMemory(std::vector<uint8_t>& to) {
+  to.clear();
+  StateArchive saving = StateArchive::saving(to);
+  program_->memory.transfer(saving);
+}
+
+// Takes `next` where it takes over. Of the report only the error and what is not forced any more; no task runs
+// meanwhile.
+void Session::changeAtRest(Change& change, Next& next, bool is_only_asked, int64_t rollback_cycles,
+                           ChangeReport& outcome) {
   rung_context& context = program_->memory.context();
-  const bool is_possible = change.check(context);
-  ChangeReport report = change.report();
-  if (!is_possible) report.error = "the change is refused";
-  if (is_possible && !program_->schedule.isIdle()) report.error = "an activation of a task has not ended";
-  if (!report.error.empty()) return report;
-  const bool is_ready = prepare(*next, report);
+  if (!change.check(context)) return void(outcome.error = "the change is refused");
+  if (!program_->schedule.isIdle()) return void(outcome.error = "an activation of a task has not ended");
+  const bool is_ready = prepare(*next.program, outcome);
   if (is_only_asked) drivers_.attach(program_->module, program_->memory);
-  if (is_only_asked || !is_ready) return report;
+  if (is_only_asked || !is_ready) return;
 
   if (is_stopped_) program_->memory.restoreOutputs();
-  std::vector<uint8_t> saved;
-  StateArchive saving = StateArchive::saving(saved);
-  program_->memory.transfer(saving);
-  next->memory.context().now_ns = context.now_ns;
+  saveMemory(next.saved);
+  rung_context& context_of_next = next.program->memory.context();
+  context_of_next.now_ns = context.now_ns;
   rung_context* faulted = nullptr;
-  if (change.apply(context, next->memory.context(), faulted) != RUNG_FAULT_NONE) {
-    report.error = "FB_Exit, FB_Init or FB_Reinit failed: " + describeFault(*faulted, faulted->fault, {});
-    StateArchive restoring = StateArchive::restoring(saved);
+  if (change.apply(context, context_of_next, faulted) != RUNG_FAULT_NONE) {
+    outcome.error = "FB_Exit, FB_Init or FB_Reinit failed: " + describeFault(*faulted, faulted->fault, {});
+    StateArchive restoring = StateArchive::restoring(next.saved);
     program_->memory.transfer(restoring);
     drivers_.attach(program_->module, program_->memory);
     if (is_stopped_) program_->memory.makeOutputsSafe();
-    return report;
+    return;
   }
   if (before_) left_programs_.push_back(std::move(before_->program));
   before_.reset();
-  report.unforced = takeOver(std::move(next));
+  outcome.unforced = takeOver(std::move(next.program));
   if (rollback_cycles > 0) {
-    before_.emplace(Before{std::move(left_programs_.back()), std::move(saved), cyclesNow() + rollback_cycles});
+    before_.emplace(Before{std::move(left_programs_.back()), std::move(next.saved), cyclesNow() + rollback_cycles});
     left_programs_.pop_back();
   }
-  if (threads_) threads_->leave();
-  return report;
+  if (!next.threads) return;
+  threads_->leaveTo(*next.threads);
+  left_threads_.push_back(std::exchange(threads_, std::move(next.threads)));
 }
 
 bool Session::goBack() {

@@ -167,7 +167,7 @@ class Checker {
   bool run() {
     for (uint32_t i = 0; i < plan_.holder_count; ++i) {
       const rung_holder& row = plan_.holders[i];
-      if (row.kind == RUNG_HOLDS_CLASS) continue;
+      if (row.kind == RUNG_HOLDS_CLASS || row.kind == RUNG_HOLDS_IN_OUT) continue;
       for (uint32_t k = 0; k < row.count; ++k) check(row, {row.from, row.from_offset + k * row.stride});
     }
     if (!plan_.keeps_types && hasDynamicObjects()) refuse({RUNG_NONE, 0}, {RUNG_NONE, 0}, RUNG_REASON_DYNAMIC);
@@ -284,11 +284,12 @@ class Applier {
     for (uint32_t k = 0; k < row.count; ++k) {
       uint8_t* const at = addressOf(now_, {row.to, row.to_offset + k * row.stride});
       if (row.kind == RUNG_HOLDS_CLASS) memcpy(at, &row.what, sizeof row.what);
-      if (row.kind != RUNG_HOLDS_POINTER) continue;
+      if (row.kind != RUNG_HOLDS_POINTER && row.kind != RUNG_HOLDS_IN_OUT) continue;
       Place place{};
       const uintptr_t value = addressAt(at);
-      if (value == 0 || fateOf(change_, value, row.what, place) != Fate::Moves) continue;
-      const uint8_t* const moved = addressOf(now_, place);
+      const Fate fate = value == 0 ? Fate::Stays : fateOf(change_, value, row.what, place);
+      if (fate == Fate::Stays) continue;
+      const uint8_t* const moved = fate == Fate::Moves ? addressOf(now_, place) : nullptr;
       memcpy(at, &moved, sizeof moved);
     }
   }

@@ -465,7 +465,10 @@ class Planner {
       if ((before.flags & RUNG_FIELD_BASE) != 0 && (is_base || number != 0))
         holdInFields(before.type, field.type, there, here, true);
       else if ((before.flags & RUNG_FIELD_BY_REFERENCE) != 0)
-        hold({RUNG_HOLDS_POINTER, there.memory, there.offset, here.memory, here.offset, 1, 0, before.type});
+        hold({RUNG_HOLDS_IN_OUT, there.memory, there.offset, here.memory, here.offset, 1, 0, before.type});
+      else if ((before.flags & RUNG_FIELD_OPEN_ARRAY) != 0)
+        hold({RUNG_HOLDS_IN_OUT, there.memory, there.offset, here.memory, here.offset, 1, 0,
+              oldType(before.type).element});
       else
         holdIn(before.type, field.type, there, here);
     }

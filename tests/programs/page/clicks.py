@@ -217,8 +217,18 @@ def tasks_and_cold_reset(page, program):
     until(lambda: program.value("most") == "5", "a cold reset sets initial values")
 
 
+def new_body(page, program):
+    """A version that has the same variables and another body: the page shows it."""
+    page.evaluate("choosePou('Plant')")
+    page.until("document.querySelector('#lines').textContent.includes('sum := sum + 1;')")
+    with open("changed.iecst", "w", encoding="utf-8") as changed, open(os.path.join(HERE, "plant.iecst"), encoding="utf-8") as plant:
+        changed.write(plant.read().replace("sum := sum + 1;", "sum := sum + 3;"))
+    program.ask("/api/change", {"project": os.path.abspath("changed.iecst")})
+    page.until("document.querySelector('#lines').textContent.includes('sum := sum + 3;')")
+
+
 CHECKS = [write_by_dialog, bad_value_in_dialog, force_and_unforce, stop_cycle_start, ladder, chart, text_and_fault, watch_by_keys,
-          record, trigger, tasks_and_cold_reset]
+          record, trigger, tasks_and_cold_reset, new_body]
 
 
 def main():

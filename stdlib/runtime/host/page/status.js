@@ -5,11 +5,12 @@
 
 // ---- the head of the page
 
-// Another version of the program with other variables: the page begins again, and the URL has what was chosen.
-let layout = '';
+// Another version of the program: the page begins again, and the URL has what was chosen.
+let version = '';
 function followVersion(info) {
-  if (layout !== '' && layout !== info.layout_hash) location.reload();
-  layout = info.layout_hash;
+  const now = `${info.layout_hash} ${info.changes}`;
+  if (version !== '' && version !== now) location.reload();
+  version = now;
 }
 
 function paintInfo(info) {

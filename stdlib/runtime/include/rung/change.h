@@ -42,6 +42,7 @@ typedef struct rung_move {
 /* Memory that depends on where other memory is: pointers, references, in-outs, interfaces, numbers of classes. */
 enum rung_holder_kind {
   RUNG_HOLDS_POINTER, /* `what`: the type of the target in the old module */
+  RUNG_HOLDS_IN_OUT,  /* the same, of a variable that each call binds: where its target is removed it becomes null */
   RUNG_HOLDS_NUMBER,  /* an integer as wide as a pointer: it may be an address */
   RUNG_HOLDS_CLASS    /* `what`: the number of the class in the new module */
 };

@@ -142,7 +142,8 @@ enum rung_field_flags {
   RUNG_FIELD_BIT = 0xf00,     /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
   RUNG_FIELD_NO_EXTERNAL_READ = 0x1000, /* {attribute 'symbol'}: what a host should not offer to tools outside */
   RUNG_FIELD_NO_EXTERNAL_WRITE = 0x2000,
-  RUNG_FIELD_NO_COPY = 0x4000 /* an online change sets its initial value: {attribute 'no_copy'} */
+  RUNG_FIELD_NO_COPY = 0x4000,   /* an online change sets its initial value: {attribute 'no_copy'} */
+  RUNG_FIELD_OPEN_ARRAY = 0x8000 /* a pointer to the first element of an array that each call binds (ARRAY[*]) */
 };
 #define RUNG_FIELD_BIT_SHIFT 8
 typedef struct rung_field {
