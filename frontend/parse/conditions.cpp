@@ -250,7 +250,9 @@ bool FileConditions::directive(uint32_t at) {
   }
   if (!is_elsif && !is_else && !is_end) return false;
   if (open_.empty() || (!is_end && open_.back().has_else)) {
-    diagnostics_.report(diag::ConditionStray, loc(at), {name}).length(static_cast<uint32_t>(pragma_end_ + 1 - at));
+    diagnostics_.report(diag::ConditionStray, loc(at), {name})
+        .length(static_cast<uint32_t>(pragma_end_ + 1 - at))
+        .remove(loc(at), loc(pragma_end_ + 1), std::string("{").append(name).append("}"), Sureness::Proposal);
     return true;
   }
   Open& open = open_.back();

@@ -4,6 +4,7 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/recover.h"
+#include "frontend/parse/syntax_fixes.h"
 #include "frontend/source/scanner.h"
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/diagnostics.h"
@@ -147,27 +148,89 @@ bool Cursor::mayReport(const Token* t) {
   return true;
 }
 
+// The last token before t that is in the source.
+const Token* Cursor::readBefore(const Token* t) const {
+  do {
+    if (t > tokens_.data()) --t;
+  } while ((t->flags & kSynthetic) != 0 && t > tokens_.data());
+  return t;
+}
+
+Report Cursor::insertion(Report report, const Token* before, std::string_view word, Sureness sureness) const {
+  if (!report) return report;
+  const Token* next = before + 1;
+  while ((next->flags & kSynthetic) != 0 && next->kind != Tok::End) ++next;
+  const bool ends_line = (next->flags & kLineStart) != 0 || next->kind == Tok::End;
+  const bool needs_value = word == ":=" || word == ".." || word == "(" || (word == ":" && declares_);
+  const bool ends_list = next->kind == Tok::Semicolon || next->kind == Tok::RightParen || next->kind == Tok::End;
+  if (word == "label:" || word == "UNTIL" || (ends_line && needs_value) || (ends_list && word == ",")) return report;
+  static constexpr TokSet kContinue = {Tok::Then, Tok::Do, Tok::Of, Tok::To, Tok::By};
+  const bool ends_statement =
+      (word == ")" || word == "]") && ends_line && !in_il_ && begins(next) == Begins::New && !kContinue.has(next->kind);
+  const Token* const first = before > tokens_.data() ? before - 1 : before;
+  const bool may_bind =
+      word == "," && !declares_ && isName(before->kind) && (first->kind == Tok::LeftParen || first->kind == Tok::Comma);
+  if (may_bind) {  // `f(pin 1)`
+    sureness = Sureness::Proposal;
+    report.insert(endOf(before), insertedAfter(source_, endOf(before).offset - base_, ":=").text, sureness);
+  }
+  const Insertion added = insertedAfter(source_, endOf(before).offset - base_,
+                                        ends_statement ? std::string(word) + ";" : std::string(word));
+  return report.insert(endOf(before), added.text, sureness);
+}
+
+Report Cursor::removal(Report report, const Token* t, Sureness sureness) const {
+  if (!report) return report;
+  const auto begin = static_cast<uint32_t>(beginOfRemoval(source_, t->offset));
+  return report.remove({base_ + begin}, endOf(t), textOf(t), sureness);
+}
+
+Report Cursor::replaced(Report report, const Token* first, const Token* last, std::string_view text,
+                        Sureness sureness) const {
+  if (!report) return report;
+  const uint32_t end = endOf(last).offset - base_;
+  return report.replace(loc(first), endOf(last), inPlaceOf(source_, first->offset, end, text), sureness);
+}
+
+Report Cursor::withFix(Report report, Diag diag, const Token* t, std::initializer_list<std::string_view> args,
+                       Sureness sureness) const {
+  if (!report) return report;
+  const auto arg = [&](size_t index) { return args.begin()[index]; };
+  if (diag == diag::MissingToken) return insertion(report, readBefore(t), arg(0), sureness);
+  if (diag == diag::WrongKeyword || diag == diag::MisspelledKeyword)
+    return arg(1).find('`') == std::string_view::npos ? replaced(report, t, t, arg(1), sureness) : report;
+  if (diag == diag::AssignWithEqual) return replaced(report, t, arg(0) == ": =" ? t + 1 : t, ":=", sureness);
+  if (diag == diag::CompareWithAssign) return replaced(report, t, t, "=", sureness);
+  if (diag == diag::ForeignOperator && !arg(1).ends_with("(...)"))  // SHL(...) needs its operands
+    return replaced(report, t, arg(0) == ": =" ? t + 1 : t, arg(1), sureness);
+  if (diag == diag::MissingOperator) return insertion(report, readBefore(t), ";", Sureness::Proposal);
+  if (diag == diag::TrailingComma) return removal(report, t, sureness);
+  if (diag == diag::StrayEnd || diag == diag::StrayParen || diag == diag::StrayToken)
+    return t->kind == Tok::End ? report : removal(report, t, Sureness::Proposal);
+  return report;
+}
+
 Report Cursor::fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
   bool unfinished = false;
-  Report report = reportMissing(diag, t, args, unfinished);
+  const Report report = reportMissing(diag, t, args, Sureness::Proposal, unfinished);
   panic_ = true;
   return report;
 }
 
 Report Cursor::slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
   bool unfinished = false;
-  Report report = reportMissing(diag, t, args, unfinished);
+  const Report report = reportMissing(diag, t, args, Sureness::Sure, unfinished);
   panic_ = panic_ || unfinished;
   return report;
 }
 
 Report Cursor::missing(Diag diag, std::initializer_list<std::string_view> args) {
-  const Token* before = t_;
-  if (before > tokens_.data()) --before;
-  while ((before->flags & kSynthetic) != 0 && before > tokens_.data()) --before;
+  const Token* const before = readBefore(t_);
   if (!mayReport(before)) return Report(nullptr);
   last_error_ = before;
-  return diagnostics_.report(diag, endOf(before), args).length(1);
+  const Report report = diagnostics_.report(diag, endOf(before), args).length(1);
+  if (diag == diag::MissingSemicolon) return insertion(report, before, ";", Sureness::Sure);
+  return diag == diag::MissingToken ? insertion(report, before, args.begin()[0], Sureness::Sure) : report;
 }
 
 bool Cursor::expect(Tok wanted) {
@@ -214,7 +277,12 @@ void Cursor::tooDeep(const char* what, uint32_t limit) {
 
 void Cursor::missingEnd(std::string_view end, const Token* open, std::string_view word) {
   const std::string line = std::to_string(sources_.location(loc(open)).line);
-  missing(diag::MissingEnd, {end, word, line});
+  const Token* const before = readBefore(t_);
+  Report report = missing(diag::MissingEnd, {end, word, line});
+  if (!report || beginsBlock(open->kind)) return;  // the blocks balance: the end of this one is further on
+  const Insertion added = endOfBlock(source_, open->offset, endOf(before).offset - base_, t_->offset, end);
+  const Loc at{base_ + static_cast<uint32_t>(added.at)};
+  report.insert(at, added.text, Sureness::Sure);
 }
 
 }  // namespace rung::text

@@ -69,6 +69,9 @@ class Cursor {
   Report slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
   Report missing(Diag diag, std::initializer_list<std::string_view> args);  // at the end of the previous token
   bool mayReport(const Token* t);
+  // Adds a fix that takes the token away, or writes `text` in place of what is from one token to another.
+  Report removal(Report report, const Token* t, Sureness sureness) const;
+  Report replaced(Report report, const Token* first, const Token* last, std::string_view text, Sureness sureness) const;
   bool nameReserved(const Token* t) const { return isReserved(t->kind) || isTypeWord(t->kind); }
   // Consumes `wanted`. If it is missing: slip(), or fail() when the next token makes no sense. True when it was there.
   bool expect(Tok wanted);
@@ -181,7 +184,13 @@ class Cursor {
   bool inBrackets(const Token* t, bool otherwise) const;
   const Token* lineOf(const Token* t) const;
   uint32_t columnOf(const Token* t) const;
-  Report reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, bool& unfinished);
+  Report reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, Sureness sureness,
+                       bool& unfinished);
+  // Adds the fix that the message names.
+  Report withFix(Report report, Diag diag, const Token* t, std::initializer_list<std::string_view> args,
+                 Sureness sureness) const;
+  Report insertion(Report report, const Token* before, std::string_view word, Sureness sureness) const;
+  const Token* readBefore(const Token* t) const;
   uint32_t lengthOfRareName(const Token* t) const;  // one that recovery made, or a very long one
   Loc endOfRead() const;                            // where tokens that recovery inserted are in between
 

@@ -504,7 +504,7 @@ bool ExpressionParser::continuesArguments() {
   if (at(Tok::Comma)) {
     if (peek() == Tok::RightParen) {
       if (profile_.trailing_commas)
-        diagnostics_.report(diag::TrailingCommaWarning, here());
+        removal(diagnostics_.report(diag::TrailingCommaWarning, here()), t_, Sureness::Proposal);
       else
         slip(diag::TrailingComma, t_);
       advance();
@@ -562,7 +562,7 @@ ExprId ExpressionParser::parseCompared(ExprId left, bool in_condition) {
   if (!assigns)
     slip(diag::CompareWithAssign, t_);
   else if (in_condition)
-    diagnostics_.report(diag::AssignInCondition, here());
+    diagnostics_.report(diag::AssignInCondition, here()).replace("=", Sureness::Proposal);
   advance();
   const ExprId right = assigns ? parseCompared(parseExpr(), false) : parseExpr();
   if (assigns) {

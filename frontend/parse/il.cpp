@@ -10,6 +10,7 @@
 
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/il.h"
+#include "frontend/parse/syntax_fixes.h"
 #include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
@@ -273,7 +274,9 @@ void IlParser::resynchronize(IlInstruction& i) {
 void IlParser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
-      if (!il_line_reported_) diagnostics_.report(diag::InstructionsOnLine, here());
+      if (!il_line_reported_)
+        diagnostics_.report(diag::InstructionsOnLine, here())
+            .fix({"Begin a line", {{here(), here(), "\n" + std::string(indentOf(source_, t_->offset))}}, false});
       il_line_reported_ = true;
       return;
     }

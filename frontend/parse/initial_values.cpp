@@ -79,7 +79,12 @@ ExprId DeclarationParser::parseArrayInit() {
     advance();
     slip(diag::StructureInBrackets, t_ - 1, {textOf(t_)});
     const std::vector<FieldInit> fields = parseFieldInits(Tok::RightBracket);
+    const Loc close = here();
+    const bool is_closed = at(Tok::RightBracket);
     closeParen(Tok::RightBracket, true);
+    Diagnostic* const reported = is_closed ? diagnostics_.reportedAt(diag::StructureInBrackets, start) : nullptr;
+    Report(reported).fix(
+        {"Write parentheses", {{start, {start.offset + 1}, "("}, {close, {close.offset + 1}, ")"}}, true});
     return ended(build_.structInit(fields, start));
   }
   if (!enterExpr("initial values")) return build_.error(start);

@@ -248,6 +248,10 @@ class Lexer {
   void checkUnderscores(const char* begin, const char* end);
   bool continuesOverLines(const char* p, char quote) const;
   void resolveDeclaredWords();
+  const char* endOfLine(const char* p) const {
+    while (p < end_ && *p != '\n' && *p != '\r') ++p;
+    return p;
+  }
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
   TokenStream& out_;
@@ -487,8 +491,12 @@ const char* Lexer::quoted(const char* begin) {
   while (*p != quote) {
     const bool line_ends = *p == '\n' || *p == '\r';
     if ((line_ends && !continuesOverLines(p, quote)) || p >= end_) {
+      const std::string_view line(begin, static_cast<size_t>(p - begin));
+      const size_t last = line.find_last_not_of(" \t;)");  // the signs at its end most likely follow the string
       diagnostics_.report(diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
-          .length(static_cast<uint32_t>(p - begin));
+          .length(static_cast<uint32_t>(line.size()))
+          .insert(loc(begin + (last == 0 || line[last] == '$' ? line.size() : last + 1)), {&quote, 1},
+                  Sureness::Proposal);
       flags_ |= kReported;
       push(quote == '\'' ? Tok::StringLiteral : Tok::WideStringLiteral, begin, static_cast<uint32_t>(p - begin));
       return p;
@@ -613,7 +621,9 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
       flags_ |= kLineStart;
     }
   }
-  diagnostics_.report(diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"}).length(2);
+  diagnostics_.report(diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"})
+      .length(2)
+      .insert(loc(endOfLine(begin)), slash ? " */" : " *)", Sureness::Proposal);
   return end_;
 }
 
@@ -670,7 +680,9 @@ const char* Lexer::pragma(const char* begin) {
     ++p;
   }
   if (p >= end_) {
-    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"}"})
+        .length(1)
+        .insert(loc(endOfLine(begin)), "}", Sureness::Proposal);
     p = begin;
     while (p < end_ && *p != '\n') ++p;
     return p;
@@ -800,7 +812,8 @@ const char* Lexer::stray(const char* begin) {
     diagnostics_.report(diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
   else
     diagnostics_.report(c == '}' ? diag::StrayBrace : diag::StrayCharacter, loc(begin), {shown})
-        .length(static_cast<uint32_t>(p - begin));
+        .length(static_cast<uint32_t>(p - begin))
+        .remove(loc(begin), loc(p), shown, Sureness::Proposal);
   flags_ |= kReported;
   push(Tok::Error, begin, static_cast<uint32_t>(p - begin));
   return p;

@@ -52,7 +52,8 @@ ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
     return build_.error(start);
   }
   if (value.has_underscore_pair && !profile_.double_underscores_in_numbers)
-    diagnostics_.report(diag::NumberUnderscore, loc(token), {textOf(token)});
+    diagnostics_.report(diag::NumberUnderscore, loc(token), {textOf(token)})
+        .replace(loc(token), endOf(token), withSingleUnderscores(textOf(token)), Sureness::Sure);
   const LiteralForm form{.is_negative = negative, .is_based = value.is_based};
   if (prefix) {
     const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);

@@ -49,6 +49,24 @@ size_t findUnit(std::string_view text) {
 }
 bool isTimeUnit(std::string_view text) { return findUnit(text) < std::size(kUnits); }
 
+Loc endOf(std::string_view text, Loc loc) { return {loc.offset + static_cast<uint32_t>(text.size())}; }
+
+}  // namespace
+
+std::string withSingleUnderscores(std::string_view number) {
+  std::string out;
+  for (size_t i = 0; i < number.size(); ++i) {
+    const bool joins = i > 0 && i + 1 < number.size() && hexDigit(number[i - 1]) >= 0 &&
+                       (number[i + 1] == '_' || hexDigit(number[i + 1]) >= 0);
+    if (number[i] == '_' && !joins) continue;
+    out += number[i];
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  return out;
+}
+
+namespace {
+
 // `_` only between digits; several in a row are left to the caller.
 bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics,
                       NumberValue& value) {
@@ -57,7 +75,8 @@ bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, D
     if (digits[i] != '_') continue;
     if (i == 0 || i + 1 == digits.size() || !isUnderscoreOrDigit(digits[i - 1]) ||
         !isUnderscoreOrDigit(digits[i + 1])) {
-      diagnostics.report(diag::NumberUnderscore, loc, {text});
+      diagnostics.report(diag::NumberUnderscore, loc, {text})
+          .replace(loc, endOf(text, loc), withSingleUnderscores(text), Sureness::Sure);
       return false;
     }
     value.has_underscore_pair = value.has_underscore_pair || digits[i + 1] == '_';
@@ -211,12 +230,13 @@ bool readBased(std::string_view text, size_t hash, Loc loc, Diagnostics& diagnos
 // Reports what follows the digits of a number: a unit, as in `5s`, or other letters.
 void reportSuffix(std::string_view text, std::string_view suffix, Loc loc, Diagnostics& diagnostics) {
   if (isTimeUnit(suffix)) {
-    diagnostics.report(diag::DurationWithoutPrefix, loc, {text});
+    diagnostics.report(diag::DurationWithoutPrefix, loc, {text}).insert(loc, "T#", Sureness::Sure);
     return;
   }
   const std::string based = basedForm(text);
   Report report = diagnostics.report(diag::NumberSuffix, loc, {text});
-  if (!based.empty()) report.note({}, Note{"write `{0}`"}, {based});
+  if (!based.empty())
+    report.note({}, Note{"write `{0}`"}, {based}).replace(loc, endOf(text, loc), based, Sureness::Sure);
 }
 
 // digits ["." digits] ["E" ["+"|"-"] digits]

@@ -20,6 +20,8 @@ struct NumberValue {
 };
 // 12  1_000  16#FF  1.5e3. False: an error was reported.
 bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value);
+// `1__000_` as `1_000`.
+std::string withSingleUnderscores(std::string_view number);
 
 struct TimeValue {
   LiteralKind kind = LiteralKind::Duration;

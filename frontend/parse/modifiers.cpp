@@ -46,7 +46,7 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
     const Token** earlier = nullptr;
     const uint8_t modifier = modifierOf(textOf(t_));
     if ((modifiers & modifier) != 0) {
-      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
+      removal(diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)}), word, Sureness::Sure);
       advance();
     } else if (modifier != 0) {
       modifiers = static_cast<uint8_t>(modifiers | modifier);
@@ -59,7 +59,7 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
     }
     if (earlier == nullptr) continue;
     if (*earlier != nullptr && sameIdentifier(textOf(*earlier), textOf(word)))
-      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
+      removal(diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)}), word, Sureness::Sure);
     else if (*earlier != nullptr)
       diagnostics_.report(diag::KeywordsContradict, loc(word), {textOf(word), textOf(*earlier)});
     *earlier = word;
@@ -69,7 +69,7 @@ void DeclarationParser::parseModifiers(AccessLevel& access, uint8_t& modifiers, 
 // CODESYS ignores a comma after the last name.
 bool DeclarationParser::endsWithComma() {
   if (!profile_.trailing_commas || (isName(kind()) && !isObjectWord(kind()) && !at(Tok::Implements))) return false;
-  diagnostics_.report(diag::ListEndsWithComma, loc(t_ - 1));
+  removal(diagnostics_.report(diag::ListEndsWithComma, loc(t_ - 1)), t_ - 1, Sureness::Proposal);
   return true;
 }
 

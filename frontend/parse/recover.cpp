@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frontend/parse/diagnostics.h"
+#include "frontend/parse/syntax_fixes.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/scanner.h"
 #include "frontend/source/text.h"
@@ -13,6 +14,7 @@
 namespace rung::text {
 namespace {
 
+bool isOperatorSign(Tok k) { return (k >= Tok::Plus && k <= Tok::EqualLess) || (k >= Tok::And && k <= Tok::Mod); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 
 // The keyword that closes a block opened by `open`, or End when it opens no block.
@@ -168,6 +170,19 @@ class Balancer {
     return source_.substr(t.offset, length);
   }
   Loc loc(uint32_t i) const { return {base_ + tokens_[i].offset}; }
+  Loc endOf(uint32_t i) const { return {loc(i).offset + static_cast<uint32_t>(textOf(i).size())}; }
+  // Adds the fix that takes the token away, with the `;` after it.
+  void removal(Report report, uint32_t i, Sureness sureness) const {
+    const auto begin = static_cast<uint32_t>(beginOfRemoval(source_, tokens_[i].offset));
+    const bool has_semicolon = endsBlock(tokens_[i].kind) && tokens_[i + 1].kind == Tok::Semicolon;
+    report.remove({base_ + begin}, endOf(has_semicolon ? i + 1 : i), textOf(i), sureness);
+  }
+  // END_… of a statement or a structure ends with `;`.
+  static std::string wordWithSemicolon(Tok closer) {
+    const bool is_open = !isPouCloser(closer) && closer != Tok::EndVar && closer != Tok::EndType &&
+                         closer != Tok::EndConfiguration && closer != Tok::EndResource;
+    return spelling(closer) + std::string(is_open ? ";" : "");
+  }
   uint32_t columnOf(uint32_t i) const {
     uint32_t offset = tokens_[i].offset;
     const uint32_t end = offset;
@@ -414,7 +429,8 @@ void Balancer::visitOpener(uint32_t i, Tok k) {
     const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
     const Tok closer = closerOf(k);
     diagnostics_.report(diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
-        .length(static_cast<uint32_t>(written.size()));
+        .length(static_cast<uint32_t>(written.size()))
+        .replace(loc(i - 1), endOf(i), spelling(closer), Sureness::Sure);
     markReported(i);
     edit(i - 1, EditKind::Remove, Tok::End);
     edit(i, EditKind::Correction, closer);
@@ -425,7 +441,7 @@ void Balancer::visitOpener(uint32_t i, Tok k) {
 }
 
 void Balancer::removeDuplicate(uint32_t i) {
-  diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
+  removal(diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)}), i, Sureness::Sure);
   markReported(i);
   edit(i, EditKind::Remove, Tok::End);
 }
@@ -447,7 +463,8 @@ void Balancer::visitMisspelled(uint32_t i) {
     if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
   }
   diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
-      .length(static_cast<uint32_t>(word.size()));
+      .length(static_cast<uint32_t>(word.size()))
+      .replace(spelling(meant), Sureness::Sure);
   markReported(i);
   edit(i, EditKind::Correction, meant);
   close(i, meant);
@@ -509,12 +526,14 @@ bool Balancer::closeOther(uint32_t i, Tok closer, size_t found) {
   const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
   if ((beginsBlock(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
       (function_without_result && isPouCloser(closer))) {
-    diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
+    diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])})
+        .replace(spelling(openers[0]), Sureness::Sure);
     markReported(top.index);
     edit(top.index, EditKind::Correction, openers[0]);
   } else {
     const Tok right = closerOf(top.kind);
-    diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
+    diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)})
+        .replace(spelling(right), Sureness::Sure);
     markReported(i);
     edit(i, EditKind::Correction, right);
   }
@@ -579,7 +598,8 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
     const uint32_t child = open.chain_child;
     const std::string written = std::string(textOf(child - 1)) + " " + std::string(textOf(child));
     diagnostics_.report(diag::ElseIf, loc(child - 1), {written})
-        .length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
+        .length(tokens_[child].offset + 2 - tokens_[child - 1].offset)
+        .replace(loc(child - 1), {loc(child).offset + 2}, spelling(Tok::Elsif), Sureness::Sure);
     markReported(child);
     edit(child - 1, EditKind::Remove, Tok::End);
     edit(child, EditKind::Correction, Tok::Elsif);
@@ -594,7 +614,14 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
     length = 1;
     markReported(at - 1);
   }
-  diagnostics_.report(diag::MissingEnd, gap, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  const Insertion end = endOfBlock(source_, tokens_[open.index].offset, at == 0 ? 0 : endOf(at - 1).offset - base_,
+                                   tokens_[at].offset, wordWithSemicolon(closer));
+  Report report =
+      diagnostics_.report(diag::MissingEnd, gap, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  const bool lacks_more =
+      (open.kind == Tok::Repeat && open.until == 0) || (at > 0 && isOperatorSign(tokens_[at - 1].kind));
+  const Sureness sureness = open.after_until ? Sureness::Proposal : Sureness::Sure;  // a later END_REPEAT may be its
+  if (!lacks_more) report.insert({base_ + static_cast<uint32_t>(end.at)}, end.text, sureness);
   markReported(at);
   if (at == count_ && at > 0) markReported(at - 1);
   edit(at, EditKind::Insert, closer);
@@ -634,13 +661,15 @@ bool Balancer::openAtHeader(uint32_t low, Tok closer) {
       (isName(next) || next == Tok::Not || next == Tok::Number ||
        (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
     diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
-        .length(static_cast<uint32_t>(textOf(at).size()));
+        .length(static_cast<uint32_t>(textOf(at).size()))
+        .replace(spelling(openers[0]), Sureness::Sure);
     markReported(at);
     edit(at, EditKind::Correction, openers[0]);
     return true;
   }
   diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
-      .length(static_cast<uint32_t>(textOf(at).size()));
+      .length(static_cast<uint32_t>(textOf(at).size()))
+      .insert(loc(at), std::string(spelling(openers[0])) + " ", Sureness::Sure);
   markReported(at);
   edit(at, EditKind::Insert, openers[0]);
   return true;
@@ -669,7 +698,9 @@ bool Balancer::openAtContent(uint32_t i, uint32_t low, Tok closer) {
   }
   if (at == 0) return false;
   if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
-    diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)}).length(1);
+    diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
+        .length(1)
+        .insert(endOf(at - 1), " " + std::string(spelling(openers[0])), Sureness::Sure);
     markReported(at - 1);
     edit(at, EditKind::Insert, openers[0]);
   } else {
@@ -692,7 +723,8 @@ bool Balancer::openSection(uint32_t i) {
         (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
          tokens_[decl_start_ + 2].kind == Tok::At)))) {
     diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
-        .length(static_cast<uint32_t>(textOf(decl_start_).size()));
+        .length(static_cast<uint32_t>(textOf(decl_start_).size()))
+        .replace("VAR", Sureness::Sure);
     markReported(decl_start_);
     edit(decl_start_, EditKind::Correction, Tok::Var);
     decl_start_ = i + 1;
@@ -706,7 +738,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
   if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
     const uint32_t k = found - 1;
     diagnostics_.report(diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
-        .length(static_cast<uint32_t>(textOf(k).size()));
+        .length(static_cast<uint32_t>(textOf(k).size()))
+        .replace(spelling(meant), Sureness::Sure);
     markReported(k);
     edit(k, EditKind::Correction, meant);
     leftOutermost(i, closer);
@@ -723,7 +756,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
     const uint32_t at = outside_start_;
     if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
       diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
-          .length(static_cast<uint32_t>(textOf(at).size()));
+          .length(static_cast<uint32_t>(textOf(at).size()))
+          .replace(spelling(openers[0]), Sureness::Sure);
       markReported(at);
       edit(at, EditKind::Correction, openers[0]);
       leftOutermost(i, closer);
@@ -737,7 +771,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     decl_start_ = i + 1;
     return;
   }
-  diagnostics_.report(diag::StrayEnd, loc(i), {textOf(i)});
+  removal(diagnostics_.report(diag::StrayEnd, loc(i), {textOf(i)}), i, Sureness::Proposal);
   markReported(i);
   edit(i, EditKind::Remove, Tok::End);
 }
@@ -747,7 +781,9 @@ void Balancer::missingOpener(uint32_t at, Tok word) {
   // A keyword with its name on the same line is missing on this line, the others on the blank line above.
   const Loc gap =
       isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
-  diagnostics_.report(diag::MissingOpener, gap, {spelling(word), describe(at)}).length(length);
+  diagnostics_.report(diag::MissingOpener, gap, {spelling(word), describe(at)})
+      .length(length)
+      .insert(loc(at), std::string(spelling(word)) + " ", Sureness::Sure);
   markReported(at);
   edit(at, EditKind::Insert, word);
 }

@@ -221,9 +221,10 @@ void StatementParser::parseExprStatement() {
   if (!panic_ && (at(Tok::Plus) || at(Tok::Minus)) && peek() == kind() && t_[1].offset == t_->offset + 1) {
     const std::string_view written = source_.substr(t_->offset, 2);
     const std::string shown(source_.substr(first->offset, (t_ - 1)->offset + lengthOf(t_ - 1) - first->offset));
-    slip(diag::IncrementOfC, t_,
-         {written, shown.size() > 60 ? textOf(first) : std::string_view(shown), written.substr(1)})
-        .length(2);
+    Report report = slip(diag::IncrementOfC, t_,
+                         {written, shown.size() > 60 ? textOf(first) : std::string_view(shown), written.substr(1)})
+                        .length(2);
+    replaced(report, first, t_ + 1, shown + " := " + shown + " " + written[0] + " 1", Sureness::Sure);
     advance();
     advance();
     stmts_.push_back(build_.errorStatement(loc(first)));

@@ -306,7 +306,7 @@ TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
     if (accept(Tok::Comma)) {
       if (at(Tok::RightParen)) {
         if (profile_.trailing_commas)
-          diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1));
+          removal(diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1)), t_ - 1, Sureness::Proposal);
         else
           slip(diag::TrailingComma, t_ - 1);
       }
@@ -353,7 +353,8 @@ TypeExprId DeclarationParser::parseArray() {
           tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
         const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
         const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
-        slip(diag::ArraySize, t_ - 1, {written, last});
+        slip(diag::ArraySize, t_ - 1, {written, last})
+            .replace(loc(t_ - 1), endOf(t_ - 1), "0.." + last, Sureness::Sure);
         bound.high = build_.literal(LiteralKind::Integer, size == 0 ? 0 : size - 1, tree_.loc(bound.low));
         tree_.as<LiteralExpr>(bound.low).setValue(0);
       } else if (isOperand(kind())) {

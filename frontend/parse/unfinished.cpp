@@ -182,7 +182,7 @@ void Cursor::acceptChainOverLines() {
 }
 
 // Reports what is missing at t, or at the end of the line above when t begins something new there.
-Report Cursor::reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args,
+Report Cursor::reportMissing(Diag diag, const Token* t, std::initializer_list<std::string_view> args, Sureness sureness,
                              bool& unfinished) {
   struct Row {
     Diag here, after;
@@ -197,7 +197,8 @@ Report Cursor::reportMissing(Diag diag, const Token* t, std::initializer_list<st
   if (diag == diag::MissingOperator && t > tokens_.data() && t[-1].kind == Tok::Caret && !atLineStart()) {  // a ^ b
     if (!mayReport(t)) return Report(nullptr);
     last_error_ = t;
-    return diagnostics_.report(diag::ForeignOperator, loc(t - 1), {"^", "XOR"}).length(1);
+    const Report report = diagnostics_.report(diag::ForeignOperator, loc(t - 1), {"^", "XOR"}).length(1);
+    return replaced(report, t - 1, t - 1, "XOR", Sureness::Sure);
   }
   for (const Row& row : kRows) {
     if (row.here != diag || t == tokens_.data() || t[-1].kind == Tok::Semicolon) continue;
@@ -210,14 +211,18 @@ Report Cursor::reportMissing(Diag diag, const Token* t, std::initializer_list<st
     if (!mayReport(before)) return Report(nullptr);
     last_error_ = before;
     const std::string shown = diag == diag::WrongKeyword ? describe(t) : describe(before);
-    if (diag == diag::WrongKeyword)
-      return diagnostics_.report(row.after, endOf(before), {args.begin()[1], shown}).length(1);
-    if (diag == diag::MissingToken) return diagnostics_.report(row.after, endOf(before), args).length(1);
-    return diagnostics_.report(row.after, endOf(before), {shown}).length(1);
+    if (diag == diag::WrongKeyword || diag == diag::MissingToken) {
+      const std::string_view word = args.begin()[diag == diag::WrongKeyword ? 1 : 0];
+      const std::string_view next = diag == diag::WrongKeyword ? shown : args.begin()[1];
+      return insertion(diagnostics_.report(row.after, endOf(before), {word, next}).length(1), before, word, sureness);
+    }
+    const Report report = diagnostics_.report(row.after, endOf(before), {shown}).length(1);
+    return row.after == diag::MissingSemicolon ? insertion(report, before, ";", sureness) : report;
   }
   if (!mayReport(t)) return Report(nullptr);
   last_error_ = t;
-  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+  const Report report = diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+  return withFix(report, diag, t, args, sureness);
 }
 
 }  // namespace rung::text

@@ -11,6 +11,7 @@
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/sfc_schedule.h"
 #include "frontend/source/dialect.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/sfc.h"
 
 namespace rung::text {
@@ -46,6 +47,18 @@ class Checker {
     return charts_.diagnostics.report(diag, loc, args);
   }
   std::string_view string(NameId name) const { return charts_.names.string(name); }
+  // The keyword before the name of a step becomes another one.
+  Fix otherKeyword(Loc name, std::string_view word, std::string_view by, Sureness sureness) const {
+    const FileId file = charts_.sources.fileOf(name);
+    if (!file) return {};
+    const uint32_t base = charts_.sources.begin(file).offset;
+    std::string_view before = charts_.sources.original(file).substr(0, name.offset - base);
+    while (!before.empty() && isBlankCharacter(before.back())) before.remove_suffix(1);
+    if (before.size() < word.size() || !sameIdentifier(before.substr(before.size() - word.size()), word)) return {};
+    const Loc end{base + static_cast<uint32_t>(before.size())};
+    const Loc begin{end.offset - static_cast<uint32_t>(word.size())};
+    return {"Write `" + std::string(by) + "`", {{begin, end, std::string(by)}}, sureness == Sureness::Sure};
+  }
   void checkInitial();
   void checkSteps(Slice<Ident> list);
   void checkActions();
@@ -107,12 +120,14 @@ void Checker::checkInitial() {
       continue;
     }
     report(diag::SfcSeveralInitial, steps_[i].name.loc, {string(steps_[i].name.name)})
-        .alsoDeclaredHere(steps_[first].name.loc);
+        .alsoDeclaredHere(steps_[first].name.loc)
+        .fix(otherKeyword(steps_[i].name.loc, "INITIAL_STEP", "STEP", Sureness::Proposal));
     return;
   }
-  if (!any)
-    report(diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
-           {string(pou_.name), steps_.empty() ? "Start" : string(steps_[0].name.name)});
+  if (any) return;
+  Report report_of_chart = report(diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
+                                  {string(pou_.name), steps_.empty() ? "Start" : string(steps_[0].name.name)});
+  if (!steps_.empty()) report_of_chart.fix(otherKeyword(steps_[0].name.loc, "STEP", "INITIAL_STEP", Sureness::Sure));
 }
 
 // Forbids transitions from and to undefined steps. IEC 61131-3 ed. 3, 6.7.3.

@@ -23,6 +23,12 @@ void appendArgument(std::string& out, std::string_view argument) {
   out += "...";
 }
 
+std::string_view withoutBlanksAround(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\n") + 1 - first);
+}
+
 }  // namespace
 
 std::string formatMessage(const char* text, std::initializer_list<std::string_view> args) {
@@ -59,8 +65,37 @@ Report& Report::declaredHere(Loc loc) { return note(loc, Note{"declared here"});
 
 Report& Report::alsoDeclaredHere(Loc loc) { return note(loc, Note{"also declared here"}); }
 
-Report& Report::didYouMean(std::string_view candidate) {
-  return candidate.empty() ? *this : note({}, Note{"did you mean `{0}`?"}, {candidate});
+Report& Report::didYouMean(std::string_view candidate) { return didYouMean(candidate, {}, {}); }
+
+Report& Report::didYouMean(std::string_view candidate, Loc begin, Loc end) {
+  if (candidate.empty()) return *this;
+  return note({}, Note{"did you mean `{0}`?"}, {candidate}).replace(begin, end, candidate, Sureness::Proposal);
+}
+
+Report& Report::fix(Fix fix) {
+  if (diagnostic_ != nullptr && !fix.edits.empty()) diagnostic_->fixes.push_back(std::move(fix));
+  return *this;
+}
+
+Report& Report::replace(std::string_view text, Sureness sureness) { return replace({}, {}, text, sureness); }
+
+Report& Report::replace(Loc begin, Loc end, std::string_view text, Sureness sureness) {
+  if (diagnostic_ == nullptr) return *this;
+  return fix({formatMessage("Write `{0}`", {withoutBlanksAround(text)}),
+              {{begin, end, std::string(text)}},
+              sureness == Sureness::Sure});
+}
+
+Report& Report::insert(Loc at, std::string_view text, Sureness sureness) {
+  if (diagnostic_ == nullptr) return *this;
+  return fix({formatMessage("Insert `{0}`", {withoutBlanksAround(text)}),
+              {{at, at, std::string(text)}},
+              sureness == Sureness::Sure});
+}
+
+Report& Report::remove(Loc begin, Loc end, std::string_view what, Sureness sureness) {
+  if (diagnostic_ == nullptr) return *this;
+  return fix({formatMessage("Remove `{0}`", {what}), {{begin, end, {}}}, sureness == Sureness::Sure});
 }
 
 Report& Report::length(uint32_t bytes) {
@@ -119,8 +154,15 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
       return Report(nullptr);
     }
   }
-  list_.push_back({diag, severity, loc, {}, {}, 0, formatMessage(info.text, args), {}, {}, reporter});
+  list_.push_back({diag, severity, loc, {}, {}, 0, formatMessage(info.text, args), {}, {}, reporter, {}});
   return Report(&list_.back());
+}
+
+Diagnostic* Diagnostics::reportedAt(Diag diag, Loc loc) {
+  const auto found = std::find_if(list_.rbegin(), list_.rend(), [&](const Diagnostic& diagnostic) {
+    return diagnostic.diag == diag && diagnostic.loc == loc;
+  });
+  return found == list_.rend() ? nullptr : &*found;
 }
 
 void Diagnostics::retract(FunctionRef<bool(const Diagnostic&)> is_gone) {

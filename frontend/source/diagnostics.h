@@ -65,6 +65,20 @@ std::string switchName(const DiagInfo& info);
 // All rows, by number.
 std::span<const DiagInfo> allDiags();
 
+// A change of the sources after which what a diagnostic is about is right. Its locations are in what was parsed;
+// fixes.h leads them to the files.
+struct Fix {
+  struct Edit {
+    Loc begin, end;  // equal: an insertion; none: what the diagnostic marks
+    std::string text;
+  };
+  std::string title;  // begins with a verb: "Insert `;`"
+  std::vector<Edit> edits;
+  bool is_sure =
+      false;  // a tool may apply it unasked: it makes what was written what was taken for it, and loses nothing
+};
+enum class Sureness : uint8_t { Proposal, Sure };
+
 struct Diagnostic {
   struct Attached {
     Loc loc;  // none: belongs to the whole diagnostic
@@ -79,7 +93,8 @@ struct Diagnostic {
   std::string message;
   std::string element;  // of a diagram: `POU main, network 3, contact "start", localId 12`
   std::vector<Attached> notes;
-  uint32_t reporter = 0;  // Diagnostics::reporter, when it was reported
+  uint32_t reporter = 0;        // Diagnostics::reporter, when it was reported
+  std::vector<Fix> fixes = {};  // the best one first
 };
 
 // Chained after a report: diagnostics.error(...).note(...). Does nothing when the report was dropped.
@@ -89,10 +104,21 @@ class Report {
   Report& note(Loc loc, Note note, std::initializer_list<std::string_view> args = {});
   Report& declaredHere(Loc loc);
   Report& alsoDeclaredHere(Loc loc);
-  Report& didYouMean(std::string_view candidate);  // empty: nothing is added
+  // The note, and the fix that writes the candidate in place of the name. Empty: nothing is added.
+  Report& didYouMean(std::string_view candidate);
+  Report& didYouMean(std::string_view candidate, Loc begin, Loc end);  // in place of what is there
   Report& length(uint32_t bytes);
   Report& element(std::string text);
   Report& path(std::string path);
+  // False: the report was dropped, and a fix of it need not be made.
+  explicit operator bool() const { return diagnostic_ != nullptr; }
+  Report& fix(Fix fix);  // without edits: nothing is added
+  // "Write `text`" in place of what is marked, or of a part of what was parsed.
+  Report& replace(std::string_view text, Sureness sureness);
+  Report& replace(Loc begin, Loc end, std::string_view text, Sureness sureness);
+  // "Insert `text`", with the blanks around it.
+  Report& insert(Loc at, std::string_view text, Sureness sureness);
+  Report& remove(Loc begin, Loc end, std::string_view what, Sureness sureness);
 
  private:
   Diagnostic* diagnostic_;
@@ -108,6 +134,8 @@ class Diagnostics {
 
   // Who reports, so that it can be taken back: a number of the caller's. 0: who reads and parses.
   uint32_t reporter = 0;
+  // What was reported there with this code, to add what is known only later; null: nothing.
+  Diagnostic* reportedAt(Diag diag, Loc loc);
   // Takes back what was reported, as if it had never been. No line is closed then.
   void retract(FunctionRef<bool(const Diagnostic&)> is_gone);
   // Suppresses further diagnostics on the lines with errors of reporter 0: later phases would report what follows from

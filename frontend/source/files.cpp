@@ -198,14 +198,28 @@ FileId Sources::fileOf(Loc loc) const {
   return {index};
 }
 
-// The location that a location in source-mapped text was made of.
-Loc Sources::mapped(const File& file, Loc loc) {
+// Of source-mapped text.
+const Segment& Sources::segmentAt(const File& file, Loc loc) {
   const std::vector<Segment>& segments = file.segments;
   const uint32_t at = loc.offset - file.base;
   const auto after = std::upper_bound(segments.begin() + 1, segments.end(), at,
                                       [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
-  const Segment& segment = *(after - 1);
-  return {segment.from.offset + (segment.verbatim ? at - segment.at : 0)};
+  return *(after - 1);
+}
+
+// The location that a location in source-mapped text was made of.
+Loc Sources::mapped(const File& file, Loc loc) {
+  const Segment& segment = segmentAt(file, loc);
+  return {segment.from.offset + (segment.verbatim ? loc.offset - file.base - segment.at : 0)};
+}
+
+Loc Sources::copiedFrom(Loc loc) const {
+  const FileId id = fileOf(loc);
+  if (!id) return {};
+  const File& file = files_[id.index];
+  if (file.segments.empty()) return loc;
+  const bool is_copy = segmentAt(file, loc).verbatim && loc.offset - file.base < file.source.size();
+  return is_copy ? copiedFrom(mapped(file, loc)) : Loc{};
 }
 
 Loc Sources::originalLocation(Loc loc) const {

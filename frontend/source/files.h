@@ -104,6 +104,8 @@ class Sources {
 
   FileId fileOf(Loc loc) const;
   Loc originalLocation(Loc loc) const;  // its location in the file on disk; differs only for source-mapped text
+  // The byte of the file on disk of which this byte is a copy; none: it is not one.
+  Loc copiedFrom(Loc loc) const;
   SourceLocation location(Loc loc) const;
   uint32_t lineNumber(Loc loc) const;  // location(loc).line without counting columns; 0: no location
   std::string_view line(FileId file, uint32_t line) const;  // without its line end
@@ -130,6 +132,7 @@ class Sources {
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
   bool takeRange(uint32_t file, size_t bytes);
+  static const Segment& segmentAt(const File& file, Loc loc);
   static Loc mapped(const File& file, Loc loc);
 
   std::deque<File> files_;

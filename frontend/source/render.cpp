@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "frontend/source/fixes.h"
+
 namespace rung {
 namespace {
 
@@ -249,6 +251,38 @@ void appendJsonLocation(std::string& out, const Range& range) {
   appendField(out, "endColumn", range.end_column);
 }
 
+SourceLocation locationOf(const Sources& sources, FileId file, uint32_t byte) {
+  return sources.location({sources.begin(file).offset + byte});
+}
+
+std::string jsonFix(const Sources& sources, const Fix& fix, const std::vector<FileEdit>& edits) {
+  std::string out = "{\"title\":" + jsonQuote(fix.title) + ",\"preferred\":" + (fix.is_sure ? "true" : "false");
+  out += ",\"edits\":[";
+  for (const FileEdit& edit : edits) {
+    const SourceLocation begin = locationOf(sources, edit.file, edit.begin);
+    const SourceLocation end = locationOf(sources, edit.file, edit.end);
+    if (&edit != edits.data()) out += ',';
+    out += "{\"path\":" + jsonQuote(sources.displayPath(edit.file));
+    appendField(out, "line", begin.line);
+    appendField(out, "column", begin.column);
+    appendField(out, "endLine", end.line);
+    appendField(out, "endColumn", end.column);
+    appendField(out, "text", edit.text);
+    out += '}';
+  }
+  return out + "]}";
+}
+
+// The member `fixes`, with a comma before it; empty: there are none.
+std::string fixesOf(const Sources& sources, const Diagnostic& diagnostic,
+                    std::string (*show)(const Sources&, const Fix&, const std::vector<FileEdit>&)) {
+  std::string out;
+  for (const Fix& fix : diagnostic.fixes)
+    if (const std::vector<FileEdit> edits = fileEdits(sources, diagnostic, fix); !edits.empty())
+      out += (out.empty() ? ",\"fixes\":[" : ",") + show(sources, fix, edits);
+  return out.empty() ? out : out + "]";
+}
+
 std::string renderJson(const Diagnostics& diagnostics, const Sources& sources) {
   std::string out = "{\"diagnostics\":[";
   const char* separator = "\n";
@@ -268,7 +302,7 @@ std::string renderJson(const Diagnostics& diagnostics, const Sources& sources) {
       appendJsonLocation(out, note.loc ? rangeOf(sources, note.loc, 0, {}) : range);
       out += '}';
     }
-    out += "]}";
+    out += "]" + fixesOf(sources, diagnostic, jsonFix) + "}";
   }
   out += "\n]";
   appendField(out, "errors", diagnostics.errorCount());
@@ -325,6 +359,27 @@ std::string sarifRule(Diag diag, std::string_view (*page)(std::string_view)) {
          ",\"markdown\":" + text + "},\"defaultConfiguration\":{\"level\":\"" + sarifLevel(info.severity) + "\"}}";
 }
 
+// One artifactChange for each file; the edits are sorted.
+std::string sarifFix(const Sources& sources, const Fix& fix, const std::vector<FileEdit>& edits) {
+  std::string out = "{\"description\":{\"text\":" + jsonQuote(fix.title) + "},\"artifactChanges\":[";
+  for (size_t i = 0; i < edits.size(); ++i) {
+    const FileEdit& edit = edits[i];
+    const bool begins_file = i == 0 || edits[i - 1].file != edit.file;
+    if (begins_file) {
+      const std::string uri = jsonQuote(uriOf(sources.displayPath(edit.file)));
+      out += (i == 0 ? "" : "]},") + ("{\"artifactLocation\":{\"uri\":" + uri + "},\"replacements\":[");
+    }
+    const SourceLocation begin = locationOf(sources, edit.file, edit.begin);
+    const SourceLocation end = locationOf(sources, edit.file, edit.end);
+    out += std::string(begins_file ? "" : ",") + "{\"deletedRegion\":{\"startLine\":" + std::to_string(begin.line);
+    appendField(out, "startColumn", begin.column);
+    appendField(out, "endLine", end.line);
+    appendField(out, "endColumn", end.column);
+    out += "},\"insertedContent\":{\"text\":" + jsonQuote(edit.text) + "}}";
+  }
+  return out + "]}],\"properties\":{\"preferred\":" + (fix.is_sure ? "true" : "false") + "}}";
+}
+
 std::string sarifResult(const Diagnostic& diagnostic, const Sources& sources, size_t rule) {
   const Range range = rangeOf(sources, diagnostic.loc, diagnostic.length, diagnostic.path);
   std::string message = diagnostic.message;
@@ -348,7 +403,7 @@ std::string sarifResult(const Diagnostic& diagnostic, const Sources& sources, si
         sarifLocation(rangeOf(sources, note.loc, 0, {})) + ",\"message\":{\"text\":" + jsonQuote(note.message) + "}}";
   }
   if (!related.empty()) out += ",\"relatedLocations\":[" + related + "]";
-  return out + "}";
+  return out + fixesOf(sources, diagnostic, sarifFix) + "}";
 }
 
 std::string renderSarif(const Diagnostics& diagnostics, const Sources& sources,

@@ -23,6 +23,7 @@
 #include "sema/bodies/operator_calls.h"
 #include "sema/bodies/outside_access.h"
 #include "sema/bodies/overloads.h"
+#include "sema/bodies/pin_fixes.h"
 #include "sema/bodies/pointers.h"
 #include "sema/bodies/pseudo_functions.h"
 #include "sema/bodies/required_pins.h"
@@ -34,6 +35,7 @@
 #include "sema/declarations/objects.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
 #include "sema/shorthands.h"
@@ -105,7 +107,8 @@ bool checkFormality(Context& context, const CallExpr& node, PouId pou) {
       given -= pin.section == SectionKind::Output ? 0 : 1;
       continue;
     }
-    context.report(diag::MissingArgument, node.h.loc, {string(context, callee.name), string(context, pin.name)});
+    context.report(diag::MissingArgument, node.h.loc, {string(context, callee.name), string(context, pin.name)})
+        .fix(withValues(context, node, pou, id));
     return false;
   }
   return true;
@@ -119,7 +122,8 @@ bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
     return false;
   const NameId name = context.tree().as<NameExpr>(node.left).name;
   if (!findPin(context, pou, name) || lookUp(context, name)) return false;
-  context.report(diag::BindingWithEqual, node.h.loc, {string(context, name)});
+  context.report(diag::BindingWithEqual, node.h.loc, {string(context, name)})
+      .replace(node.h.loc, {node.h.loc.offset + 1}, ":=", Sureness::Sure);
   return true;
 }
 
@@ -547,7 +551,8 @@ class ArgumentMatcher {
     }
     const Argument& second = argument(index);
     const Ident& name = second.pin.name ? second.pin : argument(out_.slots[slot] - 1).pin;
-    context_.report(diag::DuplicatePin, second.pin.name ? second.pin.loc : second.loc, {string(context_, name.name)});
+    context_.report(diag::DuplicatePin, second.pin.name ? second.pin.loc : second.loc, {string(context_, name.name)})
+        .fix(withoutArgument(context_, node_, second));
     out_.ok = false;
     return false;
   }
@@ -581,7 +586,8 @@ class ArgumentMatcher {
     size_t inputs = 0;
     for (size_t slot = 0; slot < pins_.size(); ++slot) inputs += isOutput(slot) || isLeftOut(slot) ? 0 : 1;
     const Loc loc = argument.value ? context_.tree().begin(argument.value) : argument.loc;
-    context_.report(diag::TooManyArguments, loc, {calleeName(), std::to_string(inputs)});
+    context_.report(diag::TooManyArguments, loc, {calleeName(), std::to_string(inputs)})
+        .fix(withoutArguments(context_, node_, argument));
   }
 
   void matchNamed(uint32_t index) {
@@ -591,9 +597,17 @@ class ArgumentMatcher {
     noteMention(context_, entity(pins_[slot]), argument.pin.loc, Access::Pin);
     next_ = slot + 1;
     if (argument.is_output == isOutput(slot)) return putOrCheck(slot, index);
-    context_.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
-                    {string(context_, pin(slot).name), calleeName(), kindName(pin(slot).section)});
+    context_
+        .report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
+                {string(context_, pin(slot).name), calleeName(), kindName(pin(slot).section)})
+        .fix(otherArrow(argument));
     refuse(index);
+  }
+
+  Fix otherArrow(const Argument& argument) const {
+    if (!argument.value) return {};
+    return otherSign(context_, argument.pin.loc, context_.tree().begin(argument.value),
+                     argument.is_output ? "=>" : ":=", argument.is_output ? ":=" : "=>", Sureness::Sure);
   }
 
   // The pin of this name; the number of pins: there is none.
@@ -684,7 +698,8 @@ void readProperty(Context& context, ExprId& expr, ExprId value) {
   NameId name = nameOf(context, context.tree().as<CallExpr>(expr).callee);
   for (const Property& property : context.symbols.properties)
     if (get && property.get && property.get == context.symbols.call(get).pou) name = property.name;
-  context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)});
+  context.report(diag::PropertyUnused, context.tree().begin(expr), {string(context, name)})
+      .fix(withoutStatement(context, context.tree().begin(expr), context.tree().as<CallExpr>(expr).end));
   context.replace(expr, value);
 }
 
@@ -719,11 +734,15 @@ bool isBareCall(Context& context, ExprId& expr) {
   const bool is_value = found.entityKind() == EntityKind::Var || found.entityKind() == EntityKind::None;
   const bool is_block = type && isInstance(context, type);  // most likely meant to be called
   if (!type || type == types::kError || !is_value || is_block) {
-    if (type != types::kError) context.report(diag::NoEffect, begin, {shown});
+    if (type != types::kError) {
+      Report report = context.report(diag::NoEffect, begin, {shown});
+      if (is_block) report.insert(node.end, "()", Sureness::Proposal);
+      report.fix(withoutStatement(context, begin, node.end));
+    }
     return false;
   }
   // CODESYS, "Compiler error C0139": a warning for a variable.
-  context.report(diag::NoEffectWarning, begin, {shown});
+  context.report(diag::NoEffectWarning, begin, {shown}).fix(withoutStatement(context, begin, node.end));
   context.replace(expr, makeInteger(context, types::kInt, 0, begin));
   return false;
 }

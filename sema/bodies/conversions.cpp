@@ -15,6 +15,7 @@
 #include "sema/declarations/objects.h"
 #include "sema/declarations/types.h"
 #include "sema/declarations/uncopied.h"
+#include "sema/fixes.h"
 #include "sema/hooks.h"
 #include "sema/intermediate.h"
 #include "sema/scopes.h"
@@ -332,6 +333,15 @@ bool reportNumberForBool(Context& context, ExprId expr, TypeId to, const Purpose
 
 }  // namespace
 
+// The same characters as a string of the other width; none where they are written otherwise there.
+static Fix otherQuotes(const Context& context, ExprId literal, char quote) {
+  const Range range = sourceRange(context, literal);
+  const std::string text = sourceText(context, range);
+  if (text.size() < 2 || text.find_first_of("$'\"", 1) != text.size() - 1) return {};
+  const std::string other = quote + text.substr(1, text.size() - 2) + quote;
+  return {"Write `" + other + "`", {{range.begin, range.end, other}}, true};
+}
+
 bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId to, const Purpose& purpose) {
   const Loc loc = context.tree().loc(expr);
   switch (fitness) {
@@ -345,9 +355,10 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
                        {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
         return true;
       }
-      context.report(
-          context.profile().lossy_conversions ? diag::MayLoseValues : diag::LossyConversion, loc,
-          {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
+      context
+          .report(context.profile().lossy_conversions ? diag::MayLoseValues : diag::LossyConversion, loc,
+                  {context.types().toString(from), purpose.toString(context), context.types().toString(to), function})
+          .fix(callAround(context, expr, function));
       return context.profile().lossy_conversions;
     }
     case Fit::Pointer:
@@ -362,10 +373,12 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
   if (context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix && own != wanted &&
       TypeTable::isString(own) && TypeTable::isString(wanted)) {
     const bool wide = own == TypeKind::WString;
-    context.report(diag::StringQuotes, loc,
-                   {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
-                    string(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double",
-                    wide ? "'" : "\""});
+    context
+        .report(diag::StringQuotes, loc,
+                {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
+                 string(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double",
+                 wide ? "'" : "\""})
+        .fix(otherQuotes(context, expr, wide ? '\'' : '"'));
     return false;
   }
   if (wanted == TypeKind::Bool && TypeTable::isNumber(own) && reportNumberForBool(context, expr, to, purpose))
@@ -380,6 +393,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
     Report report = context.report(
         diag::NeedsConversion, loc,
         {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
+    report.fix(callAround(context, expr, function));
     const bool is_duration = wanted == TypeKind::Time || wanted == TypeKind::LTime;
     if (is_duration && TypeTable::isInteger(own) && context.tree().kind(expr) == ExprKind::Literal)
       report.note({}, Note{"a time has a unit: write `T#{0}ms`"},

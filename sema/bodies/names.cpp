@@ -18,6 +18,7 @@
 #include "sema/declarations/types.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -100,8 +101,9 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
     return meaning(header).type;
   }
   if (bare && info.name && info.qualified) {
-    context.report(diag::QualifiedEnumItem, header.loc,
-                   {string(context, item.name), string(context, context.types().info(item.type).name)});
+    const std::string_view type = string(context, context.types().info(item.type).name);
+    context.report(diag::QualifiedEnumItem, header.loc, {string(context, item.name), type})
+        .insert(header.loc, std::string(type) + ".", Sureness::Sure);
     return meaning(header).type = types::kError;
   }
   return item.type;
@@ -336,7 +338,8 @@ static bool reportQualifiedGlobal(Context& context, NameId name, Loc loc) {
   for (size_t i = 0; i < context.scopes.lists.size() && i < context.symbols.global_lists.size(); ++i) {
     const GlobalList& list = context.symbols.global_lists[i];
     if (!list.qualified_only || !list.name || !context.scopes.lists[i].names.find(key)) continue;
-    context.report(diag::QualifiedGlobal, loc, {string(context, name), string(context, list.name)});
+    context.report(diag::QualifiedGlobal, loc, {string(context, name), string(context, list.name)})
+        .insert(loc, toString(context, list.name) + ".", Sureness::Sure);
     return true;
   }
   return false;
@@ -362,13 +365,16 @@ Entity resolveName(Context& context, const NameExpr& written, TypeId expected) {
     if ((!context.profile().items_by_wanted_type && several && entity.entityKind() == EntityKind::EnumValue) ||
         (!decided && isAmbiguousItem(context, entity))) {
       const TypeId type = context.symbols.enum_values[entity.index].type;
-      context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)});
+      context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)})
+          .insert(loc, context.types().toString(type) + "#", Sureness::Proposal);
       return Entity::of(EntityKind::Error, 0);
     }
     return entity;
   }
   if (isFirstReport(context, name) && !reportQualifiedGlobal(context, name, loc))
-    context.report(diag::UnknownName, loc, {string(context, name)}).didYouMean(nearestName(context, name));
+    addDeclarations(
+        context, context.report(diag::UnknownName, loc, {string(context, name)}).didYouMean(nearestName(context, name)),
+        name, expected);
   return Entity::of(EntityKind::Error, 0);
 }
 
@@ -523,7 +529,7 @@ static TypeId checkHiddenItem(Context& context, ExprId& expr, TypeId base, Entit
   }
   const std::string typed = toString(context, nameOf(context, node.base)) + "#" + toString(context, node.member);
   context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})
-      .didYouMean(typed);
+      .didYouMean(typed, context.tree().begin(node.base), node.h.end);
   return unknown(meaning(node.h));
 }
 
@@ -533,7 +539,8 @@ static TypeId checkMemberOfValue(Context& context, ExprId& expr, TypeId base) {
   if (const auto type = checkNamedBit(context, expr, resolved)) return *type;
   const MemberExpr& node = context.tree().as<MemberExpr>(expr);
   if (context.types().kind(resolved) == TypeKind::Pointer)
-    context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)});
+    context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)})
+        .insert(context.tree().expr(node.base).end, "^", Sureness::Sure);
   else
     context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)});
   return unknown(meaning(node.h));

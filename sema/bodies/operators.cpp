@@ -16,6 +16,7 @@
 #include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/bodies/time_arithmetic.h"
+#include "sema/fixes.h"
 #include "sema/hooks.h"
 #include "sema/intermediate.h"
 #include "sema/shorthands.h"
@@ -444,13 +445,25 @@ TypeId checkCommon(Context& context, BinaryExpr& node, TypeId common) {
   return common;
 }
 
+// CONCAT(a, b) for `a + b`.
+Fix concatenation(const Context& context, const BinaryExpr& node) {
+  const Range left = sourceRange(context, node.left), right = sourceRange(context, node.right);
+  if (!(left.begin < left.end) || !(right.begin < right.end)) return {};
+  const std::string first = sourceText(context, left), second = sourceText(context, right);
+  return {"Write `CONCAT(...)`", {{left.begin, right.end, "CONCAT(" + first + ", " + second + ")"}}, true};
+}
+
 }  // namespace
 
 TypeId combine(Context& context, ExprId& self, TypeId expected) {
   BinaryExpr& node = context.code().as<BinaryExpr>(self);
   Meaning& known = meaning(node.h);
   const TypeId left = context.type(node.left), right = context.type(node.right);
-  if (!left || !right || left == types::kError || right == types::kError) return known.type = types::kError;
+  if (!left || !right || left == types::kError || right == types::kError) {
+    if (right == types::kError && left && !isUntyped(context, left)) declareUnknown(context, node.right, left);
+    if (left == types::kError && right && !isUntyped(context, right)) declareUnknown(context, node.left, right);
+    return known.type = types::kError;
+  }
   const BinaryOp op = node.op();
   const bool comparison = isComparison(op);
   known.is_constant = context.meaning(node.left).is_constant & context.meaning(node.right).is_constant;
@@ -461,7 +474,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   if (const TypeId type = combineSpecial(context, self, expected)) return context.type(self) = type;
   if (op == BinaryOp::Add && TypeTable::isString(context.types().plainKind(left)) &&
       TypeTable::isString(context.types().plainKind(right))) {
-    context.report(diag::StringsAdded, node.h.loc);
+    context.report(diag::StringsAdded, node.h.loc).fix(concatenation(context, node));
     return known.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};

@@ -19,6 +19,7 @@
 #include "sema/declarations/objects.h"
 #include "sema/declarations/resolve.h"
 #include "sema/declarations/variables.h"
+#include "sema/fixes.h"
 #include "sema/shorthands.h"
 #include "sema/synthesized_nodes.h"
 
@@ -151,7 +152,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr, Access access) {
   Meaning& known = meaning(node.h);
   const Loc loc = node.h.loc;
   if (!context.profile().indexed_pointers) {
-    context.report(diag::IndexOfPointer, loc);
+    context.report(diag::IndexOfPointer, loc).insert(context.tree().expr(node.base).end, "^", Sureness::Sure);
     return known.type = types::kError;
   }
   const ExprId pointer = node.base;

@@ -11,6 +11,7 @@
 #include "frontend/syntax/standard_names.h"
 #include "sema/bodies/calls.h"
 #include "sema/bodies/diagnostics.h"
+#include "sema/bodies/pin_fixes.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/objects.h"
 #include "sema/diagnostics.h"
@@ -36,14 +37,17 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
     }
     if (must) {
       context.report(diag::PinNotConnected, node.h.loc, {string(context, pin.name), string(context, pou.name)})
-          .declaredHere(pin.loc);
+          .declaredHere(pin.loc)
+          .fix(given ? Fix{} : boundPin(context, node, pin));
       ok = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
       if (!context.profile().enable_by_position && isNamed(context, pin.name, kEnable))
         continue;  // not among arguments without names
       if (!isBroken(context, id))
-        context.report(diag::MissingArgument, node.end ? node.end : node.h.loc,
-                       {string(context, pou.name), string(context, pin.name)});
+        context
+            .report(diag::MissingArgument, node.end ? node.end : node.h.loc,
+                    {string(context, pou.name), string(context, pin.name)})
+            .fix(withValues(context, node, id, pins[i]));
       return false;
     }
   }

@@ -19,6 +19,7 @@
 #include "sema/bodies/pointers.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/bodies/writable.h"
+#include "sema/fixes.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
 #include "sema/shorthands.h"
@@ -95,7 +96,9 @@ namespace {
 TypeId checkAssigned(Context& context, AssignStmt& node, Access access) {
   const TypeId type = checkTarget(context, node.target, access);
   if (type == types::kError) {
-    checkExpr(context, node.value);
+    const TypeId value = checkExpr(context, node.value);
+    const bool is_untyped = value && value != types::kError && isUntyped(context, value);
+    declareUnknown(context, node.target, is_untyped ? finalizeUntyped(context, node.value) : value);
     return type;
   }
   return checkPropertyAssign(context, node) ? types::kError : type;
@@ -284,7 +287,10 @@ TypeId stepType(Context& context, ExprId step, TypeId control) {
 //   passes  FOR i := 1 TO 9 DO          fails  FOR r := 0.0 TO 1.0 DO                     E0710
 TypeId checkForControl(Context& context, ForStmt& node) {
   const TypeId type = check(context, node.control, {}, Access::ReadWrite);
-  if (type == types::kError) return type;
+  if (type == types::kError) {
+    declareUnknown(context, node.control, types::kInt);
+    return type;
+  }
   if (isUntyped(context, type)) finalizeUntyped(context, node.control);
   if (!checkWritable(context, node.control, Purpose{Use::LoopControl, {}, {}})) {
     return types::kError;

@@ -6,6 +6,7 @@
 // Called at the end of each CASE. Sorts: n labels cost n log n.
 #include "sema/bodies/expressions.h"
 #include "sema/checks/rules.h"
+#include "sema/fixes.h"
 
 #include <algorithm>
 
@@ -47,7 +48,8 @@ std::optional<Label> labelOf(Context& context, ExprId label, bool is_signed) {
   const std::optional<int64_t> low = valueOfLabel(context, range.low), high = valueOfLabel(context, range.high);
   if (!low || !high) return std::nullopt;
   if (!less(*high, *low, is_signed)) return Label{*low, *high, loc};
-  context.report(diag::RangeReversed, loc, {std::to_string(*low), std::to_string(*high)});
+  context.report(diag::RangeReversed, loc, {std::to_string(*low), std::to_string(*high)})
+      .fix(exchanged(context, range.low, range.high));
   return std::nullopt;
 }
 

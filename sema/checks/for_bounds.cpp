@@ -6,6 +6,7 @@
 //   warns   FOR i := 9 TO 1 DO                                        W0755
 #include "sema/bodies/expressions.h"
 #include "sema/checks/rules.h"
+#include "sema/fixes.h"
 #include "sema/shorthands.h"
 
 namespace rung::sema {
@@ -27,6 +28,11 @@ static void checkLastValue(Context& context, const ForStmt& node, int64_t from, 
   const __int128 next = wide(from) + (way / step + 1) * step;
   if (next <= high && next >= low) return;
   context.report(diag::LoopToTypeEnd, context.tree().begin(node.to), {context.types().toString(type)});
+}
+
+static Fix withStepBack(const Context& context, const ForStmt& node) {
+  const Loc end = sourceRange(context, node.to).end;
+  return end ? Fix{"Write `BY -1`", {{end, end, " BY -1"}}, false} : Fix{};
 }
 
 void checkForBounds(Context& context, const ForStmt& node) {
@@ -51,8 +57,11 @@ void checkForBounds(Context& context, const ForStmt& node) {
   checkLastValue(context, node, *from, *to, *step);
   const bool never = up ? less(*to, *from) : less(*from, *to);
   if (never) {
-    context.report(diag::LoopNeverRuns, context.tree().begin(node.from),
-                   {std::to_string(*from), std::to_string(*to), up ? "BY -1" : "a positive step"});
+    context
+        .report(diag::LoopNeverRuns, context.tree().begin(node.from),
+                {std::to_string(*from), std::to_string(*to), up ? "BY -1" : "a positive step"})
+        .fix(node.step ? exchanged(context, node.from, node.to) : withStepBack(context, node))
+        .fix(node.step ? Fix{} : exchanged(context, node.from, node.to));
   }
 }
 

@@ -19,6 +19,7 @@
 #include "sema/declarations/mentions.h"
 #include "sema/declarations/names.h"
 #include "sema/declarations/variables.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -131,7 +132,8 @@ void checkMocks(Context& context) {
       if (key == known.replaces) checkReplaced(there, PouId{i}, pragma);
       if (key != known.mock) continue;
       if (!pou.pragmas.test) {
-        reportPragma(context, diag::MockOutsideTest, pragma, {context.names().string(pou.name)});
+        reportPragma(context, diag::MockOutsideTest, pragma, {context.names().string(pou.name)})
+            .fix(withPragma(context, pou.decl, "{test}"));
         break;
       }
       const NameId name = context.names().intern(context.tree().string(pragma.value));

@@ -17,6 +17,7 @@
 #include "sema/declarations/objects.h"
 #include "sema/declarations/types.h"
 #include "sema/declarations/variables.h"
+#include "sema/fixes.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
 
@@ -56,7 +57,9 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
       .report(diag::NarrowerAccess, pou.loc,
               {string(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
                string(context, context.symbols.pou(other.owner).name)})
-      .declaredHere(other.loc);
+      .declaredHere(other.loc)
+      .fix(otherWord(context, context.tree().decl(pou.decl).begin, pou.loc,
+                     pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED", "PUBLIC", Sureness::Proposal));
 }
 
 void checkSignature(Context& context, PouId method, PouId replaced) {
@@ -152,11 +155,75 @@ void checkConstructorOfBase(Context& context, PouId id, PouId replaced) {
   }
 }
 
+// The member as it is declared where it comes from, for another object.
+std::string stubOf(const Context& context, PouId method, const std::string& indent) {
+  const Tree& tree = context.tree();
+  const Pou& pou = context.symbols.pou(method);
+  const PouDecl& decl = tree.as<PouDecl>(pou.decl);
+  const char* const access = context.profile().public_members ? "" : "PUBLIC ";
+  std::string text = "\n" + indent + "METHOD " + access + toString(context, pou.name);
+  if (decl.result) text += " : " + sourceText(context, tree.range(decl.result));
+  for (const DeclId section : tree.list(decl.sections))
+    text += "\n" + indent + sourceText(context, {tree.decl(section).begin, tree.decl(section).end});
+  return text + "\n" + indent + "END_METHOD";
+}
+
+std::string stubOfProperty(const Context& context, PouId accessor, bool has_get, bool has_set,
+                           const std::string& indent) {
+  const Tree& tree = context.tree();
+  const Pou& pou = context.symbols.pou(accessor);
+  for (const DeclId member : tree.list(tree.as<PouDecl>(context.symbols.pou(pou.owner).decl).members)) {
+    if (tree.kind(member) != DeclKind::Property) continue;
+    const PropertyDecl& property = tree.as<PropertyDecl>(member);
+    if (property.in_halves || !context.names().same(property.name, pou.name)) continue;
+    return "\n" + indent + "PROPERTY " + toString(context, pou.name) + " : " +
+           sourceText(context, tree.range(property.type)) + (has_get ? " GET END_GET" : "") +
+           (has_set ? " SET END_SET" : "") + " END_PROPERTY";
+  }
+  return {};
+}
+
+// A member of the name is declared, another half of a property.
+bool hasMember(const Context& context, PouId object, NameId name) {
+  const std::span<const PouId> members = context.symbols.pou(object).members;
+  return std::any_of(members.begin(), members.end(),
+                     [&](PouId member) { return context.names().same(context.symbols.pou(member).name, name); });
+}
+
+Fix implemented(const Context& context, PouId object, const std::vector<PouId>& missing) {
+  const Pou& pou = context.symbols.pou(object);
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  const Loc at = decl.members.empty() ? endOfSections(context, decl)
+                                      : context.tree().decl(context.tree().list(decl.members).back()).end;
+  if (!isWholeSource(context, pou.loc)) return {};  // other tools keep each member apart
+  const std::string indent = indentAt(context, pou.loc);
+  std::string text, names;
+  for (size_t i = 0; i < missing.size(); ++i) {
+    const Pou& member = context.symbols.pou(missing[i]);
+    const bool is_property = member.object.accessor != AccessorKind::None;
+    const auto hasHalf = [&](AccessorKind half) {
+      return std::any_of(missing.begin(), missing.end(), [&](PouId other) {
+        const Pou& one = context.symbols.pou(other);
+        return one.object.accessor == half && context.names().same(one.name, member.name);
+      });
+    };
+    const bool has_get = hasHalf(AccessorKind::Get);
+    if (is_property &&
+        (hasMember(context, object, member.name) || (has_get && member.object.accessor == AccessorKind::Set)))
+      continue;
+    names += (names.empty() ? "`" : ", `") + toString(context, member.name) + "`";
+    text += is_property ? stubOfProperty(context, missing[i], has_get, hasHalf(AccessorKind::Set), indent)
+                        : stubOf(context, missing[i], indent);
+  }
+  return text.empty() ? Fix{} : Fix{"Implement " + names, {{at, at, text}}, false};
+}
+
 struct Demands {
   Context& context;
   PouId object;
   Loc loc;  // of the name that requires it
   std::vector<PouId> seen;
+  std::vector<PouId> missing = {};
 
   void interface(PouId id) {
     if (std::find(seen.begin(), seen.end(), id) != seen.end()) return;
@@ -174,11 +241,19 @@ struct Demands {
     }
     const Pou& pou = context.symbols.pou(object);
     if ((pou.object.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
+    missing.push_back(method);
     context
         .report(diag::MemberMissing, loc,
                 {string(context, pou.name), kindName(wanted), string(context, wanted.name),
                  string(context, context.symbols.pou(wanted.owner).name)})
         .declaredHere(wanted.loc);
+  }
+
+  // All that are missing have one report: they have one location.
+  void addFix() const {
+    Diagnostic* const reported =
+        missing.empty() ? nullptr : context.symbols.diagnostics.reportedAt(diag::MemberMissing, loc);
+    if (reported != nullptr && reported->fixes.empty()) Report(reported).fix(implemented(context, object, missing));
   }
 };
 
@@ -210,7 +285,9 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.object.modifiers & kOverride) != 0)
-      context.report(diag::OverridesNothing, method.loc, {string(context, method.name)});
+      context.report(diag::OverridesNothing, method.loc, {string(context, method.name)})
+          .fix(
+              withoutWord(context, context.tree().decl(method.decl).begin, method.loc, "OVERRIDE", Sureness::Proposal));
     return;
   }
   const Pou& other = context.symbols.pou(replaced);
@@ -221,7 +298,8 @@ void checkMethod(Context& context, PouId object, PouId id) {
   } else if (isLifeMethod(context, method.name)) {
     checkConstructorOfBase(context, id, replaced);
   } else if (needs_override && (method.object.modifiers & kOverride) == 0) {
-    context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
+    context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base})
+        .insert(method.loc, "OVERRIDE ", Sureness::Sure);
   } else {
     checkSignature(context, id, replaced);
   }
@@ -278,6 +356,7 @@ static void checkObject(Context& context, PouId object) {
   for (const TypeExprId written : context.tree().list(decl.implements)) {
     Demands demands{context, object, context.tree().loc(written), {}};
     if (const PouId interface = interfaceOf(context, typeAsWritten(context, written))) demands.interface(interface);
+    demands.addFix();
   }
   if (!pou.base) return;
   const Loc base_loc = context.tree().loc(context.tree().list(decl.bases)[0]);
@@ -287,6 +366,7 @@ static void checkObject(Context& context, PouId object) {
       if ((context.symbols.pou(method).object.modifiers & kAbstract) != 0 &&
           inherited(context, object, method) == method)
         demands.demand(method);
+    demands.addFix();
   }
   for (const VarId id : pou.vars) {
     const Var& var = context.symbols.var(id);

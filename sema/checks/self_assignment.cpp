@@ -7,6 +7,7 @@
 // of ST is half-written (W0242), and IL has a line for each. Called for each statement.
 #include "sema/bodies/names.h"
 #include "sema/checks/rules.h"
+#include "sema/fixes.h"
 #include "sema/shorthands.h"
 
 namespace rung::sema {
@@ -40,8 +41,10 @@ void checkSelfAssignment(Context& context, const AssignStmt& node) {
   if (lineOf(node.value) != lineOf(node.target)) return;
   const VarId variable = variableOf(context, node.target);
   if (!variable || context.symbols.var(variable).temporary != 0) return;  // of a diagram
-  context.report(diag::SelfAssignment, context.tree().begin(node.target),
-                 {string(context, context.symbols.var(variable).name)});
+  context
+      .report(diag::SelfAssignment, context.tree().begin(node.target),
+              {string(context, context.symbols.var(variable).name)})
+      .fix(withoutStatement(context, context.tree().begin(node.target), node.h.end));
 }
 
 }  // namespace rung::sema

@@ -12,6 +12,7 @@
 
 #include "sema/declarations/collect.h"
 #include "sema/declarations/variables.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -55,7 +56,8 @@ void checkTestPragmas(Context& context) {
     if (pou.library) continue;
     const Pou::Pragmas& pragmas = pou.pragmas;
     const std::string_view name = context.names().string(pou.name);
-    if (pragmas.skip && !pragmas.test) context.report(diag::SkipOutsideTest, pou.loc, {name});
+    if (pragmas.skip && !pragmas.test)
+      context.report(diag::SkipOutsideTest, pou.loc, {name}).fix(withPragma(context, pou.decl, "{test}"));
     if (!pragmas.setup && !pragmas.teardown) continue;
     resolvePou(context, PouId{i});
     const Pou& resolved = symbols.pous[i];

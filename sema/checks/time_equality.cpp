@@ -36,7 +36,8 @@ void checkTimeEquality(Context& context, const Operation& operation) {
   if (kind != types::TypeKind::Time && kind != types::TypeKind::LTime) return;
   if ((isOutputOfBlock(context, operation.left) && isConstantTime(context, operation.right)) ||
       (isOutputOfBlock(context, operation.right) && isConstantTime(context, operation.left)))
-    context.report(diag::TimeEquality, operation.loc, {operation.op == types::Op::Eq ? "=" : "<>"});
+    context.report(diag::TimeEquality, operation.loc, {operation.op == types::Op::Eq ? "=" : "<>"})
+        .replace(operation.op == types::Op::Eq ? ">=" : "<", Sureness::Proposal);
 }
 
 }  // namespace rung::sema

@@ -9,6 +9,7 @@
 
 #include "frontend/schedule/sfc_schedule.h"
 #include "sema/declarations/objects.h"
+#include "sema/fixes.h"
 #include "sema/shorthands.h"
 
 namespace rung::sema {
@@ -40,7 +41,7 @@ void checkUnusedVariables(Context& context) {
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
       if (local && var.used.reads == 0 && var.used.writes == 0) {
         if (isCreatedByMethod(context, var.type)) continue;
-        context.report(diag::UnusedVariable, var.loc, {string(context, var.name)});
+        context.report(diag::UnusedVariable, var.loc, {string(context, var.name)}).fix(withoutVariable(context, var));
       } else if (local && var.used.writes == 0 && !var.init && var.start.constructor.index == 0 &&
                  pou.kind != PouKind::Program) {
         context.report(diag::NeverWritten, var.loc, {string(context, var.name)});

@@ -17,6 +17,7 @@
 #include "sema/declarations/namespaces.h"
 #include "sema/declarations/task_triggers.h"
 #include "sema/declarations/variables.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -305,6 +306,15 @@ uint32_t backgroundTask(Context& context, const Part& part) {
   return static_cast<uint32_t>(tasks.size());
 }
 
+static void reportWithoutTask(Context& context, const ProgramInstanceDecl& decl,
+                              const std::vector<DeclaredTask>& tasks) {
+  const std::string name = toString(context, decl.name);
+  Report report = context.report(diag::ProgramWithoutTask, decl.h.loc, {name});
+  if (tasks.size() == 1 && !name.empty())
+    report.insert({decl.h.loc.offset + static_cast<uint32_t>(name.size())},
+                  " WITH " + toString(context, context.project.tasks[tasks[0].number - 1].name), Sureness::Proposal);
+}
+
 // Forbids an instance of a POU that is not a program, an undeclared task, and connections at the instance.
 //   passes  PROGRAM p WITH t : Main;
 //   fails   PROGRAM p WITH tt : Main;                     E0815, did you mean `t`?
@@ -347,7 +357,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   } else if (context.profile().programs_without_task) {
     instance.task = backgroundTask(context, part);
   } else {
-    context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});
+    reportWithoutTask(context, decl, tasks);
   }
   if (!decl.arguments.empty()) {
     const ExprId callee = makeName(context, type.name, found, type.loc);

@@ -17,6 +17,7 @@
 #include "sema/declarations/objects.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
 #include "sema/synthesized_nodes.h"
@@ -129,10 +130,18 @@ struct Initializer {
   // read other variables (initial_order.cpp), but not those of another program; variables of one call (of functions,
   // VAR_TEMP) are set when the call begins, and may read anything known then.
   //   fails   VAR a : INT; b : INT := a; END_VAR in a block of iec2 or iec3      E0325
+  Fix withoutBrackets(ExprId list) const {
+    if (tree().kind(list) != ExprKind::ArrayInit || tree().as<ArrayInitExpr>(list).elements.count != 1) return {};
+    const ExprId element = tree().list(tree().as<ArrayInitExpr>(list).elements)[0];
+    const Range all = sourceRange(context, list), value = sourceRange(context, element);
+    if (!(all.begin < all.end) || !(value.begin < value.end)) return {};
+    return {"Remove the brackets", {{all.begin, value.begin, {}}, {value.end, all.end, {}}}, true};
+  }
   void scalar(ExprId& init, TypeId type) {
     const ExprKind kind = tree().kind(init);
     if (kind == ExprKind::ArrayInit || kind == ExprKind::StructInit || kind == ExprKind::Repeat) {
-      context.report(diag::ListForOneValue, tree().loc(init), {context.types().toString(type)});
+      context.report(diag::ListForOneValue, tree().loc(init), {context.types().toString(type)})
+          .fix(withoutBrackets(init));
       init = {};
       return;
     }

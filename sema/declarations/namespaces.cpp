@@ -13,6 +13,7 @@
 #include "sema/declarations/libraries.h"
 #include "sema/declarations/names.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
 
@@ -144,7 +145,9 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
       const std::string first = toString(context, spaceAt(context, from).name),
                         second = toString(context, spaceAt(context, space).name);
       if (loc && isFirstReport(context, key))
-        context.report(diag::AmbiguousName, loc, {context.names().string(key), first, second});
+        context.report(diag::AmbiguousName, loc, {context.names().string(key), first, second})
+            .insert(loc, first + ".", Sureness::Proposal)
+            .insert(loc, second + ".", Sureness::Proposal);
       return Entity::of(EntityKind::Error, 0);
     }
     found = here;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "frontend/source/scanner.h"
 #include "sema/declarations/attributes.h"
 #include "sema/declarations/charts.h"
 #include "sema/declarations/collect.h"
@@ -21,6 +22,7 @@
 #include "sema/declarations/types.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
 
@@ -203,13 +205,24 @@ void decideDispatch(Context& context, PouId id) {
 
 namespace {
 
+// A name with the comma before it.
+Fix withoutRepeated(const Context& context, Loc name) {
+  const std::string_view token = context.symbols.sources.tokenAt(name);
+  const Loc end{name.offset + static_cast<uint32_t>(token.size())};
+  Loc begin = name;
+  while (begin.offset > 0 && isBlankCharacter(*(token.data() - (name.offset - begin.offset) - 1))) --begin.offset;
+  if (*(token.data() - (name.offset - begin.offset) - 1) != ',') return {};
+  return {"Remove `" + std::string(token) + "`", {{{begin.offset - 1}, end, {}}}, true};
+}
+
 // Warns of a duplicate interface in one list.
 //   passes  IMPLEMENTS IRun, IStop      warns   IMPLEMENTS IRun, IRun                                       W0346
 void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.object.interfaces.begin(), pou.object.interfaces.end(), interface) == pou.object.interfaces.end())
     pou.object.interfaces.push_back(interface);
   else
-    there.report(diag::DuplicateInterface, loc, {there.names().string(there.symbols.pou(interface).name)});
+    there.report(diag::DuplicateInterface, loc, {there.names().string(there.symbols.pou(interface).name)})
+        .fix(withoutRepeated(there, loc));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "sema/declarations/resolve.h"
 #include "sema/declarations/variables.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/hooks.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
@@ -231,8 +232,10 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     if (!low || !high) {
       ok = false;
     } else if (*low > *high && (!context.profile().empty_arrays || *low - 1 != *high)) {
-      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low),
-                     {std::to_string(*low), std::to_string(*high)});
+      context
+          .report(diag::ArrayBoundsReversed, context.tree().begin(bound.low),
+                  {std::to_string(*low), std::to_string(*high)})
+          .fix(exchanged(context, bound.low, bound.high));
       ok = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
       context.report(diag::ArrayBoundOutside, context.tree().begin(bound.low));
@@ -284,8 +287,9 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
          fits(context, base, *high, context.tree().begin(expr.high));
   }
   if (ok && *low > *high) {
-    context.report(diag::SubrangeReversed, context.tree().begin(expr.low),
-                   {std::to_string(*low), std::to_string(*high)});
+    context
+        .report(diag::SubrangeReversed, context.tree().begin(expr.low), {std::to_string(*low), std::to_string(*high)})
+        .fix(exchanged(context, expr.low, expr.high));
     ok = false;
   }
   if (!ok) {  // its users stay silent

@@ -27,6 +27,7 @@
 #include "sema/declarations/types.h"
 #include "sema/declarations/uncopied.h"
 #include "sema/diagnostics.h"
+#include "sema/fixes.h"
 #include "sema/project.h"
 #include "sema/scopes.h"
 #include "sema/shorthands.h"
@@ -208,6 +209,28 @@ void checkEdge(Context& context, const Var& var) {
   context.report(diag::EdgeNotBool, var.loc, {context.names().string(var.name)});
 }
 
+// VAR_EXTERNAL CONSTANT
+Fix constantSection(const Context& context, const Var& var) {
+  const Tree& tree = context.tree();
+  if (!var.pou || !context.symbols.pou(var.pou).decl) return {};
+  for (const DeclId id : tree.list(tree.as<PouDecl>(context.symbols.pou(var.pou).decl).sections)) {
+    const SectionDecl& section = tree.as<SectionDecl>(id);
+    const std::span<const DeclId> vars = tree.list(section.vars);
+    if (std::find(vars.begin(), vars.end(), var.decl) == vars.end()) continue;
+    const Loc end{section.h.loc.offset + static_cast<uint32_t>(std::string_view("VAR_EXTERNAL").size())};
+    return {"Write `VAR_EXTERNAL CONSTANT`", {{end, end, " CONSTANT"}}, true};
+  }
+  return {};
+}
+
+// In the declaration of a variable.
+Fix otherType(const Context& context, const Var& var, const std::string& type) {
+  if (!var.decl || context.tree().kind(var.decl) != DeclKind::Var) return {};
+  const TypeExprId written = context.tree().as<VarDecl>(var.decl).type;
+  const Range range = written ? context.tree().range(written) : Range{};
+  return range.begin < range.end ? Fix{"Write `" + type + "`", {{range.begin, range.end, type}}, false} : Fix{};
+}
+
 // Forbids a VAR_EXTERNAL without its VAR_GLOBAL, or with another type. IEC 61131-3 ed. 3, 6.5.2.2.
 //   passes  VAR_GLOBAL level : REAL; END_VAR … VAR_EXTERNAL level : REAL; END_VAR
 //   fails   VAR_EXTERNAL level : INT; END_VAR          E0335
@@ -246,12 +269,15 @@ void matchExternal(Context& context, VarId id) {
     context
         .report(diag::ExternalType, loc,
                 {context.names().string(name), table.toString(var.type), table.toString(global.type)})
-        .declaredHere(global.loc);
+        .declaredHere(global.loc)
+        .fix(otherType(context, var, table.toString(global.type)));
     var.type = types::kError;
     return;
   }
   if (global.constant && !var.constant && !context.profile().implied_constant_externals)
-    context.report(diag::ExternalConstant, loc, {context.names().string(name)}).declaredHere(global.loc);
+    context.report(diag::ExternalConstant, loc, {context.names().string(name)})
+        .declaredHere(global.loc)
+        .fix(constantSection(context, var));
   if (global.constant) var.constant = true;
   var.external = global_id;
   var.storage = global.storage;
@@ -269,11 +295,13 @@ void matchExternal(Context& context, VarId id) {
 //   fails   VAR_EXTERNAL level : REAL := 1.0; END_VAR  E0324
 bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   if (context.types().isOpenArray(var.type) && var.section != SectionKind::InOut) {
-    context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {"ARRAY[*]"});
+    context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {"ARRAY[*]"})
+        .fix(withoutPart(context, var.loc, ":=", context.tree().expr(init).end));
     return false;
   }
   if (var.section != SectionKind::External && var.section != SectionKind::InOut) return true;
-  context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {keywordOf(var.section)});
+  context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {keywordOf(var.section)})
+      .fix(withoutPart(context, var.loc, ":=", context.tree().expr(init).end));
   return false;
 }
 
@@ -300,12 +328,18 @@ bool isForTests(const Context& context, PouId pou) {  // a test runs once
 // 13, grammar of External_Decl and FB_Decl; ed. 2, 2.5.1 and table 16b; CODESYS, SA0167.
 //   passes  FUNCTION_BLOCK f VAR o AT %Q* : BOOL; END_VAR
 //   fails   FUNCTION_BLOCK f VAR o AT %QX0.1 : BOOL; END_VAR                          E0632
+Loc endOfAddress(const Context& context, const VarDecl& decl) {
+  const std::string_view address = context.symbols.sources.tokenAt(decl.address_loc);
+  return {decl.address_loc.offset + static_cast<uint32_t>(address.size())};
+}
+
 void checkPlacement(Context& there, const Var& var, const VarDecl& decl) {
   if (there.library || var.record) return;
   const std::string_view name = there.names().string(var.name);
   const PouKind kind = var.pou ? there.symbols.pou(var.pou).kind : PouKind::Program;
   if (!there.profile().located_externals && decl.located && var.section == SectionKind::External)
-    there.report(diag::ExternalAddress, decl.address_loc, {name});
+    there.report(diag::ExternalAddress, decl.address_loc, {name})
+        .fix(withoutPart(there, var.loc, "AT", endOfAddress(there, decl)));
   else if (!there.profile().addresses_in_blocks && decl.located && !decl.address.incomplete && kind != PouKind::Program)
     there.report(diag::AddressInBlock, decl.address_loc, {keywordOf(kind)});
   const bool has_memory = var.section == SectionKind::Local || var.section == SectionKind::Temp || !var.pou;
@@ -419,10 +453,20 @@ void ensureVarType(Context& context, VarId id) {
 
 // A constant without a value has that of its type, which of a number is most likely not meant. IEC 61131-3 ed.
 // 3, 6.5.1.
+static Fix withDefault(const Context& context, const Var& var, const std::string& value) {
+  if (!var.decl || context.tree().kind(var.decl) != DeclKind::Var) return {};
+  const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
+  const Range type = decl.type ? context.tree().range(decl.type) : Range{};
+  if (decl.names.count != 1 || !(type.begin < type.end)) return {};
+  return {"Write `:= " + value + "`", {{type.end, type.end, " := " + value}}, false};
+}
+
 static void warnOfDefault(Context& context, const Var& var) {
   const types::Value value = types::defaultValue(context.types(), context.names(), var.type);
-  context.report(diag::ConstantDefault, var.loc,
-                 {context.names().string(var.name), types::toString(context.types(), context.names(), value)});
+  context
+      .report(diag::ConstantDefault, var.loc,
+              {context.names().string(var.name), types::toString(context.types(), context.names(), value)})
+      .fix(withDefault(context, var, types::toString(context.types(), context.names(), value)));
 }
 
 namespace {
@@ -618,6 +662,13 @@ static bool keepsEno(Context& context, VarId id) {
   return !findMember(context, context.types().resolve(var.type), context.names().intern(kEnableOutput));
 }
 
+// A modifier after the keyword of a section.
+static Fix withoutModifier(const Context& context, const SectionDecl& section, std::string_view word) {
+  const std::span<const DeclId> vars = context.tree().list(section.vars);
+  const Loc end = vars.empty() ? section.h.end : context.tree().decl(vars[0]).begin;
+  return withoutWord(context, section.h.loc, end, word, Sureness::Proposal);
+}
+
 // Forbids RETAIN with NON_RETAIN, and in iec modifiers that contradict their section: a constant is not retained; an
 // in-out, and a variable of one call, has no memory to keep; an output is written by its block; VAR_IN_OUT CONSTANT is
 // of CODESYS. There RETAIN in a function has no effect, with a warning. IEC 61131-3 ed. 3 table 14 and figure 9, ed. 2
@@ -627,7 +678,7 @@ void checkModifiers(Context& context, const SectionDecl& section) {
   if (context.library) return;
   const Qualifiers& written = section.qualifiers;
   if (written.retain && written.non_retain) {
-    context.report(diag::RetainTwice, section.h.loc);
+    context.report(diag::RetainTwice, section.h.loc).fix(withoutModifier(context, section, "NON_RETAIN"));
     return;
   }
   const bool lives = section.section == SectionKind::Stat || section.section == SectionKind::Inst ||
@@ -636,22 +687,28 @@ void checkModifiers(Context& context, const SectionDecl& section) {
   if (of_call && written.isKept()) {
     const std::string_view word = written.retain ? "RETAIN" : "PERSISTENT";
     if (!context.profile().retain_in_functions)
-      context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word});
+      context.report(diag::SectionModifier, section.h.loc, {"a variable of a function or method", word})
+          .fix(withoutModifier(context, section, word));
     else
-      context.report(diag::RetainOfCall, section.h.loc, {word, keywordOf(context.symbols.pou(context.pou).kind)});
+      context.report(diag::RetainOfCall, section.h.loc, {word, keywordOf(context.symbols.pou(context.pou).kind)})
+          .fix(withoutModifier(context, section, word));
     return;
   }
   const LanguageProfile& profile = context.profile();
   const bool retain = written.isKept() && !profile.retain_without_memory;
   const bool constant = written.constant;
+  const std::string_view retained = written.retain ? "RETAIN" : "PERSISTENT";
   const bool is_pin_or_temp = section.section == SectionKind::InOut || section.section == SectionKind::Temp;
   if (retain && constant)
-    context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"});
+    context.report(diag::SectionModifier, section.h.loc, {"a constant", "RETAIN"})
+        .fix(withoutModifier(context, section, retained));
   else if (retain && is_pin_or_temp)
-    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "RETAIN"});
+    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "RETAIN"})
+        .fix(withoutModifier(context, section, retained));
   else if (constant && !profile.constant_outputs &&
            (section.section == SectionKind::Output || section.section == SectionKind::InOut))
-    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "CONSTANT"});
+    context.report(diag::SectionModifier, section.h.loc, {keywordOf(section.section), "CONSTANT"})
+        .fix(withoutModifier(context, section, "CONSTANT"));
 }
 
 // The variables of one section of a POU.

@@ -17,10 +17,13 @@
 #   complete FILE L:C [LABEL ...]   the labels of the completion; or what is offered under some
 #   lenses FILE                its code lenses, resolved: a line for each
 #   tokens FILE                the numbers of its semantic tokens: all, then the edits of those of before
+#   actions FILE L:C[-L:C] [KIND]      the titles of its code actions; of one kind
+#   act FILE L:C[-L:C] TITLE   applies the code action, and prints the lines that it changes
 #   calls FILE L:C, types FILE L:C    the call or type hierarchy of the name: one line for each in both directions
 #   request METHOD [JSON], notify METHOD [JSON]
 #   send TEXT                  a message as it is; its answer, if it has an id or the server sends one
 #   bytes JSON                 the bytes of a string, without a header
+import difflib
 import json
 import os
 import re
@@ -278,7 +281,8 @@ class Script:
         self.client.change(file, [{"range": range_of(at), "text": json.loads(text)}])
 
     def do_undo(self, rest):
-        self.client.change(rest, [{"text": read_text(rest)}])
+        self.client.texts[rest] = read_text(rest)
+        self.client.change(rest, [{"text": self.client.texts[rest]}])
 
     def do_close(self, rest):
         self.client.close(rest)
@@ -374,6 +378,48 @@ class Script:
         whole = self.client.request("textDocument/semanticTokens/full", {"textDocument": {"uri": uri(rest)}})["result"]
         self.tokens[rest] = (whole["resultId"], data)
         print("as all of them" if whole["data"] == data else "not those that there are")
+
+    def actions_at(self, file, at, context):
+        params = {"textDocument": {"uri": uri(file)}, "range": range_of(at), "context": {"diagnostics": [], **context}}
+        return self.client.request("textDocument/codeAction", params)["result"] or []
+
+    def do_actions(self, rest):
+        file, at, *kinds = rest.split(" ")
+        found = self.actions_at(file, at, {"only": kinds} if kinds else {})
+        for action in found:
+            codes = [diagnostic["code"] for diagnostic in action.get("diagnostics", [])]
+            print("%s: %s%s" % (action["kind"], action["title"], "".join(" [%s]" % code for code in codes)),
+                  "(preferred)" if action.get("isPreferred") else "")
+        if not found:
+            print("nothing")
+
+    def do_act(self, rest):
+        file, at, title = rest.split(" ", 2)
+        only = {"only": ["source.fixAll"]} if title == "Apply all sure fixes" else {}
+        action = next((action for action in self.actions_at(file, at, only) if action["title"] == title), None)
+        if action is None:
+            return print("not offered: " + title)
+        for change in action["edit"].get("documentChanges", []):
+            print("version %s of %s" % (change["textDocument"]["version"], shown_uri(change["textDocument"]["uri"])))
+        edits = action["edit"].get("changes") or {
+            change["textDocument"]["uri"]: change["edits"] for change in action["edit"]["documentChanges"]}
+        for name, changes in edits.items():
+            self.apply(shown_uri(name), changes)
+
+    def apply(self, file, edits):
+        before = self.client.texts[file] if file in self.client.texts else read_text(file)
+        text = before
+        offset = lambda position: sum(len(line) for line in before.splitlines(True)[:position["line"]]) + position["character"]
+        for edit in sorted(edits, key=lambda edit: offset(edit["range"]["start"]), reverse=True):
+            text = text[:offset(edit["range"]["start"])] + edit["newText"] + text[offset(edit["range"]["end"]):]
+        changes = difflib.unified_diff(before.splitlines(), text.splitlines(), file, file, n=0, lineterm="")
+        print("\n".join(line for line in changes if not line.startswith(("---", "+++", "@@"))))
+        if file in self.client.texts:
+            self.client.change(file, [{"text": text}])
+            self.client.texts[file] = text
+        else:
+            with open(file, "w", encoding="utf-8", newline="") as stream:
+                stream.write(text)
 
     def do_calls(self, rest):
         self.show_hierarchy(rest, "Call", {"incomingCalls": "from", "outgoingCalls": "to"})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the changes of formatting as a unified diff. In: a source before and after; they differ in white space and the
-// case of letters only. Out: hunks with three lines around each change; empty: they are equal. Called by fmt.cpp.
+// Shows the changes of a file as a unified diff. In: a source before and after. Out: hunks with three lines around each
+// change; empty: they are equal. Called by the commands that change sources.
 #pragma once
 
 #include <string>
@@ -8,6 +8,9 @@
 
 namespace rung::driver {
 
+// Of formatting: they differ in white space and the case of letters only.
 std::string changesOf(std::string_view before, std::string_view after, const std::string& name);
+// Of any change.
+std::string unifiedDiff(std::string_view before, std::string_view after, const std::string& name);
 
 }  // namespace rung::driver

@@ -2,8 +2,6 @@
 // `rung fmt`: files in one style, in place; and the text of an editor in this style. Every file is parsed first,
 // because bodies in IL are known by their POU only, and a file with syntax errors stays as it is. Files are written
 // whole, and only when they change.
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -14,13 +12,12 @@
 #include "frontend/format/format.h"
 #include "frontend/import/diagnostics.h"
 #include "frontend/import/formats.h"
-#include "frontend/source/text.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/driver/changes.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
+#include "tools/driver/encoding.h"
 #include "tools/driver/formatted_text.h"
-#include "tools/driver/output_files.h"
 
 namespace rung::driver {
 namespace {
@@ -29,38 +26,6 @@ namespace fs = std::filesystem;
 using importer::Formatting;
 
 constexpr const char* kStandardInput = "stdin.st";
-constexpr std::string_view kMark = "\xef\xbb\xbf";
-
-// A file keeps how its characters are stored.
-enum class Encoding : uint8_t { Utf8, Utf8WithMark, Utf16Little, Utf16Big };
-Encoding encodingOf(std::string_view content) {
-  if (content.starts_with(kMark)) return Encoding::Utf8WithMark;
-  if (content.starts_with("\xff\xfe")) return Encoding::Utf16Little;
-  return content.starts_with("\xfe\xff") ? Encoding::Utf16Big : Encoding::Utf8;
-}
-// `source` is UTF-8; the result has the byte order mark.
-std::string encodeUtf16(std::string_view source, bool little) {
-  std::string out;
-  out.reserve(2 * source.size() + 2);
-  const auto unit = [&](uint32_t value) {
-    const char high = static_cast<char>(value >> 8), low = static_cast<char>(value & 0xff);
-    out += little ? low : high;
-    out += little ? high : low;
-  };
-  unit(0xfeff);
-  for (Utf16Units units(source); !units.done();) unit(units.next());
-  return out;
-}
-
-std::string encoded(const std::string& text, Encoding encoding) {
-  switch (encoding) {
-    case Encoding::Utf8: return text;
-    case Encoding::Utf8WithMark: return std::string(kMark) + text;
-    case Encoding::Utf16Little: return encodeUtf16(text, true);
-    case Encoding::Utf16Big: return encodeUtf16(text, false);
-  }
-  return text;
-}
 
 // Tells whether it reports a body in a form that Rung does not read: nothing of it is formatted.
 bool isUnreadBody(Diag diag) {
@@ -175,10 +140,9 @@ class FileFormatter {
       return fail("`--lines` takes a file of ST, IL or NCT, not `" + input.shown + "`");
     ReadResult read = readFile(input.path);
     if (!read.error.empty()) return fail("cannot read `" + input.shown + "`: " + read.error);
-    const Encoding encoding = encodingOf(read.content);
-    if (!decodeUtf16(read.content)) return fail("`" + input.shown + "` is not UTF-16");
-    std::string_view source = read.content;
-    if (encoding == Encoding::Utf8WithMark) source.remove_prefix(kMark.size());
+    Encoding encoding;
+    if (!decode(read.content, encoding)) return fail("`" + input.shown + "` is not UTF-16");
+    const std::string_view source = read.content;
     const std::string result = text(input, source);
     if (result == source) return true;
     ++changed_;
@@ -187,18 +151,11 @@ class FileFormatter {
       const std::string error = sink_.output(changesOf(source, result, input.shown));
       return error.empty() || fail(error);
     }
-    return options_.only_checks || write(input.path, encoded(result, encoding));
-  }
-
-  // Keeps the permissions of the file, and a link to it.
-  bool write(const std::string& path, const std::string& text) {
-    std::error_code error;
-    const fs::path real = fs::canonical(path, error);
-    struct stat info;
-    if (error || stat(real.c_str(), &info) != 0) return fail("cannot write `" + path + "`: it is gone");
-    const std::string problem = writeFile(real.string(), text, info.st_mode & 07777);
+    if (options_.only_checks) return true;
+    const std::string problem = rewriteFile(input.path, encoded(result, encoding));
     return problem.empty() || fail(problem);
   }
+
   bool fail(const std::string& what) {
     sink_.error(what);
     return false;
@@ -215,9 +172,8 @@ class FileFormatter {
 
 int formatStandardInput(ProjectOptions project, const FormatOptions& options, Sink& sink) {
   std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-  const Encoding encoding = encodingOf(text);
-  if (!decodeUtf16(text)) return usageError(sink, "standard input is not UTF-16");
-  if (encoding == Encoding::Utf8WithMark) text.erase(0, kMark.size());
+  Encoding encoding;
+  if (!decode(text, encoding)) return usageError(sink, "standard input is not UTF-16");
   project.inputs = {kStandardInput};
   project.unsaved = {{kStandardInput, text}};
   PhaseTimes times;

@@ -96,6 +96,13 @@ struct ProjectOptions {
   std::string moduleName() const { return name.empty() ? "plc" : name; }
 };
 
+// The fixes that `rung check --fix` applies: those that are sure, or all.
+enum class FixSet : uint8_t { None, Sure, All };
+struct CheckOptions {
+  FixSet fixes = FixSet::None;
+  bool shows_changes = false;  // --diff: writes nothing
+};
+
 struct EmitOptions {
   std::string output;  // -o
   EmitKind kind = EmitKind::Cpp;

@@ -23,7 +23,7 @@ bool isAmong(const Diag (&codes)[count], Diag diag) {
 }
 
 FileDiagnostic fileDiagnostic(const View& view, const Diagnostic& of) {
-  FileDiagnostic result{{}, {}, of.severity, diagInfo(of.diag).code, of.message, {}};
+  FileDiagnostic result{{}, {}, of.severity, diagInfo(of.diag).code, of.message, {}, &of};
   if (of.loc) result.at = of.length == 0 ? view.tokenInFile(of.loc) : view.bytesInFile(of.loc, of.length);
   if (result.at) result.path = view.pathOf(result.at.file);
   if (result.path.empty() && !of.path.empty()) result.path = driver::absolutePath(of.path);

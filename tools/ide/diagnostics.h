@@ -22,6 +22,7 @@ struct FileDiagnostic {
   const char* code;
   std::string message;  // with the notes that have no place of their own, one a line
   std::vector<RelatedPlace> related;
+  const Diagnostic* of;  // of the view
   bool is_unnecessary = false, is_deprecated = false;
 };
 

@@ -242,4 +242,11 @@ std::unique_ptr<const View> Projects::trial(const Project& project, const std::m
   return snapshot == nullptr ? nullptr : std::make_unique<const View>(std::move(snapshot), embedded_);
 }
 
+workspace::Fixed Projects::fixed(const Project& project, const std::string& path) const {
+  driver::ProjectOptions options = options_;
+  options.inputs = inputsOf(project);
+  for (const auto& [buffer, text] : buffers_) options.unsaved.push_back({buffer, text});
+  return workspace::applyFixes(options, driver::FixSet::Sure, path);
+}
+
 }  // namespace rung::ide

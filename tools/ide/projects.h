@@ -15,6 +15,7 @@
 
 #include "tools/ide/library_index.h"
 #include "tools/ide/view.h"
+#include "tools/workspace/fix.h"
 
 namespace rung::ide {
 
@@ -63,6 +64,8 @@ class Projects {
   // The project as it would be with other texts, by path. Null: `cancelled` became true.
   std::unique_ptr<const View> trial(const Project& project, const std::map<std::string, std::string>& texts,
                                     const std::atomic<bool>* cancelled) const;
+  // What the sure fixes make of the project, if only this file may change.
+  workspace::Fixed fixed(const Project& project, const std::string& path) const;
   // What the user should know about the folders, once each.
   std::vector<std::string> takeNotices();
 

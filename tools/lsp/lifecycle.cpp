@@ -60,6 +60,8 @@ Json serverCapabilities(const Session& session) {
       {"documentHighlightProvider", true},
       {"inlayHintProvider", true},
       {"documentLinkProvider", Json::emptyObject()},
+      {"codeActionProvider", Json{{"codeActionKinds", Json::Array{"quickfix", "refactor.extract", "refactor.inline",
+                                                                  "refactor.rewrite", "source.fixAll"}}}},
       {"codeLensProvider", Json{{"resolveProvider", true}}},
       {"callHierarchyProvider", true},
       {"typeHierarchyProvider", true},

@@ -31,6 +31,7 @@ constexpr RequestMethod kRequests[] = {
     {"typeHierarchy/supertypes", supertypes},
     {"typeHierarchy/subtypes", subtypes},
     {"textDocument/inlayHint", inlayHints},
+    {"textDocument/codeAction", codeActions},
     {"textDocument/codeLens", codeLenses},
     {"codeLens/resolve", resolveCodeLens},
     {"textDocument/documentLink", documentLinks},

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/ide/diagnostics.h"
+#include "tools/lsp/diagnostic_json.h"
 #include "tools/lsp/uri.h"
 
 namespace rung::lsp {
@@ -20,6 +21,8 @@ int severityOf(Severity severity) {
   }
   return 1;
 }
+
+}  // namespace
 
 Json diagnosticJson(const ide::FileDiagnostic& of, Translator& translator, const ide::EmbeddedFiles& embedded) {
   Json range = of.at ? translator.range(of.at) : Json{{"start", json(Position{})}, {"end", json(Position{})}};
@@ -43,15 +46,13 @@ Json diagnosticJson(const ide::FileDiagnostic& of, Translator& translator, const
 }
 
 // Adds what the list has not from other projects.
-void addNew(Json::Array& list, const Json::Array& diagnostics) {
+static void addNew(Json::Array& list, const Json::Array& diagnostics) {
   const size_t others = list.size();
   for (const Json& one : diagnostics) {
     const auto end = list.begin() + static_cast<ptrdiff_t>(others);
     if (std::find(list.begin(), end, one) == end) list.push_back(one);
   }
 }
-
-}  // namespace
 
 Publisher::ByFile Publisher::diagnosticsOf(const ide::View& view) {
   ByFile by_file;

@@ -43,6 +43,8 @@ Answer supertypes(Session& session, const Json& params);
 Answer subtypes(Session& session, const Json& params);
 // inlay_hints.cpp
 Answer inlayHints(Session& session, const Json& params);
+// code_actions.cpp
+Answer codeActions(Session& session, const Json& params);
 // code_lens.cpp
 Answer codeLenses(Session& session, const Json& params);
 Answer resolveCodeLens(Session& session, const Json& params);

@@ -16,6 +16,7 @@
 #include "tools/rung/crash.h"
 #include "tools/rung/options.h"
 #include "tools/rung/response_files.h"
+#include "tools/workspace/fix.h"
 #include "tools/workspace/project.h"
 
 namespace {
@@ -37,7 +38,9 @@ int runCommand(const CommandLine& line, Console& console) {
   const rung::driver::ProjectOptions& project = line.project;
   const std::vector<std::string>& words = project.inputs;
   switch (line.command) {
-    case Command::Check: return rung::driver::runCheck(project, console);
+    case Command::Check:
+      return line.check.fixes == rung::driver::FixSet::None ? rung::driver::runCheck(project, console)
+                                                            : rung::workspace::runFix(project, line.check, console);
     case Command::Emit: return rung::driver::runEmit(project, line.emit, console);
     case Command::Build: return rung::driver::runBuild(project, line.build, console);
     case Command::Run: return rung::driver::runRun(project, line.run, console);

@@ -134,6 +134,17 @@ std::string setBuildKind(const OptionRow&, const std::string&, CommandLine& line
   return {};
 }
 
+template <FixSet fixes>
+std::string setFixes(const OptionRow&, const std::string&, CommandLine& line) {
+  line.check.fixes = fixes;
+  return {};
+}
+
+std::string setDiff(const OptionRow&, const std::string&, CommandLine& line) {
+  (line.command == Command::Check ? line.check.shows_changes : line.fmt.shows_changes) = true;
+  return {};
+}
+
 std::string setKeep(const OptionRow&, const std::string&, CommandLine& line) {
   nativeOf(line).keep = true;
   return {};
@@ -251,8 +262,10 @@ constexpr OptionRow kOptions[] = {
      "wrap networks at N pixels; 0: never (default: 1200)"},
     {"--check", nullptr, bit(Command::Fmt), setFlag<&CommandLine::fmt, &FormatOptions::only_checks>,
      "write nothing; list files to change, exit 1"},
-    {"--diff", nullptr, bit(Command::Fmt), setFlag<&CommandLine::fmt, &FormatOptions::shows_changes>,
-     "write nothing; print what would change"},
+    {"--fix", nullptr, bit(Command::Check), setFixes<FixSet::Sure>, "apply the fixes that are sure, in place"},
+    {"--fix=all", nullptr, bit(Command::Check), setFixes<FixSet::All>,
+     "apply proposals too, the first of each message"},
+    {"--diff", nullptr, bit(Command::Check) | bit(Command::Fmt), setDiff, "write nothing; print what would change"},
     {"--lines", "A:B", bit(Command::Fmt), setLines, "change only lines A to B, of one file"},
     {"--depfile", "FILE", bit(Command::Emit), setText<&CommandLine::emit, &EmitOptions::depfile>,
      "write a make rule that lists every file read"},

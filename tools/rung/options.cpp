@@ -122,6 +122,8 @@ std::string checkCombination(const CommandLine& line) {
     case Command::Lsp: return words.empty() ? "" : "`rung lsp` takes no inputs: the editor names its folders and files";
     case Command::Explain: return words.size() != 1 ? "`rung explain` takes one code, such as E0401" : "";
     case Command::Check:
+      return line.check.shows_changes && line.check.fixes == FixSet::None ? "`--diff` needs `--fix` or `--fix=all`"
+                                                                          : "";
     case Command::Version:
     case Command::None:
     case Command::Help: break;
@@ -165,14 +167,21 @@ std::string parseOption(const std::vector<std::string>& arguments, size_t& at, C
   const size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
   bool has_value = equals != std::string::npos;
   std::string value = has_value ? word.substr(equals + 1) : "";
-  const OptionRow* row = findOption(word.substr(0, equals));
+  const OptionRow* row = findOption(word);  // `--fix=all` is one
+  if (row != nullptr)
+    has_value = false;
+  else
+    row = findOption(word.substr(0, equals));
   if (row == nullptr && (row = findGlued(word)) != nullptr) {
     value = word.substr(2);
     has_value = true;
   }
   if (row == nullptr) return unknownOption(word, line.command);
   if (!(row->commands & bit(line.command))) return elsewhere(*row, line.command);
-  if (row->value == nullptr && has_value) return backquoted(row->name) + " takes no value";
+  if (row->value == nullptr && has_value) {
+    const bool may_be_all = findOption(row->name + std::string("=all")) != nullptr;
+    return backquoted(row->name) + (may_be_all ? " takes no value but `all`" : " takes no value");
+  }
   if (row->value != nullptr && !has_value) {
     if (at + 1 >= arguments.size()) return backquoted(row->name) + " needs a value: " + synopsis(*row);
     value = arguments[++at];

@@ -46,6 +46,7 @@ struct CommandLine {
   bool help = false;  // `rung CMD --help`
   Color color = Color::Auto;
   ProjectOptions project;  // its inputs are the words of a command that reads no project too
+  CheckOptions check;
   EmitOptions emit;
   BuildOptions build;
   RunOptions run;

@@ -106,7 +106,8 @@ TEST_F(Render, Json) {
       "{\"diagnostics\":[\n"
       "{\"code\":\"E0401\",\"severity\":\"error\",\"message\":\"`strat` is not declared\",\"path\":\"a.st\",\"line\":2,"
       "\"column\":3,\"endColumn\":8,\"notes\":[{\"message\":\"did you mean `start`?\",\"path\":\"a.st\",\"line\":2,"
-      "\"column\":3,\"endColumn\":8}]}\n"
+      "\"column\":3,\"endColumn\":8}],\"fixes\":[{\"title\":\"Write `start`\",\"preferred\":false,\"edits\":["
+      "{\"path\":\"a.st\",\"line\":2,\"column\":3,\"endLine\":2,\"endColumn\":8,\"text\":\"start\"}]}]}\n"
       "],\"errors\":1,\"warnings\":0,\"notShown\":0}\n");
 }
 
