@@ -9,7 +9,8 @@ const byId = id => document.getElementById(id);
 const root = byId('drawing').attachShadow({mode: 'open'});
 const kDark = /@media\s*\(prefers-color-scheme:\s*dark\)\s*\{((?:[^{}]*\{[^{}]*\})*)\s*\}/g;
 const kMarkStyle = `
-  svg { max-width: none; transform-origin: 0 0; }
+  svg { max-width: none; }
+  svg > path.w[stroke-width="0"] { fill: none; }  /* the paper is the panel */
   [data-chosen] { cursor: pointer; }
   [data-chosen]:focus-visible { outline: 2px solid var(--vscode-focusBorder); }
   rect.area { fill: transparent; stroke: none; }

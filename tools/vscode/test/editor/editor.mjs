@@ -33,7 +33,7 @@ async function startEditor() {
     'rung.path': rung,
     'workbench.startupEditor': 'none',
     'workbench.secondarySideBar.defaultVisibility': 'hidden',
-    'workbench.colorTheme': 'Default Light Modern',
+    'workbench.colorTheme': process.env.RUNG_EDITOR_THEME ?? 'Default Light Modern',
     'editor.minimap.enabled': false,
     'editor.wordBasedSuggestions': 'off',
     'files.autoSave': 'off',
@@ -322,6 +322,17 @@ async function hasTasks() {
   await page.keyboard.press('Control+1');
 }
 
+// A project of its own, which the others do not see.
+async function editsTwinCat() {
+  fs.cpSync(new URL('twincat', import.meta.url).pathname, path.join(project, 'twincat'), { recursive: true });
+  await open('Motor.TcPOU');
+  await until('an error in the CDATA', async () => (await errorCount()) > 0);
+  await page.locator('.view-line', { hasText: 'zero' }).first().waitFor({ timeout: kMs });
+  const styleOf = text => page.locator('.view-line span span', { hasText: text }).first().getAttribute('class');
+  await until('colours in the CDATA', async () => (await styleOf('END_VAR')) !== (await styleOf('count')));
+  await picture('twincat.png');
+}
+
 const stop = await startEditor();
 try {
   await step('the language server runs', serverRuns);
@@ -344,6 +355,7 @@ try {
     await step('an edit redraws', redraws);
     await step('the drawing is live', isLive);
   }
+  await step('a file of TwinCAT', editsTwinCat);
 } finally {
   await stop();
 }
