@@ -5,6 +5,7 @@ set(RUNG_MAINTAINER "The authors of Rung <rung@example.org>" CACHE STRING "Who a
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME common)
 install(FILES NOTICE CHANGELOG.md README.md DESTINATION share/doc/rung COMPONENT common)
 install(DIRECTORY samples DESTINATION share/rung COMPONENT common)
+install(DIRECTORY tools/editors DESTINATION share/rung COMPONENT common)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/rung.pc.in ${PROJECT_BINARY_DIR}/rung.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/rung.pc DESTINATION lib/pkgconfig COMPONENT common)
 

@@ -8,7 +8,7 @@
 set -eu
 packages=(g++ cmake ninja-build libgtest-dev python3)
 [ -z "${1-}" ] || packages+=(libceres-dev libeigen3-dev socat libmodbus-dev python3-pymodbus python3-serial-asyncio
-    python3-markdown-it dpkg-dev file gdb help2man neovim chromium)
+    python3-markdown-it dpkg-dev file gdb help2man neovim emacs-nox elpa-eglot chromium)
 [ "${1-}" != --tests ] || packages+=(gcc-arm-none-eabi libnewlib-arm-none-eabi g++-aarch64-linux-gnu qemu-user)
 
 missing=()

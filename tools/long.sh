@@ -24,6 +24,7 @@
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # service       the systemd unit of samples/service under systemd in a namespace (root; needs the package systemd)
 # page          1 000 values at 10 updates a second in headless Chromium for a minute: under 20 % of a core (SECONDS_EACH)
+# vscode        the extension for Visual Studio Code: its grammars, and used with keys in a real editor (needs npm)
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
@@ -174,6 +175,12 @@ page() {
   PATH=$bin:$PATH PYTHONDONTWRITEBYTECODE=1 python3 tests/programs/page/load.py "${SECONDS_EACH:-60}" | tee /dev/stderr | grep -q '^within'
 }
 
+vscode() {
+  needs rung
+  tools/vscode/test/grammar.sh
+  tools/vscode/test/editor/editor.sh
+}
+
 lateness() {
   needs rung
   tests/bench/lateness.sh "${SECONDS_EACH:-60}"
@@ -226,8 +233,8 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename typing changes forces monitor page modifiers bodies mutation profiles cams kills tsan service
-     lateness asan debug tidy conversions conformance packages compilers)
+all=(differential networks mutants frames snapshots rename typing changes forces monitor page modifiers bodies mutation profiles cams kills tsan
+     service vscode lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")
 for part in "${parts[@]}"; do

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
--- A session of Neovim with `rung lsp`: an error appears and goes, hover, definition, completion, formatting. Run in a
--- folder with main.st:
---   nvim --headless -u NONE -i NONE -n -c 'luafile neovim.lua' -c cquit
+-- A session of Neovim with `rung lsp`: an error appears and goes, hover, definition, completion, rename, formatting, a code
+-- action, and a file of TwinCAT. Run in a folder with the files of tests/golden/lsp/neovim.test and init.lua, the settings
+-- of docs/editors/neovim.md:
+--   nvim --headless -u init.lua -i NONE -n -c 'luafile neovim.lua' -c cquit
 -- Prints what the editor shows; lines and columns from 1.
 local milliseconds = 60000
 local out = {}
@@ -36,8 +37,7 @@ local function cursor()
 end
 
 vim.cmd('edit main.st')
-local client = vim.lsp.start_client({ name = 'rung', cmd = { 'rung', 'lsp' }, root_dir = vim.fn.getcwd() })
-vim.lsp.buf_attach_client(0, client)
+say('filetype', vim.bo.filetype)
 
 wait('diagnostic', function() return #vim.diagnostic.get(0) > 0 end)
 for _, diagnostic in ipairs(vim.diagnostic.get(0)) do
@@ -69,6 +69,34 @@ else
   vim.lsp.buf.formatting_sync(nil, milliseconds)
 end
 say('formatted', vim.api.nvim_buf_get_lines(0, 8, 9, true)[1])
+
+vim.cmd('silent write')
+vim.cmd('edit other.st')  -- the rename edits it, too
+vim.cmd('buffer main.st')
+vim.api.nvim_win_set_cursor(0, { 2, 10 })
+vim.lsp.buf.rename('increment')
+wait('rename', function() return vim.fn.getline(8):find('increment') end)
+say('renamed', vim.fn.getline(2), vim.fn.getbufline(vim.fn.bufnr('other.st'), 3)[1])
+
+vim.api.nvim_buf_set_lines(0, 8, 9, true, { 'n := m2;' })
+wait('other diagnostic', function() return #vim.diagnostic.get(0) > 0 end)
+vim.api.nvim_win_set_cursor(0, { 9, 5 })
+vim.ui.select = function(actions, options, choose)
+  for i, action in ipairs(actions) do
+    if options.format_item(action):find('^Declare') then return choose(action, i) end
+  end
+  choose(actions[1], 1)
+end
+vim.lsp.buf.code_action()
+wait('fix', function() return #vim.diagnostic.get(0) == 0 end)
+say('fixed', vim.fn.getline(7))
+
+vim.cmd('set hidden')
+vim.cmd('edit Motor.TcPOU')
+wait('diagnostic in XML', function() return #vim.diagnostic.get(0) > 0 end)
+for _, diagnostic in ipairs(vim.diagnostic.get(0)) do
+  say(vim.bo.filetype, diagnostic.lnum + 1 .. ':' .. diagnostic.col + 1, diagnostic.code, diagnostic.message)
+end
 
 io.stdout:write(table.concat(out, '\n') .. '\n')
 vim.cmd('qall!')
