@@ -182,11 +182,16 @@ def shortened(value):
     return {key: shortened(item) for key, item in value.items()}
 
 
+# A line's length does not depend on the folder that the test runs in.
+def is_long(line):
+    return len(line.replace(os.getcwd(), "$PWD")) > 110
+
+
 def lines_of(value, indent="", before=""):
     flat = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
     if isinstance(value, str) and "\n" in value:
         return [indent + before] + [indent + "  | " + line for line in value.split("\n")]
-    if not isinstance(value, (dict, list)) or not value or len(indent + before + flat) <= 110:
+    if not isinstance(value, (dict, list)) or not value or not is_long(indent + before + flat):
         return [indent + before + flat]
     out = [indent + before.rstrip()] if before else []
     inner = indent + "  " if before else indent
