@@ -4,32 +4,13 @@
 #include <algorithm>
 
 #include "frontend/source/scanner.h"
+#include "frontend/source/source_around.h"
 #include "frontend/syntax/declaration_edits.h"
 #include "sema/diagnostics.h"
 #include "sema/shorthands.h"
 
 namespace rung::sema {
 namespace {
-
-// The source around a location, as text and offsets.
-struct Text {
-  std::string_view source;
-  uint32_t base = 0;
-
-  size_t at(Loc loc) const { return loc.offset - base; }
-  Loc loc(size_t at) const { return {base + static_cast<uint32_t>(at)}; }
-  size_t size() const { return source.size(); }
-  char operator[](size_t at) const { return at < source.size() ? source[at] : '\n'; }
-};
-
-Text textAt(const Context& context, Loc loc) {
-  const Sources& sources = context.symbols.sources;
-  const FileId file = sources.fileOf(loc);
-  if (!file) return {};
-  return {sources.original(file), sources.begin(file).offset};
-}
-
-bool isSpace(char c) { return c == ' ' || c == '\t'; }
 
 Written writtenIn(const Context& context) { return {context.symbols.sources, context.tree(), context.names()}; }
 
@@ -52,9 +33,9 @@ size_t closedBefore(std::string_view source) {
 
 // A word or sign between two places, outside of comments; none: it is not there.
 Loc findUnit(const Context& context, Loc from, Loc to, std::string_view word) {
-  const Text text = textAt(context, from);
+  const SourceAround text(context.symbols.sources, from);
   if (!from || to <= from || text.at(to) > text.size()) return {};
-  Scanner scanner(text.source.substr(0, text.at(to)));
+  Scanner scanner(text.source().substr(0, text.at(to)));
   scanner.moveTo(text.at(from));
   for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
     const std::string_view found = scanner.textOf(unit);
@@ -65,20 +46,13 @@ Loc findUnit(const Context& context, Loc from, Loc to, std::string_view word) {
 }
 
 Loc beginWithBlanks(const Context& context, Loc loc) {
-  const Text text = textAt(context, loc);
+  const SourceAround text(context.symbols.sources, loc);
   size_t at = text.at(loc);
-  while (at > 0 && isSpace(text[at - 1])) --at;
+  while (at > 0 && text.isSpace(at - 1)) --at;
   return text.loc(at);
 }
 
 // ---- declarations
-
-// Of the source of a declaration: the end with its `;`.
-size_t pastSemicolon(const Text& text, size_t end) {
-  size_t at = end;
-  while (at < text.size() && isBlankCharacter(text[at])) ++at;
-  return text[at] == ';' && (end == 0 || text[end - 1] != ';') ? at + 1 : end;
-}
 
 // An initial value that only writes a number, a text or a name.
 bool isPlain(const Tree& tree, ExprId init) {
@@ -99,10 +73,10 @@ Range sourceRange(const Context& context, ExprId expr) {
   const ExprHeader& header = context.tree().expr(expr);
   Loc begin = context.tree().begin(expr);
   if (!begin || !header.end || header.end <= begin) return {};
-  const Text text = textAt(context, begin);
+  const SourceAround text(context.symbols.sources, begin);
   size_t at = text.at(begin);
   if (text.at(header.end) > text.size()) return {};
-  for (size_t closed = closedBefore(text.source.substr(at, header.end.offset - begin.offset)); closed > 0; --closed) {
+  for (size_t closed = closedBefore(text.source().substr(at, header.end.offset - begin.offset)); closed > 0; --closed) {
     do {
       if (at == 0) return {};
       --at;
@@ -130,9 +104,9 @@ Fix exchanged(const Context& context, ExprId first, ExprId second) {
 }
 
 Fix otherSign(const Context& context, Loc from, Loc to, std::string_view sign, std::string_view by, Sureness sureness) {
-  const Text text = textAt(context, from);
+  const SourceAround text(context.symbols.sources, from);
   if (!from || !to || to <= from || text.at(to) > text.size()) return {};
-  const size_t found = text.source.find(sign, text.at(from));
+  const size_t found = text.source().find(sign, text.at(from));
   if (found == std::string_view::npos || found >= text.at(to)) return {};
   return {"Write `" + std::string(by) + "`",
           {{text.loc(found), text.loc(found + sign.size()), std::string(by)}},
@@ -170,7 +144,7 @@ Fix withPragma(const Context& context, DeclId decl, std::string_view pragma) {
 Fix withoutArgument(const Context& context, const CallExpr& call, const Argument& argument) {
   const Range value = argument.value ? sourceRange(context, argument.value) : Range{argument.loc, argument.loc};
   const Loc begin = argument.pin.name ? std::min(argument.loc, argument.pin.loc) : value.begin;
-  const Text text = textAt(context, begin);
+  const SourceAround text(context.symbols.sources, begin);
   if (!begin || !(begin < value.end) || !call.end) return {};
   const std::string shown = sourceText(context, {begin, value.end});
   size_t from = text.at(begin), to = text.at(value.end);
@@ -182,7 +156,7 @@ Fix withoutArgument(const Context& context, const CallExpr& call, const Argument
     size_t after = to;
     while (isBlankCharacter(text[after]) && after < text.size()) ++after;
     if (text[after] == ',') to = after + 1;
-    while (text[after] == ',' && isSpace(text[to])) ++to;
+    while (text[after] == ',' && text.isSpace(to)) ++to;
   }
   return {"Remove `" + shown + "`", {{text.loc(from), text.loc(to), {}}}, false};
 }
@@ -190,16 +164,16 @@ Fix withoutArgument(const Context& context, const CallExpr& call, const Argument
 Fix withoutArguments(const Context& context, const CallExpr& call, const Argument& from) {
   Fix fix = withoutArgument(context, call, from);
   if (fix.edits.empty()) return fix;
-  const Text text = textAt(context, call.end);
+  const SourceAround text(context.symbols.sources, call.end);
   if (text[text.at(call.end)] != ')' || !(fix.edits[0].begin < call.end)) return {};
   fix.edits[0].end = call.end;
   return fix;
 }
 
 Fix withoutStatement(const Context& context, Loc begin, Loc end) {
-  const Text text = textAt(context, begin);
+  const SourceAround text(context.symbols.sources, begin);
   if (!begin || end <= begin || text.at(end) > text.size()) return {};
-  const size_t past = pastSemicolon(text, text.at(end));
+  const size_t past = text.pastSemicolon(text.at(end));
   const Range range = withBlanks(context.symbols.sources, {begin, text.loc(past)});
   return {"Remove `" + sourceText(context, {begin, text.loc(past)}) + "`", {{range.begin, range.end, {}}}, false};
 }

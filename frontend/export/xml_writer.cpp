@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/source/files.h"
+#include "frontend/source/quoting.h"
 
 namespace rung::xml {
 
@@ -38,18 +39,7 @@ std::string_view asUtf8(std::string_view text, std::string& storage) {
 
 void Writer::escaped(std::string_view text, bool in_attribute) {
   std::string storage;
-  for (const char c : asUtf8(text, storage)) {
-    switch (c) {
-      case '&': out_ += "&amp;"; break;
-      case '<': out_ += "&lt;"; break;
-      case '>': out_ += "&gt;"; break;
-      case '"': out_ += in_attribute ? "&quot;" : "\""; break;
-      case '\n': out_ += in_attribute ? "&#10;" : "\n"; break;
-      case '\t': out_ += in_attribute ? "&#9;" : "\t"; break;
-      case '\r': break;
-      default: out_ += c;
-    }
-  }
+  for (const char c : asUtf8(text, storage)) appendToXml(out_, c, in_attribute);
 }
 
 Writer& Writer::attribute(std::string_view name, std::string_view value) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "frontend/source/quoting.h"
 #include "frontend/source/scanner.h"
 
 namespace rung {
@@ -30,20 +31,7 @@ bool isInTag(std::string_view file, size_t at) {
 
 std::string withEntities(std::string_view text, bool in_tag) {
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"' && in_tag)
-      out += "&quot;";
-    else if (c == '\n' && in_tag)
-      out += "&#10;";
-    else
-      out += c;
-  }
+  for (const char c : text) appendToXml(out, c, in_tag);
   return out;
 }
 
@@ -61,7 +49,7 @@ std::string withCrlf(std::string_view text) {
 // None: it cannot be written there.
 std::optional<std::string> written(std::string_view text, std::string_view file, size_t at, bool is_copied) {
   std::string result(text);
-  if (is_copied && text.find_first_of("&<>\"\n") != std::string_view::npos && isXml(file)) {
+  if (is_copied && text.find_first_of("&<>\"\n\t") != std::string_view::npos && isXml(file)) {
     if (!isInCdata(file, at)) {
       result = withEntities(text, isInTag(file, at));
     } else if (text.find("]]>") != std::string_view::npos) {

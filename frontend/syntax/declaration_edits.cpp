@@ -5,49 +5,24 @@
 
 #include "frontend/source/names.h"
 #include "frontend/source/scanner.h"
+#include "frontend/source/source_around.h"
 
 namespace rung {
 namespace {
 
-// The source around a location, as text and offsets.
-struct Text {
-  std::string_view source;
-  uint32_t base = 0;
-
-  size_t at(Loc loc) const { return loc.offset - base; }
-  Loc loc(size_t at) const { return {base + static_cast<uint32_t>(at)}; }
-  size_t size() const { return source.size(); }
-  char operator[](size_t at) const { return at < source.size() ? source[at] : '\n'; }
-};
-
-Text textAt(const Sources& sources, Loc loc) {
-  const FileId file = sources.fileOf(loc);
-  if (!file) return {};
-  return {sources.original(file), sources.begin(file).offset};
-}
-
-bool isSpace(char c) { return c == ' ' || c == '\t'; }
-
-size_t beginOfLine(const Text& text, size_t at) {
+size_t beginOfLine(const SourceAround& text, size_t at) {
   while (at > 0 && text[at - 1] != '\n') --at;
   return at;
 }
 
-size_t endOfLine(const Text& text, size_t at) {
+size_t endOfLine(const SourceAround& text, size_t at) {
   while (at < text.size() && text[at] != '\n') ++at;
   return at;
 }
 
-bool isFirstOnLine(const Text& text, size_t at) {
-  while (at > 0 && isSpace(text[at - 1])) --at;
+bool isFirstOnLine(const SourceAround& text, size_t at) {
+  while (at > 0 && text.isSpace(at - 1)) --at;
   return at == 0 || text[at - 1] == '\n';
-}
-
-// Of the source of a declaration: the end with its `;`.
-size_t pastSemicolon(const Text& text, size_t end) {
-  size_t at = end;
-  while (at < text.size() && isBlankCharacter(text[at])) ++at;
-  return text[at] == ';' && (end == 0 || text[end - 1] != ';') ? at + 1 : end;
 }
 
 bool hasComment(std::string_view source) {
@@ -67,7 +42,7 @@ DeclId sectionOnlyFor(const Tree& tree, const PouDecl& pou, DeclId decl) {
 }
 
 // One of several names before the colon, with a comma beside it.
-Fix::Edit withoutName(const Text& text, std::span<const Ident> names, size_t index, size_t length) {
+Fix::Edit withoutName(const SourceAround& text, std::span<const Ident> names, size_t index, size_t length) {
   const size_t at = text.at(names[index].loc);
   if (index + 1 < names.size()) return {names[index].loc, names[index + 1].loc, {}};
   size_t begin = at;
@@ -76,12 +51,12 @@ Fix::Edit withoutName(const Text& text, std::span<const Ident> names, size_t ind
 }
 
 // The keyword END_VAR of a section; none: it is missing or was not written.
-Loc endVarOf(const Text& text, const SectionDecl& section) {
+Loc endVarOf(const SourceAround& text, const SectionDecl& section) {
   constexpr std::string_view kEnd = "END_VAR";
   const size_t end = text.at(section.h.end);
   if (end > text.size() || end < kEnd.size()) return {};
   const size_t at = end - kEnd.size();
-  return sameIdentifier(text.source.substr(at, kEnd.size()), kEnd) ? text.loc(at) : Loc{};
+  return sameIdentifier(text.source().substr(at, kEnd.size()), kEnd) ? text.loc(at) : Loc{};
 }
 
 const char* wordOf(SectionKind section) {
@@ -100,9 +75,9 @@ Loc endOfHeader(const Written& written, const PouDecl& pou) {
   extend(pou.result);
   for (const TypeExprId base : written.tree.list(pou.bases)) extend(base);
   for (const TypeExprId implemented : written.tree.list(pou.implements)) extend(implemented);
-  const Text text = textAt(written.sources, end);
+  const SourceAround text(written.sources, end);
   size_t at = text.at(end);
-  while (isSpace(text[at])) ++at;
+  while (text.isSpace(at)) ++at;
   return text[at] == ';' ? text.loc(at + 1) : end;
 }
 
@@ -120,7 +95,7 @@ const SectionDecl* findSection(const Written& written, Slice<DeclId> declaration
 }
 
 Fix::Edit declarationIn(const Written& written, const SectionDecl& section, const std::string& variable) {
-  const Text text = textAt(written.sources, section.h.loc);
+  const SourceAround text(written.sources, section.h.loc);
   const Loc end = section.h.end ? endVarOf(text, section) : Loc{};
   if (!end) return {};
   const size_t at = text.at(end);
@@ -148,7 +123,7 @@ Removal declarationGone(const Written& written, const PouDecl& pou, DeclId id, L
   const Tree& tree = written.tree;
   if (tree.kind(id) != DeclKind::Var) return {};
   const VarDecl& decl = tree.as<VarDecl>(id);
-  const Text text = textAt(written.sources, name);
+  const SourceAround text(written.sources, name);
   const std::span<const Ident> names = tree.list(decl.names);
   if (names.size() > 1) {
     const auto at = std::find_if(names.begin(), names.end(), [&](const Ident& one) { return one.loc == name; });
@@ -161,11 +136,11 @@ Removal declarationGone(const Written& written, const PouDecl& pou, DeclId id, L
   const DeclId section = sectionOnlyFor(tree, pou, id);
   const DeclHeader& gone = section ? tree.decl(section) : decl.h;
   if (!gone.begin || !gone.end) return {};
-  const size_t begin = text.at(gone.begin), end = section ? text.at(gone.end) : pastSemicolon(text, text.at(gone.end));
+  const size_t begin = text.at(gone.begin), end = section ? text.at(gone.end) : text.pastSemicolon(text.at(gone.end));
   if (end > text.size() || begin >= end) return {};
   const Range range = withBlanks(written.sources, {text.loc(begin), text.loc(end)});
   const bool has_comment =
-      hasComment(text.source.substr(begin, endOfLine(text, end) - begin)) || !decl.h.pragmas.empty() || decl.h.doc;
+      hasComment(text.source().substr(begin, endOfLine(text, end) - begin)) || !decl.h.pragmas.empty() || decl.h.doc;
   return {{range.begin, range.end, {}}, has_comment};
 }
 
@@ -179,31 +154,31 @@ Loc endOfSections(const Written& written, const PouDecl& pou) {
 }
 
 std::string indentAt(const Sources& sources, Loc loc) {
-  const Text text = textAt(sources, loc);
+  const SourceAround text(sources, loc);
   if (!loc) return {};
   const size_t line = beginOfLine(text, text.at(loc));
   size_t end = line;
-  while (isSpace(text[end])) ++end;
-  return std::string(text.source.substr(line, end - line));
+  while (text.isSpace(end)) ++end;
+  return std::string(text.source().substr(line, end - line));
 }
 
 Range withBlanks(const Sources& sources, Range range) {
-  const Text text = textAt(sources, range.begin);
+  const SourceAround text(sources, range.begin);
   size_t begin = text.at(range.begin), end = text.at(range.end), line_end = end;
-  while (isSpace(text[line_end])) ++line_end;
+  while (text.isSpace(line_end)) ++line_end;
   if (text[line_end] == '\r') ++line_end;
   if (isFirstOnLine(text, begin) && text[line_end] == '\n')
     return {text.loc(beginOfLine(text, begin)), text.loc(std::min(line_end + 1, text.size()))};
-  while (isSpace(text[end])) ++end;
+  while (text.isSpace(end)) ++end;
   if (text[line_end] == '\n')
-    while (begin > 0 && isSpace(text[begin - 1])) --begin;
+    while (begin > 0 && text.isSpace(begin - 1)) --begin;
   return {text.loc(begin), text.loc(end)};
 }
 
 std::string sourceText(const Sources& sources, Range range) {
-  const Text text = textAt(sources, range.begin);
+  const SourceAround text(sources, range.begin);
   if (range.end <= range.begin || text.at(range.end) > text.size()) return {};
-  return std::string(text.source.substr(text.at(range.begin), range.end.offset - range.begin.offset));
+  return std::string(text.source().substr(text.at(range.begin), range.end.offset - range.begin.offset));
 }
 
 bool isWholeSource(const Sources& sources, Loc loc) {
