@@ -78,11 +78,17 @@ async function command(title) {
   await row.click();
 }
 
+// A file that was made a moment ago is not in the list at once: the list is opened again.
 async function open(file, line, column) {
-  await page.keyboard.press('Control+p');
-  await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-  await page.keyboard.type(file);
-  await page.locator('.quick-input-list .monaco-list-row.focused', { hasText: file }).first().waitFor({ timeout: kMs });
+  const row = page.locator('.quick-input-list .monaco-list-row.focused', { hasText: file }).first();
+  await until(`${file} in the list of files`, async () => {
+    await page.keyboard.press('Control+p');
+    await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
+    await page.keyboard.type(file);
+    if (await row.waitFor({ timeout: kMs / 10 }).then(() => true, () => false)) return true;
+    await page.keyboard.press('Escape');
+    return false;
+  });
   await page.keyboard.press('Enter');
   await page.locator('.tab.active', { hasText: file }).waitFor({ timeout: kMs });
   if (line !== undefined) await goTo(line, column);
