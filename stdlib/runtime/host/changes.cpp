@@ -4,9 +4,11 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "clock.h"
+#include "processor.h"
 
 namespace rung::host {
 namespace {
@@ -45,8 +47,12 @@ std::optional<Changes::Outcome> Changes::begin(const Command& command) {
   const auto compile = options_.change.compile ? options_.change.compile
                                                : [name](const std::string& path) { return loadLibrary(name, path); };
   if (!options_.realtime && options_.monitor.address.empty()) return make(compile(project));
-  session_.atEase([&] {  // threads have the priority of the one that begins them
-    compiling_ = std::async(std::launch::async, [compile, project] { return compile(project); });
+  const uint32_t resources = std::max(session_.module().resources.size(), 1u);
+  session_.atEase([&] {  // threads, and the compiler, have the priority of the one that begins them
+    compiling_ = std::async(std::launch::async, [compile, project, resources] {
+      yieldToTasks(resources);
+      return compile(project);
+    });
   });
   return std::nullopt;
 }

@@ -214,6 +214,7 @@ bool Realtime::isDue(Worker& worker, int64_t now_ns) {
 // The triggers of a resource: one thread looks at all of them at each tick.
 void Realtime::sample(uint32_t resource) {
   processors_[resource].join(0, true);
+  if (!waitForStart()) return;
   for (int64_t next = std::max(start_ns_, monotonicNs()); !stop_.load();
        next = std::max(next + tick_ns_, monotonicNs())) {
     sleepUntil(next);
@@ -281,8 +282,7 @@ bool Realtime::waitForStart() {
   return !stop_.load();
 }
 
-// All threads wait for the common start, the alignment point of all periods, before they take their priority: none
-// keeps the others from being created.
+// All threads take their priority and wait for the common start, the alignment point of all periods.
 void Realtime::startThreads() {
   bool has_triggers = false;
   for (const std::unique_ptr<Worker>& worker : workers_) {
@@ -291,14 +291,14 @@ void Realtime::startThreads() {
     live_.fetch_add(1);
     worker->thread = std::thread([this, &worker = *worker] {
       touchStack();
-      if (waitForStart()) runWorker(worker);
+      runWorker(worker);
       live_.fetch_sub(1);
     });
   }
   for (uint32_t i = 0; has_triggers && i < resources_; ++i) {
     live_.fetch_add(1);
     samplers_.emplace_back([this, i] {
-      if (waitForStart()) sample(i);
+      sample(i);
       live_.fetch_sub(1);
     });
   }
@@ -307,6 +307,7 @@ void Realtime::startThreads() {
 void Realtime::runWorker(Worker& worker) {
   place_ = {this, &processorOf(worker), worker.task->row->priority};
   place_.processor->join(place_.priority);
+  if (!waitForStart()) return;
   switch (static_cast<rung_task_kind>(worker.task->row->kind)) {
     case RUNG_CYCLIC: return runCyclic(worker);
     case RUNG_FREEWHEELING: return runFreewheeling(worker);
