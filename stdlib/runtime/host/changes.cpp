@@ -48,11 +48,10 @@ std::optional<Changes::Outcome> Changes::begin(const Command& command) {
                                                : [name](const std::string& path) { return loadLibrary(name, path); };
   if (!options_.realtime && options_.monitor.address.empty()) return make(compile(project));
   const uint32_t resources = std::max(session_.module().resources.size(), 1u);
-  session_.atEase([&] {  // threads, and the compiler, have the priority of the one that begins them
-    compiling_ = std::async(std::launch::async, [compile, project, resources] {
-      yieldToTasks(resources);
-      return compile(project);
-    });
+  session_.beAtEase();  // threads, and the compiler, have the priority of the one that begins them
+  compiling_ = std::async(std::launch::async, [compile, project, resources] {
+    yieldToTasks(resources);
+    return compile(project);
   });
   return std::nullopt;
 }

@@ -365,10 +365,15 @@ void Realtime::abandon() {
   join();
 }
 
-void Realtime::atEase(const std::function<void()>& act) {
+void Realtime::beAtEase() {
   caller_.restore();
-  act();
+  is_at_ease_ = true;
+}
+
+// The caller's thread never waits for tasks.
+void Realtime::beAbove() {
   processors_[0].join(0, true);
+  is_at_ease_ = false;
 }
 
 // Asks tasks that still run a moment after the end to stop (rung_poll). False: one does not.
@@ -458,6 +463,7 @@ void Realtime::supervise() {
     watch(monotonicNs());
     makeComplete(monotonicNs());
     hooks_.idle();
+    if (is_at_ease_ && !stop_.load()) beAbove();
   }
 }
 
@@ -476,6 +482,14 @@ bool Realtime::pause() {
 
 // Where some task is always within an activation, all rest for a moment.
 bool Realtime::between(const std::function<void()>& act) {
+  const bool was_at_ease = is_at_ease_;
+  if (was_at_ease) beAbove();
+  const bool is_done = findMoment(act);
+  if (was_at_ease) beAtEase();
+  return is_done;
+}
+
+bool Realtime::findMoment(const std::function<void()>& act) {
   constexpr int64_t kPatienceNs = 100 * kMillisecondNs, kMomentNs = 20'000;
   for (const int64_t begin = monotonicNs(); monotonicNs() - begin < kPatienceNs;
        sleepUntil(monotonicNs() + kMomentNs)) {
@@ -538,7 +552,7 @@ RealtimeResult Realtime::run() {
     rights_ = findRights();
     prepare();
   }
-  processors_[0].join(0, true);
+  beAbove();
   if (!started_) begin(nullptr);
   result_.missing = rights_.missing;
   live_.fetch_add(1);

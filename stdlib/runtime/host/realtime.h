@@ -58,8 +58,9 @@ class Realtime {
   RealtimeResult run();
   // After the end of the one before: this one goes on.
   RealtimeResult runAfter(const Realtime& before);
-  // Does what takes time while the tasks go on: in the caller's thread, with the priority that it had before run().
-  void atEase(const std::function<void()>& act);
+  // For what takes time: until the hook `idle` returns, the caller's thread has the priority that it had before run(),
+  // except in `between`.
+  void beAtEase();
 
   // A user may ask this of the running program; called from the hook `idle`.
   // Lets the activations that run end, and begins no others. False: one did not end within a second.
@@ -136,6 +137,8 @@ class Realtime {
   bool isTooLong();
   int64_t pollNs() const;
   void supervise();
+  void beAbove();
+  bool findMoment(const std::function<void()>& act);
 
   Tasks& tasks_;
   const RealtimeOptions options_;
@@ -147,6 +150,7 @@ class Realtime {
   std::unique_ptr<Processor[]> processors_;
   Rights rights_;
   Scheduling caller_;  // of the thread that calls run(), before it
+  bool is_at_ease_ = false;
   uint32_t resources_ = 1;
   int64_t tick_ns_ = 1'000'000;
   int64_t start_ns_ = 0;

@@ -401,6 +401,7 @@ std::string Session::unforce(const Command& command) {
 
 // In real time between two activations, of which none is lost.
 Answer Session::obeyForValues(const Command& command) {
+  beAtEase();  // a list of values may be long
   Answer answer;
   const auto act = [&] {
     if (command.kind == Command::Get) answer.error = get(command, answer.values);

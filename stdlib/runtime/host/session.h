@@ -116,8 +116,10 @@ class Session {
   Answer obey(const Command& command);
   // Calls `act` where no activation runs. False: there was no such moment within a second.
   bool between(const std::function<void()>& act);
-  // Does what takes time while the tasks go on.
-  void atEase(const std::function<void()>& act);
+  // Realtime::beAtEase
+  void beAtEase() {
+    if (threads_) threads_->beAtEase();
+  }
   bool isStopped() const { return is_stopped_; }
   // All outputs get their safe values.
   void makeOutputsSafe() { program_->tasks.makeOutputsSafe(nowNs()); }

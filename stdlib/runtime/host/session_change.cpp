@@ -45,14 +45,14 @@ ChangeReport Session::change(const rung_module& next_module, std::shared_ptr<con
   const LoadedModule module(next_module);
   Change change(program_->module, module);
   Next next;
-  atEase([&] {
-    endLeft();
-    if (!change.plan()) return;
+  beAtEase();
+  endLeft();
+  if (change.plan()) {
     next.program = std::make_unique<Program>(next_module, std::move(keeper), around(), *program_, change.kept());
     if (threads_ && !is_only_asked)
       next.threads = threads_->successor(next.program->tasks, next.program->memory.context());
     next.saved.resize(program_->memory.bytes());  // room that is ready
-  });
+  }
   if (!next.program)
     outcome.error = "the change is refused";
   else if (!between([&] { changeAtRest(change, next, is_only_asked, rollback_cycles, outcome); }))
@@ -62,11 +62,6 @@ ChangeReport Session::change(const rung_module& next_module, std::shared_ptr<con
   report.error = std::move(outcome.error);
   report.unforced = std::move(outcome.unforced);
   return report;
-}
-
-void Session::atEase(const std::function<void()>& act) {
-  if (threads_) return threads_->atEase(act);
-  act();
 }
 
 // Forgets versions that others have followed, where no thread of theirs sleeps any more.
