@@ -22,7 +22,7 @@ class Describer {
   Describer(const Module& module, const MemoryBlocks& blocks, Description& out)
       : module_(module), types_(module.types), blocks_(blocks), out_(out) {}
 
-  void run(bool with_tests) {
+  void run(bool with_tests, bool with_locals) {
     addBodiesAndFiles();
     findLibraryBlocks();
     for (uint32_t i = 0; i < blocks_.blocks.size(); ++i) addBlock(i);
@@ -33,8 +33,9 @@ class Describer {
     if (with_tests) addTests();
     addInitialisers();
     addLives();
-    addNames();
     out_.layout_hash = layoutHash();
+    if (with_locals) addLocals();
+    addNames();
     out_.aligned_globals = module_.aligned_globals;
   }
 
@@ -134,6 +135,17 @@ class Describer {
     }
     std::sort(out_.initialisers.begin(), out_.initialisers.end(),
               [](const auto& a, const auto& b) { return a.type < b.type; });
+  }
+
+  void addLocals() {
+    out_.self_types.assign(module_.bodies.size(), RUNG_NONE);
+    out_.local_types.resize(module_.bodies.size());
+    for (uint32_t i = 1; i < module_.bodies.size(); ++i) {
+      const Body& body = module_.bodies[i];
+      if (body.native) continue;
+      if (body.self) out_.self_types[i] = type(body.self);
+      for (const Local& local : body.locals) out_.local_types[i].push_back(type(local.type));
+    }
   }
 
   // ---- online changes
@@ -560,8 +572,8 @@ uint32_t StringPool::add(std::string_view text) {
   return at->second;
 }
 
-Description::Description(const Module& module, const MemoryBlocks& memory, bool with_tests) {
-  Describer(module, memory, *this).run(with_tests);
+Description::Description(const Module& module, const MemoryBlocks& memory, bool with_tests, bool with_locals) {
+  Describer(module, memory, *this).run(with_tests, with_locals);
 }
 
 rung_type_kind hostKind(const TypeTable& types, TypeId type) {

@@ -49,7 +49,8 @@ class StringPool {
 };
 
 struct Description {
-  Description(const Module& module, const MemoryBlocks& blocks, bool with_tests);
+  // `with_locals`: the types of all variables of bodies, too, for debuggers.
+  Description(const Module& module, const MemoryBlocks& blocks, bool with_tests, bool with_locals = false);
 
   StringPool strings;  // names of bodies and files first, so that offsets to them stay when later strings change
   std::vector<rung_block> blocks;
@@ -85,6 +86,8 @@ struct Description {
     BodyId before, after;                   // of its run
   };
   std::vector<Test> tests;
+  std::vector<uint32_t> self_types;                // by BodyId: of its instance, or RUNG_NONE; with locals
+  std::vector<std::vector<uint32_t>> local_types;  // by BodyId and local
   uint64_t layout_hash = 0;
   bool aligned_globals = false;
 };

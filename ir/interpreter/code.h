@@ -20,6 +20,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "operands are narrowed 
 
 struct Machine;
 struct Insn;
+class DebugCode;
 using Handler = void (*)(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m);
 
 struct Insn {
@@ -40,9 +41,12 @@ constexpr uint32_t kFrameHeader = sizeof(Linkage), kFrameAlign = 16;
 struct Machine {
   rung_context* ctx = nullptr;
   uint8_t* limit = nullptr;  // end of the stack of frames
+  uint8_t* base = nullptr;   // its begin
+  DebugCode* debug = nullptr;
   // The source location of an instruction as a site, from 1; null: unknown.
   uint32_t (*site_of)(const rung_context* ctx, const Insn* insn) = nullptr;
-  // The next instruction, where instructions return to a loop instead of jumping to the next (dispatch.h).
+  // The next instruction, where instructions return to a loop instead of jumping to the next (dispatch.h); while
+  // something else than instructions runs, the present one.
   const Insn* ip = nullptr;
   uint8_t *fp = nullptr, *self = nullptr;
 };

@@ -17,6 +17,7 @@
 #define RUNG_TAIL_CALL return
 #else
 #define RUNG_INTERPRETER_JUMPS 0
+#define RUNG_TAIL_CALL return
 #endif
 
 #define RUNG_HANDLER_PARAMETERS \

@@ -58,6 +58,7 @@ uint32_t FrameCode::site(Loc loc, int64_t low, int64_t high) {
   const FilePosition at = filePosition(module_, *body_, loc);
   const NameId pou = body_->spelling ? body_->spelling : body_->name;
   code_.sites.push_back({pool_.add(module_.names.string(pou)), pool_.add(at.path), at.line, at.column, low, high});
+  code_.site_insns.push_back(static_cast<uint32_t>(code_.insns.size()));
   return static_cast<uint32_t>(code_.sites.size());
 }
 

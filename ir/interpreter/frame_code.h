@@ -29,6 +29,16 @@ struct Code {
     uint32_t insn, pou, file, line, column;  // strings as in rung_site
   };
   std::vector<LineEntry> line_table;
+  // For debuggers (TranslateOptions::debug), until DebugCode has them: where statements of the source begin, and by
+  // BodyId the end of each body and where its locals are in the frame.
+  struct Point {
+    uint32_t insn, body, line, column;
+    const char* file;
+  };
+  std::vector<Point> points;
+  std::vector<uint32_t> debug_ends;
+  std::vector<std::vector<uint32_t>> debug_offsets;
+  std::vector<uint32_t> site_insns;  // by site: the next instruction when it was made
   // Memory that instructions point to; deques do not move it.
   std::deque<std::string> strings;
   std::deque<std::u16string> wide_strings;
@@ -120,6 +130,7 @@ class FrameCode {
   StringPool& pool_;
   Code& code_;
   const Body* body_ = nullptr;
+  BodyId body_id_;                // none: an entry
   uint32_t top_ = 0, frame_ = 0;  // of temporaries now, and the most
   uint32_t native_slots_ = 0;     // the most bytes that a native function gets
   struct TableJump {

@@ -92,13 +92,16 @@ struct VirtualCall {
 };
 Handler returnHandler();
 Handler haltHandler();
+Handler passHandler();     // nothing
+Handler stopHandler();     // tells the debugger, then does what the instruction did before
 Handler nativeHandler();   // slots at a, imm: NativeThunk
 Handler tryHandler();      // U8 a := fault of running the next instruction on until Halt; then to d
 Handler rethrowHandler();  // when U8 a is not 0
 Handler raiseHandler();    // fault a at site d, value in the frame at b
-Handler stepHandler();     // counts rung_context::steps down
-Handler countHandler();    // imm: uint64_t*
-Handler calledHandler();   // notifies the host: imm the POU's name, slot b the address of its instance or null
+Handler stepHandler();
+Handler debugStepHandler();  // counts rung_context::steps down
+Handler countHandler();      // imm: uint64_t*
+Handler calledHandler();     // notifies the host: imm the POU's name, slot b the address of its instance or null
 // Assertions. Slots from b on: see handlers_control.cpp; imm: const AssertionSite*.
 struct AssertionSite {
   rung_assertion is;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls, faults and assertions: see handlers.h.
+#include "ir/interpreter/debug.h"
 #include "ir/interpreter/dispatch.h"
 #include "ir/interpreter/handlers.h"
 
@@ -47,6 +48,17 @@ void giveBack(RUNG_HANDLER_PARAMETERS) {
   RUNG_GO(caller.ip, caller.fp, caller.self);
 }
 void halt(RUNG_HANDLER_PARAMETERS) { m->ip = nullptr; }
+void pass(RUNG_HANDLER_PARAMETERS) { RUNG_NEXT; }
+
+// In the place of the instruction that begins an armed point.
+void stop(RUNG_HANDLER_PARAMETERS) {
+  m->ip = ip;
+  m->fp = fp;
+  m->self = self;
+  m->debug->stopAt(ip, *m);
+  const Handler original = m->debug->original(ip);
+  RUNG_TAIL_CALL original(ip, fp, self, m);
+}
 
 void native(RUNG_HANDLER_PARAMETERS) {
   m->ip = ip;  // for siteOfCrash
@@ -92,6 +104,13 @@ void step(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
+// The same in code that a debugger stops in endless loops.
+void debugStep(RUNG_HANDLER_PARAMETERS) {
+  if (RUNG_UNLIKELY(m->debug->isInterrupted()) && !m->debug->areAllArmed()) m->debug->armAll();
+  if (rung_step(m->ctx)) fail(m, fp, self, RUNG_FAULT_STOP, m->site_of(m->ctx, ip), 0);
+  RUNG_NEXT;
+}
+
 void count(RUNG_HANDLER_PARAMETERS) {
   ++*reinterpret_cast<uint64_t*>(ip->imm);
   RUNG_NEXT;
@@ -108,6 +127,9 @@ void called(RUNG_HANDLER_PARAMETERS) {
 
 template <AssertionKind K>
 void assertion(RUNG_HANDLER_PARAMETERS) {
+  m->ip = ip;  // for a debugger
+  m->fp = fp;
+  m->self = self;
   const AssertionSite& site = *reinterpret_cast<const AssertionSite*>(ip->imm);
   const uint8_t* const slots = fp + ip->b;
   rung_assertion is = site.is;
@@ -130,6 +152,10 @@ void assertion(RUNG_HANDLER_PARAMETERS) {
 void fail(Machine* m, const uint8_t* fp, const uint8_t* self, rung_fault_kind kind, uint32_t site, int64_t value) {
   m->fp = const_cast<uint8_t*>(fp);
   m->self = const_cast<uint8_t*>(self);
+  if (m->debug != nullptr) {
+    if (site != 0) m->ip = m->debug->insnOfSite(site - 1);
+    m->debug->fault(*m, kind, site == 0 ? RUNG_NONE : site - 1);
+  }
   rung_raise(m->ctx, kind, site == 0 ? RUNG_NONE : site - 1, value);
 }
 
@@ -145,8 +171,7 @@ void execute(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
 }
 
 uint32_t siteOfCall(const Insn* call) {
-  return call->run == callVirtual ? reinterpret_cast<const VirtualCall*>(call->imm)->site
-                                  : static_cast<uint32_t>(call->imm);
+  return call->c == 0 ? reinterpret_cast<const VirtualCall*>(call->imm)->site : static_cast<uint32_t>(call->imm);
 }
 
 Handler jumpHandler() { return jump; }
@@ -156,11 +181,14 @@ Handler callOnPointerHandler() { return callOnPointer; }
 Handler callVirtualHandler() { return callVirtual; }
 Handler returnHandler() { return giveBack; }
 Handler haltHandler() { return halt; }
+Handler passHandler() { return pass; }
+Handler stopHandler() { return stop; }
 Handler nativeHandler() { return native; }
 Handler tryHandler() { return tryBlock; }
 Handler rethrowHandler() { return rethrow; }
 Handler raiseHandler() { return raise; }
 Handler stepHandler() { return step; }
+Handler debugStepHandler() { return debugStep; }
 Handler countHandler() { return count; }
 Handler calledHandler() { return called; }
 Handler assertHandler(AssertionKind kind) {

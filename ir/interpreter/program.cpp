@@ -8,6 +8,7 @@
 
 #include "frontend/source/invariant.h"
 #include "ir/description.h"
+#include "ir/interpreter/debug.h"
 #include "ir/interpreter/translate.h"
 #include "rung/change.h"
 
@@ -23,7 +24,7 @@ struct Stack {
   size_t size = 0;
 };
 thread_local Stack stack;
-thread_local const Machine* running = nullptr;
+thread_local const Machine* running_machine = nullptr;
 
 }  // namespace
 
@@ -31,6 +32,7 @@ struct Program::Parts {
   rung_module is{};  // first: a context points to it, of() to the whole
   std::string refusal, name;
   Code code;
+  std::unique_ptr<DebugCode> debug;
   std::unique_ptr<Description> description;
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
@@ -59,10 +61,12 @@ struct Program::Parts {
     machine.ctx = ctx;
     uint8_t* const begin = stack.memory.get();
     machine.limit = begin + stack.size;
+    machine.base = begin;
+    machine.debug = debug.get();
     machine.site_of = [](const rung_context* of_ctx, const Insn* insn) {
       return of(of_ctx).siteOf(reinterpret_cast<uintptr_t>(insn)) + 1;
     };
-    running = &machine;
+    running_machine = &machine;
     execute(code.insns.data() + entry.at, begin, static_cast<uint8_t*>(instance), &machine);
   }
 
@@ -89,9 +93,9 @@ struct Program::Parts {
 
   // The frames from that of the fault to the one that the task called; a frame begins with where it was called.
   static void findCallers(rung_context* ctx) {
-    if (running == nullptr || running->ctx != ctx) return;
+    if (running_machine == nullptr || running_machine->ctx != ctx) return;
     const uint8_t* const begin = stack.memory.get();
-    const uint8_t *fp = running->fp, *self = running->self;
+    const uint8_t *fp = running_machine->fp, *self = running_machine->self;
     while (fp != begin) {
       const Linkage& caller = *reinterpret_cast<const Linkage*>(fp);
       if (caller.fp == begin) return;
@@ -233,8 +237,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   translate_options.natives = options.natives;
   translate_options.coverage = options.coverage;
   translate_options.trace_calls = options.trace_calls;
+  translate_options.debug = options.debug;
   BodyTranslator translator(module, blocks, description->strings, translate_options, code);
   code.bodies.resize(module.bodies.size());
+  if (options.debug) code.debug_ends.resize(module.bodies.size());
+  if (options.debug) code.debug_offsets.resize(module.bodies.size());
   translateData(module, code);
   translateDispatches(module, code);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
@@ -336,16 +343,19 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
   }
   const MemoryBlocks blocks(module);
   parts.name = options.module_name;
-  parts.description = std::make_unique<Description>(module, blocks, options.with_tests);
+  parts.description = std::make_unique<Description>(module, blocks, options.with_tests, options.debug);
   parts.translate(module, blocks, options);
+  if (options.debug) parts.debug = std::make_unique<DebugCode>(module, *parts.description, parts.code);
   parts.describe();
 }
 
 Program::~Program() = default;
 
+const Machine* Program::running() { return running_machine; }
+
 // The current instruction is in some register, its successor perhaps in another; a native function's was noted.
 uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
-  if (running == nullptr || running->ctx != ctx) return RUNG_NONE;
+  if (running_machine == nullptr || running_machine->ctx != ctx) return RUNG_NONE;
   const Parts& parts = Parts::of(ctx);
   constexpr size_t kRegisters = 23;
   uintptr_t registers[kRegisters];
@@ -353,11 +363,12 @@ uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
   uintptr_t at = UINTPTR_MAX;
   for (const uintptr_t value : registers)
     if (parts.isInsn(value)) at = std::min(at, value);
-  return parts.siteOf(at != UINTPTR_MAX ? at : reinterpret_cast<uintptr_t>(running->ip));
+  return parts.siteOf(at != UINTPTR_MAX ? at : reinterpret_cast<uintptr_t>(running_machine->ip));
 }
 
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
+DebugCode* Program::debug() const { return parts_->debug.get(); }
 const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }
 
 std::string Program::counts() const {

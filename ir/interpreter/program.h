@@ -23,6 +23,7 @@ struct ProgramOptions {
   std::span<const Native> natives;  // sorted by name
   bool coverage = false;            // counters() returns how often each line ran
   bool trace_calls = false;         // rung_host::called is called for each call of a POU
+  bool debug = false;               // debug() is there
 };
 
 class Program {
@@ -36,11 +37,14 @@ class Program {
   // C++`; empty: it can.
   const std::string& refusal() const;
   const rung_module& description() const;
+  DebugCode* debug() const;  // null: not asked for
   const std::deque<Counter>& counters() const;
   // Their values as bytes, and those of another process that ran this program.
   std::string counts() const;
   void addCounts(std::string_view counts);
 
+  // What runs in this thread, or ran last: for a host that is asked for something by an activation. Null: nothing.
+  static const Machine* running();
   // For a signal while this thread runs a program: the current site, or RUNG_NONE. `details`: ucontext_t.
   static uint32_t siteOfCrash(const rung_context* ctx, const void* details);
 

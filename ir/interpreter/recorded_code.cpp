@@ -34,8 +34,20 @@ void RecordedCode::recordLocation(Loc loc) {
                               pool_.add(at.path), at.line, at.column});
 }
 
+// What Rung makes for the header of a POU is not a statement of the source.
+void RecordedCode::recordPoint(Loc loc) {
+  if (!options_.debug || body_->library || body_->kind == BodyKind::Init || !loc || loc == body_->loc) return;
+  if (point_body_ == body_id_.index && point_loc_ == loc) return;
+  point_body_ = body_id_.index;
+  point_loc_ = loc;
+  const FilePosition at = filePosition(module_, *body_, loc);
+  const char* file = code_.points.empty() ? nullptr : code_.points.back().file;
+  if (file == nullptr || at.path != file) file = code_.strings.emplace_back(at.path).c_str();
+  code_.points.push_back({static_cast<uint32_t>(code_.insns.size()), body_id_.index, at.line, at.column, file});
+}
+
 void RecordedCode::countStep() {
-  if (options_.bounded || !(body_->library && body_->pure)) emit(stepHandler());
+  if (options_.bounded || !(body_->library && body_->pure)) emit(options_.debug ? debugStepHandler() : stepHandler());
 }
 
 void RecordedCode::traceCall(BodyId id, const Address* self) {

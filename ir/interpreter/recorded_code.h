@@ -15,6 +15,7 @@ struct TranslateOptions {
   bool bounded = false;             // calls of library functions are steps, too
   bool coverage = false;            // count how often lines run (Code::counters)
   bool trace_calls = false;         // report each call of a POU to the host
+  bool debug = false;               // record where statements and variables are (debug.h)
 };
 
 class RecordedCode : protected FrameCode {
@@ -23,6 +24,7 @@ class RecordedCode : protected FrameCode {
       : FrameCode(module, pool, code), options_(options) {}
 
   void recordLocation(Loc loc);
+  void recordPoint(Loc loc);
   void count(Loc loc, const char* function);
   bool countsBranches(Loc loc) const;
   void countBranch(Loc loc, uint32_t branch);
@@ -33,6 +35,8 @@ class RecordedCode : protected FrameCode {
 
  private:
   Loc recorded_loc_;  // the last one of code_.line_table
+  Loc point_loc_;     // and of code_.points
+  uint32_t point_body_ = 0;
 };
 
 }  // namespace rung::ir::interpreter

@@ -23,8 +23,21 @@ void BodyTranslator::block(StmtId first) {
   }
 }
 
+// Where the source of a statement begins: an assignment is at its `:=`, and its variable is in front of that.
+Loc BodyTranslator::beginOf(const Stmt& stmt) const {
+  Loc first = stmt.loc;
+  if (const auto* assign = stmt.tryAs<AssignStmt>(); assign != nullptr && first) {
+    forEachExpr(*body_, assign->place, [&](ExprId at) {
+      const Loc loc = expr(at).loc;
+      if (loc && loc.offset < first.offset) first = loc;
+    });
+  }
+  return first;
+}
+
 void BodyTranslator::statement(const Stmt& stmt) {
   recordLocation(stmt.loc);
+  if (stmt.kind != StmtKind::Label) recordPoint(beginOf(stmt));
   if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;
@@ -208,6 +221,7 @@ void BodyTranslator::loopStatement(const LoopStmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
   const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
   loops_.push_back({end, on_continue, depth});
+  if (options_.debug) emit(passHandler());  // the point of the statement is not one of each iteration
   auto [first, next] = stmt;
   const ExprId test = next ? ExprId{} : exitTest(*body_, first);
   if (test) {

@@ -88,13 +88,14 @@ void BodyTranslator::clearVariables() {
 
 void BodyTranslator::translate(BodyId id) {
   body_ = &module_.body(id);
+  body_id_ = id;
   const auto first = static_cast<uint32_t>(code_.insns.size());
   begin();
   layOutLocals();
   return_label_ = newLabel();
   for (size_t i = 0; i < body_->labels.size(); ++i) user_labels_.push_back({newLabel(), 0});
   if (body_->has_labels) noteLabels(body_->first, 0);
-  if (options_.bounded || !body_->library) emit(stepHandler());
+  if (options_.bounded || !body_->library) emit(options_.debug ? debugStepHandler() : stepHandler());
   if (options_.coverage && body_->counted) {
     code_.strings.emplace_back(module_.names.string(body_->spelling ? body_->spelling : body_->name));
     count(body_->loc, code_.strings.back().c_str());
@@ -105,6 +106,9 @@ void BodyTranslator::translate(BodyId id) {
   place(return_label_);
   emit(returnHandler());
   code_.bodies[id.index] = finishFrame(first);
+  if (!options_.debug) return;
+  code_.debug_ends[id.index] = static_cast<uint32_t>(code_.insns.size());
+  code_.debug_offsets[id.index] = local_offset_;
 }
 
 Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {

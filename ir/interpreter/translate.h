@@ -102,6 +102,7 @@ class BodyTranslator : RecordedCode {
   // ---- statements.cpp
   void block(StmtId first);
   void statement(const Stmt& stmt);
+  Loc beginOf(const Stmt& stmt) const;
   void assign(ExprId to, ExprId from);
   void bindStatement(const BindStmt& stmt);
   void ifStatement(const IfStmt& stmt, Loc loc);

@@ -400,6 +400,7 @@ bool Compilation::translate(std::unique_ptr<ir::interpreter::Program>& program, 
   program_options.natives = {rung::natives::table, rung::natives::count};
   program_options.coverage = options.code.counts_statements;
   program_options.trace_calls = options.code.trace_calls;
+  program_options.debug = options.code.debug;
   program = std::make_unique<ir::interpreter::Program>(*module, program_options);
   times_.end();
   if (program->refusal().empty()) return true;

@@ -73,6 +73,7 @@ struct CodeOptions {
   bool counts_steps = false;
   bool counts_statements = false;  // for coverage
   bool trace_calls = false;
+  bool debug = false;          // of interpreted programs: ir/interpreter/debug.h
   bool online_change = false;  // --online-change, and runs that another version may take over
   bool is_bundled = false;     // a unit of the C++ compiler includes several of the sources
 };
