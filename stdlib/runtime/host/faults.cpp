@@ -175,6 +175,10 @@ std::string faultText(const rung_fault& fault, const rung_site& site, int64_t st
 
 }  // namespace
 
+std::string instancePath(const rung_context& context, std::string_view pou, const void* instance) {
+  return InstanceSearch(context, pou).find(instance);
+}
+
 std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what) {
   if (context.cpp_body == nullptr) return what;
   const CppBody body = cppBodyOf(context, paths);

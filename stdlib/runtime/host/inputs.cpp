@@ -127,6 +127,11 @@ void Inputs::apply(int64_t cycle) {
   }
 }
 
+void Inputs::goTo(int64_t cycle) {
+  next_ = 0;
+  while (next_ < settings_.size() && settings_[next_].cycle < cycle) ++next_;
+}
+
 std::string applySet(const Symbols& symbols, const std::string& path, const std::string& value) {
   Variable variable;
   std::string error;

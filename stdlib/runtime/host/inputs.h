@@ -22,6 +22,8 @@ class Inputs {
     symbols_ = &symbols;
     return symbols.findAgain(variables_);
   }
+  // The next call of apply() is for this cycle, perhaps again.
+  void goTo(int64_t cycle);
   // The last cycle that a row names, or -1.
   int64_t lastCycle() const { return last_cycle_; }
 

@@ -558,7 +558,7 @@ std::optional<int> Run::runCycle(int64_t cycle) {
     ending = session.cycle();
   }
   reportStopped();
-  const int64_t time_ns = session.cycleTimeNs(cycle);
+  const int64_t time_ns = session.rowTimeNs(cycle * session.rowsPerCycle());
   trace.row(cycle, time_ns);
   plot.row();
   if (!went_back) session.completeCycle();

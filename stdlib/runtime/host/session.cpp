@@ -115,7 +115,7 @@ void Session::switchOn() {
   controller_.reset();
   hsio_.reset();
   served_.reset();
-  if (channels_) channels_->closeAll();
+  if (channels_ && !is_replaying_) channels_->closeAll();
   if (simulated_channels_) simulated_channels_->reset();
   std::function<void(const std::string&)> on_message;
   if (hooks_.message) on_message = [this](const std::string& text) { hooks_.message(RUNG_MESSAGE_NOTE, text.c_str()); };
@@ -155,7 +155,7 @@ Ending Session::end() { return endingOf(program_->memory.end()); }
 
 // A program with open channels keeps pace with the clock: peers do.
 void Session::keepPace() {
-  if (!channels_ || !channels_->isUsed()) {
+  if (!channels_ || !channels_->isUsed() || is_replaying_) {
     pace_ns_ = 0;
     return;
   }

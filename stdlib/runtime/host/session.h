@@ -137,14 +137,16 @@ class Session {
   SessionState save();
   void restore(const SessionState& state);
 
+  // What runs has run before: it does not wait for the clock, and channels do nothing.
+  void setReplaying(bool is_replaying) { is_replaying_ = is_replaying; }
+
   int64_t cyclesDone() const { return (rows_done_ + rows_per_cycle_ - 1) / rows_per_cycle_; }
   // A cycle is one row, the period of the fastest cyclic task; of an NCT program the period of T_PLC.
   int64_t rowsPerCycle() const { return rows_per_cycle_; }
   int64_t cycleNs() const { return rows_per_cycle_ * program_->tasks.rowNs(); }
   int64_t beginNs() const { return begin_ns_; }
-  // The program's time from the begin to a row, or to a cycle.
+  // The program's time from the begin to a row.
   int64_t rowTimeNs(int64_t row) const { return base_ns_ + row * program_->tasks.rowNs() - begin_ns_; }
-  int64_t cycleTimeNs(int64_t cycle) const { return rowTimeNs(cycle * rows_per_cycle_); }
   // The program's time at which the next row begins.
   int64_t nextRowNs() const { return base_ns_ + rows_done_ * program_->tasks.rowNs(); }
   // The program's time now.
@@ -234,6 +236,7 @@ class Session {
   int64_t pace_ns_ = 0;         // in virtual time: the clock at row 0, while a channel is open
   bool is_stopped_ = false;     // by a command
   bool is_single_cycle_ = false;
+  bool is_replaying_ = false;
 
   // The version before, while goBack() can return to it.
   struct Before {
