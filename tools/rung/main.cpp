@@ -7,6 +7,8 @@
 #include <csignal>
 
 #include "frontend/source/invariant.h"
+#include "tools/dap/adapter.h"
+#include "tools/debug/terminal.h"
 #include "tools/driver/commands.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/overwritten.h"
@@ -34,6 +36,32 @@ int runMonitor(const CommandLine& line, Console& console) {
   return rung::driver::runRun(line.project, run, console);
 }
 
+int runDebug(const CommandLine& line, Console& console) {
+  rung::debug::TerminalOptions options;
+  options.target = {line.project, line.run, line.debug.test, line.debug.history_mb};
+  options.scripts = line.debug.scripts;
+  options.commands = line.debug.commands;
+  options.is_batch = line.debug.is_batch;
+  return rung::debug::runTerminal(options, console);
+}
+
+// The options of `rung debug` in the arguments of a launch.
+std::string parseLaunch(const std::vector<std::string>& words, rung::debug::TargetOptions& options) {
+  std::vector<std::string> arguments = {"debug"};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  CommandLine line;
+  std::string error = rung::tool::parseCommandLine(arguments, line);
+  if (error.empty() && line.help) error = "`--help` is not an option of a launch";
+  if (error.empty()) error = rung::workspace::addProject(line.project.inputs, "debug", false);
+  options = {line.project, line.run, line.debug.test, line.debug.history_mb};
+  return error;
+}
+
+int runDap(const CommandLine& line, Console& console) {
+  if (line.debug.port == UINT32_MAX) return rung::dap::runAdapter(STDIN_FILENO, STDOUT_FILENO, parseLaunch);
+  return rung::dap::runAdapterOnPort(line.debug.port, parseLaunch, console);
+}
+
 int runCommand(const CommandLine& line, Console& console) {
   const rung::driver::ProjectOptions& project = line.project;
   const std::vector<std::string>& words = project.inputs;
@@ -53,7 +81,9 @@ int runCommand(const CommandLine& line, Console& console) {
     case Command::Init: return rung::driver::runInit(project, console);
     case Command::Cam: return rung::driver::runCam(words, line.cam, line.cam_output, console);
     case Command::Monitor: return runMonitor(line, console);
+    case Command::Debug: return runDebug(line, console);
     case Command::Lsp: return rung::lsp::runServer(project, line.lsp_log, STDIN_FILENO, STDOUT_FILENO, console);
+    case Command::Dap: return runDap(line, console);
     case Command::Explain: return rung::driver::runExplain(words[0], project.report.color, console);
     case Command::Version: return rung::driver::runVersion(console);
     case Command::None:

@@ -8,7 +8,7 @@
 namespace rung::tool {
 namespace {
 
-constexpr uint32_t kRuns = bit(Command::Run) | bit(Command::Monitor);
+constexpr uint32_t kRuns = bit(Command::Run) | bit(Command::Monitor) | bit(Command::Debug);
 constexpr uint32_t kCompile =
     bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | kRuns | bit(Command::Test);
 constexpr uint32_t kReads =
@@ -32,7 +32,9 @@ constexpr CommandRow kCommands[] = {
     {Command::Cam, "cam", "law [NAME] | check|show|convert|fit FILE ...",
      "motion laws; check, draw, convert and fit cams"},
     {Command::Monitor, "monitor", "URL COMMAND ... | [FILE|DIR ...]", "watch and change a running program"},
+    {Command::Debug, "debug", "[FILE|DIR ...]", "stop, step, look, and step back"},
     {Command::Lsp, "lsp", "", "serve an editor (language server protocol)"},
+    {Command::Dap, "dap", "", "serve an editor (debug adapter protocol)"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "print the version and where the runtime is"},
 };
@@ -332,6 +334,18 @@ constexpr OptionRow kOptions[] = {
      "what kind of project (default: st)"},
     {"--rate", "N", bit(Command::Monitor), setNumber<1, 1000, &CommandLine::monitor_rate>,
      "of watch and trace: rows a second (default: 10)"},
+    {"-x", "FILE", bit(Command::Debug), addText<&CommandLine::debug, &DebugOptions::scripts>,
+     "take commands from FILE first; may be repeated"},
+    {"-c", "COMMAND", bit(Command::Debug), addText<&CommandLine::debug, &DebugOptions::commands>,
+     "then this command; may be repeated"},
+    {"--batch", nullptr, bit(Command::Debug), setFlag<&CommandLine::debug, &DebugOptions::is_batch>,
+     "end after these commands"},
+    {"--test", "NAME", bit(Command::Debug), setText<&CommandLine::debug, &DebugOptions::test>,
+     "debug a test instead of the program"},
+    {"--history", "MB", bit(Command::Debug), setNumber<1, 65536, &CommandLine::debug, &DebugOptions::history_mb>,
+     "memory for the way back (default: 64)"},
+    {"--port", "N", bit(Command::Dap), setNumber<0, 65535, &CommandLine::debug, &DebugOptions::port>,
+     "serve one client on this port of this machine"},
     {"--log", "FILE", bit(Command::Lsp), setText<&CommandLine::lsp_log>, "write every message to FILE"},
     {"--stroke", "S", bit(Command::Cam), setCam, "way of the slave (default: 1)"},
     {"--length", "X", bit(Command::Cam), setCam, "way of the master (default: 1)"},

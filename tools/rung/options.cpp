@@ -109,7 +109,8 @@ std::string checkCombination(const CommandLine& line) {
     case Command::Build:
       return line.build.output.empty() ? "`rung build` needs a name for its output: add `-o FILE`" : "";
     case Command::Run:
-    case Command::Monitor: return checkRun(line.run);
+    case Command::Monitor:
+    case Command::Debug: return checkRun(line.run);
     case Command::Test: return checkTest(line.project, line.test);
     case Command::Convert: return checkConvert(line.convert);
     case Command::Graph:
@@ -120,6 +121,7 @@ std::string checkCombination(const CommandLine& line) {
     case Command::Init: return words.size() > 1 ? "`rung init` takes one folder" : "";
     case Command::Cam: return words.empty() ? "`rung cam` needs a subcommand: law, check, show, convert or fit" : "";
     case Command::Lsp: return words.empty() ? "" : "`rung lsp` takes no inputs: the editor names its folders and files";
+    case Command::Dap: return words.empty() ? "" : "`rung dap` takes no inputs: the editor names the program";
     case Command::Explain: return words.size() != 1 ? "`rung explain` takes one code, such as E0401" : "";
     case Command::Check:
       return line.check.shows_changes && line.check.fixes == FixSet::None ? "`--diff` needs `--fix` or `--fix=all`"
@@ -224,7 +226,7 @@ bool hasUrl(const CommandLine& line) { return !line.project.inputs.empty() && mo
 
 bool readsProject(const CommandLine& line) {
   if (line.command == Command::Monitor) return !hasUrl(line);
-  return line.command >= Command::Check && line.command <= Command::Fmt;
+  return (line.command >= Command::Check && line.command <= Command::Fmt) || line.command == Command::Debug;
 }
 
 const char* commandName(Command command) {

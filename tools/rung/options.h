@@ -31,12 +31,24 @@ enum class Command : uint8_t {
   Init,
   Cam,
   Monitor,
+  Debug,
   Lsp,
+  Dap,
   Explain,
   Version,
   Help
 };
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
+
+// Of `rung debug`.
+struct DebugOptions {
+  std::vector<std::string> scripts;   // -x FILE
+  std::vector<std::string> commands;  // -c COMMAND
+  bool is_batch = false;              // --batch
+  std::string test;                   // --test NAME
+  uint32_t history_mb = 64;           // --history
+  uint32_t port = UINT32_MAX;         // --port of `rung dap`; UINT32_MAX: not given
+};
 
 enum class Color : uint8_t { Auto, Always, Never };
 
@@ -58,7 +70,8 @@ struct CommandLine {
   std::string project_template = "st";  // --template
   CamOptions cam;
   std::string cam_output;
-  std::string lsp_log;         // --log of `rung lsp`
+  std::string lsp_log;  // --log of `rung lsp`
+  DebugOptions debug;
   uint32_t monitor_rate = 10;  // --rate of `rung monitor`
 };
 
